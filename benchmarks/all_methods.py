@@ -22,7 +22,7 @@ from benchmarks.records import Line, Pair, Record
 from symgen.derive.methods import METHODS
 from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.run.integrators import INTEGRATORS as KINDS
-from symgen.study.comparison.compare import compare
+from symgen.study.comparison.compare_models import compare
 from symgen.study.journal import Journal
 from symgen.study.report.comparison_findings import WRONG
 

@@ -26,8 +26,8 @@ from rich.table import Table
 import symgen
 from benchmarks.peers.analyses import CATENARY, CHAINS, FOUR_BAR, GRAVITY, SLOPE, places
 from benchmarks.show import show
-from symgen.analyses.linear.modes import modes_about
-from symgen.analyses.linear.places import NamedPlace, subject_at
+from symgen.analyses.linear.eigenmodes import modes_about
+from symgen.analyses.linear.named_places import NamedPlace, subject_at
 from symgen.base.settings import Settings
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -77,7 +77,7 @@ def at_equal_error(model: Model, exact: np.ndarray, points: Points) -> tuple[flo
                 result = run(model, c, integrator="dop853", rtol=rtol, atol=1e-2 * rtol)
                 if result.status == "failed" or len(result.t) != len(exact):
                     continue
-                error = float(points.distances(np.asarray(result.q), exact).max())
+                error = float(points.distances_over_time(np.asarray(result.q), exact).max())
                 shortest = min(result.outcome.cpu_seconds, curve.get(rtol, [0.0, np.inf])[1])
                 curve[rtol] = [error, shortest]
     absolute, joint = (crossing(np.array([curves[c][tol] for tol in sorted(curves[c])])) for c in COORDINATES)
@@ -114,7 +114,7 @@ def table(times: bool = False) -> PageTable:
             return
         yield relative_time(model)
         exact = np.asarray(run(model, "joint", integrator="dop853", rtol=1e-13, atol=1e-14).q)
-        timed = at_equal_error(model, exact, Points.of(model.mechanism, model.parameters()))
+        timed = at_equal_error(model, exact, Points.of_mechanism(model.mechanism, model.parameters()))
         yield f"{timed[0] / timed[1]:.2g}"
 
     rows = tuple(((f"`{name}`",), partial(list_of, cells, name)) for name in MODELS)

@@ -27,10 +27,10 @@ from rich.table import Table
 
 import symgen
 from benchmarks.show import show
-from symgen.base.memory import processors
+from symgen.base.memory import processor_count
 from symgen.base.settings import Settings
-from symgen.study.ensemble.device_runs import DeviceRuns, compilable, usable
-from symgen.study.ensemble.kernel import kernel_of
+from symgen.study.ensemble.device_runs import DeviceRuns, can_compile_kernels, is_device_usable
+from symgen.study.ensemble.kernel import kernel_of_recipe
 from symgen.study.ensemble.sweep_plan import make_ensemble
 
 #: Compute capability that is compiled for where there is no device: that of an A100.
@@ -63,7 +63,9 @@ def device_of(model: str, name: str, settings: Settings) -> DeviceRuns:
     """Return the kernel that would run a model, not compiled."""
     loaded = symgen.load(model)
     value = loaded.parameters({}).get(name, 1.0)
-    kernel = kernel_of(make_ensemble(loaded, settings, {name: [value]}, {}, None, "cuda").recipe).first.runs
+    kernel = kernel_of_recipe(
+        make_ensemble(loaded, settings, {name: [value]}, {}, None, "cuda").recipe
+    ).first_model.runs
     assert isinstance(kernel, DeviceRuns), "the target is cuda"
     return kernel
 
@@ -138,7 +140,7 @@ def run_all(runs: int, until: float) -> None:
 
     name = cuda.get_current_device().name
     name = name.decode() if isinstance(name, bytes) else str(name)
-    table = Table(title=f"{runs} runs of {until:g} s: {name} beside {processors()} cores")
+    table = Table(title=f"{runs} runs of {until:g} s: {name} beside {processor_count()} cores")
     for heading in ("model", "method", "integrator", "cores [runs/s]", "device [runs/s]", "ratio", "compiled in [s]"):
         table.add_column(heading, justify="right" if len(table.columns) > 2 else "left")
     for heading in ("statuses differ", "largest difference"):
@@ -173,11 +175,11 @@ def main(words: list[str]) -> None:
     """Measure what this machine allows, and print."""
     runs = int(words[0]) if words else 200_000
     until = float(words[1]) if len(words) > 1 else 0.1
-    if compilable():
+    if can_compile_kernels():
         compile_all()
     else:
         print("no compiler for devices: no kernel is compiled (pip install 'symgen[cuda]' brings it)")
-    if usable():
+    if is_device_usable():
         run_all(runs, until)
     else:
         print("no CUDA device: nothing is run")

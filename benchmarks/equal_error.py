@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 from benchmarks.page_tables import BAND, PageTable, list_of, print_tables
 from benchmarks.records import Line, Pair, Record
 from symgen.study.comparison.combinations import DEFAULT_METHODS
-from symgen.study.comparison.compare import compare
+from symgen.study.comparison.compare_models import compare
 
 #: Length [m], end of the run and largest step [s] of each mechanism.
 MECHANISMS = {

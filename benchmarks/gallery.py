@@ -28,7 +28,7 @@ from symgen.describe.drawing.traced import traced_points
 from symgen.describe.facts.digest import digest
 from symgen.study.comparison.comparison_rows import YARDSTICK, Row
 from symgen.study.comparison.comparison_study import Study
-from symgen.study.machine_class import machine_class, versions
+from symgen.study.machine_class import library_versions, machine_class
 from symgen.study.report import words
 from symgen.study.report.document import Picture
 
@@ -124,7 +124,7 @@ def command(entry: CatalogueEntry) -> str:
 
 def measure(entry: CatalogueEntry) -> None:
     """Run the comparison of an entry and keep its rows."""
-    from symgen.study.comparison.compare import compare
+    from symgen.study.comparison.compare_models import compare
 
     own, model = choice(entry.name), load(model_name(entry))
     step = model.mechanism.defaults.step
@@ -134,7 +134,7 @@ def measure(entry: CatalogueEntry) -> None:
         command=command(entry),
         until=study.until,
         reference={"how": study.how, "estimated_error": study.estimated_error, "note": study.note},
-        versions=versions(),
+        versions=library_versions(),
         machine=machine_class(),
         rows=[_fields(row) for row in study.rows],
     )
@@ -238,9 +238,9 @@ def page(entry: CatalogueEntry) -> str:
         for of in zip(*((b.coordinates, b.speeds) for b in mechanism.bodies), strict=True)
     )
     defaults = mechanism.defaults
-    lines = [f"# {entry.name}", "", words.sentence(entry.title), ""]
+    lines = [f"# {entry.name}", "", words.as_sentence(entry.title), ""]
     if measured:
-        lines += [f"![{entry.name} in motion]({entry.name}.svg)", "", words.sentence(measured["caption"]), ""]
+        lines += [f"![{entry.name} in motion]({entry.name}.svg)", "", words.as_sentence(measured["caption"]), ""]
     sizes = {
         "bodies": len(mechanism.bodies),
         "joints": len(mechanism.joints),
@@ -278,8 +278,11 @@ def _measured(name: str, measured: Mapping[str, Any]) -> list[str]:
     rows, reference = measured["rows"], measured["reference"]
     lines = ["## Measured", "", *_table(rows), ""]
     estimated = reference["estimated_error"]
-    how = f"The reference: {reference['how']}; its own error is estimated at {words.rounded(estimated)} m."
-    lines += [how + (f" {words.sentence(words.readable(reference['note']))}" if reference["note"] else ""), ""]
+    how = f"The reference: {reference['how']}; its own error is estimated at {words.rounded_number(estimated)} m."
+    lines += [
+        how + (f" {words.as_sentence(words.readable_number(reference['note']))}" if reference["note"] else ""),
+        "",
+    ]
     if any(row["below_reference"] for row in rows):
         lines += ["\\* below the error of the reference itself.", ""]
     lines += [f"[Reasons of what did not end `ok`, versions, machine](data/{name}.json).", ""]
@@ -289,7 +292,7 @@ def _measured(name: str, measured: Mapping[str, Any]) -> list[str]:
 
 def _table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     """Return a line for each method, with its runs side by side."""
-    runs = {(row["integrator"], words.setting(row["step"], row["rtol"])): None for row in rows}
+    runs = {(row["integrator"], words.setting_in_words(row["step"], row["rtol"])): None for row in rows}
     cells = {(row["method"], row["integrator"]): row for row in rows}
     heads = (f"`{integrator}`, {setting}: error [m] | time" for integrator, setting in runs)
     lines = [f"| method | {' | '.join(heads)} |", "| --- |" + " ---: | ---: |" * len(runs)]
@@ -304,7 +307,7 @@ def _cells(row: Mapping[str, Any] | None) -> str:
     if row is None:
         return "– | –"
     marks = (" \\*" if row["below_reference"] else "") + (f" {row['status']}" if row["status"] != "ok" else "")
-    return f"{words.rounded(row['error'])}{marks} | {words.seconds(row['run_seconds'])}"
+    return f"{words.rounded_number(row['error'])}{marks} | {words.seconds_in_words(row['run_seconds'])}"
 
 
 def index() -> str:
@@ -358,7 +361,10 @@ def _across() -> list[str]:
         times = [r["cost_ratio"] for r, _ in pairs if r["cost_ratio"]]
         ok = sum(row["status"] == "ok" for row, _ in pairs)
         cells = [f"`{method}`", f"`{integrator}`", str(len(pairs)), str(ok)]
-        cells += [words.rounded(median(errors) if errors else None), words.ratio(median(times) if times else None)]
+        cells += [
+            words.rounded_number(median(errors) if errors else None),
+            words.ratio_in_words(median(times) if times else None),
+        ]
         lines.append(f"| {' | '.join(cells)} |")
     return [*lines, ""]
 
@@ -368,8 +374,8 @@ def _best(measured: Mapping[str, Any] | None) -> str:
     if not rows:
         return "not measured yet"
     row = min(rows, key=lambda r: float(r["error"]))
-    how = f"`{row['method']}`, `{row['integrator']}`, {words.setting(row['step'], row['rtol'])}"
-    return f"{words.rounded(row['error'])} m in {words.seconds(row['run_seconds'])} ({how})"
+    how = f"`{row['method']}`, `{row['integrator']}`, {words.setting_in_words(row['step'], row['rtol'])}"
+    return f"{words.rounded_number(row['error'])} m in {words.seconds_in_words(row['run_seconds'])} ({how})"
 
 
 def pages() -> dict[str, str]:
@@ -392,18 +398,18 @@ STRESSED_METHODS = ("lagrange", "baumgarte", "penalty", "augmented-lagrangian", 
 
 def readme_pictures() -> None:
     """Make the three pictures of README: error against run time, violation over time, stress map."""
-    from symgen.study.comparison.compare import compare
-    from symgen.study.report.figures import pictures
-    from symgen.study.report.stress_figures import maps
+    from symgen.study.comparison.compare_models import compare
+    from symgen.study.report.figures import pictures_of_study
+    from symgen.study.report.stress_figures import outcome_maps
     from symgen.study.stress.study import stress
 
     study: Study = compare("four-bar", integrators=("rk4", "dopri5", "dop853"), repeat=REPEAT)
-    drawn = {picture.name: picture for picture in pictures(study)}
+    drawn = {picture.name: picture for picture in pictures_of_study(study)}
     put(drawn["four-bar-error-rk4"], PICTURES, "error-against-run-time")
     put(drawn["four-bar-position-violation"], PICTURES, "violation-over-time")
     model, families = STRESSED
     outcomes = stress([model], families, STRESSED_METHODS)
-    put(next(p for p in maps(outcomes) if p.name == f"map-{model}"), PICTURES, "stress-map")
+    put(next(p for p in outcome_maps(outcomes) if p.name == f"map-{model}"), PICTURES, "stress-map")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -32,9 +32,9 @@ from benchmarks.show import show
 from symgen.api import Model, load
 from symgen.base.errors import InputError
 from symgen.base.settings import Settings
-from symgen.describe.facts.lifted import lifted
+from symgen.describe.facts.lifted import lift_numbers
 from symgen.describe.files.origins import origin_of
-from symgen.result.sensitivities import prepared
+from symgen.result.sensitivities import prepare_for_directions
 from symgen.run.directions.adjoint import run_for_adjoint
 from symgen.run.directions.directions import run_with_directions
 from symgen.run.layout import abi
@@ -108,10 +108,10 @@ def adjoint(name: str, coordinates: str, method: str, pairs: int) -> list[str]:
     settings = {"integrator": "dop853"} | settings | own
     objective = model.objective(quantity, by=names, way="adjoint", **settings)
     ending = replace(objective.settings_at(objective.x0), times=[until])
-    run, _ = prepared(objective.mechanism, ending)
+    run, _ = prepare_for_directions(objective.mechanism, ending)
     end, pages, following = np.ones(run.compiled.info.ny), list[Any](), itertools.count(1)
     arguments = run.compiled, run.plan.integrator, run.start, run.spec
-    seeds = StartDirections(run, named_directions(run, lifted("gradients", model.mechanism, names).keys)).seeds()
+    seeds = StartDirections(run, named_directions(run, lift_numbers("gradients", model.mechanism, names).keys)).seeds()
     whole, last = Model(objective.mechanism), run_for_adjoint(*arguments, pages=pages)
     plain, keeping, back, gradient, simulation = medians(
         pairs,
@@ -133,7 +133,7 @@ def forward(name: str, coordinates: str, method: str, pairs: int) -> list[str]:
     model = load(name)
     gravity = (f"mechanism.gravity[{i}]" for i in range(len(model.mechanism.gravity)))
     names = (*numbers(model, ("mass", "inertia"), 8), *gravity, *numbers(model, ("points",), 8))[:8]
-    own = lifted("numbers", model.mechanism, names)
+    own = lift_numbers("numbers", model.mechanism, names)
     settings = Settings(
         integrator="dop853",
         method=method,
@@ -143,7 +143,7 @@ def forward(name: str, coordinates: str, method: str, pairs: int) -> list[str]:
         rtol=1e-9,
         verify=False,
     )
-    run, _ = prepared(own.mechanism, settings)
+    run, _ = prepare_for_directions(own.mechanism, settings)
     seeds = StartDirections(run, named_directions(run, own.keys)).seeds()
     arguments = run.compiled, run.plan.integrator, run.start, run.spec, seeds
     plain, directed = medians(pairs, run.integrate, lambda: run_with_directions(*arguments))

@@ -30,7 +30,7 @@ from symgen.describe import MechanismBuilder
 from symgen.result.result import FAILED, Result
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.planning.prepare import first_rate
-from symgen.study.stress.findings import slope
+from symgen.study.stress.findings import fitted_slope
 
 Array = NDArray[np.float64]
 Options = Mapping[str, str | float]
@@ -159,7 +159,7 @@ def law() -> PageTable:
         gain, least = min(points, key=lambda point: point[1])
         below, above = ([(x, y) for x, y in points if side * x >= side * gain * 2.0**side] for side in (-1.0, 1.0))
         yield from (f"{rate:.0f}" if rate > 100.0 else f"{rate:.2g}", f"{gain:.2g}", number(least))
-        yield from ("" if (own := slope(part)) is None else f"{own:.1f}" for part in (below, above))
+        yield from ("" if (own := fitted_slope(part)) is None else f"{own:.1f}" for part in (below, above))
 
     rows = tuple(((f"`{name}`",), partial(list_of, cells, name)) for name in LAW)
     headings = ("mechanism", "rate r [1/s]", "best gain / r", r"\|Phi\| there [m]", "slope below", "above")

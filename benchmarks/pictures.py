@@ -41,7 +41,7 @@ def _mode() -> str:
     model = load("four-bar")
     modes = model.modes()
     q = mode_recording(model.mechanism, modes, 1).q
-    drawing = Drawing.of(model.mechanism, [modes.about[name] for name in _coordinates(model)])
+    drawing = Drawing.of_mechanism(model.mechanism, [modes.about[name] for name in _coordinates(model)])
     return replace(drawing, ghosts=tuple(tuple(q[k].tolist()) for k in (0, len(q) // 2)), labels=False).svg
 
 

@@ -107,9 +107,9 @@ def attempt(model: Model, method: str, step: float, exact: Array, times: Array, 
         q, result = motion(model, method, step / 4 if second_order(method) else step, times, keys.get("parameters"))
     except InputError as refusal:
         return Row(method, "refused", np.inf, None, str(refusal))
-    points = Points.of(model.mechanism, model.parameters(keys.get("parameters")))
+    points = Points.of_mechanism(model.mechanism, model.parameters(keys.get("parameters")))
     k = len(q)
-    error = points.distance(q, exact[:k]) if k and np.all(np.isfinite(q)) else np.inf
+    error = points.largest_distance(q, exact[:k]) if k and np.all(np.isfinite(q)) else np.inf
     return Row(method, result.status, error, result, result.reason or "; ".join(result.warnings))
 
 
@@ -148,11 +148,11 @@ def null_space_motion(factor: float, times: Array) -> Array:
         return np.concatenate([y[n:], particular + z * right])
 
     q, _ = model.initial_state(values)
-    y = equations.project(0.0, np.concatenate([q, np.zeros(n)]), mass_weighted=False)
+    y = equations.nearest_state(0.0, np.concatenate([q, np.zeros(n)]), mass_weighted=False)
     states = [y[:n]]
     for a, b in pairwise(times):
         y = solve_ivp(rate, (a, b), y, "DOP853", rtol=3e-13, atol=1e-13).y[:, -1]
-        y = equations.project(float(b), y, mass_weighted=False)
+        y = equations.nearest_state(float(b), y, mass_weighted=False)
         states.append(y[:n])
     return np.array(states)
 
@@ -182,13 +182,13 @@ def passages(method: str, windows: int, steps: Array, until: float = 10.0) -> Pa
 
     model, times = load(f"n-four-bar:{windows}"), np.linspace(0.0, until, 101)
     exact = n_four_bar(model.mechanism, model.parameters(), np.zeros(0), times)[2]
-    points = Points.of(model.mechanism, model.parameters())
+    points = Points.of_mechanism(model.mechanism, model.parameters())
     integrator = constant_integrator(method)
     errors, statuses, warned = [], [], []
     for step in steps:
         result = run(model, method, integrator, float(step), times)
         q = positions(result)
-        errors.append(points.distance(q, exact[: len(q)]) if np.all(np.isfinite(q)) else np.inf)
+        errors.append(points.largest_distance(q, exact[: len(q)]) if np.all(np.isfinite(q)) else np.inf)
         statuses.append(result.status)
         warned.append(bool(result.warnings))
     return Passages(method, windows, tuple(errors), tuple(statuses), tuple(warned))

@@ -31,7 +31,7 @@ from symgen.derive.formulate.formulate import formulate
 from symgen.derive.lower.law import lower_law
 from symgen.derive.lower.model import lower_model
 from symgen.run.compiling.method_choice import choose_method
-from symgen.study.references.reference import reference as second_derivation
+from symgen.study.references.reference import reference_motion as second_derivation
 from symgen.study.report.source import RATIOS
 
 ROOT = Path(__file__).resolve().parents[1]

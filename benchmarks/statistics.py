@@ -37,7 +37,7 @@ from benchmarks.show import show
 from symgen.api import Model, load
 from symgen.base.errors import SymgenError
 from symgen.result.result import FAILED, Result
-from symgen.study.comparison.combinations import variant_of
+from symgen.study.comparison.combinations import split_variant
 from symgen.study.comparison.distances import Distances
 from symgen.study.references.reference import Reference
 
@@ -117,7 +117,7 @@ class Case:
 
     def run(self, words: str, integrator: str) -> Measured | None:
         """Return the measures of a method, None where it does not reach the end."""
-        method, own = variant_of(words)
+        method, own = split_variant(words)
         options: dict[str, str | float] = {f"method.{name}": value for name, value in own.items()}
         steps: dict[str, Any] = {"step": self.step} if integrator == "rk4" else {"rtol": RTOL, "atol": 1e-2 * RTOL}
         try:
@@ -130,8 +130,8 @@ class Case:
         if result.status == FAILED or len(result.t) < OUTPUTS:
             return None
         outcome, scale = result.outcome, self.distances.load
-        loads = self.distances.of_reactions(outcome)
-        error = float(self.distances.of_positions(outcome).max()) / self.distances.size
+        loads = self.distances.reaction_errors(outcome)
+        error = float(self.distances.position_errors(outcome).max()) / self.distances.size
         reactions = None if loads is None or not scale else float(loads.max()) / scale
         return Measured(error, reactions, result.position_violation_max, outcome.cpu_seconds)
 

@@ -24,11 +24,11 @@ from rich.table import Table
 from benchmarks.bounded.machines import FOLDER
 from benchmarks.closed_leg import leg
 from benchmarks.show import show
-from symgen.analyses.functions.functions import Functions
+from symgen.analyses.functions.model_functions import Functions
 from symgen.api import Model
-from symgen.describe.facts.lifted import lifted
+from symgen.describe.facts.lifted import lift_numbers
 from symgen.describe.files.validate import validate
-from symgen.result.stepping.run import SteppedRun
+from symgen.result.stepping.stepped_run import SteppedRun
 from symgen.run.layout import abi
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
@@ -274,7 +274,7 @@ def examined(machine: Machine, rows: int, coordinates: str = "joint") -> Sweep:
     """Return the derivatives of steps over the values of a parameter, beside differences."""
     model, matrices, failed, most = machine.model(), list[Array](), list[str](), 0.0
     if machine.file is None:
-        own = lifted("load", model.mechanism, ("bodies.shank.mass",))
+        own = lift_numbers("load", model.mechanism, ("bodies.shank.mass",))
         machine, model = replace(machine, parameter=own.keys["bodies.shank.mass"]), Model(own.mechanism)
     for value in np.linspace(*machine.values, rows):
         try:

@@ -85,19 +85,19 @@ def reference() -> tuple[Array, float]:
         result = run(model(), method, "radau5", step, TIMES)
         assert result.status == "ok", result.reason
         rows.append(positions(result))
-    return rows[0], points().distance(rows[0], rows[1])
+    return rows[0], points().largest_distance(rows[0], rows[1])
 
 
 def points() -> Points:
     """Return the points that errors are taken of."""
-    return Points.of(model().mechanism, model().parameters())
+    return Points.of_mechanism(model().mechanism, model().parameters())
 
 
 def row(method: str, integrator: str, step: float) -> Attempt:
     """Run one pair with a constant step."""
     result = run(model(), method, integrator, step, TIMES)
     q, exact = positions(result), reference()[0]
-    error = points().distance(q, exact[: len(q)]) if len(q) > 1 else np.inf
+    error = points().largest_distance(q, exact[: len(q)]) if len(q) > 1 else np.inf
     return Attempt(
         method, integrator, step, result.status, error, result.steps, result.seconds.run, result.reason or ""
     )

@@ -30,7 +30,7 @@ from symgen.derive.methods import METHODS
 from symgen.run.planning.automatic import AUTO
 from symgen.study.stress.cell_outcome import GOOD, OUTCOMES, REFUSED, UNJUDGED
 from symgen.study.stress.families import FAMILIES
-from symgen.study.stress.findings import cause
+from symgen.study.stress.findings import cause_of_failure
 from symgen.study.stress.study import stress
 
 #: Stands for the mechanisms of families of their own.
@@ -80,7 +80,7 @@ def examine(job: Job, methods: Sequence[str] = ()) -> dict[str, Any]:
     for row in study.rows:
         cells.setdefault(f"{row.method} {row.integrator}", Counter())[row.outcome] += 1
     false = Counter(f"{row.method} {row.integrator}" for row in study.false_successes)
-    causes = Counter(cause(row) for row in study.false_successes if row.method != AUTO)
+    causes = Counter(cause_of_failure(row) for row in study.false_successes if row.method != AUTO)
     return {"cells": cells, "false": false, "causes": causes}
 
 
@@ -259,7 +259,7 @@ def tables() -> dict[str, PageTable]:
 
 def picture(path: Path) -> None:
     """Draw the shares of accurate cells by pair and model."""
-    from symgen.study.report.stress_figures import overview_of
+    from symgen.study.report.stress_figures import picture_of_shares
 
     cells = {(line["model"], name): Counter[str]() for line in lines_of() for name in line["cells"]}
     false = {key: 0 for key in cells}
@@ -276,7 +276,7 @@ def picture(path: Path) -> None:
         if key in cells and judged(cells[key]):
             share[i, j], wrong[i, j] = 100.0 * cells[key][GOOD] / judged(cells[key]), false[key]
     lines = [(method, integrator) for method, integrator in map(str.split, pairs)]
-    drawn = overview_of(lines, whole(), share, wrong)
+    drawn = picture_of_shares(lines, whole(), share, wrong)
     # letters stand in hundredths of their height, of which whole ones are enough
     text = re.sub(r"translate\((\d+)[.\d]* 0\)", r"translate(\1)", slim(drawn.data.decode()))
     text = re.sub(r"M (\S+) (\S+) (\S+) \2 ?(?=[M\"])", r"M\1 \2H\3", text)  # marks are horizontal

@@ -23,10 +23,10 @@ from rich.table import Table
 
 import symgen
 from benchmarks.show import show
-from symgen.base.memory import processors
+from symgen.base.memory import processor_count
 from symgen.base.settings import Settings
 from symgen.run.planning.prepare import prepare
-from symgen.study.ensemble.kernel import kernel_of
+from symgen.study.ensemble.kernel import kernel_of_recipe
 
 #: Single runs that are timed from Python; the time of one does not depend on their number.
 SINGLE = 200
@@ -57,8 +57,8 @@ def main(words: list[str]) -> None:
 
     for target, name in (("cpu", "sweep"), ("lanes", "sweep in lanes")):
         few = symgen.sweep(model, {"crank_mass": [2.0]}, settings=settings, quantities=("crank.theta",), target=target)
-        kernel_of(few.ensemble.recipe).warm()
-        for jobs in sorted({1, processors()}):
+        kernel_of_recipe(few.ensemble.recipe).compile_all()
+        for jobs in sorted({1, processor_count()}):
             before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
             call = partial(symgen.sweep, quantities=("crank.theta",), settings=settings)
             wall, processor, study = timed(partial(call, model, vary, jobs=jobs, target=target))

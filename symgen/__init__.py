@@ -26,10 +26,10 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
-    from symgen.result.stepping.run import SteppedRun
+    from symgen.result.stepping.stepped_run import SteppedRun
     from symgen.run.integrators import list_integrators
-    from symgen.study.comparison.compare import Study, compare
-    from symgen.study.ensemble.sweep import sweep
+    from symgen.study.comparison.compare_models import Study, compare
+    from symgen.study.ensemble.parameter_sweep import sweep
     from symgen.study.ensemble.sweep_study import Sweep
     from symgen.study.report.write import write_report
 
@@ -45,17 +45,17 @@ _WHERE = {
     "Settings": "symgen.base.settings",
     "SimulationError": "symgen.base.errors",
     "StepError": "symgen.base.errors",
-    "SteppedRun": "symgen.result.stepping.run",
-    "Study": "symgen.study.comparison.compare",
+    "SteppedRun": "symgen.result.stepping.stepped_run",
+    "Study": "symgen.study.comparison.compare_models",
     "Sweep": "symgen.study.ensemble.sweep_study",
     "SymgenError": "symgen.base.errors",
-    "compare": "symgen.study.comparison.compare",
+    "compare": "symgen.study.comparison.compare_models",
     "list_integrators": "symgen.run.integrators",
     "list_methods": "symgen.derive.methods",
     "load": "symgen.api",
     "load_plugin": "symgen.base.plugins",
     "simulate": "symgen.api",
-    "sweep": "symgen.study.ensemble.sweep",
+    "sweep": "symgen.study.ensemble.parameter_sweep",
     "write_report": "symgen.study.report.write",
 }
 

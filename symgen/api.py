@@ -12,16 +12,16 @@ import numpy as np
 
 from symgen.analyses.model_methods import Analysed
 from symgen.base import arguments
-from symgen.base.errors import InputError, nearest
-from symgen.base.keywords import RunKeywords, takes
-from symgen.base.plugins import in_sentences
-from symgen.base.settings import COORDINATES, SHAPES, Settings, changed, is_set
-from symgen.describe.bounds.modes import refuse_bounds
+from symgen.base.errors import InputError, suggest
+from symgen.base.keywords import RunKeywords, make_entry
+from symgen.base.plugins import explain_plugin_errors
+from symgen.base.settings import COORDINATES, SHAPES, Settings, change_settings, differs_from_default
+from symgen.describe.bounds.bounded_modes import refuse_bounds
 from symgen.describe.files.load import load_mechanism
-from symgen.describe.formulas.evaluate import parameter_values, scalars
+from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.parts.holds import holds_of
+from symgen.describe.parts.holds import read_holds
 from symgen.result.reading.model_views import Shown
 from symgen.run.compiling.method_choice import choose_method
 from symgen.run.compiling.pipeline import compile_model
@@ -33,17 +33,17 @@ from symgen.run.single.run import Array
 if TYPE_CHECKING:
     from symgen import compare as _compare
     from symgen import sweep as _sweep
-    from symgen.analyses.functions.frame import Frame
-    from symgen.analyses.functions.functions import Functions
+    from symgen.analyses.functions.body_frame import Frame
+    from symgen.analyses.functions.model_functions import Functions
     from symgen.result.result import Result
-    from symgen.result.stepping.run import SteppedRun
+    from symgen.result.stepping.stepped_run import SteppedRun
     from symgen.run.compiling.method_choice import MethodChoice
     from symgen.run.planning.package import Package
     from symgen.run.starts.assembly import Start
     from symgen.run.starts.held import Held
 
 
-@in_sentences
+@explain_plugin_errors
 def load(model: str | Path | Mechanism | Model) -> Model:
     """Return a model by catalogue name (``"n-four-bar:40"``), path of a TOML file, or from a `Mechanism`.
 
@@ -59,7 +59,7 @@ def load(model: str | Path | Mechanism | Model) -> Model:
     return Model(model if isinstance(model, Mechanism) else load_mechanism(model))
 
 
-@takes
+@make_entry
 def simulate(
     model: str | Path | Mechanism | Model,
     settings: Settings | None = None,
@@ -105,7 +105,7 @@ class Model(Analysed, Shown):
     mechanism: Mechanism
 
     def __post_init__(self) -> None:
-        arguments.of_kind("mechanism", self.mechanism, Mechanism, "a Mechanism; symgen.load takes names and paths")
+        arguments.instance("mechanism", self.mechanism, Mechanism, "a Mechanism; symgen.load takes names and paths")
 
     @property
     def name(self) -> str:
@@ -122,7 +122,7 @@ class Model(Analysed, Shown):
         """
         return parameter_values(self.mechanism, changed)
 
-    @in_sentences
+    @explain_plugin_errors
     def compile(
         self, method: str = "direct-correction", options: Mapping[str, str] | None = None, shape: str = "straight"
     ) -> CompiledModel:
@@ -139,16 +139,16 @@ class Model(Analysed, Shown):
         """
         values = arguments.mapping("options", options, "texts by the names of options")
         texts = {name: arguments.text(f"option '{name}'", value) for name, value in values.items()}
-        shape = arguments.one_of("shape", shape, SHAPES[1:])
+        shape = arguments.one_word_of("shape", shape, SHAPES[1:])
         return self.compiled(replace(choose_method(method, texts), shape=shape))
 
     def compiled(self, choice: MethodChoice) -> CompiledModel:
         """Return the emitted functions for a choice of method, options and shape, from the cache if it has them."""
         return compile_model(self.mechanism, choice)
 
-    @in_sentences
+    @explain_plugin_errors
     def functions(self, coordinates: str = "auto", parameters: Mapping[str, float] | None = None) -> Functions:
-        """Return the dynamics as compiled functions of the state; see `symgen.analyses.functions.functions.Functions`.
+        """Return the dynamics as compiled functions: `symgen.analyses.functions.model_functions.Functions`.
 
         Parameters
         ----------
@@ -157,11 +157,11 @@ class Model(Analysed, Shown):
         parameters : mapping, optional
             Numbers that differ from the described ones: of parameters, inputs, own states and the time ``t``.
         """
-        from symgen.analyses.functions.functions import Functions
+        from symgen.analyses.functions.model_functions import Functions
 
         return Functions(self.mechanism, coordinates, parameters)
 
-    @in_sentences
+    @explain_plugin_errors
     def frame(self, name: str, coordinates: str = "auto", parameters: Mapping[str, float] | None = None) -> Frame:
         """Return a frame on a body: its pose, velocity and Jacobian as compiled functions.
 
@@ -182,10 +182,10 @@ class Model(Analysed, Shown):
         parameters : mapping
             Values of all parameters.
         """
-        q, v = described_start(self.mechanism, scalars(parameters))
+        q, v = described_start(self.mechanism, scalar_values(parameters))
         return np.array(q), v
 
-    @in_sentences
+    @explain_plugin_errors
     def assemble(
         self,
         compiled: CompiledModel,
@@ -215,7 +215,7 @@ class Model(Analysed, Shown):
         AssemblyError
             If the mechanism cannot be closed.
         """
-        arguments.of_kind("compiled", compiled, CompiledModel, "what Model.compile returned")  # type: ignore[type-abstract]  # a type, not an instance
+        arguments.instance("compiled", compiled, CompiledModel, "what Model.compile returned")  # type: ignore[type-abstract]  # a type, not an instance
         values = self.parameters(parameters)
         if compiled.info.name != self.name or [p.name for p in compiled.info.parameters] != list(values):
             raise InputError("compiled", f"compiled code of {self.name}", f"that of {compiled.info.name}")
@@ -224,17 +224,17 @@ class Model(Analysed, Shown):
             arguments.number(f"method_parameters '{name}'", value)
             if name not in own:
                 expected = f"a parameter of {compiled.law.method}"
-                raise InputError("method_parameters", expected, f"'{name}'", nearest(name, own) or "it has none")
-        strict = arguments.switch("strict", strict)
+                raise InputError("method_parameters", expected, f"'{name}'", suggest(name, own) or "it has none")
+        strict = arguments.truth_value("strict", strict)
         if held is None or isinstance(held, Mapping):
             settings = Settings(start=held or {}).start
-            held = holds_of(self.mechanism, "start", settings)  # type: ignore[assignment]  # of names, by index later
+            held = read_holds(self.mechanism, "start", settings)  # type: ignore[assignment]  # of names, by index later
         return start_of(self.mechanism, compiled, parameters, method_parameters, strict, held, ask_light)  # type: ignore[arg-type]
 
     def __repr__(self) -> str:
         return repr(self.mechanism).replace("<Mechanism", "<Model", 1)
 
-    @in_sentences
+    @explain_plugin_errors
     def generate(
         self,
         path: str | Path | None = None,
@@ -296,11 +296,11 @@ class Model(Analysed, Shown):
         }
         request = Request(
             self.mechanism,
-            arguments.path("path", self.name + kind.ending if path is None else path),
+            arguments.path_argument("path", self.name + kind.ending if path is None else path),
             None if methods is None else arguments.words("methods", methods),
             texts,
-            arguments.one_of("coordinates", coordinates, COORDINATES),
-            arguments.one_of("shape", shape, SHAPES[1:]),
+            arguments.one_word_of("coordinates", coordinates, COORDINATES),
+            arguments.one_word_of("shape", shape, SHAPES[1:]),
             fmi,
             *kind.check_run(target, integrator, rtol, atol),
         )
@@ -312,7 +312,7 @@ class Model(Analysed, Shown):
     else:
         compare, sweep = _OfPackage("compare"), _OfPackage("sweep")
 
-    @takes
+    @make_entry
     def simulate(
         self,
         settings: Settings | None = None,
@@ -340,13 +340,13 @@ class Model(Analysed, Shown):
         Result
             Also of a failed or interrupted run, with status and reason.
         """
-        from symgen.result.reruns.verified_result import verified_result
+        from symgen.result.reruns.verified_result import run_and_verify
 
-        arguments.function("progress", progress)
-        settings = changed(settings, changes)
-        return verified_result(self.mechanism, settings, progress, arguments.words("sensitivities", sensitivities))
+        arguments.callable_or_none("progress", progress)
+        settings = change_settings(settings, changes)
+        return run_and_verify(self.mechanism, settings, progress, arguments.words("sensitivities", sensitivities))
 
-    @takes
+    @make_entry
     def start(self, settings: Settings | None = None, **changes: Unpack[RunKeywords]) -> SteppedRun:
         """Return a run at its start, to be advanced step by step.
 
@@ -370,11 +370,11 @@ class Model(Analysed, Shown):
         StepError
             If the start violates a limit of the run.
         """
-        from symgen.result.stepping.run import SteppedRun
+        from symgen.result.stepping.stepped_run import SteppedRun
 
-        settings = changed(settings, changes)
+        settings = change_settings(settings, changes)
         for name in ("output_step", "times", "verify", "repeat"):
-            if is_set(settings, name):
+            if differs_from_default(settings, name):
                 raise InputError(f"start: {name}", "settings of a run without outputs", f"one with {name}")
         settings = replace(settings, times=())
 

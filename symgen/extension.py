@@ -48,7 +48,7 @@ from symgen.derive.methods._base import (
     augmented_iteration,
     multiplier_law,
 )
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 from symgen.derive.methods._tape import Matrix as FormulaMatrix
 from symgen.derive.methods._tape import Scalar as FormulaScalar
 from symgen.derive.methods._tape import Vector as FormulaVector

@@ -19,7 +19,7 @@ def shared_by_casadi(block: Block) -> int:
     names |= {"max": "fmax", "min": "fmin", "abs": "fabs", "where": "if_else", "step": "gt"}
     g, values, inputs = block.graph, dict[int, Any](), list[Any]()
     ends = [node for _, node in block.outputs] + ([] if block.flag is None else [block.flag])
-    for node in g.needed(ends):
+    for node in g.required_nodes(ends):
         op, args, payload = g.nodes[node]
         numbers = [values[a] for a in args]
         if op == "const":

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from symgen.analyses.kinds import ANALYSES
-from symgen.base.keywords import takes
+from symgen.base.keywords import make_entry
 
 if TYPE_CHECKING:
     from symgen.analyses.kinds import equilibrium as _equilibrium
@@ -48,4 +48,4 @@ class Analysed:
 
 for _, _analysis in ANALYSES.items():
     for _method in _analysis.methods:
-        setattr(Analysed, _method.__name__, takes(_method))
+        setattr(Analysed, _method.__name__, make_entry(_method))

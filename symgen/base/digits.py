@@ -29,12 +29,12 @@ def scale_of(values: Iterable[float], unit: str = "") -> float:
     return max([OWN_SIZE.get(unit, 0.0), *(abs(float(x)) for x in values if math.isfinite(x))])
 
 
-def cleaned(values: Any, scale: float) -> Any:
+def clean(values: Any, scale: float) -> Any:
     """Return a number or an array with 0 for values below `NOTHING` of a scale."""
     return values * (abs(values) >= NOTHING * scale) + 0.0
 
 
-def without_rounding(matrix: Any) -> Any:
+def clear_matrix_rounding(matrix: Any) -> Any:
     """Return a matrix with 0 for entries that are rounding beside the largest ones of both their row and their column.
 
     Numbers are kept that a table shows as 0: rows and columns may have any units. A row or a column that is rounding
@@ -50,23 +50,23 @@ def without_rounding(matrix: Any) -> Any:
 
 def digits(x: float, scale: float, count: int = 6) -> str:
     """Return the text of a number to some digits, 0 where it is rounding beside a scale."""
-    return f"{cleaned(x, scale):.{count}g}"
+    return f"{clean(x, scale):.{count}g}"
 
 
-def complex_digits(x: complex, count: int = 6) -> tuple[str, str]:
+def format_complex(x: complex, count: int = 6) -> tuple[str, str]:
     """Return the texts of the real part, and of the imaginary one with its sign; empty where that is 0."""
-    real, imaginary = (cleaned(part, abs(x)) for part in (x.real, x.imag))
+    real, imaginary = (clean(part, abs(x)) for part in (x.real, x.imag))
     return f"{real:.{count}g}", f"{imaginary:+.{count}g}" if imaginary else ""
 
 
-def column(values: Sequence[float], unit: str = "", count: int = 6, least: float = 0.0) -> list[str]:
+def format_column(values: Sequence[float], unit: str = "", count: int = 6, least: float = 0.0) -> list[str]:
     """Return the texts of a column of one unit, whose scale has a lower bound."""
     scale = max(scale_of(values, unit), least)
     return [digits(x, scale, count) for x in values]
 
 
-def digits_of_rows(rows: Sequence[Sequence[float]]) -> list[list[str]]:
+def format_rows(rows: Sequence[Sequence[float]]) -> list[list[str]]:
     """Return the texts of a matrix by rows; a column that is nothing beside the others may be rounding throughout."""
     least = BESIDE * scale_of(x for row in rows for x in row)
-    columns = [column(values, least=least) for values in zip(*rows, strict=True)]
+    columns = [format_column(values, least=least) for values in zip(*rows, strict=True)]
     return [list(row) for row in zip(*columns, strict=True)]

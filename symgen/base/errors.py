@@ -1,6 +1,6 @@
 """Errors raised by symgen, their exit codes on the command line, and helpers for their messages.
 
-Whatever a message repeats of a file or an argument goes through `quoted`, so that it is short and printable.
+Whatever a message repeats of a file or an argument goes through `quote`, so that it is short and printable.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ class AssemblyError(SymgenError):
     def __reduce__(self) -> tuple[type, tuple[str, tuple[str, ...], tuple[float, ...]]]:
         return type(self), (str(self), self.joints, self.q)
 
-    def stopped_at(self, q: Iterable[float]) -> AssemblyError:
+    def with_coordinates(self, q: Iterable[float]) -> AssemblyError:
         """Return the same error with the coordinates where closing stopped."""
         return type(self)(str(self), self.joints, tuple(q))
 
@@ -126,7 +126,7 @@ class StepError(SimulationError):
 
 
 @contextmanager
-def finite_numbers(where: str, hint: str = "") -> Iterator[None]:
+def refuse_overflow(where: str, hint: str = "") -> Iterator[None]:
     """Refuse numbers of formulas that overflow where they meet; `where` and `hint` as of `InputError`."""
     try:
         yield
@@ -135,7 +135,7 @@ def finite_numbers(where: str, hint: str = "") -> Iterator[None]:
         raise InputError(where, expected, "some that overflow", hint) from None
 
 
-def quoted(text: object, longest: int = LONGEST_QUOTE) -> str:
+def quote(text: object, longest: int = LONGEST_QUOTE) -> str:
     """Return `text` in quotes, shortened and without control characters, fit for a one-line message."""
     if isinstance(text, str):
         shown = repr(text[:longest])  # a text may be as long as a file
@@ -147,23 +147,23 @@ def quoted(text: object, longest: int = LONGEST_QUOTE) -> str:
     return shown if len(shown) <= longest else shown[: longest - 4] + "...'"
 
 
-def fitting(count: int, most: int) -> int:
+def fit_lines(count: int, most: int) -> int:
     """Return how many of `count` lines to show: `most`, or all where only one would be left out."""
     return count if count <= most + 1 else most
 
 
-def counted(n: int, one: str, many: str = "") -> str:
+def plural(n: int, one: str, many: str = "") -> str:
     """Return a count with its noun: 1 run, 3 runs."""
     return f"{n} {one if n == 1 else many or one + 's'}"
 
 
-def sizes_of(sized: Counted) -> str:
+def sizes_in_words(sized: Counted) -> str:
     """Return sizes with their nouns: 3 coordinates, 3 velocities, 1 constraint row."""
-    velocities = counted(sized.nv, "velocity", "velocities")
-    return f"{counted(sized.nq, 'coordinate')}, {velocities}, {counted(sized.m, 'constraint row')}"
+    velocities = plural(sized.nv, "velocity", "velocities")
+    return f"{plural(sized.nq, 'coordinate')}, {velocities}, {plural(sized.m, 'constraint row')}"
 
 
-def nearest(word: str, candidates: Iterable[str]) -> str:
+def suggest(word: str, candidates: Iterable[str]) -> str:
     """Return the hint ``did you mean 'x'?`` for the closest known word, or the list of known words."""
     names = sorted(set(candidates))
     if len(word) <= LONGEST_COMPARED:
@@ -173,6 +173,6 @@ def nearest(word: str, candidates: Iterable[str]) -> str:
         close = difflib.get_close_matches(word, alike[:MOST_COMPARED], n=1, cutoff=CLOSE)
         if close:
             return f"did you mean '{close[0]}'?"
-    first = fitting(len(names), MOST_LISTED)
+    first = fit_lines(len(names), MOST_LISTED)
     more = f" and {len(names) - first} more" if len(names) > first else ""
     return "known: " + ", ".join(names[:first]) + more if names else ""

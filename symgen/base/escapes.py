@@ -67,6 +67,6 @@ def latex_text(text: str) -> str:
 
 
 def script_json(data: object) -> str:
-    """Return data as JSON for scripts: it cannot end the element that it stands in."""
+    """Return data as JSON for scripts: it cannot end the element that holds it."""
     text = json.dumps(data, separators=(",", ":"), allow_nan=False, ensure_ascii=False)
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")

@@ -11,7 +11,7 @@ from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
 
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 
 #: Content of a file, or a function that writes it to an open file.
 Content = bytes | str | Callable[[io.BytesIO], object]
@@ -32,7 +32,7 @@ def check_writable(where: str, path: Path) -> None:
     InputError
         If the path is a folder or a device, or its folder is missing or cannot be written.
     """
-    check_name(where, path)
+    check_file_name(where, path)
     try:
         real = Path(os.path.realpath(path))  # a link leads to where the file will be
         if real.is_dir():
@@ -44,10 +44,10 @@ def check_writable(where: str, path: Path) -> None:
         if not os.access(real.parent, os.W_OK) or (real.exists() and not os.access(real, os.W_OK)):
             raise InputError(where, "a file that can be written", f"'{path}'")
     except (OSError, RuntimeError) as error:  # a link that leads to itself
-        raise InputError(where, "a file that can be written", f"'{path}' ({why(error)})") from None
+        raise InputError(where, "a file that can be written", f"'{path}' ({system_message(error)})") from None
 
 
-def need(where: str, *libraries: str, extra: str = "data") -> None:
+def need_library(where: str, *libraries: str, extra: str = "data") -> None:
     """Raise an error with installation advice if a library is missing.
 
     Raises
@@ -85,18 +85,18 @@ def check_path(where: str, path: Path, endings: Mapping[str, tuple[str, ...]], e
     """
     ending = path.suffix.lower()
     if ending not in endings:
-        hint = nearest(ending, endings) if ending else ""
+        hint = suggest(ending, endings) if ending else ""
         expected = f"a file ending in {', '.join(endings)}"
         raise InputError(where, expected, f"'{path}'", "" if hint.startswith("known") else hint)
-    need(where, *endings[ending], extra=extra)
+    need_library(where, *endings[ending], extra=extra)
     if ending in MEASURED and not any(map(shutil.which, MEASURED[ending])):
         programs = " or ".join(MEASURED[ending])
-        raise InputError(where, f"{programs} for a {ending} file, whose texts they measure", "none of them")
+        raise InputError(where, f"{programs}, which measure the texts of a {ending} file", "none of them")
     check_writable(where, path)
     return path
 
 
-def check_name(where: str, path: Path) -> None:
+def check_file_name(where: str, path: Path) -> None:
     """Refuse a name that the system cannot look up: one that is too long, or has a null character.
 
     Parameters
@@ -116,7 +116,7 @@ def check_name(where: str, path: Path) -> None:
     except (FileNotFoundError, NotADirectoryError, PermissionError):
         return
     except (OSError, ValueError) as error:
-        raise InputError(where, "a name that a file can have", f"'{path}' ({why(error)})") from None
+        raise InputError(where, "a name that a file can have", f"'{path}' ({system_message(error)})") from None
 
 
 def write_whole(path: Path, content: Content, *, replace: bool = True) -> Path:
@@ -139,15 +139,15 @@ def write_all(files: Mapping[Path, Content]) -> None:
     Raises
     ------
     InputError
-        If one cannot be written. Nothing is left behind.
+        If one cannot be written. No part of it remains.
     """
     siblings = dict[Path, Path]()
     current = Path()
     try:
         for current, content in files.items():
-            target = _real(current)
+            target = _resolve_link(current)
             siblings[target] = target.with_name(f".{target.name[-80:]}-{os.urandom(6).hex()}")
-            data = _bytes(content)
+            data = _content_as_bytes(content)
             with siblings[target].open("xb") as file:
                 file.write(data)
                 file.flush()
@@ -155,7 +155,7 @@ def write_all(files: Mapping[Path, Content]) -> None:
         for current, sibling in siblings.items():
             os.replace(sibling, current)
     except OSError as error:
-        raise InputError(str(current), "a file that can be written", why(error)) from error
+        raise InputError(str(current), "a file that can be written", system_message(error)) from error
     finally:
         for path in siblings.values():
             with suppress(OSError):
@@ -173,7 +173,7 @@ def write_csv(path: Path, heading: Sequence[str], rows: Iterable[Sequence[object
     return write_whole(path, text.getvalue())
 
 
-def check_rows(where: str, names: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+def check_csv_rows(where: str, names: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
     """Refuse a CSV table whose columns share a name, or whose rows are longer or shorter than its heading.
 
     Parameters
@@ -192,28 +192,28 @@ def check_rows(where: str, names: Sequence[str], rows: Iterable[Sequence[str]]) 
     """
     for name in names:
         if name and names.count(name) > 1:
-            raise InputError(where, "a name of its own for each column", f"{names.count(name)} columns {quoted(name)}")
+            raise InputError(where, "a name of its own for each column", f"{names.count(name)} columns {quote(name)}")
     for line, row in enumerate(rows, 2):
         if len(row) != len(names):
             raise InputError(where, f"as many cells as in the heading, {len(names)}", f"{len(row)} in row {line}")
 
 
-def headed(name: str, unit: str) -> str:
+def heading_with_unit(name: str, unit: str) -> str:
     """Return the heading of a column that carries its unit: ``crank.theta [rad]``."""
     return f"{name} [{unit}]" if unit else name
 
 
-def unheaded(heading: str) -> str:
+def name_without_unit(heading: str) -> str:
     """Return the name of a column whose heading may carry its unit."""
     return heading.partition(" [")[0]
 
 
-def why(error: Exception) -> str:
+def system_message(error: Exception) -> str:
     """Return the system's message about a file."""
     return getattr(error, "strerror", None) or str(error) or "an error"
 
 
-def _real(path: Path) -> Path:
+def _resolve_link(path: Path) -> Path:
     """Return the target of a link."""
     try:
         return Path(os.path.realpath(path))
@@ -221,7 +221,7 @@ def _real(path: Path) -> Path:
         raise OSError(errno.EINVAL, str(error)) from None
 
 
-def _bytes(content: Content) -> bytes:
+def _content_as_bytes(content: Content) -> bytes:
     if callable(content):
         stream = io.BytesIO()
         content(stream)

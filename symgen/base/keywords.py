@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Protocol, TypedDict, TypeVar
 
 from symgen.base import settings as table
-from symgen.base.plugins import in_sentences
+from symgen.base.plugins import explain_plugin_errors
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -77,7 +77,7 @@ def keyword_names(keywords: type) -> tuple[str, ...]:
     return tuple(name for name in table.setting_names() if name in keywords.__annotations__)
 
 
-def takes(function: F) -> F:
+def make_entry(function: F) -> F:
     """Make a function one of the package's entries.
 
     An error inside a plugin leaves it as one sentence. Signature and docstring list the settings that its ``**changes``
@@ -85,18 +85,23 @@ def takes(function: F) -> F:
     """
     *_, last = inspect.signature(function).parameters.values()
     keywords = globals().get(str(last.annotation).removeprefix("Unpack[").removesuffix("]"))
-    function = in_sentences(function)
+    function = explain_plugin_errors(function)
     if last.kind is not last.VAR_KEYWORD or keywords is None:
         return function
-    listed = {name: table.default(name) for name in keyword_names(keywords)}
-    explicit(function, keywords, listed)
-    lines = [f"{name} : {_kind(name)}\n    {table.about(name).help}{_otherwise(name)}\n" for name in listed]
+    listed = {name: table.default_of_setting(name) for name in keyword_names(keywords)}
+    spell_out_keywords(function, keywords, listed)
+    lines = [
+        f"{name} : {_kind_in_words(name)}\n    {table.setting_description(name).help}{_default_in_words(name)}\n"
+        for name in listed
+    ]
     text = inspect.cleandoc(function.__doc__ or "")
     function.__doc__ = text.replace("**changes\n", f"{''.join(lines)}**changes\n", 1)
     return function
 
 
-def explicit(function: Callable[..., Any], keywords: type, defaults: Mapping[str, Any], others: bool = False) -> None:
+def spell_out_keywords(
+    function: Callable[..., Any], keywords: type, defaults: Mapping[str, Any], others: bool = False
+) -> None:
     """Give a function a signature with names in place of its ``**`` parameter.
 
     Parameters
@@ -121,11 +126,11 @@ def explicit(function: Callable[..., Any], keywords: type, defaults: Mapping[str
     function.__signature__ = usual.replace(parameters=own)  # type: ignore[attr-defined]  # what inspect looks for
 
 
-def _kind(name: str) -> str:
-    kind: str = table.about(name).kind.__name__
+def _kind_in_words(name: str) -> str:
+    kind: str = table.setting_description(name).kind.__name__
     return {"dict": "mapping", "tuple": "sequence of float", "list": "sequence of str"}.get(kind, kind)
 
 
-def _otherwise(name: str) -> str:
-    otherwise = table.about(name).otherwise
+def _default_in_words(name: str) -> str:
+    otherwise = table.setting_description(name).otherwise
     return f" By default: {otherwise}." if otherwise else ""

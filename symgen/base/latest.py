@@ -1,4 +1,4 @@
-"""The latest few values of many that a process computes."""
+"""A store of the values that a process computed last."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ Key = TypeVar("Key")
 Value = TypeVar("Value")
 
 
-def latest(store: dict[Key, Value], key: Key, make: Callable[[], Value], most: int) -> Value:
+def get_or_make(store: dict[Key, Value], key: Key, make: Callable[[], Value], most: int) -> Value:
     """Return the value of a key, made where there is none; of more keys than `most` the oldest leave.
 
     Parameters

@@ -21,13 +21,13 @@ SMALL = 1e8
 _GROUPS = Path("/sys/fs/cgroup")
 
 
-def processors() -> int:
+def processor_count() -> int:
     """Return the number of processors that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 @contextmanager
-def uncollected() -> Iterator[None]:
+def without_garbage_collection() -> Iterator[None]:
     """Suspend garbage collection while many objects are created that all stay alive."""
     collecting = gc.isenabled()
     gc.disable()
@@ -38,7 +38,7 @@ def uncollected() -> Iterator[None]:
             gc.enable()
 
 
-def require(where: str, what: str, size: float) -> None:
+def require_memory(where: str, what: str, size: float) -> None:
     """Refuse a request that exceeds the free memory.
 
     Parameters
@@ -55,7 +55,7 @@ def require(where: str, what: str, size: float) -> None:
     InputError
         If it is too much. Where the free amount is unknown, nothing is refused.
     """
-    free = available() if size > SMALL else None
+    free = available_bytes() if size > SMALL else None
     if free is not None and size > SHARE * free:
         expected = f"no more than {SHARE:.0%} of the free memory, {SHARE * free / 1e9:.3g} GB"
         raise InputError(where, expected, f"{what}, about {size / 1e9:.3g} GB")
@@ -77,16 +77,16 @@ def require_disk(where: str, folder: Path, what: str, size: float) -> None:
             )
 
 
-def available() -> float | None:
+def available_bytes() -> float | None:
     """Return the number of bytes that this process may still allocate, None if unknown.
 
     The least of what is free in the machine, what control groups (containers) leave, and the limit of the address
     space.
     """
-    return min((*_of_machine(), *_of_groups(), *_of_address_space()), default=None)
+    return min((*_free_memory_of_machine(), *_free_memory_of_control_groups(), *_free_address_space()), default=None)
 
 
-def _of_machine() -> Iterator[float]:
+def _free_memory_of_machine() -> Iterator[float]:
     with suppress(OSError, ValueError):
         for line in Path("/proc/meminfo").read_text().splitlines():
             if line.startswith("MemAvailable:"):
@@ -96,7 +96,7 @@ def _of_machine() -> Iterator[float]:
         yield float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
 
 
-def _of_groups() -> Iterator[float]:
+def _free_memory_of_control_groups() -> Iterator[float]:
     """Yield the free memory of every control group of this process, for both versions of the interface."""
     with suppress(OSError, ValueError):
         for line in Path("/proc/self/cgroup").read_text().splitlines():
@@ -109,13 +109,13 @@ def _of_groups() -> Iterator[float]:
             # in a container the path may be that of the host: the group is then mounted as the root
             for folder in {group, *group.parents, root}:
                 if folder == root or root in folder.parents:
-                    yield from _left(folder, *names)
+                    yield from _memory_left_in_group(folder, *names)
 
 
 _OLD = ("memory.limit_in_bytes", "memory.usage_in_bytes")
 
 
-def _left(folder: Path, limit: str, used: str) -> Iterator[float]:
+def _memory_left_in_group(folder: Path, limit: str, used: str) -> Iterator[float]:
     with suppress(OSError, ValueError):  # "max" is no number
         room = int((folder / limit).read_text()) - int((folder / used).read_text())
         for line in (folder / "memory.stat").read_text().splitlines():
@@ -126,7 +126,7 @@ def _left(folder: Path, limit: str, used: str) -> Iterator[float]:
         yield float(max(room, 0))
 
 
-def _of_address_space() -> Iterator[float]:
+def _free_address_space() -> Iterator[float]:
     with suppress(ImportError, OSError, ValueError):
         import resource
 

@@ -48,7 +48,7 @@ def load_plugin(path: str | PathLike[str]) -> ModuleType:
     InputError
         If it is no Python file, raises an error, or registers a name that is taken.
     """
-    file = arguments.path("plugin", path).absolute()
+    file = arguments.path_argument("plugin", path).absolute()
     name, where = f"symgen_plugin_{file.stem.replace('-', '_')}", f"plugin '{path}'"
     if str(file) in _files:
         return sys.modules[name]
@@ -67,7 +67,7 @@ def load_plugin(path: str | PathLike[str]) -> ModuleType:
         raise
     except (Exception, SystemExit) as error:
         del sys.modules[name]
-        raise InputError(where, "a file that runs", _words(error)) from error
+        raise InputError(where, "a file that runs", _error_in_words(error)) from error
     _files[str(file)] = text
     return module
 
@@ -77,14 +77,16 @@ def failure_of_plugin(error: BaseException) -> InputError | None:
     lines = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename in _files]
     if not lines:
         return None
-    return InputError(f"plugin '{lines[-1].filename}', line {lines[-1].lineno}", "code that runs", _words(error))
+    return InputError(
+        f"plugin '{lines[-1].filename}', line {lines[-1].lineno}", "code that runs", _error_in_words(error)
+    )
 
 
-def in_sentences(function: F) -> F:
+def explain_plugin_errors(function: F) -> F:
     """Return a function that raises an error inside a plugin as its sentence, with the error as the cause."""
 
     @wraps(function)
-    def entry(*values: object, **keywords: object) -> Any:
+    def call_and_explain(*values: object, **keywords: object) -> Any:
         try:
             return function(*values, **keywords)
         except SymgenError:
@@ -94,10 +96,10 @@ def in_sentences(function: F) -> F:
                 raise
             raise failure from error
 
-    return cast(F, entry)
+    return cast(F, call_and_explain)
 
 
-def _words(error: BaseException) -> str:
+def _error_in_words(error: BaseException) -> str:
     return f"{type(error).__name__}: {error}"
 
 
@@ -107,7 +109,7 @@ def load_plugins(paths: Iterable[str | PathLike[str]]) -> None:
         load_plugin(path)
 
 
-def load_installed() -> bool:
+def load_installed_plugins() -> bool:
     """Import the plugins of installed packages, unless that was done; return whether there are any.
 
     Raises
@@ -130,12 +132,12 @@ def load_installed() -> bool:
     return bool(_installed)
 
 
-def loaded_files() -> tuple[str, ...]:
+def loaded_plugin_files() -> tuple[str, ...]:
     """Return the loaded files, for another process."""
     return tuple(_files)
 
 
-def stamps() -> tuple[str, ...]:
+def plugin_digests() -> tuple[str, ...]:
     """Return digests of the texts of all plugins: what journals and folders of sweeps depend on."""
     texts = [*_files.values(), *(name.encode() for name in _installed or ())]
     return tuple(sorted(hashlib.sha256(text).hexdigest() for text in texts))

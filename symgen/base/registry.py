@@ -15,8 +15,8 @@ from importlib.util import find_spec
 from typing import Generic, TypeVar, cast
 
 from symgen.base.arguments import text
-from symgen.base.errors import InputError, nearest, quoted
-from symgen.base.plugins import load_installed
+from symgen.base.errors import InputError, quote, suggest
+from symgen.base.plugins import load_installed_plugins
 
 T = TypeVar("T")
 
@@ -68,21 +68,21 @@ class Registry(Generic[T]):
         self._modules: dict[str, str] | None = None
         self._loaded: dict[str, T] = {}
 
-    def _scan(self) -> dict[str, str]:
+    def _module_names_by_kind(self) -> dict[str, str]:
         """Return kind name -> module name; the folder is read once."""
         if self._modules is None:
             modules: dict[str, str] = {}
             for module in pkgutil.iter_modules(importlib.import_module(self.package).__path__):
                 if not module.name.startswith("_"):
-                    modules[self._checked(module.name.replace("_", "-"), modules)] = module.name
+                    modules[self._check_name(module.name.replace("_", "-"), modules)] = module.name
             for alias, target in self.aliases.items():
-                self._checked(alias, modules)
+                self._check_name(alias, modules)
                 if target not in modules:
                     raise ValueError(f"{self.what} alias '{alias}' stands for '{target}', which does not exist")
             self._modules = modules
         return self._modules
 
-    def _checked(self, name: str, kinds: Mapping[str, object]) -> str:
+    def _check_name(self, name: str, kinds: Mapping[str, object]) -> str:
         if not _NAME.fullmatch(name):
             raise ValueError(f"{self.what} '{name}' is not a lower-case name with dashes")
         if name in kinds:
@@ -91,31 +91,31 @@ class Registry(Generic[T]):
 
     def register(self, name: str, kind: T) -> T:
         """Add `kind` under `name` for this process; a name that is taken is an error."""
-        self._checked(name, {**self._scan(), **self.aliases, **self._loaded})
+        self._check_name(name, {**self._module_names_by_kind(), **self.aliases, **self._loaded})
         self._loaded[name] = kind
         return kind
 
     @property
     def names(self) -> tuple[str, ...]:
         """All kinds in alphabetical order, without aliases."""
-        return tuple(sorted({*self._scan(), *self._loaded}))
+        return tuple(sorted({*self._module_names_by_kind(), *self._loaded}))
 
-    def canonical(self, name: str, where: str = "") -> str:
+    def resolve_alias(self, name: str, where: str = "") -> str:
         """Return `name` with an alias resolved, or raise `InputError` naming the nearest spelling."""
         article = "an" if self.what[0] in "aeiou" else "a"
         text(where or self.what, name, f"{article} {self.what}")
         resolved = self.aliases.get(name, name)
         if resolved not in self:
-            load_installed()
-        if resolved not in self._loaded and resolved not in self._scan():
+            load_installed_plugins()
+        if resolved not in self._loaded and resolved not in self._module_names_by_kind():
             names = (*self.names, *self.aliases)
-            hint = nearest(name, names)
+            hint = suggest(name, names)
             if hint.startswith("known"):
                 hint = self._hint_beside(name) or hint
             choices = " (known: " + ", ".join(sorted(names)) + ")"
             if not hint.startswith("known") and len(choices) <= _LISTED:  # a longer list buries the hint
                 hint += choices
-            raise InputError(where or self.what, f"{article} {self.what}", quoted(name), hint)
+            raise InputError(where or self.what, f"{article} {self.what}", quote(name), hint)
         return resolved
 
     def _hint_beside(self, name: str) -> str:
@@ -126,31 +126,31 @@ class Registry(Generic[T]):
         other = next(x for x in own if isinstance(x, Registry) and x.package == self.beside)
         if name in other:
             return f"'{name}' is an {other.what}" if other.what[0] in "aeiou" else f"'{name}' is a {other.what}"
-        hint = nearest(name, other.names)
+        hint = suggest(name, other.names)
         return "" if hint.startswith("known") else hint.replace("did you mean ", f"did you mean the {other.what} ")
 
     def get(self, name: str, where: str = "") -> T:
         """Return the kind called `name` (or so by an alias), importing its module if need be."""
-        resolved = self.canonical(name, where)
+        resolved = self.resolve_alias(name, where)
         if resolved not in self._loaded:
-            module = importlib.import_module(f"{self.package}.{self._scan()[resolved]}")
+            module = importlib.import_module(f"{self.package}.{self._module_names_by_kind()[resolved]}")
             self._loaded[resolved] = cast(T, getattr(module, self.attribute))
         return self._loaded[resolved]
 
     def summary(self, name: str) -> str:
         """Return the line about a kind: the first one of its module, which is read and not imported, or its own."""
-        if name not in self._scan():
+        if name not in self._module_names_by_kind():
             kind = self._loaded[name]
             text = getattr(kind, "summary", None) or kind.__doc__ or ""
             return str(text).strip().partition("\n")[0]
-        spec = find_spec(f"{self.package}.{self._scan()[name]}")
+        spec = find_spec(f"{self.package}.{self._module_names_by_kind()[name]}")
         assert spec is not None and spec.origin is not None, "the folder has it"
         with open(spec.origin, encoding="utf-8") as file:
             return file.readline().strip('"\n')
 
     def listing(self) -> Listing:
         """Return every name with its line, names from installed packages included."""
-        load_installed()
+        load_installed_plugins()
         return Listing((name, self.summary(name).rstrip(".")) for name in self.names)
 
     def items(self) -> Iterator[tuple[str, T]]:
@@ -159,7 +159,7 @@ class Registry(Generic[T]):
             yield name, self.get(name)
 
     def __contains__(self, name: object) -> bool:
-        return name in self._loaded or name in self._scan() or name in self.aliases
+        return name in self._loaded or name in self._module_names_by_kind() or name in self.aliases
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.names)

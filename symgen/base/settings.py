@@ -12,7 +12,7 @@ from functools import partial
 from typing import Any, cast
 
 from symgen.base import arguments
-from symgen.base.errors import InputError, nearest
+from symgen.base.errors import InputError, suggest
 
 SHAPES = ("auto", "straight", "looped")
 COORDINATES = ("absolute", "joint", "auto")
@@ -25,7 +25,7 @@ class About:
     Attributes
     ----------
     text : str
-        One sentence, ``{unit}`` standing where its unit belongs.
+        One sentence, with ``{unit}`` where its unit belongs.
     kind : type
         Of its values: float, int, str, bool, dict (values by name), tuple (numbers) or list (texts).
     check : callable
@@ -56,16 +56,19 @@ class About:
 
 _positive = partial(arguments.number, positive=True)
 _name = partial(arguments.text, expected="a name")
-_repeat = partial(arguments.whole, least=1, most=1000)
-_shape, _coordinates = partial(arguments.one_of, candidates=SHAPES), partial(arguments.one_of, candidates=COORDINATES)
+_repeat = partial(arguments.whole_number, least=1, most=1000)
+_shape, _coordinates = (
+    partial(arguments.one_word_of, candidates=SHAPES),
+    partial(arguments.one_word_of, candidates=COORDINATES),
+)
 
 
-def _values(where: str, value: object) -> dict[str, float]:
+def _check_values(where: str, value: object) -> dict[str, float]:
     values = arguments.mapping(where, value, "numbers by the names of parameters")
     return {name: arguments.number(f"{where} '{name}'", item) for name, item in values.items()}
 
 
-def _start(where: str, value: object) -> Mapping[str, float]:
+def _check_start(where: str, value: object) -> Mapping[str, float]:
     # the last state of another run is checked where it is used
     if value is not None and not isinstance(value, Mapping) and hasattr(value, "last_state"):
         return value  # type: ignore[return-value]  # a result
@@ -73,40 +76,40 @@ def _start(where: str, value: object) -> Mapping[str, float]:
     return {name: arguments.number(f"{where} '{name}'", item) for name, item in values.items()}
 
 
-def _inputs(where: str, value: object) -> dict[str, Any]:
+def _check_inputs(where: str, value: object) -> dict[str, Any]:
     # the values are checked where the mechanism is known
     return arguments.mapping(where, value, "numbers, formulas or data by the names of inputs")
 
 
-def _conditions(where: str, value: object) -> tuple[str, ...]:
+def _check_conditions(where: str, value: object) -> tuple[str, ...]:
     return tuple(arguments.text(where, x, "a condition such as 'ball.y < 0.1'") for x in arguments.words(where, value))
 
 
-def _events(where: str, value: object) -> dict[str, dict[str, Any]]:
+def _check_events(where: str, value: object) -> dict[str, dict[str, Any]]:
     expected = "tables by the names of events, such as {'low': {'when': 'ball.y < 0.1'}}"
     tables = arguments.mapping(where, value, expected)
     return {name: arguments.mapping(f"{where} '{name}'", table, expected) for name, table in tables.items()}
 
 
-def _options(where: str, value: object) -> dict[str, str | float]:
+def _check_options(where: str, value: object) -> dict[str, str | float]:
     values = arguments.mapping(where, value, "values by the names of options, such as 'method.alpha'")
     return {k: v if isinstance(v, str) else arguments.number(f"{where} '{k}'", v) for k, v in values.items()}
 
 
-def _times(where: str, value: object) -> Sequence[float]:
+def _check_times(where: str, value: object) -> Sequence[float]:
     # an array is checked where it is created; it may be long
     return value if hasattr(value, "dtype") else arguments.numbers(where, value)  # type: ignore[return-value]  # an array is numbers
 
 
-def _setting(default: object, text: str, kind: type, check: Callable[[str, Any], Any], **further: str) -> Any:
+def _declare_setting(default: object, text: str, kind: type, check: Callable[[str, Any], Any], **further: str) -> Any:
     about = {"about": About(text, kind, check, **further)}
     if isinstance(default, dict):
         return field(default_factory=dict, metadata=about)
     return field(default=default, metadata=about)
 
 
-_number = partial(_setting, kind=float, check=_positive)
-_switch = partial(_setting, kind=bool, check=arguments.switch)
+_number = partial(_declare_setting, kind=float, check=_positive)
+_switch = partial(_declare_setting, kind=bool, check=arguments.truth_value)
 
 
 @dataclass(frozen=True)
@@ -119,8 +122,8 @@ class Settings:
         If a value is of the wrong kind or out of its range.
     """
 
-    method: str = _setting("direct-correction", "Constraint stabilisation method, or auto.", str, _name)
-    integrator: str | None = _setting(
+    method: str = _declare_setting("direct-correction", "Constraint stabilisation method, or auto.", str, _name)
+    integrator: str | None = _declare_setting(
         None,
         "Integrator, or auto.",
         str,
@@ -142,41 +145,47 @@ class Settings:
         unit="s",
         otherwise="of the mechanism; every step, or 1001 times of an adaptive run",
     )
-    times: Sequence[float] | None = _setting(None, "Output times{unit}.", tuple, _times, unit="s", metavar="T,T,...")
-    parameters: Mapping[str, float] = _setting(
-        {}, "Value of a parameter of the mechanism.", dict, _values, flag="--set", metavar="NAME=VALUE"
+    times: Sequence[float] | None = _declare_setting(
+        None, "Output times{unit}.", tuple, _check_times, unit="s", metavar="T,T,..."
     )
-    inputs: Mapping[str, Any] = _setting(
+    parameters: Mapping[str, float] = _declare_setting(
+        {}, "Value of a parameter of the mechanism.", dict, _check_values, flag="--set", metavar="NAME=VALUE"
+    )
+    inputs: Mapping[str, Any] = _declare_setting(
         {},
         "Input: a number, a formula of t, parameters and state, or FILE.csv:COLUMN[:hold|linear|cubic|pchip].",
         dict,
-        _inputs,
+        _check_inputs,
         flag="--input",
         metavar="NAME=VALUE",
     )
-    start: Mapping[str, float] = _setting(
+    start: Mapping[str, float] = _declare_setting(
         {},
         "Coordinate or velocity that the start keeps, such as crank.theta=0.5.",
         dict,
-        _start,
+        _check_start,
         metavar="NAME=VALUE",
     )
-    options: Mapping[str, str | float] = _setting(
+    options: Mapping[str, str | float] = _declare_setting(
         {},
         "Option of the method or integrator, such as method.alpha=5.",
         dict,
-        _options,
+        _check_options,
         flag="--option",
         metavar="KEY=VALUE",
     )
-    stop_when: Sequence[str] = _setting(
-        (), "Condition at which the run ends, such as 'crank.theta > 2*pi'.", list, _conditions, metavar="CONDITION"
+    stop_when: Sequence[str] = _declare_setting(
+        (),
+        "Condition at which the run ends, such as 'crank.theta > 2*pi'.",
+        list,
+        _check_conditions,
+        metavar="CONDITION",
     )
-    record_when: Sequence[str] = _setting(
-        (), "Condition at which time and state are recorded.", list, _conditions, metavar="CONDITION"
+    record_when: Sequence[str] = _declare_setting(
+        (), "Condition at which time and state are recorded.", list, _check_conditions, metavar="CONDITION"
     )
-    events: Mapping[str, Mapping[str, Any]] = _setting(
-        {}, "Events in addition to those of the mechanism, as tables by name.", dict, _events
+    events: Mapping[str, Mapping[str, Any]] = _declare_setting(
+        {}, "Events in addition to those of the mechanism, as tables by name.", dict, _check_events
     )
     strict: bool = _switch(False, "Refuse an inconsistent start.")
     verify: bool | None = _switch(
@@ -201,9 +210,9 @@ class Settings:
         "Attempts at steps after which a run ends as failed; constant steps that would be more are refused.",
         otherwise="1e8 adaptive, 2e9 constant",
     )
-    repeat: int = _setting(1, "Time this many runs after a warm-up.", int, _repeat, metavar="N")
-    shape: str = _setting("auto", "Shape of the code: auto, straight or looped.", str, _shape)
-    coordinates: str = _setting(
+    repeat: int = _declare_setting(1, "Time this many runs after a warm-up.", int, _repeat, metavar="N")
+    shape: str = _declare_setting("auto", "Shape of the code: auto, straight or looped.", str, _shape)
+    coordinates: str = _declare_setting(
         "absolute",
         "Coordinates of the state: absolute (of bodies), joint (of the joints of a tree) or auto.",
         str,
@@ -214,10 +223,10 @@ class Settings:
         for f in fields(self):
             value = getattr(self, f.name)
             if value is not None or f.name in ("parameters", "inputs", "start", "options") or f.default is not None:
-                object.__setattr__(self, f.name, about(f.name).check(f.name, value))
+                object.__setattr__(self, f.name, setting_description(f.name).check(f.name, value))
 
 
-def about(name: str) -> About:
+def setting_description(name: str) -> About:
     """Return the description of the setting called `name`."""
     return _ABOUT[name]
 
@@ -227,23 +236,23 @@ def setting_names() -> tuple[str, ...]:
     return tuple(_ABOUT)
 
 
-def default(name: str) -> Any:
+def default_of_setting(name: str) -> Any:
     """Return the default of a setting."""
     return getattr(Settings(), name)
 
 
-def is_set(settings: Settings, name: str) -> bool:
+def differs_from_default(settings: Settings, name: str) -> bool:
     """Whether a setting differs from its default."""
-    value, usual = getattr(settings, name), default(name)
+    value, usual = getattr(settings, name), default_of_setting(name)
     return bool(value is not None if usual is None else value != usual)  # an array of times has no one truth
 
 
-def flag(name: str) -> str:
+def command_flag(name: str) -> str:
     """Return the option of commands that is the setting called `name`."""
-    return about(name).flag or f"--{name.replace('_', '-')}"
+    return setting_description(name).flag or f"--{name.replace('_', '-')}"
 
 
-def changed(settings: Settings | None, changes: Mapping[str, object]) -> Settings:
+def change_settings(settings: Settings | None, changes: Mapping[str, object]) -> Settings:
     """Return settings, the defaults if None, with some replaced.
 
     Raises
@@ -253,9 +262,9 @@ def changed(settings: Settings | None, changes: Mapping[str, object]) -> Setting
     """
     for name in changes:
         if name not in _ABOUT:
-            hint = _ELSEWHERE.get(name) or nearest(name, _ABOUT)
+            hint = _ELSEWHERE.get(name) or suggest(name, _ABOUT)
             raise InputError("settings", "the name of a setting", f"'{name}'", hint)
-    base = Settings() if settings is None else arguments.of_kind("settings", settings, Settings, "Settings")
+    base = Settings() if settings is None else arguments.instance("settings", settings, Settings, "Settings")
     return replace(base, **cast(dict[str, Any], dict(changes)))
 
 

@@ -29,71 +29,71 @@ class Symbol:
     factor: Fraction = Fraction(1)
 
 
-def _of(name: str, si: str, factor: str | int | Fraction = 1) -> Symbol:
+def _symbol_of_unit(name: str, si: str, factor: str | int | Fraction = 1) -> Symbol:
     return Symbol(name, si, Fraction(factor))
 
 
 _POUND, _GRAVITY, _INCH = Fraction("0.45359237"), Fraction("9.80665"), Fraction("0.0254")
 #: Symbols that prefixes may precede.
 PREFIXABLE: Mapping[str, Symbol] = {
-    "m": _of("metre", "m"),
-    "g": _of("gram", "kg", "0.001"),
-    "s": _of("second", "s"),
-    "A": _of("ampere", "A"),
-    "K": _of("kelvin", "K"),
-    "mol": _of("mole", "mol"),
-    "rad": _of("radian", "rad"),
-    "N": _of("newton", "N"),
-    "J": _of("joule", "J"),
-    "W": _of("watt", "W"),
-    "Pa": _of("pascal", "Pa"),
-    "Hz": _of("hertz", "Hz"),
-    "V": _of("volt", "V"),
-    "C": _of("coulomb", "C"),
-    "F": _of("farad", "F"),
-    "ohm": _of("ohm", "ohm"),
-    "S": _of("siemens", "S"),
-    "Wb": _of("weber", "Wb"),
-    "T": _of("tesla", "T"),
-    "H": _of("henry", "H"),
-    "bar": _of("bar", "Pa", 100000),
-    "L": _of("litre", "m^3", "0.001"),
-    "l": _of("litre", "m^3", "0.001"),
-    "Nm": _of("newton metre", "N m"),
-    "Wh": _of("watt hour", "J", 3600),
+    "m": _symbol_of_unit("metre", "m"),
+    "g": _symbol_of_unit("gram", "kg", "0.001"),
+    "s": _symbol_of_unit("second", "s"),
+    "A": _symbol_of_unit("ampere", "A"),
+    "K": _symbol_of_unit("kelvin", "K"),
+    "mol": _symbol_of_unit("mole", "mol"),
+    "rad": _symbol_of_unit("radian", "rad"),
+    "N": _symbol_of_unit("newton", "N"),
+    "J": _symbol_of_unit("joule", "J"),
+    "W": _symbol_of_unit("watt", "W"),
+    "Pa": _symbol_of_unit("pascal", "Pa"),
+    "Hz": _symbol_of_unit("hertz", "Hz"),
+    "V": _symbol_of_unit("volt", "V"),
+    "C": _symbol_of_unit("coulomb", "C"),
+    "F": _symbol_of_unit("farad", "F"),
+    "ohm": _symbol_of_unit("ohm", "ohm"),
+    "S": _symbol_of_unit("siemens", "S"),
+    "Wb": _symbol_of_unit("weber", "Wb"),
+    "T": _symbol_of_unit("tesla", "T"),
+    "H": _symbol_of_unit("henry", "H"),
+    "bar": _symbol_of_unit("bar", "Pa", 100000),
+    "L": _symbol_of_unit("litre", "m^3", "0.001"),
+    "l": _symbol_of_unit("litre", "m^3", "0.001"),
+    "Nm": _symbol_of_unit("newton metre", "N m"),
+    "Wh": _symbol_of_unit("watt hour", "J", 3600),
 }
-#: Symbols that stand by themselves.
+#: Symbols that take no prefix.
 PLAIN: Mapping[str, Symbol] = {
-    "1": _of("one", "1"),
-    "%": _of("per cent", "1", "0.01"),
-    "cd": _of("candela", "cd"),
-    "deg": _of("degree", "rad", PI / 180),
-    "arcmin": _of("minute of arc", "rad", PI / 10800),
-    "arcsec": _of("second of arc", "rad", PI / 648000),
-    "rev": _of("revolution", "rad", 2 * PI),
-    "rpm": _of("revolution per minute", "rad/s", PI / 30),
-    "min": _of("minute", "s", 60),
-    "h": _of("hour", "s", 3600),
-    "d": _of("day", "s", 86400),
-    "t": _of("tonne", "kg", 1000),
-    "kgf": _of("kilogram-force", "N", _GRAVITY),
-    "kp": _of("kilopond", "N", _GRAVITY),
-    "PS": _of("metric horsepower", "W", 75 * _GRAVITY),
-    "atm": _of("standard atmosphere", "Pa", 101325),
-    "Nmm": _of("newton millimetre", "N m", "0.001"),
-    "Ncm": _of("newton centimetre", "N m", "0.01"),
-    "in": _of("inch", "m", _INCH),
-    "ft": _of("foot", "m", 12 * _INCH),
-    "yd": _of("yard", "m", 36 * _INCH),
-    "mi": _of("mile", "m", 63360 * _INCH),
-    "mph": _of("mile per hour", "m/s", 63360 * _INCH / 3600),
-    "lb": _of("pound", "kg", _POUND),
-    "oz": _of("ounce", "kg", _POUND / 16),
-    "slug": _of("slug", "kg", _POUND * _GRAVITY / (12 * _INCH)),
-    "lbf": _of("pound-force", "N", _POUND * _GRAVITY),
-    "psi": _of("pound-force per square inch", "Pa", _POUND * _GRAVITY / _INCH**2),
-    "ksi": _of("thousand pound-force per square inch", "Pa", 1000 * _POUND * _GRAVITY / _INCH**2),
-    "hp": _of("horsepower", "W", 550 * 12 * _INCH * _POUND * _GRAVITY),
+    "1": _symbol_of_unit("one", "1"),
+    "%": _symbol_of_unit("per cent", "1", "0.01"),
+    "cd": _symbol_of_unit("candela", "cd"),
+    "deg": _symbol_of_unit("degree", "rad", PI / 180),
+    "arcmin": _symbol_of_unit("minute of arc", "rad", PI / 10800),
+    "arcsec": _symbol_of_unit("second of arc", "rad", PI / 648000),
+    "rev": _symbol_of_unit("revolution", "rad", 2 * PI),
+    "rpm": _symbol_of_unit("revolution per minute", "rad/s", PI / 30),
+    "min": _symbol_of_unit("minute", "s", 60),
+    "h": _symbol_of_unit("hour", "s", 3600),
+    "d": _symbol_of_unit("day", "s", 86400),
+    "t": _symbol_of_unit("tonne", "kg", 1000),
+    "kgf": _symbol_of_unit("kilogram-force", "N", _GRAVITY),
+    "kp": _symbol_of_unit("kilopond", "N", _GRAVITY),
+    "PS": _symbol_of_unit("metric horsepower", "W", 75 * _GRAVITY),
+    "atm": _symbol_of_unit("standard atmosphere", "Pa", 101325),
+    "Nmm": _symbol_of_unit("newton millimetre", "N m", "0.001"),
+    "Ncm": _symbol_of_unit("newton centimetre", "N m", "0.01"),
+    "in": _symbol_of_unit("inch", "m", _INCH),
+    "ft": _symbol_of_unit("foot", "m", 12 * _INCH),
+    "yd": _symbol_of_unit("yard", "m", 36 * _INCH),
+    "mi": _symbol_of_unit("mile", "m", 63360 * _INCH),
+    "mph": _symbol_of_unit("mile per hour", "m/s", 63360 * _INCH / 3600),
+    "lb": _symbol_of_unit("pound", "kg", _POUND),
+    "oz": _symbol_of_unit("ounce", "kg", _POUND / 16),
+    "slug": _symbol_of_unit("slug", "kg", _POUND * _GRAVITY / (12 * _INCH)),
+    "lbf": _symbol_of_unit("pound-force", "N", _POUND * _GRAVITY),
+    "psi": _symbol_of_unit("pound-force per square inch", "Pa", _POUND * _GRAVITY / _INCH**2),
+    "ksi": _symbol_of_unit("thousand pound-force per square inch", "Pa", 1000 * _POUND * _GRAVITY / _INCH**2),
+    "hp": _symbol_of_unit("horsepower", "W", 550 * 12 * _INCH * _POUND * _GRAVITY),
 }
 #: Prefix -> its power of ten.
 PREFIXES: Mapping[str, int] = {
@@ -137,7 +137,7 @@ DERIVED: Mapping[str, Mapping[str, int]] = {
 BASES = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
 
 
-def _table() -> dict[str, Symbol]:
+def _table_of_symbols() -> dict[str, Symbol]:
     table = dict(PLAIN)
     for prefix, power in PREFIXES.items():
         for symbol, of in PREFIXABLE.items():
@@ -147,7 +147,7 @@ def _table() -> dict[str, Symbol]:
 
 
 #: All symbols with all prefixes.
-SYMBOLS: Mapping[str, Symbol] = _table()
+SYMBOLS: Mapping[str, Symbol] = _table_of_symbols()
 
 
 #: Symbols that hints compare with and list.

@@ -1,7 +1,7 @@
 """Units of measurement: their texts read into factors to SI units, and the numbers converted exactly.
 
-A unit is a product of symbols with whole powers, such as ``kg m^2``, ``N m/rad``, ``1/min`` or ``W/(m K)``. Behind a
-slash stands one factor, or several in brackets.
+A unit is a product of symbols with whole powers, such as ``kg m^2``, ``N m/rad``, ``1/min`` or ``W/(m K)``. One
+factor follows a slash, or several in brackets.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 from symgen.base.unit_symbols import ALIKE, COMMON, DERIVED, MEANT, OTHERS, SPELLINGS, SYMBOLS
 
 #: Characters of a unit, largest power, and characters of a text that is compared with numbers.
@@ -59,13 +59,17 @@ class Unit:
 
     def to_si(self, value: float) -> float:
         """Return a number in this unit in SI units, rounded once from its decimal digits."""
-        return value if self.is_si or not math.isfinite(value) else _rounded(Fraction(repr(float(value))) * self.factor)
+        return (
+            value
+            if self.is_si or not math.isfinite(value)
+            else _round_fraction(Fraction(repr(float(value))) * self.factor)
+        )
 
-    def of_si(self, value: float) -> float:
+    def from_si(self, value: float) -> float:
         """Return a number in SI units in this unit: one of at most 15 digits where such a number means it."""
         if self.is_si or not math.isfinite(value):
             return value
-        number = _rounded(Fraction(repr(float(value))) / self.factor)
+        number = _round_fraction(Fraction(repr(float(value))) / self.factor)
         short = float(f"{number:.15g}")
         return short if self.to_si(short) == value else number
 
@@ -76,7 +80,7 @@ class Unit:
         return own == others and (alike or (bool(own) and not self.cycles and not other.cycles))
 
 
-def _rounded(value: Fraction) -> float:
+def _round_fraction(value: Fraction) -> float:
     try:
         return float(value)
     except OverflowError:
@@ -85,18 +89,18 @@ def _rounded(value: Fraction) -> float:
 
 def read_unit(text: str) -> Unit | str:
     """Return the unit that a text means, or the part of the text that is no unit; an empty text is the unit of 1."""
-    return text if len(text) > LONGEST_UNIT or not text.isprintable() else _read(text)
+    return text if len(text) > LONGEST_UNIT or not text.isprintable() else _read_unit_text(text)
 
 
 @lru_cache(maxsize=4096)
-def _read(text: str) -> Unit | str:
+def _read_unit_text(text: str) -> Unit | str:
     """Return the unit that a text of any length means, or the part of it that is no unit."""
     if not text:
         return Unit("", "", Fraction(1), ())
     written = text
     for spelling, symbol in SPELLINGS.items():
         written = written.replace(spelling, symbol)
-    return _Reader(text, written.strip()).unit()
+    return _Reader(text, written.strip()).read_whole_unit()
 
 
 def unit_of(text: str, where: str, *, quantity: str = "") -> Unit:
@@ -119,31 +123,31 @@ def unit_of(text: str, where: str, *, quantity: str = "") -> Unit:
     if isinstance(unit, str):
         if len(text) > LONGEST_UNIT or not text.isprintable():
             expected += f", at most {LONGEST_UNIT} characters on one line"
-        raise InputError(where, expected, quoted(text), _hint(unit, text, bool(quantity)))
-    if quantity and not unit.fits(known(quantity)):
-        raise InputError(where, expected, quoted(text))
+        raise InputError(where, expected, quote(text), _unit_hint(unit, text, bool(quantity)))
+    if quantity and not unit.fits(known_unit(quantity)):
+        raise InputError(where, expected, quote(text))
     return unit
 
 
-def known(text: str) -> Unit:
+def known_unit(text: str) -> Unit:
     """Return the unit of a text that has been checked, or that the program wrote, which may be a longer one."""
-    unit = _read(text)
+    unit = _read_unit_text(text)
     assert isinstance(unit, Unit), text
     return unit
 
 
-def _hint(part: str, text: str, brief: bool) -> str:
+def _unit_hint(part: str, text: str, brief: bool) -> str:
     """Return the nearest spelling of what is no unit, else, unless `brief`, the usual units."""
     if part == SLASH:
-        return "behind '/' stands one factor, or several in brackets, as in 'W/(m K)'"
-    what = "" if part == text or len(part) > 12 else f"{quoted(part)} is no unit, "
+        return "one factor follows '/', or several in brackets, as in 'W/(m K)'"
+    what = "" if part == text or len(part) > 12 else f"{quote(part)} is no unit, "
     if part in MEANT:
         return f"{what}did you mean '{MEANT[part]}'?"
     if (power := re.fullmatch(r"([A-Za-z]+)(-?[0-9]{1,2})", part)) and power[1] in SYMBOLS:
         return f"{what}did you mean '{power[1]}^{power[2]}'?"
     folded = {name.casefold(): name for name in reversed([*COMMON, *SYMBOLS])}
     same = folded.get(part.casefold())
-    near = f"did you mean '{same}'?" if same else nearest(part, COMMON)
+    near = f"did you mean '{same}'?" if same else suggest(part, COMMON)
     if near.startswith("did"):
         return what + near
     return what.removesuffix(", ") if brief else f"{what}units are those of the SI, {OTHERS}"
@@ -177,7 +181,7 @@ class _Part:
 
 #: What is wrong with a text such as ``a/b c``.
 SLASH = "/"
-#: Signs of a text that needs brackets behind a slash.
+#: Signs of a text that needs brackets after a slash.
 _COMPOSED = re.compile(r"[ */]")
 
 
@@ -191,46 +195,46 @@ class _Reader:
     def __init__(self, text: str, written: str) -> None:
         self.text, self.written, self.position = text, written, 0
 
-    def unit(self) -> Unit | str:
+    def read_whole_unit(self) -> Unit | str:
         try:
-            part = self.product()
+            part = self.read_product()
             if self.position < len(self.written):
-                return self.rest()
+                return self.unread_word()
         except _NoUnit as error:
             return str(error)
         exponents = tuple((base, power) for base, power in part.exponents.items() if power)
         return Unit(self.text, self.text if part.factor == 1 else part.si, part.factor, exponents, part.cycles)
 
-    def rest(self) -> str:
+    def unread_word(self) -> str:
         """Return the word at which reading ended."""
         return re.split(r"[\s*/()^]", self.written[self.position :].strip(), maxsplit=1)[0] or self.text
 
-    def sign(self, signs: str) -> str:
+    def take_sign(self, signs: str) -> str:
         """Take the next sign, if it is one of `signs`."""
         match = re.compile(rf"\s*([{re.escape(signs)}])").match(self.written, self.position)
         self.position = match.end() if match else self.position
         return match[1] if match else ""
 
-    def product(self) -> _Part:
+    def read_product(self) -> _Part:
         """Read factors side by side, then quotients."""
-        part = self.factor()
+        part = self.read_factor()
         while True:
-            if self.sign("/"):
-                part = part.times(self.factor(), "/")
-                if self.sign("*") or _FACTOR.match(self.written, self.position):
+            if self.take_sign("/"):
+                part = part.times(self.read_factor(), "/")
+                if self.take_sign("*") or _FACTOR.match(self.written, self.position):
                     raise _NoUnit(SLASH)  # a/b c is read in two ways
-            elif star := self.sign("*"):
-                part = part.times(self.factor(), star)
+            elif star := self.take_sign("*"):
+                part = part.times(self.read_factor(), star)
             elif _FACTOR.match(self.written, self.position):
-                part = part.times(self.factor(), " ")
+                part = part.times(self.read_factor(), " ")
             else:
                 return part
 
-    def factor(self) -> _Part:
+    def read_factor(self) -> _Part:
         """Read a symbol, or a product in brackets, with its power."""
-        if self.sign("("):
-            part = self.product()
-            if not self.sign(")"):
+        if self.take_sign("("):
+            part = self.read_product()
+            if not self.take_sign(")"):
                 raise _NoUnit(self.text)
         else:
             match = _WORD.match(self.written, self.position)
@@ -239,7 +243,7 @@ class _Reader:
                 raise _NoUnit(match[1] if match else self.text)
             self.position = match.end()
             si = match[1] if symbol.factor == 1 else symbol.si
-            part = _Part(symbol.factor, _exponents(symbol.si), si, symbol.si == "Hz")
+            part = _Part(symbol.factor, _base_unit_exponents(symbol.si), si, symbol.si == "Hz")
         power = _POWER.match(self.written, self.position)
         if power is None:
             return part
@@ -249,7 +253,7 @@ class _Reader:
         return part.power(int(power[1]))
 
 
-def _exponents(si: str) -> Counter[str]:
+def _base_unit_exponents(si: str) -> Counter[str]:
     """Return the exponents of base units in the SI unit of a symbol."""
     total = Counter[str]()
     for i, part in enumerate(si.split("/")):
@@ -261,7 +265,7 @@ def _exponents(si: str) -> Counter[str]:
 
 
 #: The unit of a number of which nothing is known.
-SI = known("")
+SI = known_unit("")
 
 
 # -- numbers with units ------------------------------------------------------------------------------------------------
@@ -276,7 +280,7 @@ class Amount:
     number : float
         The number.
     unit : str
-        The text behind it; empty where there is none.
+        The text after it; empty where there is none.
     """
 
     number: float
@@ -292,7 +296,7 @@ class Amount:
         usual : str
             The unit of a number without one, SI by default.
         """
-        unit = unit_of(self.unit, where, quantity=quantity) if self.unit else known(usual)
+        unit = unit_of(self.unit, where, quantity=quantity) if self.unit else known_unit(usual)
         return finite_number(unit.to_si(self.number), where)
 
 

@@ -26,11 +26,11 @@ from typing import Any
 import click
 
 from symgen.analyses.kinds import ANALYSES
-from symgen.base.errors import CLOSE, InputError, SymgenError, nearest
+from symgen.base.errors import CLOSE, InputError, SymgenError, suggest
 from symgen.base.escapes import printable
 from symgen.base.plugins import failure_of_plugin, load_plugins
 from symgen.base.registry import Registry
-from symgen.base.settings import flag, setting_names
+from symgen.base.settings import command_flag, setting_names
 from symgen.base.version import __version__
 
 OK, FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -72,17 +72,17 @@ class LazyGroup(click.Group):
         if cmd_name in OWN:
             command = OWN.get(cmd_name)
         else:
-            from symgen.cli._analyses import command_of
+            from symgen.cli._analyses import command_of_analysis
 
-            command = command_of(cmd_name)
-        command.short_help = summary(cmd_name)
+            command = command_of_analysis(cmd_name)
+        command.short_help = summary_of_command(cmd_name)
         if cmd_name not in WITHOUT_PLUGINS and not any(p.name == "plugin" for p in command.params):
             command.params.append(_plugin_option())
         if ctx.resilient_parsing:  # the shell completes a line
-            from symgen.cli._completing import complete
+            from symgen.cli._completing import complete_with
 
             for parameter in command.params:
-                complete(parameter)
+                complete_with(parameter)
         return command
 
     def resolve_command(
@@ -90,13 +90,13 @@ class LazyGroup(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """Return the command, or suggest the nearest name."""
         if args and args[0] not in COMMANDS and not args[0].startswith("-") and not ctx.resilient_parsing:
-            raise click.UsageError(f"there is no command '{args[0]}'; {nearest(args[0], COMMANDS)}", ctx)
+            raise click.UsageError(f"there is no command '{args[0]}'; {suggest(args[0], COMMANDS)}", ctx)
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the table without importing anything."""
         with formatter.section("Commands"):
-            formatter.write_dl([(name, summary(name)) for name in COMMANDS])
+            formatter.write_dl([(name, summary_of_command(name)) for name in COMMANDS])
 
 
 def _plugin_option() -> click.Option:
@@ -113,7 +113,7 @@ def _plugin_option() -> click.Option:
     )
 
 
-def summary(name: str) -> str:
+def summary_of_command(name: str) -> str:
     """Return the line of a command in ``symgen --help``: the first one of its file."""
     return (OWN if name in OWN else ANALYSES).summary(name)
 
@@ -142,7 +142,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         Words after ``symgen``; by default those of this process.
     """
     if arguments is None:  # this process does nothing else
-        sparing()
+        spare_collections()
         _open_streams()
     # a terminated run keeps its results, as with Ctrl-C; only the main thread may set handlers
     if threading.current_thread() is threading.main_thread():
@@ -155,20 +155,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
         error.show()
         return BAD_INPUT
     except click.ClickException as error:
-        return complain(_sentence(error), BAD_INPUT)
+        return write_complaint(_sentence_of_error(error), BAD_INPUT)
     except InputError as error:
-        from symgen.describe.files.problems import with_line
+        from symgen.describe.files.problems import sentence_with_line
 
-        return complain(with_line(error), error.exit_code)
+        return write_complaint(sentence_with_line(error), error.exit_code)
     except SymgenError as error:
-        return complain(str(error), error.exit_code)
+        return write_complaint(str(error), error.exit_code)
     except (click.Abort, KeyboardInterrupt):
-        return complain("interrupted", INTERRUPTED)
+        return write_complaint("interrupted", INTERRUPTED)
     except MemoryError:
-        return complain("there is not enough memory for that", FAILURE)
+        return write_complaint("there is not enough memory for that", FAILURE)
     except (BrokenPipeError, SystemExit) as error:  # click makes the second of the first
         if (failure := failure_of_plugin(error)) is not None:
-            return complain(str(failure), failure.exit_code)
+            return write_complaint(str(failure), failure.exit_code)
         # the reader of our output is gone: nothing more can be written, and Python must not try at exit
         _forget_stdout()
         return OK
@@ -176,21 +176,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if error.filename is not None:  # no failure of our own output, and of no file that has a sentence of its own
             raise
         _forget_stdout()
-        return complain(f"standard output cannot be written ({error.strerror})", FAILURE)
+        return write_complaint(f"standard output cannot be written ({error.strerror})", FAILURE)
     except Exception as error:
         if (failure := failure_of_plugin(error)) is None:
             raise
-        return complain(str(failure), failure.exit_code)
+        return write_complaint(str(failure), failure.exit_code)
 
 
-def complain(sentence: str, code: int) -> int:
+def write_complaint(sentence: str, code: int) -> int:
     """Write one sentence to standard error; return `code`."""
     with suppress(OSError):  # standard error may be closed, or full
-        click.echo(f"symgen: {printable(in_options(sentence))}", err=True)
+        click.echo(f"symgen: {printable(in_terms_of_options(sentence))}", err=True)
     return code
 
 
-def in_options(sentence: str) -> str:
+def in_terms_of_options(sentence: str) -> str:
     """Return a message of the package in terms of the command line.
 
     Names of arguments are written as options: `verify` as ``--verify``, and so is the place that a sentence begins
@@ -198,12 +198,16 @@ def in_options(sentence: str) -> str:
     """
     place, colon, rest = sentence.partition(": ")
     if colon and (place in setting_names() or place in LISTS):
-        sentence = f"{_option_of(place)}: {rest}"
-    return _ARGUMENT.sub(lambda match: _option_of(match[1]), sentence)
+        sentence = f"{_option_name(place)}: {rest}"
+    return _ARGUMENT.sub(lambda match: _option_name(match[1]), sentence)
 
 
-def _option_of(argument: str) -> str:
-    return flag(argument) if argument in setting_names() else LISTS.get(argument) or f"--{argument.replace('_', '-')}"
+def _option_name(argument: str) -> str:
+    return (
+        command_flag(argument)
+        if argument in setting_names()
+        else LISTS.get(argument) or f"--{argument.replace('_', '-')}"
+    )
 
 
 def write_files(
@@ -233,16 +237,16 @@ def write_files(
                 if say is not None:
                     say(path)
             except SymgenError as error:
-                failed = complain(str(error), error.exit_code)
+                failed = write_complaint(str(error), error.exit_code)
     return code or failed
 
 
-def _sentence(error: click.ClickException) -> str:
+def _sentence_of_error(error: click.ClickException) -> str:
     text = " ".join(error.format_message().split())
     context = getattr(error, "ctx", None)
     if isinstance(error, click.NoSuchOption):
         options = [o for p in context.command.params for o in p.opts] if context is not None else []
-        hint = _hint(error.option_name, [o for o in options if o.startswith("--")])
+        hint = _hint_on_option(error.option_name, [o for o in options if o.startswith("--")])
         text = f"there is no option '{error.option_name}'" + (f"; {hint}" if hint else "")
     help_at = f" (symgen {context.info_name} --help)" if context is not None and context.parent is not None else ""
     return text[:1].lower() + text[1:].rstrip(".") + help_at
@@ -261,17 +265,17 @@ MEANT = {
 }
 
 
-def _hint(option: str, options: Sequence[str]) -> str:
+def _hint_on_option(option: str, options: Sequence[str]) -> str:
     """Return the likely option for an unknown one, by meaning or by spelling."""
     if (meant := MEANT.get(option)) in options:
         return f"did you mean '{meant}'?"
-    hint = nearest(option, options)
+    hint = suggest(option, options)
     # three letters in common mean nothing
     close = hint.startswith("did you mean") and SequenceMatcher(None, option[2:], hint[16:-2]).ratio() >= CLOSE
     return hint if close else ""
 
 
-def sparing() -> None:
+def spare_collections() -> None:
     """Exclude imported objects from garbage collection, and all objects when the process ends.
 
     Modules, classes and functions live as long as the process. Python looks through them some hundred and eighty times
@@ -279,12 +283,12 @@ def sparing() -> None:
     """
     usual = gc.get_threshold()
 
-    def at_first(phase: str, info: dict[str, Any]) -> None:
-        gc.callbacks.remove(at_first)
+    def after_first_collection(phase: str, info: dict[str, Any]) -> None:
+        gc.callbacks.remove(after_first_collection)
         gc.freeze()
         gc.set_threshold(*usual)
 
-    gc.callbacks.append(at_first)
+    gc.callbacks.append(after_first_collection)
     gc.set_threshold(FIRST, *usual[1:])
     atexit.register(gc.freeze)
 

@@ -45,7 +45,7 @@ Candidates = Callable[[click.Context], Iterable[str]]
 Answer = Callable[[click.Context, str], list[CompletionItem[Any]]]
 
 
-def complete(parameter: click.Parameter) -> None:
+def complete_with(parameter: click.Parameter) -> None:
     """Let a parameter of a command complete its values.
 
     Parameters
@@ -59,30 +59,30 @@ def complete(parameter: click.Parameter) -> None:
     if isinstance(parameter.type, click.Choice):  # it completes itself
         return
     if name in _MODELS:
-        answer = _models
+        answer = _complete_models
     elif name == "over" and "=" in metavar:  # of modes
-        answer = _names_of(_assigned(_parameters))
+        answer = _complete_last_word(_wait_for_value(_complete_parameters))
     elif name == "states" and metavar == "A,B":  # of compare
-        answer = _names_of(lambda context: COORDINATES)
+        answer = _complete_last_word(lambda context: COORDINATES)
     elif name in ("quantities", "over"):
-        answer = _names_of(_CANDIDATES[name], nested=True)
+        answer = _complete_last_word(_CANDIDATES[name], nested=True)
     elif name in _CANDIDATES:
-        answer = _names_of(_CANDIDATES[name])
+        answer = _complete_last_word(_CANDIDATES[name])
     elif "FILE" in metavar or "RESULT" in metavar:
-        answer = _file
+        answer = _complete_by_shell
     else:
         return
     # the method that click calls for the parameter at the cursor; its argument `shell_complete` is for decorators
     parameter.shell_complete = answer  # type: ignore[method-assign, assignment]
 
 
-def _models(context: click.Context, typed: str) -> list[CompletionItem[Any]]:
+def _complete_models(context: click.Context, typed: str) -> list[CompletionItem[Any]]:
     """Return entries of the catalogue, folders and mechanism files."""
     names = [name for name in catalogue.all_names() if name.startswith(typed)]
-    return [CompletionItem(x) for x in (*names, *_files(typed, (".toml", ".nc")))]
+    return [CompletionItem(x) for x in (*names, *_complete_files(typed, (".toml", ".nc")))]
 
 
-def _files(typed: str, endings: Sequence[str]) -> Iterator[str]:
+def _complete_files(typed: str, endings: Sequence[str]) -> Iterator[str]:
     folder, slash, first = typed.rpartition("/")
     with suppress(OSError):
         for path in sorted(Path(folder + slash or ".").iterdir()):
@@ -96,23 +96,23 @@ def _files(typed: str, endings: Sequence[str]) -> Iterator[str]:
                 yield text
 
 
-def _file(context: click.Context, typed: str) -> list[CompletionItem[Any]]:
+def _complete_by_shell(context: click.Context, typed: str) -> list[CompletionItem[Any]]:
     """Leave the word to the shell's own completion of files."""
     return [CompletionItem(typed, type="file")]
 
 
-def _names_of(candidates: Candidates, nested: bool = False) -> Answer:
+def _complete_last_word(candidates: Candidates, nested: bool = False) -> Answer:
     """Return the completion of the last word of a comma-separated list; nested names up to the next dot."""
 
-    def answer(context: click.Context, typed: str) -> list[CompletionItem[Any]]:
+    def complete_word(context: click.Context, typed: str) -> list[CompletionItem[Any]]:
         before, comma, last = typed.rpartition(",")
         found = [x for x in candidates(context) if x.startswith(last)]
         return [CompletionItem(before + comma + x) for x in found if not (nested and "." in x[len(last) :])]
 
-    return answer
+    return complete_word
 
 
-def _raw(context: click.Context) -> Mapping[str, Any]:
+def _description_on_line(context: click.Context) -> Mapping[str, Any]:
     """Return the description of the mechanism on the line, empty where there is none that can be read."""
     values = context.params.get("model") or context.params.get("models") or context.params.get("what") or context.args
     word = values if isinstance(values, str) else values[0] if values else ""
@@ -126,43 +126,43 @@ def _raw(context: click.Context) -> Mapping[str, Any]:
     return {}
 
 
-def _section(raw: Mapping[str, Any], name: str) -> list[str]:
+def _names_of_section(raw: Mapping[str, Any], name: str) -> list[str]:
     """Return the names of a section of a mechanism."""
     section = raw.get(name)
     return sorted(x for x in section if _NAME.fullmatch(x)) if isinstance(section, dict) else []
 
 
-def _parameters(context: click.Context) -> list[str]:
-    return _section(_raw(context), "parameters")
+def _complete_parameters(context: click.Context) -> list[str]:
+    return _names_of_section(_description_on_line(context), "parameters")
 
 
-def _inputs(context: click.Context) -> list[str]:
-    return _section(_raw(context), "inputs")
+def _complete_inputs(context: click.Context) -> list[str]:
+    return _names_of_section(_description_on_line(context), "inputs")
 
 
-def _quantities(context: click.Context) -> Iterator[str]:
+def _complete_quantities(context: click.Context) -> Iterator[str]:
     """Yield names of bodies, joints, forces and outputs, and of their columns."""
-    raw = _raw(context)
+    raw = _description_on_line(context)
     spatial = _is_spatial(raw)
     for section in ("bodies", "joints", "forces", "outputs", "states", "points"):
-        for name in _section(raw, section):
+        for name in _names_of_section(raw, section):
             yield name
             table = raw[section][name]
             if not isinstance(table, dict):
                 continue
             if section == "bodies":
-                yield from (f"{name}.{x}" for x in _body(table, spatial))
+                yield from (f"{name}.{x}" for x in _columns_of_body(table, spatial))
             elif section in ("joints", "forces"):
                 own = _OWN.get(str(table.get("type")), ())
                 yield from (f"{name}.{x}" for x in (*(_REACTION[spatial] if section == "joints" else ()), *own))
 
 
-def _body(table: Mapping[str, Any], spatial: bool) -> Iterator[str]:
+def _columns_of_body(table: Mapping[str, Any], spatial: bool) -> Iterator[str]:
     """Yield columns of a body and of its points."""
     turns = table.get("type") != "point"
     columns = (*(_SPATIAL if spatial else _PLANAR), *_ACCELERATIONS[spatial])
     yield from (x for x in columns if turns or x in _POINT[spatial])
-    for point in _section(table, "points"):
+    for point in _names_of_section(table, "points"):
         yield from (point, *(f"{point}.{x}" for x in _POINT[spatial]))
 
 
@@ -171,24 +171,24 @@ def _is_spatial(raw: Mapping[str, Any]) -> bool:
     return isinstance(head, dict) and head.get("space") == "spatial"
 
 
-def _start(context: click.Context) -> list[str]:
-    raw = _raw(context)
+def _complete_start(context: click.Context) -> list[str]:
+    raw = _description_on_line(context)
     columns = _SPATIAL if _is_spatial(raw) else _PLANAR
-    return [f"{body}.{x}" for body in _section(raw, "bodies") for x in columns]
+    return [f"{body}.{x}" for body in _names_of_section(raw, "bodies") for x in columns]
 
 
-def _assigned(candidates: Callable[[click.Context], list[str]]) -> Candidates:
+def _wait_for_value(candidates: Callable[[click.Context], list[str]]) -> Candidates:
     """Return candidates that wait for a value: ``mass=``."""
     return lambda context: [f"{name}=" for name in candidates(context)]
 
 
-def _methods(context: click.Context) -> tuple[str, ...]:
+def _complete_methods(context: click.Context) -> tuple[str, ...]:
     from symgen.derive.methods import METHODS
 
     return METHODS.names
 
 
-def _integrators(context: click.Context) -> tuple[str, ...]:
+def _complete_integrators(context: click.Context) -> tuple[str, ...]:
     from symgen.run.integrators import INTEGRATORS
 
     return INTEGRATORS.names
@@ -198,16 +198,19 @@ def _integrators(context: click.Context) -> tuple[str, ...]:
 _MODELS = ("model", "models", "what", "described")
 #: Name of a command's argument -> the names that it takes.
 _CANDIDATES: Mapping[str, Candidates] = {
-    "method": lambda context: ("auto", *_methods(context)),
-    "methods": lambda context: ("all", *_methods(context)),
-    "integrator": lambda context: ("auto", *_integrators(context)),
-    "integrators": _integrators,
+    "method": lambda context: ("auto", *_complete_methods(context)),
+    "methods": lambda context: ("all", *_complete_methods(context)),
+    "integrator": lambda context: ("auto", *_complete_integrators(context)),
+    "integrators": _complete_integrators,
     "coordinates": lambda context: COORDINATES,
     "shape": lambda context: SHAPES,
-    "parameters": _assigned(_parameters),
-    "inputs": _assigned(_inputs),
-    "start": _assigned(_start),
-    "varied": lambda context: (*_assigned(_parameters)(context), *_assigned(_start)(context)),
-    "quantities": _quantities,
-    "over": lambda context: ("t", *_quantities(context)),
+    "parameters": _wait_for_value(_complete_parameters),
+    "inputs": _wait_for_value(_complete_inputs),
+    "start": _wait_for_value(_complete_start),
+    "varied": lambda context: (
+        *_wait_for_value(_complete_parameters)(context),
+        *_wait_for_value(_complete_start)(context),
+    ),
+    "quantities": _complete_quantities,
+    "over": lambda context: ("t", *_complete_quantities(context)),
 }

@@ -59,18 +59,22 @@ class Lines(Bar):
         super().__init__("", 1.0)
         self.last = self.began
 
-    def say(self, text: str, share: float) -> None:
+    def show_task(self, text: str, share: float) -> None:
         """Show the current task, the part of the work done, and an estimate of the time left."""
         self.title = text
         self(share)
         now = time.perf_counter()
         if not self.shown and now - self.last > BETWEEN_LINES:
             self.last = now
-            left = f", about {_duration((now - self.began) * (1.0 - share) / share)} left" if 0.02 < share < 1.0 else ""
+            left = (
+                f", about {_duration_in_words((now - self.began) * (1.0 - share) / share)} left"
+                if 0.02 < share < 1.0
+                else ""
+            )
             print(f"symgen: {math.floor(100.0 * share)} %, {text}{left}", file=sys.stderr, flush=True)
 
 
-def _duration(seconds: float) -> str:
+def _duration_in_words(seconds: float) -> str:
     for unit, size in (("h", 3600.0), ("min", 60.0)):
         if seconds >= 1.5 * size:
             return f"{seconds / size:.1f} {unit}"

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 import click
 
 from symgen.base.errors import InputError
-from symgen.base.plugins import loaded_files
-from symgen.cli import INTERRUPTED, complain
-from symgen.cli._options import differ, output_file, units_option
+from symgen.base.plugins import loaded_plugin_files
+from symgen.cli import INTERRUPTED, write_complaint
+from symgen.cli._shared_options import check_output_file, refuse_same_file, units_option
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -72,13 +72,13 @@ def study_files(row: str) -> Callable[[F], F]:
     def decorate(function: F) -> F:
         @wraps(function)
         def command(*, output: str | None, csv: str | None, units: bool, resume: str | None, **further: object) -> Any:
-            rows, report = output_file("--csv", csv), _report_file(output)
+            rows, report = check_output_file("--csv", csv), _check_report_file(output)
             if rows is not None and rows.suffix.lower() != ".csv":
                 raise InputError("--csv", "a file ending in .csv", f"'{csv}'")
             if units and rows is None:
                 raise InputError("--units", "--csv FILE, whose headings carry them", "no --csv")
             journal = None if resume is None else Path(resume)
-            differ({"--resume": journal, "--output": report, "--csv": rows})
+            refuse_same_file({"--resume": journal, "--output": report, "--csv": rows})
             return function(files=StudyFiles(report, rows, journal, units), **further)
 
         for option in reversed(options):
@@ -88,7 +88,7 @@ def study_files(row: str) -> Callable[[F], F]:
     return decorate
 
 
-def _report_file(text: str | None) -> Path | None:
+def _check_report_file(text: str | None) -> Path | None:
     if text is None:
         return None
     from symgen.study.report.write import check_report
@@ -97,7 +97,7 @@ def _report_file(text: str | None) -> Path | None:
     return Path(text)
 
 
-def command_again() -> str:
+def command_line_again() -> str:
     """Return the command that makes the report again: this one without options for working files."""
     context = click.get_current_context()
     models = context.params["models"] if "models" in context.params else (context.params["model"],)
@@ -120,12 +120,12 @@ def command_again() -> str:
                 Path(item).name if flag in _WRITTEN else str(item).removesuffix(".0"),
             ]
     here = Path.cwd()
-    for plugin in map(Path, loaded_files()):  # with its folder only below this one: others are private
+    for plugin in map(Path, loaded_plugin_files()):  # with its folder only below this one: others are private
         parts += ["--plugin", str(plugin.relative_to(here)) if plugin.is_relative_to(here) else plugin.name]
     return shlex.join(parts)
 
 
-def sketches_of(
+def sketches_at_start(
     models: Sequence[Model], parameters: Mapping[str, float] | None = None, start: Mapping[str, float] | None = None
 ) -> dict[str, str]:
     """Return sketches of mechanisms at their starts for the head of a report, by name."""
@@ -135,7 +135,7 @@ def sketches_of(
     return {model.name: model.draw(parameters, start).svg for model in small}
 
 
-def interrupted(row: str, stored: bool) -> int:
+def report_interruption(row: str, stored: bool) -> int:
     """Report an interrupted study and whether a journal keeps its rows; return the exit code."""
     how = "the same command continues after them" if stored else "with --resume FILE they would have been stored"
-    return complain(f"interrupted; the {row}s that were done are shown; {how}", INTERRUPTED)
+    return write_complaint(f"interrupted; the {row}s that were done are shown; {how}", INTERRUPTED)

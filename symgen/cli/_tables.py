@@ -11,8 +11,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from symgen.base.digits import column, digits, scale_of
-from symgen.base.errors import InputError, counted, fitting
+from symgen.base.digits import digits, format_column, scale_of
+from symgen.base.errors import InputError, fit_lines, plural
 
 if TYPE_CHECKING:
     import numpy as np
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
-    from symgen.study.comparison.compare import Study
+    from symgen.study.comparison.compare_models import Study
     from symgen.study.comparison.comparison_rows import Row
     from symgen.study.ensemble.sweep_study import Sweep
     from symgen.study.stress.stress_rows import Stress
@@ -31,7 +31,7 @@ GAP = 2
 COLOURS = {"ok": "green", "unverified": "yellow", "failed": "red"}
 
 
-def console() -> Console:
+def make_console() -> Console:
     """Return a console on standard output; where that is no terminal, wide enough that no figure is cut."""
     wide = Console(highlight=False, markup=False)
     return wide if wide.is_terminal else Console(highlight=False, markup=False, width=200)
@@ -97,13 +97,13 @@ def show_facts(out: Console, facts: Iterable[tuple[str, str]]) -> None:
 
 def show_result(result: Result) -> None:
     """Print the result of a run."""
-    from symgen.cli import in_options
-    from symgen.result.summary import lines
+    from symgen.cli import in_terms_of_options
+    from symgen.result.summary import summary_lines
 
-    out = console()
-    show_facts(out, [(label, in_options(text)) for label, text in lines(result)])
+    out = make_console()
+    show_facts(out, [(label, in_terms_of_options(text)) for label, text in summary_lines(result)])
     if len(result.t):
-        labels, rows = _final(result)
+        labels, rows = _final_state(result)
         show_rows(out, ("body", *labels), rows, left=("body",), title="final state")
 
 
@@ -121,7 +121,7 @@ def show_quantities(quantities: Mapping[str, Mapping[str, Any]], tables: Iterabl
         scale = max(scale, scales.get(entry["unit"], 0.0), entry.get("scale", 0.0))
         rows.append((name, *("" if x is None else digits(x, scale) for x in values), entry["unit"]))
     headings = ("quantity", "final", "smallest", "largest", "unit")
-    show_rows(console(), headings, rows, left=("quantity", "unit"))
+    show_rows(make_console(), headings, rows, left=("quantity", "unit"))
 
 
 def show_sensitivities(result: Result, quantities: Sequence[str], most: int = 40) -> None:
@@ -135,9 +135,9 @@ def show_sensitivities(result: Result, quantities: Sequence[str], most: int = 40
         for name, table in tables
         for (by, value), unit in zip(table.row().items(), table.units, strict=True)
     ]
-    first = fitting(len(rows), most)
+    first = fit_lines(len(rows), most)
     show_rows(
-        console(),
+        make_console(),
         ("final derivative of", "by", "value", "unit"),
         rows[:first],
         left=("final derivative of", "by", "unit"),
@@ -146,7 +146,7 @@ def show_sensitivities(result: Result, quantities: Sequence[str], most: int = 40
         click.echo(f"... {len(rows) - first} more; --quantity chooses, --json has all")
 
 
-def _final(result: Result, most: int = 12) -> tuple[list[str], list[tuple[str, ...]]]:
+def _final_state(result: Result, most: int = 12) -> tuple[list[str], list[tuple[str, ...]]]:
     """Return the last positions and velocities, of the first bodies where there are many."""
     from symgen.result.labelled import column_texts
 
@@ -155,7 +155,7 @@ def _final(result: Result, most: int = 12) -> tuple[list[str], list[tuple[str, .
         for name, text in column_texts(table).items():
             body, _, label = name.rpartition(".")
             bodies.setdefault(body, {})[label] = text
-    first = fitting(len(bodies), most)
+    first = fit_lines(len(bodies), most)
     labels = sorted({label for row in bodies.values() for label in row}, key=_LABELS.index)
     rows = [(body, *(row.get(label, "") for label in labels)) for body, row in list(bodies.items())[:first]]
     if len(bodies) > first:
@@ -171,18 +171,18 @@ def show_study(study: Study) -> None:
     """Print the rows of a study."""
     from symgen.study.comparison.comparison_study import BEYOND, FRONT, ONE_RUN
 
-    out = console()
+    out = make_console()
     off = "" if study.how == "none" else f" (off by about {study.estimated_error:.1g} m)"
     out.print(f"{study.mechanism}, {study.until:g} s; reference: {study.how}{off}")
     if study.note:
         out.print(study.note)
-    cells = [_cells(row, i in study.front) for i, row in enumerate(study.rows)]
+    cells = [_cells_of_row(row, i in study.front) for i, row in enumerate(study.rows)]
     show_rows(out, _HEADINGS, cells, (*_HEADINGS[:3], "status"), first=3, in_parts=False)
     if any(row.law for row in study.rows):
-        contacts = [(*cell[:3], *_contact(row)) for cell, row in zip(cells, study.rows, strict=True)]
+        contacts = [(*cell[:3], *_contact_cells(row)) for cell, row in zip(cells, study.rows, strict=True)]
         show_rows(out, (*_HEADINGS[:3], *_CONTACT), contacts, _HEADINGS[:3], first=3)
     if any(row.differences_seconds is not None for row in study.rows):
-        slopes = [(*cell[:3], *_gradient(row)) for cell, row in zip(cells, study.rows, strict=True)]
+        slopes = [(*cell[:3], *_gradient_cells(row)) for cell, row in zip(cells, study.rows, strict=True)]
         show_rows(out, (*_HEADINGS[:3], *_GRADIENT), slopes, _HEADINGS[:3], first=3)
     if len(study.rows) > 1:
         out.print(FRONT)
@@ -198,7 +198,7 @@ def show_study(study: Study) -> None:
             f"ratios of run time may vary by {100 * spreads[0]:.1f} % (median row; worst {100 * spreads[1]:.0f} %)"
         )
     if study.at:
-        show_rows(out, *_at_error(study), ("error [m]", "method", "integrator"), first=3)
+        show_rows(out, *_cells_at_errors(study), ("error [m]", "method", "integrator"), first=3)
     common = study.common_warnings
     for sentence in common:
         out.print(f"every run: {sentence}", style="dim")
@@ -209,10 +209,12 @@ def show_study(study: Study) -> None:
             out.print(f"{row.label}, {row.integrator}, {steps}: {sentence}", style="dim")
 
 
-def _at_error(study: Study) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+def _cells_at_errors(study: Study) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Return headings and cells of the run times at errors."""
 
-    def both(middle: float | None, low: float | None, high: float | None, scale: float = 1.0) -> tuple[str, str]:
+    def value_with_quartiles(
+        middle: float | None, low: float | None, high: float | None, scale: float = 1.0
+    ) -> tuple[str, str]:
         if middle is None or low is None or high is None:
             return "", ""
         return f"{scale * middle:.3g}", f"{scale * low:.3g} - {scale * high:.3g}"
@@ -221,8 +223,10 @@ def _at_error(study: Study) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     headings = "error [m]", "method", "integrator", "CPU [ms]", "quartiles", ratio, "of the ratio"
     cells = list[tuple[str, ...]]()
     for x in study.at:
-        times = both(x.seconds, x.seconds_low, x.seconds_high, 1e3)
-        cells.append((f"{x.error:g}", x.method, x.integrator, *times, *both(x.ratio, x.ratio_low, x.ratio_high)))
+        times = value_with_quartiles(x.seconds, x.seconds_low, x.seconds_high, 1e3)
+        cells.append(
+            (f"{x.error:g}", x.method, x.integrator, *times, *value_with_quartiles(x.ratio, x.ratio_low, x.ratio_high))
+        )
     return headings, cells
 
 
@@ -254,7 +258,7 @@ _GRADIENT = (
 )
 
 
-def _gradient(row: Row) -> tuple[str, ...]:
+def _gradient_cells(row: Row) -> tuple[str, ...]:
     ways = (
         (row.gradient_error, row.gradient_seconds),
         (row.adjoint_error, row.adjoint_seconds),
@@ -264,13 +268,13 @@ def _gradient(row: Row) -> tuple[str, ...]:
     return f"{1e3 * row.run_seconds:.3f}", *shown
 
 
-def _contact(row: Row) -> tuple[str, ...]:
+def _contact_cells(row: Row) -> tuple[str, ...]:
     counts = ("" if x is None else str(x) for x in (row.transitions, row.impacts))
     lost = "" if row.dissipated is None else f"{row.dissipated:.9g}"
     return "" if row.creep is None else f"{row.creep:.1e}", *counts, lost
 
 
-def _cells(row: Row, on_front: bool) -> tuple[str, ...]:
+def _cells_of_row(row: Row, on_front: bool) -> tuple[str, ...]:
     return (
         *(row.label, row.integrator, f"rtol {row.rtol:g}" if row.rtol is not None else f"{row.step:g} s"),
         "" if row.error is None else f"{row.error:.2e}" + " *" * row.below_reference + " ^" * on_front,
@@ -286,12 +290,12 @@ def _cells(row: Row, on_front: bool) -> tuple[str, ...]:
 
 def show_stress(study: Stress) -> None:
     """Print a stress study."""
-    from symgen.study.stress.findings import findings
+    from symgen.study.stress.findings import findings_of_study
     from symgen.study.stress.stress_rows import LEGEND, Map
 
-    out = console()
-    out.print(f"{', '.join(study.models)}: {counted(len(study.rows), 'cell')}")
-    shown = Map.of(study)
+    out = make_console()
+    out.print(f"{', '.join(study.models)}: {plural(len(study.rows), 'cell')}")
+    shown = Map.of_study(study)
     if shown.rows:
         headings = ("method", "integrator", *(family.replace("-", " ") for family in shown.families))
         rows = [(*line, *(shown.entry(line, family).text for family in shown.families)) for line in shown.lines]
@@ -303,7 +307,7 @@ def show_stress(study: Stress) -> None:
         words = [(x.model, f"{x.family} {x.case}", x.method, x.integrator) for x in study.limits]
         headings = ("model", "case", "method", "integrator", "stable", "accurate")
         show_rows(out, headings, [(*a, *b) for a, b in zip(words, steps, strict=True)], headings[:4], first=4)
-    for sentence in findings(study):
+    for sentence in findings_of_study(study):
         out.print(sentence)
 
 
@@ -322,7 +326,7 @@ def show_contributions(study: Sweep) -> None:
             )
     if rows:
         headings = ("quantity", *names, "together")
-        show_rows(console(), headings, rows, headings[:1], "share of the variance [%], by straight lines")
+        show_rows(make_console(), headings, rows, headings[:1], "share of the variance [%], by straight lines")
 
 
 def show_sweep(study: Sweep, written: Path | None) -> None:
@@ -337,20 +341,20 @@ def show_sweep(study: Sweep, written: Path | None) -> None:
     grid, units = study.as_written()
     axes = [item for axis in grid.axes for item in axis.values.items()]
 
-    def ends(name: str, x: NDArray[np.float64]) -> str:
+    def range_of_values(name: str, x: NDArray[np.float64]) -> str:
         return f"{x.min():.6g} to {x.max():.6g} {units[name]}".strip()
 
     lines = [
         ("mechanism", facts["mechanism"]),
         ("method", f"{facts['method']}, {facts['integrator']}, {steps}, until {facts['until']:g} s"),
-        *(("varies", f"{name}: {counted(len(x), 'value')} from {ends(name, x)}") for name, x in axes),
+        *(("varies", f"{name}: {plural(len(x), 'value')} from {range_of_values(name, x)}") for name, x in axes),
         ("runs", f"{len(study)} in {study.seconds:.3g} s{rate}"),
         *(("status", f"{status}: {count}") for status, count in study.counts.items() if count),
         *(("reason", f"{count} x {reason}") for reason, count in study.reasons()),
         ("error", "not estimated: symgen run --verify does so for a single run"),
         *([("written", str(written))] if written is not None and not study.interrupted else []),
     ]
-    out = console()
+    out = make_console()
     show_facts(out, lines)
     rows, sampled = list[tuple[str, ...]](), has_samples(ensemble.grid)
     for i, q in enumerate(ensemble.recipe.kept[:24]):
@@ -358,7 +362,7 @@ def show_sweep(study: Sweep, written: Path | None) -> None:
         last = last[np.isfinite(last)]
         if len(last):
             middle = np.percentile(last, PERCENTILES) if sampled else [last.mean()]
-            rows.append((q.name, q.unit, *column([last.min(), *middle, last.max()], q.unit)))
+            rows.append((q.name, q.unit, *format_column([last.min(), *middle, last.max()], q.unit)))
     if rows:
         between = [f"{share:g} %" for share in PERCENTILES] if sampled else ["mean"]
         headings = ("quantity", "unit", "least", *between, "largest")

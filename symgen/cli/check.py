@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from symgen.base.errors import InputError, counted, fitting
+from symgen.base.errors import InputError, fit_lines, plural
 from symgen.base.escapes import printable
 from symgen.cli import BAD_INPUT, OK, write_json
-from symgen.cli._options import examples, json_option, setting_options
+from symgen.cli._shared_options import examples_in_help, json_option, setting_options
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -23,7 +23,7 @@ MOST_SHOWN = 100
 
 @click.command(
     "check",
-    epilog=examples("symgen check four-bar", "symgen check crane.toml --set length=2 --draw crane.svg"),
+    epilog=examples_in_help("symgen check four-bar", "symgen check crane.toml --set length=2 --draw crane.svg"),
 )
 @click.argument("model")
 @setting_options("parameters", "start", "strict")
@@ -48,8 +48,8 @@ def command(
     try:
         loaded = load(model)
     except InputError as error:
-        if error.file is not None and (found := _problems(error.file)):
-            return _complain(model, found, as_json)
+        if error.file is not None and (found := _problems_of_file(error.file)):
+            return _write_problems(model, found, as_json)
         raise
     if picture is not None:
         from symgen.base.files import check_path
@@ -59,19 +59,19 @@ def command(
         loaded.draw(parameters, start).save(file)
         if not as_json:
             click.echo(f"written: {file}", err=True)
-    facts = _facts(loaded, parameters, start, strict)
+    facts = _facts_of_assembly(loaded, parameters, start, strict)
     if as_json:
         write_json(facts)
         return OK
     sizes = facts["sizes"]
     click.echo(f"{facts['mechanism']}: valid, and it closes")
     parts = (("bodies", "body", "bodies"), ("joints", "joint", ""), ("forces", "force", ""))
-    click.echo("  " + ", ".join(counted(sizes[of], one, many) for of, one, many in parts))
+    click.echo("  " + ", ".join(plural(sizes[of], one, many) for of, one, many in parts))
     click.echo(
-        f"  {counted(sizes['coordinates'], 'coordinate')}, "
-        f"{counted(sizes['rows'], 'constraint row')} of rank {facts['rank']}"
+        f"  {plural(sizes['coordinates'], 'coordinate')}, "
+        f"{plural(sizes['rows'], 'constraint row')} of rank {facts['rank']}"
     )
-    click.echo(f"  {counted(facts['degrees_of_freedom'], 'degree')} of freedom at the start")
+    click.echo(f"  {plural(facts['degrees_of_freedom'], 'degree')} of freedom at the start")
     for label, rows in (("redundant at the start", facts["redundant_rows"]), ("repeated", facts["dropped_rows"])):
         if rows:
             click.echo(f"  rows {label}: {', '.join(rows)}")
@@ -82,18 +82,18 @@ def command(
     return OK
 
 
-def _problems(file: Path) -> Sequence[Problem]:
+def _problems_of_file(file: Path) -> Sequence[Problem]:
     """Return what is wrong in a file; nothing if it was changed into a valid one in the meantime."""
     from symgen.describe.files.load import read_text
     from symgen.describe.files.origins import Source
-    from symgen.describe.files.problems import problems
+    from symgen.describe.files.problems import problems_of_text
 
-    return problems(read_text(file), Source.of(file))
+    return problems_of_text(read_text(file), Source.of_file(file))
 
 
-def _complain(file: str, found: Sequence[Problem], as_json: bool) -> int:
+def _write_problems(file: str, found: Sequence[Problem], as_json: bool) -> int:
     """Write the problems of a file, to standard error and, on request, as JSON; return the exit code."""
-    shown = fitting(len(found), MOST_SHOWN)
+    shown = fit_lines(len(found), MOST_SHOWN)
     for problem in found[:shown]:
         click.echo(printable(f"{file}:{problem.line}: {problem}"), err=True)
     if len(found) > shown:
@@ -104,7 +104,9 @@ def _complain(file: str, found: Sequence[Problem], as_json: bool) -> int:
     return BAD_INPUT
 
 
-def _facts(loaded: Model, parameters: dict[str, float], held: dict[str, float], strict: bool) -> dict[str, Any]:
+def _facts_of_assembly(
+    loaded: Model, parameters: dict[str, float], held: dict[str, float], strict: bool
+) -> dict[str, Any]:
     """Return the facts of an assembled mechanism: sizes, rank, degrees of freedom, redundant rows and notes."""
     compiled = loaded.compile()
     start = loaded.assemble(compiled, parameters, strict=strict, held=held)

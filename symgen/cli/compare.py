@@ -11,26 +11,26 @@ import click
 
 from symgen.base.errors import InputError
 from symgen.base.settings import Settings
-from symgen.cli import FAILURE, OK, complain, write_files, write_json
-from symgen.cli._options import (
-    comma_list,
-    examples,
+from symgen.cli import FAILURE, OK, write_complaint, write_files, write_json
+from symgen.cli._report import StudyFiles, command_line_again, report_interruption, sketches_at_start, study_files
+from symgen.cli._shared_options import (
+    examples_in_help,
     jobs_option,
     json_option,
-    number_list,
-    plot_file,
     quantity_options,
+    read_comma_list,
+    read_number_list,
+    read_plot_file,
     setting_options,
 )
-from symgen.cli._report import StudyFiles, command_again, interrupted, sketches_of, study_files
 
 if TYPE_CHECKING:
-    from symgen.study.comparison.compare import Study
+    from symgen.study.comparison.compare_models import Study
 
 
 @click.command(
     "compare",
-    epilog=examples(
+    epilog=examples_in_help(
         "symgen compare four-bar",
         "symgen compare four-bar --methods lagrange,baumgarte --steps 1e-3,1e-4 -o report.html",
     ),
@@ -117,10 +117,10 @@ def command(
     and tips of the axes at the body's own length). Integrators with an error estimate run at --rtols, the others at
     --steps. Ctrl-C shows the finished rows; with --resume the same command continues after them.
     """
-    step_list, rtol_list = number_list("--steps", steps), number_list("--rtols", rtols)
-    errors = number_list("--at", error_at)
-    method_list, integrator_list = comma_list("--methods", methods), comma_list("--integrators", integrators)
-    plot_path = plot_file(plot, over)
+    step_list, rtol_list = read_number_list("--steps", steps), read_number_list("--rtols", rtols)
+    errors = read_number_list("--at", error_at)
+    method_list, integrator_list = read_comma_list("--methods", methods), read_comma_list("--integrators", integrators)
+    plot_path = read_plot_file(plot, over)
     if plot_width is not None:
         if plot_path is None:
             raise InputError("--plot-width", "--plot FILE, which has the width", "no --plot")
@@ -131,10 +131,10 @@ def command(
         raise InputError("--quantity", "--plot FILE, which draws it", "no --plot")
 
     from symgen.api import load
-    from symgen.base.memory import processors
+    from symgen.base.memory import processor_count
     from symgen.cli._progress import Lines
     from symgen.study.comparison.combinations import Combinations
-    from symgen.study.comparison.compare import compare_all, save_csv
+    from symgen.study.comparison.compare_models import compare_all, save_csv
     from symgen.study.comparison.comparison_study import check_columns_of_rows, plot_rows
     from symgen.study.journal import Journal
 
@@ -146,21 +146,21 @@ def command(
         journal = None if files.journal is None else stack.enter_context(Journal(files.journal))
         lines = stack.enter_context(Lines())
 
-        def progress(what: str, reached: float, total: float) -> None:
+        def show_progress(what: str, reached: float, total: float) -> None:
             name = "" if len(loaded) > 1 or what.startswith("preparing") else f"{loaded[0].name}: "
-            lines.say(f"{name}{what}", reached / total)
+            lines.show_task(f"{name}{what}", reached / total)
 
         runs = Combinations(
             *(method_list, integrator_list, step_list, rtol_list),
-            *(comma_list("--coordinates", states), errors, comma_list("--laws", laws)),
-            comma_list("--gradient", gradient),
+            *(read_comma_list("--coordinates", states), errors, read_comma_list("--laws", laws)),
+            read_comma_list("--gradient", gradient),
         )
         settings = Settings(**values)
-        studies = compare_all(loaded, settings, runs, reference_by, progress, jobs or processors(), journal)
+        studies = compare_all(loaded, settings, runs, reference_by, show_progress, jobs or processor_count(), journal)
     rows = [row for study in studies for row in study.rows]
     used = {"--steps": any(r.step is not None for r in rows), "--rtols": any(r.rtol is not None for r in rows)}
     unused = [o for o, asked in (("--steps", step_list), ("--rtols", rtol_list)) if asked and rows and not used[o]]
-    _say_left_out(unused, runs.left_out)
+    _note_left_out(unused, runs.left_out)
     if as_json:
         tables = [study.to_json() for study in studies]
         write_json(tables[0] if len(models) == 1 else {"studies": tables})
@@ -171,12 +171,12 @@ def command(
             show_study(study)
 
     def write_report(file: Path) -> None:
-        from symgen.study.report.comparison import comparison
+        from symgen.study.report.comparison_report import comparison_report
         from symgen.study.report.write import write
 
-        sketches = sketches_of(loaded, values["parameters"], values["start"])
-        texts = [text for option, text in _ranges(step_list, rtol_list, bool(errors)).items() if used[option]]
-        write(comparison(studies, command_again(), texts, sketches), file)
+        sketches = sketches_at_start(loaded, values["parameters"], values["start"])
+        texts = [text for option, text in _label_ranges(step_list, rtol_list, bool(errors)).items() if used[option]]
+        write(comparison_report(studies, command_line_again(), texts, sketches), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
     report = files.report if any(study.rows for study in studies) else None
@@ -185,10 +185,10 @@ def command(
         plot_path: lambda file: plot_rows(studies, file, what, along, plot_width),
         report: write_report,
     }
-    return write_files(_exit_code(studies, files.journal is not None), written)
+    return write_files(_exit_code_of_studies(studies, files.journal is not None), written)
 
 
-def _say_left_out(unused: Sequence[str], methods: Sequence[str]) -> None:
+def _note_left_out(unused: Sequence[str], methods: Sequence[str]) -> None:
     """Say which options counted for nothing, and which methods no integrator solves."""
     for option in unused:
         click.echo(f"symgen: {option} counted for nothing: no run of these integrators has such steps", err=True)
@@ -196,7 +196,7 @@ def _say_left_out(unused: Sequence[str], methods: Sequence[str]) -> None:
         click.echo(f"symgen: these integrators solve no form of {', '.join(methods)}: left out", err=True)
 
 
-def _ranges(steps: tuple[float, ...], rtols: tuple[float, ...], at: bool) -> dict[str, tuple[str, str]]:
+def _label_ranges(steps: tuple[float, ...], rtols: tuple[float, ...], at: bool) -> dict[str, tuple[str, str]]:
     """Return the settings of --steps and --rtols: a label and words."""
     from symgen.study.comparison.combinations import ATOL_SHARE, RTOLS, RTOLS_AT, STEP_FACTORS, STEP_FACTORS_AT
     from symgen.study.report.words import exact_number
@@ -209,12 +209,12 @@ def _ranges(steps: tuple[float, ...], rtols: tuple[float, ...], at: bool) -> dic
     }
 
 
-def _exit_code(studies: list[Study], stored: bool) -> int:
+def _exit_code_of_studies(studies: list[Study], stored: bool) -> int:
     if studies[-1].interrupted:
-        return interrupted("row", stored)
+        return report_interruption("row", stored)
     for study in studies:
         if study.failed:
-            return complain(f"{study.mechanism}: every run failed", FAILURE)
+            return write_complaint(f"{study.mechanism}: every run failed", FAILURE)
         if study.how == "none":
-            return complain(f"{study.mechanism}: {study.note}", FAILURE)
+            return write_complaint(f"{study.mechanism}: {study.note}", FAILURE)
     return OK

@@ -5,14 +5,14 @@ from __future__ import annotations
 import click
 
 from symgen.cli import OK, group
-from symgen.cli._options import examples
+from symgen.cli._shared_options import examples_in_help
 
 _HOW = {
     "bash": '# put into ~/.bashrc:  eval "$(symgen completion bash)"',
     "zsh": '# put into ~/.zshrc:  eval "$(symgen completion zsh)"',
     "fish": "# save as ~/.config/fish/completions/symgen.fish",
 }
-#: Shell -> lines of click's script -> lines that add no blank behind a word that goes on: ``mass=``, ``models/``.
+#: Shell -> lines of click's script -> lines that add no blank after a word that goes on: ``mass=``, ``models/``.
 _OPEN = {
     "bash": {
         "            COMPREPLY+=($value)\n": "            COMPREPLY+=($value)\n"
@@ -31,7 +31,7 @@ _OPEN = {
 
 @click.command(
     "completion",
-    epilog=examples("symgen completion bash >> ~/.bashrc"),
+    epilog=examples_in_help("symgen completion bash >> ~/.bashrc"),
 )
 @click.argument("shell", type=click.Choice(list(_HOW)))
 def command(shell: str) -> int:

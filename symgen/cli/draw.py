@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from symgen.base.errors import InputError, SimulationError, quoted
-from symgen.cli import BAD_INPUT, OK, complain, write_json
-from symgen.cli._options import examples, json_option, setting_options
+from symgen.base.errors import InputError, SimulationError, quote
+from symgen.cli import BAD_INPUT, OK, write_complaint, write_json
+from symgen.cli._shared_options import examples_in_help, json_option, setting_options
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @click.command(
     "draw",
-    epilog=examples(
+    epilog=examples_in_help(
         "symgen draw four-bar -o four-bar.svg", "symgen draw crane.toml --at described --set length=2 -o crane.png"
     ),
 )
@@ -55,12 +55,12 @@ def command(
     from symgen.base.files import check_path
     from symgen.describe.drawing.drawing import PICTURES
 
-    view = _view(angles)
+    view = _view_of_angles(angles)
     loaded = load(model)
     if view is not None and loaded.mechanism.space == "planar":
         click.echo(f"symgen: --view counts for nothing: {loaded.name} is planar", err=True)
     file = check_path("--output", Path(output or f"{loaded.name}.svg"), PICTURES, "plot")
-    drawing = _drawing(loaded, at, parameters, start, view)
+    drawing = _drawing_at(loaded, at, parameters, start, view)
     drawing.save(file)
     marked = [item.name for item in drawing.scene.items if item.role == "fault"]
     if as_json:
@@ -68,13 +68,13 @@ def command(
     else:
         click.echo(f"written: {file}")
     if marked or (drawing.caption and not drawing.ghosts):
-        return complain(drawing.caption, BAD_INPUT)
+        return write_complaint(drawing.caption, BAD_INPUT)
     if drawing.caption:
-        return complain(f"warning: {drawing.caption}", OK)
+        return write_complaint(f"warning: {drawing.caption}", OK)
     return OK
 
 
-def _drawing(
+def _drawing_at(
     model: Model, at: str, parameters: dict[str, float], start: dict[str, float], view: View | None
 ) -> Drawing:
     from symgen.result.result import FAILED
@@ -86,7 +86,7 @@ def _drawing(
     except ValueError:
         time = math.nan
     if not 0.0 <= time < math.inf:
-        raise InputError("--at", "start, described or a time in seconds", quoted(at))
+        raise InputError("--at", "start, described or a time in seconds", quote(at))
     if time == 0.0:
         return model.draw(parameters, start, view=view)
     changes: dict[str, Any] = {"parameters": parameters, "start": start, "until": time, "times": (0.0, time)}
@@ -95,11 +95,11 @@ def _drawing(
         raise SimulationError(f"the run to t = {time:g} s failed: {result.reason}")
     if result.end < time:
         expected = f"a time up to t = {result.end:.6g} s, where an event ends the run"
-        raise InputError("--at", expected, quoted(at))
+        raise InputError("--at", expected, quote(at))
     return model.draw(parameters, q=result.q.values[-1], view=view)
 
 
-def _view(angles: str | None) -> View | None:
+def _view_of_angles(angles: str | None) -> View | None:
     from symgen.describe.drawing import View
 
     if angles is None:
@@ -107,7 +107,7 @@ def _view(angles: str | None) -> View | None:
     try:
         turn, tilt = (math.radians(float(word)) for word in angles.split(","))
     except ValueError:
-        raise InputError("--view", "two angles in degrees, such as 30,20", quoted(angles)) from None
+        raise InputError("--view", "two angles in degrees, such as 30,20", quote(angles)) from None
     if not (math.isfinite(turn) and math.isfinite(tilt)):
-        raise InputError("--view", "two finite angles in degrees", quoted(angles))
+        raise InputError("--view", "two finite angles in degrees", quote(angles))
     return View(turn, tilt)

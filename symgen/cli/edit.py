@@ -5,12 +5,12 @@ from __future__ import annotations
 import click
 
 from symgen.cli import OK
-from symgen.cli._options import examples
+from symgen.cli._shared_options import examples_in_help
 
 
 @click.command(
     "edit",
-    epilog=examples("symgen edit crane.toml", "symgen edit --new crane", "symgen edit four-bar --no-browser"),
+    epilog=examples_in_help("symgen edit crane.toml", "symgen edit --new crane", "symgen edit four-bar --no-browser"),
 )
 @click.argument("model", required=False)
 @click.option("--new", metavar="NAME", help="Begin NAME.toml, with the text that symgen new writes.")
@@ -23,15 +23,15 @@ def command(model: str | None, new: str | None, no_browser: bool, port: int) -> 
     served to this computer alone, at an address with a secret; Ctrl-C ends it.
     """
     from symgen.base.errors import InputError
-    from symgen.base.files import why
-    from symgen.cli._editor.document import Document
+    from symgen.base.files import system_message
+    from symgen.cli._editor.edited_file import Document
     from symgen.cli._editor.server import Editor
 
-    document = Document.of(model, new)
+    document = Document.of_arguments(model, new)
     try:
         server = Editor(document, port)
     except OSError as error:
-        raise InputError("--port", "a port that is free", f"{port} ({why(error)})") from None
+        raise InputError("--port", "a port that is free", f"{port} ({system_message(error)})") from None
     with server:
         click.echo(server.address)
         server.prepare()

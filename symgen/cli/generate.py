@@ -7,7 +7,7 @@ import click
 from symgen.base.errors import InputError
 from symgen.base.registry import Registry
 from symgen.cli import OK, write_json
-from symgen.cli._options import examples, json_option, setting_options, tell
+from symgen.cli._shared_options import examples_in_help, json_option, setting_options, write_note
 
 #: By name alone: files of targets are imported when one is chosen.
 _TARGETS: Registry[object] = Registry("symgen.result.targets", "target")
@@ -17,7 +17,9 @@ _LISTED = [f"  {name:<12}{_TARGETS.summary(name)}" for name in _TARGETS.names]
 @click.command(
     "generate",
     epilog="\n".join(["\b", "Targets, and what their code needs:", *_LISTED, "", ""])
-    + examples("symgen generate four-bar --output code", "symgen generate four-bar --target c --output four-bar"),
+    + examples_in_help(
+        "symgen generate four-bar --output code", "symgen generate four-bar --target c --output four-bar"
+    ),
 )
 @click.argument("model")
 @click.option(
@@ -104,5 +106,5 @@ def command(
         return OK
     for path in package.files:
         click.echo(f"{path}  {path.stat().st_size} bytes")
-    tell(package.notes)
+    write_note(package.notes)
     return OK

@@ -7,14 +7,14 @@ from pathlib import Path
 
 import click
 
-from symgen.base.errors import counted
+from symgen.base.errors import plural
 from symgen.cli import OK, write_json
-from symgen.cli._options import examples, json_option
+from symgen.cli._shared_options import examples_in_help, json_option
 
 
 @click.command(
     "import",
-    epilog=examples("symgen import arm.urdf", "symgen import quadruped.xml --floating -o quadruped.toml"),
+    epilog=examples_in_help("symgen import arm.urdf", "symgen import quadruped.xml --floating -o quadruped.toml"),
 )
 @click.argument("file")
 @click.option(
@@ -31,7 +31,7 @@ def command(file: str, output: str | None, floating: bool, stops: bool, as_json:
 
     What the mechanism file leaves out is listed: as a comment in it, and on the screen.
     """
-    from symgen.base.errors import InputError, quoted
+    from symgen.base.errors import InputError, quote
     from symgen.base.files import check_writable, write_whole
     from symgen.describe.files.builder import to_toml
     from symgen.describe.files.validate import validate
@@ -44,7 +44,7 @@ def command(file: str, output: str | None, floating: bool, stops: bool, as_json:
     name = format_of(path)
     if name is None:
         ends = ", ".join(sorted({end for _, kind in FORMATS.items() for end in kind.SUFFIXES}))
-        raise InputError("FILE", f"a file of another program ({ends})", quoted(file))
+        raise InputError("FILE", f"a file of another program ({ends})", quote(file))
     read = read_robot(path, name, floating=floating, stops=stops)
     target = Path(f"{read.raw['mechanism']['name']}.toml" if output in (None, "-") else str(output))
     raw, lost = with_mesh_folder(read.raw, read.folder, target.parent)
@@ -68,7 +68,7 @@ def command(file: str, output: str | None, floating: bool, stops: bool, as_json:
         )
         return OK
     click.echo(
-        f"wrote {target}: {counted(len(mechanism.bodies), 'body', 'bodies')}, {counted(len(mechanism.joints), 'joint')}"
+        f"wrote {target}: {plural(len(mechanism.bodies), 'body', 'bodies')}, {plural(len(mechanism.joints), 'joint')}"
     )
     for line in lines:
         click.echo(line)

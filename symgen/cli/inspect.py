@@ -8,12 +8,12 @@ import click
 
 from symgen.base.errors import InputError
 from symgen.cli import OK, write_json
-from symgen.cli._options import examples, setting_options
+from symgen.cli._shared_options import examples_in_help, setting_options
 
 
 @click.command(
     "inspect",
-    epilog=examples(
+    epilog=examples_in_help(
         "symgen inspect pendulum", "symgen inspect slider-crank --method lagrange --format latex --select M,f,law"
     ),
 )
@@ -53,10 +53,10 @@ def command(
     from symgen.api import load
     from symgen.base.settings import Settings
     from symgen.result.reading.inspection import equation_facts, method_of, write_page
-    from symgen.result.reading.inspection_text import as_text
+    from symgen.result.reading.inspection_text import inspection_as_text
 
     named = method or "direct-correction"
-    own = {f"method.{key}": value for key, value in _own(options, named).items()}
+    own = {f"method.{key}": value for key, value in _options_of_method(options, named).items()}
     settings = Settings(named, options=own, shape=shape, coordinates=coordinates, parameters=parameters)
     method_of(settings)  # refuses options that are numbers of runs
     if as_json and form not in (None, "json"):
@@ -65,17 +65,17 @@ def command(
     if output is not None:
         if as_json or document or select is not None or symbols or form != "text":
             raise InputError("inspect: -o", "a page, which has everything", "options of text, LaTeX or JSON with it")
-        from symgen.result.reading.listing import text_of
+        from symgen.result.reading.listing import text_of_model
 
-        written = write_page(load(model).mechanism, settings, Path(output), "inspect: -o", text_of(model))
+        written = write_page(load(model).mechanism, settings, Path(output), "inspect: -o", text_of_model(model))
         click.echo(f"{written}  {written.stat().st_size} bytes")
         return OK
     if form == "latex":
         if document and shape == "looped":
             raise InputError("--shape", "straight code, as a document shows the equations of one mechanism", "looped")
-        from symgen.cli._reading import latex_of
+        from symgen.cli._reading import latex_of_equations
 
-        click.echo(latex_of(model, settings, select, symbols, document), nl=False)
+        click.echo(latex_of_equations(model, settings, select, symbols, document), nl=False)
         return OK
     if document or select is not None or symbols:
         expected = "--format latex, with which alone --document, --select and --symbols mean something"
@@ -84,11 +84,11 @@ def command(
     if form == "json":
         write_json(facts)
     else:
-        click.echo(as_text(facts), nl=False)
+        click.echo(inspection_as_text(facts), nl=False)
     return OK
 
 
-def _own(options: dict[str, str], method: str) -> dict[str, str]:
+def _options_of_method(options: dict[str, str], method: str) -> dict[str, str]:
     """Return options of a method by their own names; prefixes are its name, ``method``, or none."""
     own = {}
     for key, value in options.items():

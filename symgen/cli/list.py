@@ -9,7 +9,7 @@ import click
 
 from symgen.base.registry import Registry
 from symgen.cli import OK, write_json
-from symgen.cli._options import examples, json_option
+from symgen.cli._shared_options import examples_in_help, json_option
 
 #: Terminals of this width show sources in a further column.
 WIDE = 120
@@ -20,7 +20,7 @@ _ROOMS = {"methods": "derive", "integrators": "run", "joints": "describe", "forc
 KINDS = tuple(_ROOMS)
 
 
-def registry(kinds: str) -> Registry[Any]:
+def registry_of_kinds(kinds: str) -> Registry[Any]:
     """Return the registry of a kind of kinds, such as ``methods``."""
     registry: Registry[Any] = getattr(import_module(f"symgen.{_ROOMS[kinds]}.{kinds}"), kinds.upper())
     return registry
@@ -28,7 +28,7 @@ def registry(kinds: str) -> Registry[Any]:
 
 @click.command(
     "list",
-    epilog=examples("symgen list", "symgen list methods", "symgen list --json"),
+    epilog=examples_in_help("symgen list", "symgen list methods", "symgen list --json"),
 )
 @click.argument("what", type=click.Choice(("mechanisms", *KINDS)), default="mechanisms")
 @json_option
@@ -38,7 +38,7 @@ def command(what: str, as_json: bool) -> int:
     Or WHAT is methods, integrators, joints or forces: names with a line about each, those of plugins among them.
     """
     if what != "mechanisms":
-        listing = registry(what).listing()
+        listing = registry_of_kinds(what).listing()
         if as_json:
             write_json({what: [{"name": name, "summary": line} for name, line in listing.items()]})
         else:
@@ -69,9 +69,9 @@ def command(what: str, as_json: bool) -> int:
         return OK
     from rich.table import Table
 
-    from symgen.cli._tables import console
+    from symgen.cli._tables import make_console
 
-    out = console()
+    out = make_console()
     names = [f"{row['name']}:{row['default_size']}" if row["sized"] else str(row["name"]) for row in rows]
     table = Table(box=None, header_style="dim", pad_edge=False)
     # names are typed by users: they stay whole, and sentences take the remaining width

@@ -7,12 +7,12 @@ from pathlib import Path
 import click
 
 from symgen.cli import OK
-from symgen.cli._options import examples
+from symgen.cli._shared_options import examples_in_help
 
 
 @click.command(
     "new",
-    epilog=examples("symgen new crane", "symgen new robot --space spatial"),
+    epilog=examples_in_help("symgen new crane", "symgen new robot --space spatial"),
 )
 @click.argument("name")
 @click.option("-o", "--output", metavar="FILE", help="File to write; NAME.toml by default, - for standard output.")
@@ -25,20 +25,20 @@ from symgen.cli._options import examples
 def command(name: str, output: str | None, space: str) -> int:
     """Write a commented mechanism file that runs without changes and shows every key. Never overwrites a file."""
     from symgen.base.files import check_writable, write_whole
-    from symgen.describe.files.template import template
+    from symgen.describe.files.template import new_file_text
 
-    text = template(name, space)
+    text = new_file_text(name, space)
     if output == "-":
         click.echo(text, nl=False)
         return OK
     path = Path(f"{name}.toml" if output is None else output)
     check_writable("-o", path)
     write_whole(path, text, replace=False)
-    click.echo(f"wrote {path}; try: symgen run {_typed(path)}")
+    click.echo(f"wrote {path}; try: symgen run {_typed_path(path)}")
     return OK
 
 
-def _typed(path: Path) -> str:
+def _typed_path(path: Path) -> str:
     """Return a path as it can be typed: in quotes where a shell would part it, and never like an option."""
     import shlex
 

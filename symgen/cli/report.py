@@ -8,16 +8,16 @@ from typing import Any
 
 import click
 
-from symgen.base.errors import InputError, quoted
+from symgen.base.errors import InputError, quote
 from symgen.base.settings import Settings
-from symgen.cli import FAILURE, OK, complain, write_files
-from symgen.cli._options import examples, setting_options, tell
-from symgen.cli._report import command_again
+from symgen.cli import FAILURE, OK, write_complaint, write_files
+from symgen.cli._report import command_line_again
+from symgen.cli._shared_options import examples_in_help, setting_options, write_note
 
 
 @click.command(
     "report",
-    epilog=examples(
+    epilog=examples_in_help(
         "symgen report four-bar -o four-bar.html", "symgen report driven-four-bar --over crank.theta -o motor.html"
     ),
 )
@@ -40,38 +40,38 @@ def command(model: str, over: str, output: str | None, page: str | None, **value
     """
     from symgen.api import load
     from symgen.cli._progress import Bar
-    from symgen.study.report.machine import machine
-    from symgen.study.report.paper import printer
+    from symgen.study.report.browser_pdf import printer_in_words
+    from symgen.study.report.machine_report import machine_report
     from symgen.study.report.write import check_report, write
 
     settings = Settings(**values)
     loaded = load(model)
     path = Path(output or f"{loaded.name}.html")
     check_report("--output", path)
-    player = None if page is None else page_beside(path, page)
+    player = None if page is None else page_file_beside(path, page)
     with Bar(loaded.name, settings.until or loaded.mechanism.defaults.until) as bar:
         result = loaded.simulate(settings, progress=bar)
-    tell((*result.notes, *(f"warning: {w}" for w in result.warnings)))
-    document = machine(loaded, result, command_again(), over, player.name if player else "")
-    code = complain(f"failed: {result.reason}", FAILURE) if result.status == "failed" else OK
-    by = f", {printer()}" if path.suffix.lower() == ".pdf" else ""
+    write_note((*result.notes, *(f"warning: {w}" for w in result.warnings)))
+    document = machine_report(loaded, result, command_line_again(), over, player.name if player else "")
+    code = write_complaint(f"failed: {result.reason}", FAILURE) if result.status == "failed" else OK
+    by = f", {printer_in_words()}" if path.suffix.lower() == ".pdf" else ""
     files: dict[Path | None, Callable[[Path], object]] = {path: lambda file: write(document, file)}
     if player is not None:
         files[player] = result.view().save
     return write_files(code, files, lambda file: click.echo(f"written: {file}{by if file == path else ''}"))
 
 
-def page_beside(report: Path, page: str) -> Path:
-    """Return the file of ``--page``, which stands in the folder of the report, so that both can be moved together.
+def page_file_beside(report: Path, page: str) -> Path:
+    """Return the file of ``--page``, which is in the folder of the report, so that both can be moved together.
 
     Raises
     ------
     InputError
-        If it stands elsewhere, is no page, or is the report itself.
+        If it is elsewhere, is no page, or is the report itself.
     """
     path = Path(page)
     if path.suffix.lower() != ".html" or path.name == report.name:
-        raise InputError("--page", "another file than the report that ends in .html", quoted(page))
+        raise InputError("--page", "another file than the report that ends in .html", quote(page))
     if path.parent.resolve() != report.parent.resolve():
-        raise InputError("--page", f"a file in the folder of the report, '{report.parent}'", quoted(page))
+        raise InputError("--page", f"a file in the folder of the report, '{report.parent}'", quote(page))
     return path

@@ -10,17 +10,17 @@ import click
 
 from symgen.base.errors import InputError
 from symgen.base.settings import Settings
-from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
-from symgen.cli._options import (
-    column_names,
-    examples,
+from symgen.cli import FAILURE, INTERRUPTED, OK, write_complaint, write_files, write_json
+from symgen.cli._shared_options import (
+    check_output_file,
+    examples_in_help,
     json_option,
-    output_file,
-    plot_file,
     quantity_options,
+    read_column_names,
+    read_plot_file,
     setting_options,
-    tell,
     units_option,
+    write_note,
 )
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 @click.command(
     "run",
-    epilog=examples(
+    epilog=examples_in_help(
         "symgen run four-bar",
         "symgen run slider-crank --method baumgarte --step 1e-3 --until 5 --save a.nc --plot a.svg",
         "symgen run pendulum --set bob_mass=2 --start bob.vx=0.5 --json",
@@ -59,7 +59,7 @@ if TYPE_CHECKING:
     multiple=True,
     metavar="NAME,NAME",
     help="Differentiate the motion by parameters, by values of the start, such as crank.omega, and by method.NAME.",
-    callback=lambda context, parameter, value: column_names("--sensitivity", value),
+    callback=lambda context, parameter, value: read_column_names("--sensitivity", value),
 )
 @units_option
 @json_option
@@ -85,14 +85,14 @@ def command(
     settings = Settings(**values)
     if whence is not None and settings.start:
         raise InputError("--from", "one way of saying where a run begins", "--start as well")
-    save_path = output_file("--save", save, "data")
-    plot_path = plot_file(plot, over)
+    save_path = check_output_file("--save", save, "data")
+    plot_path = read_plot_file(plot, over)
     if units and (save_path is None or save_path.suffix.lower() != ".csv"):
         raise InputError("--units", "--save FILE.csv, whose headings carry them", save or "no --save")
 
     from symgen.api import load
     from symgen.cli._progress import Bar
-    from symgen.result.summary import extremes
+    from symgen.result.summary import extreme_values
 
     loaded = load(model)
     if whence is not None:
@@ -103,12 +103,12 @@ def command(
         from symgen.run.planning.outputs import check_saving
 
         check_saving(loaded.mechanism, settings)
-    _prepare(loaded, settings, quantities, over or "t")
+    _refuse_unknown_quantities(loaded, settings, quantities, over or "t")
     solver = settings.method + (f", {settings.integrator}" if settings.integrator else "")
     with Bar(f"{loaded.name}, {solver}", settings.until or loaded.mechanism.defaults.until) as bar:
         result = loaded.simulate(settings, bar, sensitivities)
-    tell((*result.notes, *(f"warning: {w}" for w in result.warnings)))
-    chosen = extremes(result.select(quantities)) if quantities else {}
+    write_note((*result.notes, *(f"warning: {w}" for w in result.warnings)))
+    chosen = extreme_values(result.select(quantities)) if quantities else {}
     if as_json:
         write_json(
             result.to_json() | {"proposals": list(result.proposals)} | ({"quantities": chosen} if quantities else {})
@@ -128,30 +128,30 @@ def command(
     return write_files(_exit_code(result), files, None if as_json else lambda path: click.echo(f"written: {path}"))
 
 
-def _prepare(model: Model, settings: Settings, quantities: tuple[str, ...], over: str) -> None:
+def _refuse_unknown_quantities(model: Model, settings: Settings, quantities: tuple[str, ...], over: str) -> None:
     """Refuse quantities that no result will have."""
     if not quantities and over == "t":
         return
-    from symgen.result.signals import check_single, choose, of_run
+    from symgen.result.signals import check_single, choose_columns, signals_of_run
     from symgen.run.planning.plan import Purpose
     from symgen.run.planning.prepare import make_plan
     from symgen.run.planning.starts import compiled_for
 
     plan = make_plan(model.mechanism, settings, Purpose.ROWS)
-    tables = of_run(plan.mechanism, compiled_for(plan.mechanism, plan.choice).info)
+    tables = signals_of_run(plan.mechanism, compiled_for(plan.mechanism, plan.choice).info)
     columns = {s.name: table for table, signals in tables.items() for s in signals}
-    choose(columns, quantities, model.name, (*tables,))
+    choose_columns(columns, quantities, model.name, (*tables,))
     if over != "t":
-        check_single(over, choose(columns, [over], model.name, (*tables,)))
+        check_single(over, choose_columns(columns, [over], model.name, (*tables,)))
 
 
 def _exit_code(result: Result) -> int:
     if result.interrupted:
-        return complain(INTERRUPTED_AT.format(result.t[-1] if len(result.t) else 0.0), INTERRUPTED)
+        return write_complaint(INTERRUPTED_AT.format(result.t[-1] if len(result.t) else 0.0), INTERRUPTED)
     if result.status == "failed":
-        return complain(f"failed: {result.reason}", FAILURE)
+        return write_complaint(f"failed: {result.reason}", FAILURE)
     if result.status == "unverified":
-        return complain(f"warning: unverified: {result.reason}", OK)
+        return write_complaint(f"warning: unverified: {result.reason}", OK)
     return OK
 
 

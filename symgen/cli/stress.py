@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.base import arguments
-from symgen.cli import FAILURE, OK, complain, write_files, write_json
-from symgen.cli._options import comma_list, examples, jobs_option, json_option, setting_options
-from symgen.cli._report import StudyFiles, command_again, interrupted, sketches_of, study_files
+from symgen.cli import FAILURE, OK, write_complaint, write_files, write_json
+from symgen.cli._report import StudyFiles, command_line_again, report_interruption, sketches_at_start, study_files
+from symgen.cli._shared_options import examples_in_help, jobs_option, json_option, read_comma_list, setting_options
 
 if TYPE_CHECKING:
     from symgen.study.runner import Status
@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 
 @click.command(
     "stress",
-    epilog=examples("symgen stress four-bar --quick", "symgen stress --cases mass-ratio,stiffness -o stress.html"),
+    epilog=examples_in_help(
+        "symgen stress four-bar --quick", "symgen stress --cases mass-ratio,stiffness -o stress.html"
+    ),
 )
 @click.argument("models", metavar="[MODEL...]", nargs=-1)
 @click.option(
@@ -56,9 +58,9 @@ def command(
     """
     if compilation is not None:
         arguments.number("--compilation", compilation, positive=True)
-    case_list, method_list = comma_list("--cases", cases), comma_list("--methods", methods)
+    case_list, method_list = read_comma_list("--cases", cases), read_comma_list("--methods", methods)
 
-    from symgen.base.memory import processors
+    from symgen.base.memory import processor_count
     from symgen.cli._progress import Lines
     from symgen.describe.catalogue import names
     from symgen.study.journal import Journal
@@ -72,11 +74,11 @@ def command(
         journal = None if files.journal is None else stack.enter_context(Journal(files.journal))
         lines = stack.enter_context(Lines())
 
-        def progress(what: str, status: Status) -> None:
-            lines.say(f"{what}: {status.done} of {status.total} cells", status.share)
+        def show_progress(what: str, status: Status) -> None:
+            lines.show_task(f"{what}: {status.done} of {status.total} cells", status.share)
 
         requested = dict.fromkeys((*models, *(names() if catalogue else ())))
-        work = journal, jobs or processors(), progress, compilation
+        work = journal, jobs or processor_count(), show_progress, compilation
         study = stress(tuple(requested), case_list, method_list, quick, *work, **limits)
     if as_json:
         write_json(study.to_json())
@@ -87,11 +89,11 @@ def command(
 
     def write_report(file: Path) -> None:
         from symgen.api import load
-        from symgen.study.report.stress import stress_report
+        from symgen.study.report.stress_report import stress_report
         from symgen.study.report.write import write
 
         mechanisms = [load(name) for name in dict.fromkeys(models)]
-        write(stress_report(study, command_again(), sketches_of(mechanisms)), file)
+        write(stress_report(study, command_line_again(), sketches_at_start(mechanisms)), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
     report = files.report if study.rows else None
@@ -103,9 +105,9 @@ def _exit_code(study: Stress, stored: bool) -> int:
     from symgen.run.planning.automatic import AUTO
 
     if study.interrupted:
-        return interrupted("cell", stored)
+        return report_interruption("cell", stored)
     wrong = sum(row.method == AUTO for row in study.false_successes)
     if wrong:
         cells = "1 cell" if wrong == 1 else f"{wrong} cells"
-        return complain(f"auto reports success with an error above 1e-3 of the length in {cells}", FAILURE)
+        return write_complaint(f"auto reports success with an error above 1e-3 of the length in {cells}", FAILURE)
     return OK

@@ -9,17 +9,17 @@ import click
 
 from symgen.base.errors import InputError
 from symgen.base.settings import Settings
-from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
-from symgen.cli._options import (
-    examples,
+from symgen.cli import FAILURE, INTERRUPTED, OK, write_complaint, write_files, write_json
+from symgen.cli._shared_options import (
+    examples_in_help,
     jobs_option,
     json_option,
-    pairs,
-    plot_file,
     quantity_options,
+    read_pairs,
+    read_plot_file,
     setting_options,
     target_option,
-    tell,
+    write_note,
 )
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @click.command(
     "sweep",
-    epilog=examples(
+    epilog=examples_in_help(
         'symgen sweep pendulum --vary "bob_mass=lin(1,2,11)" --until 1',
         'symgen sweep four-bar --vary "crank.omega=uniform(0,5,100,1)" -o sweep',
     ),
@@ -89,7 +89,7 @@ def command(
     continues from there.
     """
     # before anything expensive: what is wrong with the words of the command
-    axes = _axes(varied)
+    axes = _values_by_name(varied)
     settings = Settings(**values)
     if settings.times is not None and settings.output_step is not None:
         raise InputError("--times", "one way of choosing outputs", "--output-step as well")
@@ -97,13 +97,13 @@ def command(
         raise InputError("--resume", "the output that was begun", "no --output")
     if jobs is not None and scheduler is not None:
         raise InputError("--jobs", "threads of this machine", "--scheduler as well", "the cluster has its own")
-    path, plot_path = None if output is None else Path(output), plot_file(plot, over)
+    path, plot_path = None if output is None else Path(output), read_plot_file(plot, over)
     drawn = [name for name in quantities if name.partition(".")[0] != "event"]
     if over not in (None, "t", *axes):  # what is drawn over is kept as well
         quantities = (*(quantities or ("q", "v")), str(over))
 
     from symgen.study.ensemble.device_runs import check_target
-    from symgen.study.ensemble.sweep import output_folder
+    from symgen.study.ensemble.parameter_sweep import output_folder
 
     check_target(target, scheduler)
 
@@ -112,12 +112,12 @@ def command(
 
     from symgen.api import load
     from symgen.cli._progress import Bar
-    from symgen.study.ensemble.sweep import sweep
+    from symgen.study.ensemble.parameter_sweep import sweep
 
     loaded = load(model)
     with Bar(f"{loaded.name}, {', '.join(axes)}", 1.0) as bar:
 
-        def progress(done: float, total: int) -> None:
+        def show_progress(done: float, total: int) -> None:
             bar(done / total)
 
         study = sweep(
@@ -131,10 +131,10 @@ def command(
             scheduler=scheduler,
             target=target,
             settings=settings,
-            progress=progress,
+            progress=show_progress,
         )
-    tell(study.ensemble.notes)
-    tell(f"warning: in {count} of {len(study)} runs: {sentence}" for sentence, count in study.common_warnings())
+    write_note(study.ensemble.notes)
+    write_note(f"warning: in {count} of {len(study)} runs: {sentence}" for sentence, count in study.common_warnings())
     if as_json:
         write_json({**study.to_json(), "output": output})
     else:
@@ -145,12 +145,12 @@ def command(
     return write_files(_exit_code(study, path), draw, None if as_json else lambda file: click.echo(f"written: {file}"))
 
 
-def _axes(words: tuple[str, ...]) -> dict[str, str]:
+def _values_by_name(words: tuple[str, ...]) -> dict[str, str]:
     """Return the text of the values by name; names may not repeat."""
     from symgen.study.ensemble.axes import check_axis
 
     form = "NAME=VALUES, such as crank_mass=lin(1,3,21)"
-    axes = pairs("--vary", [word.replace("(0)=", "=", 1) for word in words], form)
+    axes = read_pairs("--vary", [word.replace("(0)=", "=", 1) for word in words], form)
     for name, text in axes.items():
         check_axis(text, f"--vary {name}")
     return axes
@@ -162,9 +162,9 @@ def _exit_code(study: Sweep, path: Path | None) -> int:
         done = len(study) - counts["not run"]
         progress = f"{done} of {len(study)} runs are done"
         hint = " and kept; --resume goes on from there" if path is not None else ""
-        return complain(f"interrupted; {progress}{hint}", INTERRUPTED)
+        return write_complaint(f"interrupted; {progress}{hint}", INTERRUPTED)
     if counts["failed"] == len(study):
-        return complain(f"all {len(study)} runs failed: {study.reasons(1)[0][0]}", FAILURE)
+        return write_complaint(f"all {len(study)} runs failed: {study.reasons(1)[0][0]}", FAILURE)
     if counts["failed"]:
-        complain(f"warning: {counts['failed']} of {len(study)} runs failed", OK)
+        write_complaint(f"warning: {counts['failed']} of {len(study)} runs failed", OK)
     return OK

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.base.errors import InputError
-from symgen.base.settings import Settings, flag, is_set, setting_names
-from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import examples, json_option, setting_options
+from symgen.base.settings import Settings, command_flag, differs_from_default, setting_names
+from symgen.cli import FAILURE, INTERRUPTED, OK, write_complaint, write_json
+from symgen.cli._shared_options import examples_in_help, json_option, setting_options
 
 if TYPE_CHECKING:
     from symgen.result.player.recording import Recording
@@ -24,7 +24,7 @@ _OF_MODES = ("parameters", "inputs", "start", "coordinates")
 
 @click.command(
     "view",
-    epilog=examples(
+    epilog=examples_in_help(
         "symgen view four-bar -o four-bar.html",
         "symgen run four-bar --save a.nc && symgen view a.nc -o a.html",
         "symgen view pendulum --until 3 -o pendulum.gif",
@@ -86,7 +86,7 @@ def command(
             raise InputError(option, expected, got)
     settings = Settings(**values)
     if stored or mode is not None:
-        _refuse(settings, () if stored else _OF_MODES, "a saved result" if stored else "a mode shape")
+        _refuse_idle_settings(settings, () if stored else _OF_MODES, "a saved result" if stored else "a mode shape")
 
     from symgen.api import load
     from symgen.base.files import check_path
@@ -116,8 +116,8 @@ def command(
         with Bar(f"{model.name}, {settings.method}", settings.until or model.mechanism.defaults.until) as bar:
             result = model.simulate(settings, progress=bar)
         if not len(result.t):
-            return complain(f"failed: {result.reason}", FAILURE)
-        shown = playable_motion(result) if film else result.view(live=live is not False and _live(settings))
+            return write_complaint(f"failed: {result.reason}", FAILURE)
+        shown = playable_motion(result) if film else result.view(live=live is not False and _live_method(settings))
     if isinstance(shown, Page):
         shown.save(file)
     else:
@@ -128,23 +128,25 @@ def command(
     else:
         click.echo(f"written: {file}")
     if result is not None and result.interrupted:
-        return complain("interrupted; the page shows what was kept", INTERRUPTED)
-    return complain(f"failed: {result.reason}", FAILURE) if result is not None and result.status == "failed" else OK
+        return write_complaint("interrupted; the page shows what was kept", INTERRUPTED)
+    return (
+        write_complaint(f"failed: {result.reason}", FAILURE) if result is not None and result.status == "failed" else OK
+    )
 
 
-def _live(settings: Settings) -> bool | str:
+def _live_method(settings: Settings) -> bool | str:
     """Return the live method of a page: the one that was named, whose gains have sliders, if pages can run it."""
     from symgen.derive.methods import METHODS
     from symgen.result.live_run import is_live
     from symgen.run.planning.automatic import AUTO
 
-    if not is_set(settings, "method") or settings.method == AUTO:
+    if not differs_from_default(settings, "method") or settings.method == AUTO:
         return True
-    return settings.method if is_live(METHODS.canonical(settings.method, "--method")) else True
+    return settings.method if is_live(METHODS.resolve_alias(settings.method, "--method")) else True
 
 
-def _refuse(settings: Settings, allowed: Collection[str], what: str) -> None:
+def _refuse_idle_settings(settings: Settings, allowed: Collection[str], what: str) -> None:
     """Refuse settings that have no effect without a run."""
     for name in setting_names():
-        if name not in allowed and is_set(settings, name):
-            raise InputError(flag(name), f"settings of {what}", "one of a run")
+        if name not in allowed and differs_from_default(settings, name):
+            raise InputError(command_flag(name), f"settings of {what}", "one of a run")

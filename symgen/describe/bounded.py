@@ -92,7 +92,7 @@ class BoundedRow(Protocol):
 
     @property
     def smooth(self) -> bool:
-        """Whether a smooth force stands in its place."""
+        """Whether a smooth force replaces it."""
         ...
 
     @property

@@ -7,15 +7,15 @@ from typing import TypeVar
 
 import msgspec
 
-from symgen.base.arguments import shown
-from symgen.base.errors import InputError, nearest
-from symgen.base.units import Unit, known
+from symgen.base.arguments import kind_of_value
+from symgen.base.errors import InputError, suggest
+from symgen.base.units import Unit, known_unit
 from symgen.base.vocabulary.expressions import ZERO, Expr
 from symgen.base.vocabulary.measures import Direction, Effort, Flexure, Marker, Measure, Row
 from symgen.base.vocabulary.rotations import IDENTITY, Orientation
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.spanning_tree import Topology
-from symgen.describe.tables import Table
+from symgen.describe.table_functions import Table
 
 T = TypeVar("T")
 
@@ -45,7 +45,7 @@ class Parameter(msgspec.Struct, frozen=True, omit_defaults=True):
 
     One with a `formula` follows the parameters in it, unless it is set to a number itself; `value` is its value
     with their defaults, in SI units as `unit` is. An `input` is a number that comes from outside: it may change during
-    a run, so it stands in functions of state alone.
+    a run, so only functions of the state have it.
     """
 
     name: str
@@ -60,11 +60,11 @@ class Parameter(msgspec.Struct, frozen=True, omit_defaults=True):
     @property
     def own_unit(self) -> Unit:
         """The unit of the file."""
-        return known(self.shown or self.unit)
+        return known_unit(self.shown or self.unit)
 
     def as_written(self, value: float) -> tuple[float, str]:
         """Return a value of it, in SI units, as a number in the unit of the file, and this unit."""
-        return (self.own_unit.of_si(value), self.shown) if self.shown else (value, self.unit)
+        return (self.own_unit.from_si(value), self.shown) if self.shown else (value, self.unit)
 
 
 class Body(msgspec.Struct, frozen=True):
@@ -273,7 +273,7 @@ class Defaults(msgspec.Struct, frozen=True):
     verify: bool | None = None
 
 
-def bounded(mechanism: Mechanism, max_step: float | None) -> Mechanism:
+def with_largest_step(mechanism: Mechanism, max_step: float | None) -> Mechanism:
     """Return a mechanism with another largest step of adaptive runs [s]; itself where that is None."""
     if max_step is None:
         return mechanism
@@ -298,7 +298,7 @@ class Event(msgspec.Struct, frozen=True):
 class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     """A validated mechanism, all of it planar or all of it spatial.
 
-    Bodies, joints and forces stand in the order of the file, which is the order of coordinates and multipliers.
+    Bodies, joints and forces keep the order of the file, which is the order of coordinates and multipliers.
     """
 
     name: str
@@ -323,7 +323,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     rotors: tuple[Rotor, ...] = ()
     beams: bytes = b""  # the description as JSON if it has beams, to change their number of elements
     switchable: tuple[str, ...] = ()  # joints whose rows may be off in a part of a run
-    bounded: tuple[BoundedRow, ...] = ()  # their rows stand behind those of joints; one-sided ones are last
+    bounded: tuple[BoundedRow, ...] = ()  # their rows follow those of joints; one-sided ones are last
     limits: tuple[OperatingLimit, ...] = ()  # of outputs and parameters: nothing is computed with them
     author: str = ""  # as is the title, for people
     revision: str = ""
@@ -340,7 +340,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
 
     @property
     def inputs(self) -> tuple[str, ...]:
-        """Names of the inputs, which stand behind the other parameters."""
+        """Names of the inputs, which follow the other parameters."""
         return tuple(p.name for p in self.parameters if p.input)
 
     @property
@@ -366,13 +366,13 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
         InputError
             If the name is unknown; the message has the nearest one.
         """
-        return self._named("body", {body.name: body for body in self.bodies}, name)
+        return self._find_by_name("body", {body.name: body for body in self.bodies}, name)
 
     def joint_named(self, name: str) -> Joint:
         """Return the joint called `name`; raises as `body` does."""
-        return self._named("joint", {joint.name: joint for joint in self.joints}, name)
+        return self._find_by_name("joint", {joint.name: joint for joint in self.joints}, name)
 
-    def _named(self, kind: str, items: Mapping[str, T], name: str) -> T:
+    def _find_by_name(self, kind: str, items: Mapping[str, T], name: str) -> T:
         if name not in items:
-            raise InputError(kind, f"a {kind} of {self.name}", shown(name), nearest(str(name), items))
+            raise InputError(kind, f"a {kind} of {self.name}", kind_of_value(name), suggest(str(name), items))
         return items[name]

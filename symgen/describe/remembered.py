@@ -12,7 +12,7 @@ from symgen.describe.mechanism import Mechanism
 Result = TypeVar("Result")
 
 
-def remembered(function: Callable[[Mechanism], Result]) -> Callable[[Mechanism], Result]:
+def compute_once(function: Callable[[Mechanism], Result]) -> Callable[[Mechanism], Result]:
     """Return a function that computes the value of another once for each mechanism, which is immutable.
 
     Parameters
@@ -23,11 +23,11 @@ def remembered(function: Callable[[Mechanism], Result]) -> Callable[[Mechanism],
     values: dict[int, Result] = {}
 
     @functools.wraps(function)
-    def value_of(mechanism: Mechanism) -> Result:
+    def remembered_value(mechanism: Mechanism) -> Result:
         which = id(mechanism)  # a mechanism's hash and comparison go through all of it as well
         if which not in values:
             values[which] = function(mechanism)
             weakref.finalize(mechanism, values.pop, which, None).atexit = False  # two threads may have come here
         return values[which]
 
-    return value_of
+    return remembered_value

@@ -1,4 +1,4 @@
-"""Spanning trees of mechanisms: bodies in an order in which each stands behind what carries it, by joints."""
+"""Spanning trees of mechanisms: bodies in an order in which each follows what carries it, by joints."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ class Prescribed(msgspec.Struct, frozen=True):
 
 
 class Topology(msgspec.Struct, frozen=True):
-    """A spanning tree of a mechanism: bodies in an order in which each stands behind what carries it."""
+    """A spanning tree of a mechanism: bodies in an order in which each follows what carries it."""
 
     links: tuple[Link, ...]
     cut: tuple[str, ...] = ()

@@ -1,4 +1,4 @@
-"""From what a loop left behind to a result: labels, energies, and the judgement of the run."""
+"""From what a loop left to a result: labels, energies, and the judgement of the run."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from symgen.describe.facts.digest import digest
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.result.judge import judge, unchecked
-from symgen.result.labelled import labelled
-from symgen.result.reactions import Forces, seats
+from symgen.result.judge import judge, reason_without_check
+from symgen.result.labelled import label_columns
+from symgen.result.motion_tables import Measured
+from symgen.result.reactions import Forces, seats_of_reactions
 from symgen.result.result import FAILED, UNVERIFIED, Rank, Result, Seconds
-from symgen.result.tables import Measured
 from symgen.run.layout import abi
 from symgen.run.planning.automatic import stiff_by_steps
 from symgen.run.planning.continuation import made_of
@@ -62,14 +62,19 @@ def build_result(
     info, own = compiled.info, run.compiled.info
     values = parameter_values(mechanism, plan.parameters)
     parameters = {name: value for name, value in values.items() if name not in mechanism.inputs}
-    forces = Forces(outcome, seats(mechanism, values))
+    forces = Forces(outcome, seats_of_reactions(mechanism, values))
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     unknown = None
     if verification is None or not verification.whole:
-        unknown = unchecked(run, outcome) or "it went step by step"
-    verdict = _verdict(run, outcome, verification, values)
+        unknown = reason_without_check(run, outcome) or "it went step by step"
+    verdict = _judge_outcome(run, outcome, verification, values)
     stiff = () if verdict.status == FAILED else stiff_by_steps(run, outcome)
-    notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome), *stiff)
+    notes = (
+        *start.notes,
+        *_sentences_on_rows(compiled, outcome, forces),
+        *_warnings_of_dense_factorisation(compiled, outcome),
+        *stiff,
+    )
     notes = (*notes, *verdict.notes, *brought_to_rest(outcome), *struck_at_once(outcome), *stopped(outcome))
     states, status = outcome.states, outcome.status_columns
     q, v = info.parts(states)
@@ -90,8 +95,8 @@ def build_result(
         notes=notes,
         parameters=parameters,
         t=outcome.times,
-        q=labelled(q, info.coordinates),
-        v=labelled(v, info.velocities),
+        q=label_columns(q, info.coordinates),
+        v=label_columns(v, info.velocities),
         kinetic=kinetic,
         potential=potential,
         work=work + start.work if start.work else work,
@@ -105,7 +110,7 @@ def build_result(
         evaluations=outcome.evaluations,
         iterations=outcome.counters.get("iterations", 0),
         vector_width=outcome.counters.get("vector_width") or None,
-        seconds=_seconds(run, outcome, run_spread),
+        seconds=_seconds_by_stage(run, outcome, run_spread),
         position_violation_max=outcome.position_violation_max,
         velocity_violation_max=outcome.velocity_violation_max,
         energy_drift_max=outcome.energy_drift_max,
@@ -126,22 +131,22 @@ def build_result(
     )
 
 
-def _seconds(run: Prepared, outcome: Outcome, run_spread: float) -> Seconds:
+def _seconds_by_stage(run: Prepared, outcome: Outcome, run_spread: float) -> Seconds:
     """Return what the run took, stage by stage; on a tree code of bodies and of the tree has been derived."""
     derived = (outcome.compiled,) if run.tree is None else (outcome.compiled, run.compiled)
     derive, emit = sum(code.derive_seconds for code in derived), sum(code.emit_seconds for code in derived)
     return Seconds(derive, emit, outcome.compile_seconds, outcome.run_seconds, run_spread)
 
 
-def _verdict(
+def _judge_outcome(
     run: Prepared, outcome: Outcome, verification: Verification | None, values: Mapping[str, float]
 ) -> Verdict:
-    """Judge an outcome in coordinates of bodies; say what bends too far, is undefined, or stands at a dead centre."""
+    """Judge an outcome in coordinates of bodies; say what bends too far, is undefined, or is at a dead centre."""
     mechanism, verdict = run.plan.mechanism, judge(run, outcome, verification)
     if verdict.status != FAILED and any(force.flexures for force in mechanism.forces):
-        from symgen.result.bending import overbent
+        from symgen.result.bending import warning_on_bending
 
-        doubt = overbent(mechanism, values, outcome.states[:, : outcome.compiled.info.nq])
+        doubt = warning_on_bending(mechanism, values, outcome.states[:, : outcome.compiled.info.nq])
         verdict = verdict if doubt is None else replace(verdict, status=UNVERIFIED, reason=doubt)
     if verdict.status == FAILED and (undefined := undefined_at_end(mechanism, outcome)):
         verdict = replace(verdict, reason=f"{str(verdict.reason).partition('; ')[0]}: {undefined}")
@@ -155,9 +160,9 @@ def _last_state(run: Prepared, outcome: Outcome) -> LastState:
     mechanism, info, start = run.plan.mechanism, outcome.compiled.info, outcome.start
     if isinstance(outcome, CarriedOutcome):  # in joint coordinates: where bodies are, and all that was kept of joints
         y, work, w = outcome.end_state, outcome.work, outcome.w
-        arrays = _arrays(outcome.inner) | outcome.tree.arrays(outcome)
+        arrays = _arrays_of_outcome(outcome.inner) | outcome.tree.arrays(outcome)
     else:
-        arrays = _arrays(outcome)
+        arrays = _arrays_of_outcome(outcome)
         y, work, w = arrays["y"], arrays["y"][info.work], arrays["w"]
     own = arrays["y"][run.compiled.info.own_states].tolist()
     whole = outcome.code in (abi.DONE, abi.STOPPED)
@@ -178,7 +183,7 @@ def _last_state(run: Prepared, outcome: Outcome) -> LastState:
     )
 
 
-def _arrays(outcome: Outcome) -> dict[str, NDArray[Any]]:
+def _arrays_of_outcome(outcome: Outcome) -> dict[str, NDArray[Any]]:
     """Return all that a run kept, with its last output."""
     info, arrays = outcome.compiled.info, outcome.simulation.save()
     y, w = arrays["y"], arrays["w"]
@@ -188,7 +193,7 @@ def _arrays(outcome: Outcome) -> dict[str, NDArray[Any]]:
     return arrays | dict(zip(SHOWN, shown, strict=True))
 
 
-def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> list[str]:
+def _sentences_on_rows(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> list[str]:
     """Return sentences about rows that are redundant, and about rows that are off, in this run."""
     info, start, notes = compiled.info, outcome.start, list[str]()
     extra = compiled.in_force(start.w) - start.rank
@@ -205,7 +210,7 @@ def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> li
     return notes
 
 
-def _dense(compiled: CompiledModel, outcome: Outcome) -> list[str]:
+def _warnings_of_dense_factorisation(compiled: CompiledModel, outcome: Outcome) -> list[str]:
     """Return the warnings of the dense factorisation, where it was used."""
     count = outcome.counters["dense_solves"]
     if count == 0:

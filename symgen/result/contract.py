@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from symgen.result.result import Result
 
 
-#: Attributes of a result that stand in its JSON under their own names, before and behind the times.
+#: Attributes of a result that its JSON has under their own names, before and after the times.
 _FIRST = (
     *("mechanism", "method", "integrator", "shape", "coordinates", "state"),
     *("step", "rtol", "atol", "relative_atol", "until"),
@@ -24,7 +24,7 @@ _FIRST = (
 _SECOND = ("position_violation_max", "velocity_violation_max", "energy_drift_max", "error_estimate", "unchecked")
 
 
-def contract(result: Result) -> dict[str, Any]:
+def json_contract(result: Result) -> dict[str, Any]:
     """Return a result as JSON has it; numbers that are not finite become None."""
     seconds, rank = asdict(result.seconds), asdict(result.rank)
     del seconds["run_spread"], rank["redundant_rows"]
@@ -66,7 +66,7 @@ def json_value(value: object) -> Any:
     return value
 
 
-def series(table: Labelled) -> dict[str, list[float | None]]:
+def json_series(table: Labelled) -> dict[str, list[float | None]]:
     """Return a table as JSON has it: lists by key; numbers that are not finite are None."""
     columns = {name: table.values[:, i].tolist() for i, name in enumerate(table.names)}
     return columns if np.all(np.isfinite(table.values)) else json_value(columns)

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.ir.program import MODE_NUMBERS
-from symgen.describe.parts.events import STOP
-from symgen.result.step_errors import least_sizes
+from symgen.describe.parts.event_sections import STOP
+from symgen.result.step_errors import rounding_sizes
 from symgen.run.directions.directed_model import DirectedModel
 from symgen.run.directions.directed_observer import Observer
 from symgen.run.directions.directions import Course, DirectedPart
@@ -50,7 +50,7 @@ class Evaluated:
     start : SeedsOfParameters
         Its directions.
     course : Course
-        What its loops left behind.
+        What its loops left.
     """
 
     run: Prepared
@@ -62,21 +62,21 @@ class Evaluated:
         """The motion of bodies with directions, one for each loop."""
         parts = self.course.parts
         if self.run.tree is None:
-            return tuple(self._own(part) for part in parts)
-        return tuple(self._carried(part, k * part.model.lanes) for k, part in enumerate(parts))
+            return tuple(self._motion_of_part(part) for part in parts)
+        return tuple(self._motion_of_carried(part, k * part.model.lanes) for k, part in enumerate(parts))
 
-    def _own(self, part: DirectedPart) -> Observer:
+    def _motion_of_part(self, part: DirectedPart) -> Observer:
         outcome, info = part.outcome, part.model.plain.info
         windings = outcome.status_columns[:, abi.N_STATUS : abi.N_STATUS + info.kept]
         pieces = (*outcome.held, (np.inf, outcome.p))
         return Observer(part.model, outcome.times, outcome.states, windings, pieces, outcome.w, part.modes)
 
-    def _carried(self, part: DirectedPart, first: int) -> Observer:
+    def _motion_of_carried(self, part: DirectedPart, first: int) -> Observer:
         """Return the motion of bodies that joints carry."""
         tree = self.run.tree
         assert tree is not None, "the state is that of joints"
         info, own, lanes = tree.bodies.info, part.model.plain.info, part.model.lanes
-        values, slopes = self._own(part).observed(tree.compiled.model.bodies, info.nq + 2 * info.nv)
+        values, slopes = self._motion_of_part(part).observed(tree.compiled.model.bodies, info.nq + 2 * info.nv)
         model, k = DirectedModel(tree.bodies, lanes), len(values)
         states, directions = np.zeros((k, info.ny)), np.zeros((k, info.ny, lanes))
         states[:, : info.work], directions[:, : info.work] = values[:, : info.work], slopes[:, : info.work]
@@ -107,23 +107,23 @@ class Evaluated:
         assert self.run.tree is not None, "the state is that of joints"
         return self.start.parameters(self.run.tree.bodies)
 
-    def gathered(self, of: Callable[[Observer], Array]) -> Array:
+    def directions_side_by_side(self, of: Callable[[Observer], Array]) -> Array:
         """Return directions of all loops beside each other, along the last axis."""
         return np.concatenate([of(x) for x in self.observers], axis=-1)[..., : self.course.count]
 
     def states(self) -> Array:
         """Return the directions of the states of bodies at the outputs, shape (k, ny, n)."""
-        return self.gathered(lambda x: x.model.shadow(x.states, "y"))
+        return self.directions_side_by_side(lambda x: x.model.shadow(x.states, "y"))
 
     def rates(self) -> Array:
         """Return the directions of the rates of these states."""
-        return self.gathered(lambda x: x.model.shadow(x.rates[0], "y"))
+        return self.directions_side_by_side(lambda x: x.model.shadow(x.rates[0], "y"))
 
     def function(self, function: object, length: int) -> Array:
         """Return the directions of a function of the motion of bodies, shape (k, length, n)."""
-        return self.gathered(lambda x: x.observed(function, length)[1])
+        return self.directions_side_by_side(lambda x: x.observed(function, length)[1])
 
-    def end(self) -> Array | None:
+    def directions_of_end(self) -> Array | None:
         """Return the directions of the time at which an event ended the run, shape (n,); None where none did."""
         watched, outcome = self.run.spec.events, self.course.outcome
         stops = [x.name for x in outcome.happened if x.action == STOP and x.t == outcome.end]
@@ -157,10 +157,10 @@ class Evaluated:
         carried = (rests & (own[:, :, HELD] == 0.0)).any(axis=1)
         return tuple(name for name, x in zip(rows.names, rests[carried].any(axis=0), strict=False) if x)
 
-    def apart(self) -> Array:
+    def distance_from_constraints(self) -> Array:
         """Return by how much directions leave the constraints, over their size, shape (n,); rounding is left out."""
-        parts = [(part.model, self._own(part)) for part in self.course.parts]
-        gaps, first, least = list[Array](), 0, least_sizes(self)[:, 0]
+        parts = [(part.model, self._motion_of_part(part)) for part in self.course.parts]
+        gaps, first, least = list[Array](), 0, rounding_sizes(self)[:, 0]
         for model, observer in parts:
             sizes = np.abs(model.shadow(observer.states, "y")[:, : model.plain.info.nq]).max(axis=(0, 1), initial=0.0)
             largest = observer.violations().max(axis=0, initial=0.0)

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.base.files import headed, need, write_csv, write_whole
+from symgen.base.files import heading_with_unit, need_library, write_csv, write_whole
 from symgen.describe.parts.columns import column_name
-from symgen.result.contract import contract
+from symgen.result.contract import json_contract
 from symgen.result.signals import TABLES
 
 if TYPE_CHECKING:
@@ -38,26 +38,26 @@ PLOTTED: Mapping[str, tuple[str, ...]] = dict.fromkeys((".png", ".svg", ".pdf", 
 LAST_HEADER, LAST_PREFIX = "last_state", "last_"
 
 
-def netcdf(dataset: xr.Dataset) -> Callable[[io.BytesIO], object]:
+def netcdf_writer(dataset: xr.Dataset) -> Callable[[io.BytesIO], object]:
     """Return the writer of a dataset to an open file as NetCDF, with a checksum for every block of numbers."""
     summed = {
         str(name): {"fletcher32": True} for name, v in dataset.variables.items() if v.dtype.kind in "fi" and v.size
     }
 
     def write(file: io.BytesIO) -> None:
-        with _in_this_process():
+        with _without_dask_lock():
             dataset.to_netcdf(file, engine="h5netcdf", encoding=summed)
 
     return write
 
 
-def _in_this_process() -> AbstractContextManager[object]:
+def _without_dask_lock() -> AbstractContextManager[object]:
     """Return an option that keeps xarray from requesting a Dask lock: a file in memory has no name to lock by."""
     dask = sys.modules.get("dask")  # who has not imported it has no cluster
     return nullcontext() if dask is None else dask.config.set(scheduler="synchronous")
 
 
-def with_last_state(dataset: xr.Dataset, result: Result) -> xr.Dataset:
+def add_last_state(dataset: xr.Dataset, result: Result) -> xr.Dataset:
     """Return the dataset of a result with all that the run kept: variables ``last_...``, one dimension each."""
     last = result.last_state
     arrays = {
@@ -72,7 +72,7 @@ def with_last_state(dataset: xr.Dataset, result: Result) -> xr.Dataset:
 
 def data_frame(t: Array, columns: Labelled) -> pd.DataFrame:
     """Return columns over time; ``attrs["units"]`` holds units."""
-    need("to_dataframe", "pandas")
+    need_library("to_dataframe", "pandas")
     import pandas as pd
 
     frame = pd.DataFrame(columns.values, columns=list(columns.names), index=pd.Index(t, name="t"))
@@ -99,14 +99,14 @@ def write_columns(path: Path, t: Array, columns: Labelled, units: bool, facts: M
         frame.attrs.update(facts)
         return write_whole(path, lambda file: frame.to_parquet(file, engine="pyarrow"))
     names, units_of = ("t", *columns.names), ("s", *columns.units)
-    heading = [headed(*of) for of in zip(names, units_of, strict=True)] if units else names
+    heading = [heading_with_unit(*of) for of in zip(names, units_of, strict=True)] if units else names
     rows = ([time, *row] for time, row in zip(t.tolist(), columns.values.tolist(), strict=True))
     return write_csv(path, heading, ([x if x == x else None for x in row] for row in rows))
 
 
 def to_xarray(result: Result) -> xr.Dataset:
     """Return all tables as variables over time, their columns and units as coordinates."""
-    need("to_xarray", "xarray")
+    need_library("to_xarray", "xarray")
     import xarray as xr
 
     variables: dict[str, Any] = {}
@@ -114,12 +114,12 @@ def to_xarray(result: Result) -> xr.Dataset:
     for name, table in result.tables().items():
         dimension, names = TABLES[name], tuple(column_name(name, key) for key in table.names)
         variables[name] = (("time", dimension), table.values)
-        coordinates[dimension] = (dimension, _texts(names), {})
-        coordinates[f"{dimension}_unit"] = (dimension, _texts(table.units), {})
+        coordinates[dimension] = (dimension, _text_array(names), {})
+        coordinates[f"{dimension}_unit"] = (dimension, _text_array(table.units), {})
     variables["smallest_pivot"] = (("time",), result.smallest_pivot)
     if (by := result.sensitivities) is not None:
-        coordinates["direction"] = ("direction", _texts(by.names), {})
-        coordinates["direction_unit"] = ("direction", _texts(by.units), {})
+        coordinates["direction"] = ("direction", _text_array(by.names), {})
+        coordinates["direction_unit"] = ("direction", _text_array(by.units), {})
         for name in by.saved(result):
             variables[f"sensitivity_{name}"] = (("time", TABLES[name], "direction"), by.table(name))
     facts = {
@@ -129,10 +129,10 @@ def to_xarray(result: Result) -> xr.Dataset:
         "status": result.status,
         "reason": result.reason or "",
         "error_estimate": np.nan if result.error_estimate is None else result.error_estimate,
-        "run": json.dumps(contract(result), allow_nan=False),
+        "run": json.dumps(json_contract(result), allow_nan=False),
     }
     return xr.Dataset(variables, coordinates, facts)
 
 
-def _texts(names: tuple[str, ...]) -> np.ndarray[tuple[int], np.dtype[np.object_]]:
+def _text_array(names: tuple[str, ...]) -> np.ndarray[tuple[int], np.dtype[np.object_]]:
     return np.array(names, dtype=object)

@@ -43,19 +43,19 @@ class Verdict:
     notes: tuple[str, ...] = ()
 
 
-def operations_of(run: Prepared, outcome: Outcome) -> int:
+def count_operations_of_run(run: Prepared, outcome: Outcome) -> int:
     """Return the number of operations of a run: evaluations times the law's operations, on any machine."""
     law = run.compiled.law
     return outcome.evaluations * (_CALL + (sum(law.operations.values()) or _EACH * law.nw))
 
 
-def unchecked(run: Prepared, outcome: Outcome) -> str | None:
+def reason_without_check(run: Prepared, outcome: Outcome) -> str | None:
     """Return why no second run estimates the error of a run; None where one does.
 
     Unless that is set, one does where something was chosen automatically, and where it takes few operations and nobody
     chose the steps or the tolerances.
     """
-    verify, settings, count = run.plan.verify, run.plan.settings, operations_of(run, outcome)
+    verify, settings, count = run.plan.verify, run.plan.settings, count_operations_of_run(run, outcome)
     if verify is False:
         return "verify is off"
     if verify or run.plan.notes:
@@ -71,7 +71,7 @@ def is_long(run: Prepared, outcome: Outcome) -> bool:
     """Whether a run that would have a second one by default takes too many operations: its first part is checked."""
     settings = run.plan.settings
     own = settings.rtol is not None or settings.atol is not None or run.plan.verify is not None
-    return run.spec.adaptive and not own and outcome.code == abi.DONE and unchecked(run, outcome) is not None
+    return run.spec.adaptive and not own and outcome.code == abi.DONE and reason_without_check(run, outcome) is not None
 
 
 def judge(run: Prepared, outcome: Outcome, second: Verification | None = None) -> Verdict:
@@ -107,29 +107,29 @@ def judge_alone(outcome: Ended, law: LawInfo) -> Verdict:
     law : LawInfo
         Corrections of the method.
     """
-    passed = _passed(outcome)
-    warnings = tuple(_warnings(outcome, passed))
+    passed = _passed_singularity(outcome)
+    warnings = tuple(_warnings_of_run(outcome, passed))
     if outcome.code == abi.STOPPED:
         return Verdict(FAILED, INTERRUPTED, warnings)
     if outcome.code != abi.DONE:
         return Verdict(FAILED, outcome.reason, warnings)
     jump = relative_jump(outcome)
     if jump > JUMP_FAILURE:
-        return Verdict(FAILED, _jumped(outcome), warnings)
+        return Verdict(FAILED, _sentence_on_jump(outcome), warnings)
     if law.energy_correction:
         return Verdict(UNVERIFIED, HELD, warnings)
     if jump > JUMP_DOUBT:
-        return Verdict(UNVERIFIED, _jumped(outcome), warnings)
+        return Verdict(UNVERIFIED, _sentence_on_jump(outcome), warnings)
     if not passed or law.position_correction:
         return Verdict(OK, None, warnings)
     reason = (
-        f"passed near a singular position{_when(outcome)} and positions are not corrected: "
+        f"passed near a singular position{_time_of_passage(outcome)} and positions are not corrected: "
         "nothing tells whether the right branch was taken"
     )
     return Verdict(UNVERIFIED, reason, warnings)
 
 
-def _passed(outcome: Ended) -> bool:
+def _passed_singularity(outcome: Ended) -> bool:
     return outcome.rank_event_count > 0 or outcome.smallest_pivot < WARN
 
 
@@ -138,11 +138,11 @@ def relative_jump(outcome: Ended) -> float:
     return outcome.energy_jump / outcome.energy_scale if outcome.energy_jump > 0.0 else 0.0
 
 
-def _warnings(outcome: Ended, passed: bool) -> list[str]:
+def _warnings_of_run(outcome: Ended, passed: bool) -> list[str]:
     warnings = []
     if passed:
         count = outcome.rank_event_count
-        where = _when(outcome) + ("" if count <= 1 else f", {count} times in all")
+        where = _time_of_passage(outcome) + ("" if count <= 1 else f", {count} times in all")
         warnings.append(f"passed near a singular position{where}; the error there is not controlled by the step size")
     light = outcome.counters.get("light", 0)
     if light and not passed:  # near a singular position pivots of D M^-1 D^T are small with any masses
@@ -165,13 +165,13 @@ def _velocity_warning(run: Prepared, outcome: Outcome) -> list[str]:
     ]
 
 
-def _jumped(outcome: Ended) -> str:
+def _sentence_on_jump(outcome: Ended) -> str:
     share = relative_jump(outcome)
     jump = f"energy jumped by {outcome.energy_jump:.3g} J, {share:.2g} of the energy in motion"
     return f"{jump}, over a passage near a singular position"
 
 
-def _when(outcome: Ended) -> str:
+def _time_of_passage(outcome: Ended) -> str:
     """Return time and pivot of the narrowest passage."""
     if not outcome.rank_events:
         return f": smallest pivot {outcome.smallest_pivot:.2g}"

@@ -10,9 +10,9 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.arguments import shown, whole
+from symgen.base.arguments import kind_of_value, whole_number
 from symgen.base.digits import digits, scale_of
-from symgen.base.errors import InputError, fitting, nearest, quoted
+from symgen.base.errors import InputError, fit_lines, quote, suggest
 
 Array = NDArray[np.float64]
 
@@ -50,13 +50,13 @@ class Labelled:
         """
         if not isinstance(name, str):
             hint = "outputs are rows: table.values[-1] is the last one as an array, table.row(-1) by name"
-            raise InputError("result", "the name of a column, a body or a joint", shown(name), hint)
+            raise InputError("result", "the name of a column, a body or a joint", kind_of_value(name), hint)
         if name in self.names:
             return self.values[:, self.names.index(name)]
         group = [i for i, full in enumerate(self.names) if full.startswith(f"{name}.")]
         if not group:
-            hint = nearest(name, self.names) if len(self.names) <= 40 or "." in name else ""
-            raise InputError("result", "the name of a column, a body or a joint", quoted(name), hint)
+            hint = suggest(name, self.names) if len(self.names) <= 40 or "." in name else ""
+            raise InputError("result", "the name of a column, a body or a joint", quote(name), hint)
         return self.values[:, group]
 
     def unit(self, name: str) -> str:
@@ -75,7 +75,7 @@ class Labelled:
         count = len(self.values)
         if count == 0:
             return {}
-        index = whole("row", index, -count, count - 1)
+        index = whole_number("row", index, -count, count - 1)
         return {name: float(x) for name, x in zip(self.names, self.values[index], strict=True)}
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
@@ -162,13 +162,13 @@ def least_scale(scales: Mapping[str, float], unit: str) -> float:
 def notebook_table(headings: Sequence[str], rows: Sequence[Sequence[str]], most: int = 200) -> str:
     """Return a table for notebooks, all of its texts escaped; of more than `most` rows the first ones."""
 
-    def row(cells: Sequence[str], tag: str) -> str:
+    def table_row(cells: Sequence[str], tag: str) -> str:
         return "<tr>" + "".join(f"<{tag} style='text-align:left'>{escape(cell)}</{tag}>" for cell in cells) + "</tr>"
 
-    head = row(headings, "th") if headings else ""
-    first = fitting(len(rows), most)
+    head = table_row(headings, "th") if headings else ""
+    first = fit_lines(len(rows), most)
     left = [f"<tr><td>... {len(rows) - first} more</td></tr>"] if len(rows) > first else []
-    return f"<table>{head}{''.join([row(cells, 'td') for cells in rows[:first]] + left)}</table>"
+    return f"<table>{head}{''.join([table_row(cells, 'td') for cells in rows[:first]] + left)}</table>"
 
 
 class NamedQuantity(Protocol):
@@ -180,7 +180,7 @@ class NamedQuantity(Protocol):
     def unit(self) -> str: ...  # noqa: D102  # the class says what they are
 
 
-def labelled(values: Array, quantities: Iterable[NamedQuantity]) -> Labelled:
+def label_columns(values: Array, quantities: Iterable[NamedQuantity]) -> Labelled:
     """Return `values` with the names and units of `quantities`."""
     columns = tuple(quantities)
     return Labelled(values, tuple(q.name for q in columns), tuple(q.unit for q in columns))

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from symgen.base.vocabulary.expressions import Expr, readings
+from symgen.base.vocabulary.expressions import Expr, readings_in
 from symgen.base.vocabulary.measures import GROUND, Integral
-from symgen.compile.native.javascript import HELPERS, javascript
+from symgen.compile.native.javascript_code import HELPERS, javascript_functions
 from symgen.compile.native.read import Foreign
 from symgen.describe.formulas.readings import TABLES as FORMULAS
-from symgen.describe.formulas.readings import integrals
+from symgen.describe.formulas.readings import integrals_of_outputs
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.parts.events import RESET
-from symgen.result.signals import Signal, of_run
+from symgen.describe.parts.event_sections import RESET
+from symgen.result.signals import Signal, signals_of_run
 from symgen.run.compiling.checked import checked_function
 from symgen.run.compiling.side import READ, compile_side
 from symgen.run.layout import abi
@@ -53,31 +53,31 @@ def live_columns(
     own, tree = bodies or compiled, None
     if bodies is not None and acting is not None and acting.bounded:
         tree = acting, compiled
-    tables = dict(of_run(mechanism, own.info))
+    tables = dict(signals_of_run(mechanism, own.info))
     if bodies is not None:
         tables = {table: signals for table, signals in tables.items() if table not in _OF_BODIES}
     if any(
         event.action == RESET for event in mechanism.events
     ):  # which change the energy that errors are measured from
         tables["energy"] = tuple(signal for signal in tables["energy"] if signal.source != e.ENERGY_ERROR)
-    if integrals(mechanism) and not (own if tree is None else compiled).info.integrals:
+    if integrals_of_outputs(mechanism) and not (own if tree is None else compiled).info.integrals:
         tables["outputs"] = tuple(s for s in tables["outputs"] if not _is_integral(mechanism, s))
     try:
-        functions, places = _functions(mechanism, own, tables, bodies is None, tree)
+        functions, places = _functions_by_table(mechanism, own, tables, bodies is None, tree)
     except Foreign:
         return "null", {}
     tables = {table: signals for table, signals in tables.items() if table not in FORMULAS or table in functions}
-    text = f"(() => {{\n{HELPERS}{javascript(functions)}\nreturn {{ {', '.join(functions)} }};\n}})()"
-    spec = _spec(mechanism, compiled, start, own, tables, places)
+    text = f"(() => {{\n{HELPERS}{javascript_functions(functions)}\nreturn {{ {', '.join(functions)} }};\n}})()"
+    spec = _column_data(mechanism, compiled, start, own, tables, places)
     return text, spec if tree is None else {**spec, "of_state": ["outputs"]}
 
 
 def _is_integral(mechanism: Mechanism, signal: Signal) -> bool:
     formula = {column.name: column.formula for column in FORMULAS["outputs"](mechanism)}[signal.key]
-    return any(isinstance(reading.source, Integral) for reading in readings(formula))
+    return any(isinstance(reading.source, Integral) for reading in readings_in(formula))
 
 
-def _functions(
+def _functions_by_table(
     mechanism: Mechanism,
     compiled: CompiledModel,
     tables: Mapping[str, tuple[Signal, ...]],
@@ -101,14 +101,14 @@ def _functions(
     if not of_bodies:
         return functions, {}
     functions["observe"] = checked_function(compiled.model.observe, abi.OBSERVE)
-    formulas, places = _seats(mechanism)
+    formulas, places = _seat_formulas(mechanism)
     if formulas:
         side = compile_side(mechanism, compiled, "seats", "Points of bodies at which reactions act", formulas)
         functions["seats"] = checked_function(side.function, abi.OBSERVE)
     return functions, places
 
 
-def _seats(mechanism: Mechanism) -> tuple[list[tuple[str, Expr]], dict[str, tuple[int, int]]]:
+def _seat_formulas(mechanism: Mechanism) -> tuple[list[tuple[str, Expr]], dict[str, tuple[int, int]]]:
     """Return formulas of the points at which reactions act, and the first places of point and centre by joint."""
     formulas, places, markers = list[tuple[str, Expr]](), dict[str, tuple[int, int]](), dict(mechanism.seats)
     for joint in mechanism.joints:
@@ -127,7 +127,7 @@ def _seats(mechanism: Mechanism) -> tuple[list[tuple[str, Expr]], dict[str, tupl
     return formulas, places
 
 
-def _spec(
+def _column_data(
     mechanism: Mechanism,
     compiled: CompiledModel,
     start: Start,

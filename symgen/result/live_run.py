@@ -11,7 +11,7 @@ import numpy as np
 from symgen.base.errors import AssemblyError, InputError
 from symgen.derive.methods import METHODS
 from symgen.describe.formulas.evaluate import independent_values, parameter_values
-from symgen.describe.parts.events import DOES
+from symgen.describe.parts.event_sections import DOES
 from symgen.result.labelled import Array
 from symgen.result.live_columns import live_columns
 from symgen.result.player.live import NONE, Live, live_part
@@ -65,18 +65,18 @@ def live_of_run(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") 
     names += [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]
     begin = np.array([state[n] for n in names]) if set(names) <= set(state) else None
     if prepared.tree is not None:
-        return _live_on_tree(prepared, prepared.tree, step, begin)
+        return _live_part_on_tree(prepared, prepared.tree, step, begin)
     live, note = live_part(
         mechanism, prepared.compiled, prepared.start, step, begin, acting=prepared.mechanism, run=prepared
     )
     if live is None and run["coordinates"] == "absolute":  # a tree has a tenth of the operations, or less
         prepared = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
         if prepared.tree is not None:
-            return _live_on_tree(prepared, prepared.tree, step, begin)
-    return _with_columns(live, mechanism, prepared), note
+            return _live_part_on_tree(prepared, prepared.tree, step, begin)
+    return _add_columns(live, mechanism, prepared), note
 
 
-def _live_on_tree(run: Prepared, tree: TreeRun, step: float, initial: Array | None) -> tuple[Live | None, str]:
+def _live_part_on_tree(run: Prepared, tree: TreeRun, step: float, initial: Array | None) -> tuple[Live | None, str]:
     """Return the live part in joint coordinates, which cannot close bodies: without sliders that move their start."""
     from symgen.run.planning.plan import Purpose
     from symgen.run.planning.prepare import prepare
@@ -107,10 +107,10 @@ def _live_on_tree(run: Prepared, tree: TreeRun, step: float, initial: Array | No
     live, note = live_part(mechanism, run.compiled, start, step, still=moving, acting=run.mechanism, run=run)
     if live is not None and moving:
         note = f"no sliders for {', '.join(moving)}: they move the start, which pages close in coordinates of bodies"
-    return _with_columns(live, mechanism, run), note
+    return _add_columns(live, mechanism, run), note
 
 
-def _with_columns(live: Live | None, mechanism: Mechanism, run: Prepared) -> Live | None:
+def _add_columns(live: Live | None, mechanism: Mechanism, run: Prepared) -> Live | None:
     """Return a live part that works out all columns that it can."""
     if live is None:
         return None

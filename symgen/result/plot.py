@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from symgen.base.arguments import number
-from symgen.base.arguments import path as argument_path
+from symgen.base.arguments import path_argument as argument_path
 from symgen.base.errors import InputError
-from symgen.base.files import MEASURED, check_path, need, write_whole
+from symgen.base.files import MEASURED, check_path, need_library, write_whole
 from symgen.result.export import PLOTTED
 
 #: Dots per inch of a figure in a file and in a notebook.
@@ -44,7 +44,7 @@ class Plot:
             and one of its programs has to be there.
         width : float, optional
             Width of a column of a printed page [mm], which the figure is fitted into: letters of 8 points, the legend
-            below, and no title, as a caption stands in its place.
+            below, and no title, as a caption replaces it.
 
         Raises
         ------
@@ -61,7 +61,7 @@ class Plot:
         import matplotlib as mpl
 
         if kind == "pgf":
-            return write_whole(where, _for_latex(self.figure))
+            return write_whole(where, _pgf_text(self.figure))
         # names of clip paths would be drawn anew for each file
         with mpl.rc_context({"svg.hashsalt": "symgen", "pdf.fonttype": 42}):  # printers refuse fonts of type 3
             return write_whole(
@@ -90,7 +90,7 @@ def check_width(where: str, width: float) -> float:
     return width
 
 
-def _for_latex(figure: Any) -> bytes:
+def _pgf_text(figure: Any) -> bytes:
     """Return the text of a figure in PGF, in the letters of the document that reads it."""
     import matplotlib as mpl
     from matplotlib.backends.backend_pgf import LatexError
@@ -105,7 +105,7 @@ def _for_latex(figure: Any) -> bytes:
     return text.getvalue().encode()
 
 
-def plotted(path: str | PathLike[str] | None, draw: Callable[[], Any], width: float | None = None) -> Plot | Path:
+def draw_or_save(path: str | PathLike[str] | None, draw: Callable[[], Any], width: float | None = None) -> Plot | Path:
     """Draw a figure, and write it where there is a path.
 
     Parameters
@@ -128,7 +128,7 @@ def plotted(path: str | PathLike[str] | None, draw: Callable[[], Any], width: fl
         If matplotlib is missing, the ending is not known, or the file cannot be written.
     """
     if path is None:
-        need("plot", *PLOTTED[".png"], extra="plot")
+        need_library("plot", *PLOTTED[".png"], extra="plot")
         return Plot(draw())
     check_path("plot", argument_path("plot", path), PLOTTED, "plot")
     return Plot(draw()).save(path, width)

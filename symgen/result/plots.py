@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from symgen.base.errors import fitting
+from symgen.base.errors import fit_lines
 from symgen.result.labelled import Labelled, columns_at
 
 #: Okabe and Ito's colours, told apart with every kind of colour vision; dashes tell repeats apart.
@@ -41,7 +41,7 @@ def panel_of(name: str, unit: str) -> tuple[str, str, bool]:
     return MEANINGS.get(unit, ""), "" if unit == "1" else unit, False
 
 
-def panels(table: Labelled) -> Iterator[tuple[str, str, bool, Labelled]]:
+def panels_of_table(table: Labelled) -> Iterator[tuple[str, str, bool, Labelled]]:
     """Yield the panels of a table: title, unit, whether sizes are drawn as logarithms, and columns."""
     places: dict[tuple[str, str, bool], list[int]] = {}
     for i, (name, unit) in enumerate(zip(table.names, table.units, strict=True)):
@@ -50,23 +50,23 @@ def panels(table: Labelled) -> Iterator[tuple[str, str, bool, Labelled]]:
         yield title, unit, logarithmic, columns_at(table, chosen)
 
 
-def label(title: str, unit: str) -> str:
+def axis_label(title: str, unit: str) -> str:
     """Return the label of an axis: ``angular velocity [rad/s]``."""
     return f"{title} [{unit.replace('^2', '$^2$')}]".strip() if unit else title
 
 
-def drawing(along: Labelled, table: Labelled, title: str) -> Any:
+def figure_over_column(along: Labelled, table: Labelled, title: str) -> Any:
     """Return a matplotlib figure of columns over another column, a panel for each unit."""
-    parts = [*panels(table)]
-    figure, axes = empty(title, len(parts))
+    parts = [*panels_of_table(table)]
+    figure, axes = empty_figure(title, len(parts))
     for ax, (meaning, unit, logarithmic, columns) in zip(axes, parts, strict=False):
-        _lines(ax, along.values[:, 0], columns, logarithmic)
-        ax.set_ylabel(label(columns.names[0] if len(columns.names) == 1 else meaning, unit))
-    axes[-1].set_xlabel(label(along.names[0], along.units[0]))
+        _draw_lines(ax, along.values[:, 0], columns, logarithmic)
+        ax.set_ylabel(axis_label(columns.names[0] if len(columns.names) == 1 else meaning, unit))
+    axes[-1].set_xlabel(axis_label(along.names[0], along.units[0]))
     return figure
 
 
-def empty(title: str, count: int) -> tuple[Any, Any]:
+def empty_figure(title: str, count: int) -> tuple[Any, Any]:
     """Return a matplotlib figure with panels below each other."""
     from matplotlib.figure import Figure
 
@@ -81,21 +81,21 @@ def empty(title: str, count: int) -> tuple[Any, Any]:
     return figure, axes
 
 
-def paths(curves: Mapping[str, Any], title: str) -> Any:
+def figure_of_paths(curves: Mapping[str, Any], title: str) -> Any:
     """Return a matplotlib figure of curves in the plane of x and y, arrays of shape (k, 2 or more) [m], by name."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(8.5, 6.0), layout="constrained")
     ax = figure.subplots()
-    distinct = _distinct({name: curve[:, :2] for name, curve in curves.items()})
+    distinct = _distinct_curves({name: curve[:, :2] for name, curve in curves.items()})
     for i, (name, curve) in enumerate(distinct.items()):
         still = np.ptp(curve, axis=0).max(initial=0.0) == 0.0  # a point that does not move
-        ax.plot(curve[:, 0], curve[:, 1], label=name, marker="o" if still else None, **style(i))
+        ax.plot(curve[:, 0], curve[:, 1], label=name, marker="o" if still else None, **line_style_of(i))
     ax.set(xlabel="x [m]", ylabel="y [m]")
     ax.set_aspect("equal", adjustable="datalim")
     ax.grid(True, alpha=0.3)
     if 0 < len(distinct) <= LONGEST_LEGEND:
-        legend(ax)
+        place_legend(ax)
     figure.suptitle("\n".join(textwrap.wrap(title, 80)), fontsize=10)
     return figure
 
@@ -120,7 +120,7 @@ def fit_into(figure: Any, width: float) -> None:
         figure.legend(named.values(), named, loc="outside lower center", ncols=columns, fontsize=LETTERS - 1)
 
 
-def style(index: int, count: int = 1) -> dict[str, Any]:
+def line_style_of(index: int, count: int = 1) -> dict[str, Any]:
     """Return colour and dashes of the line with a number; lines that are too many for a legend shade one scale."""
     if count > LONGEST_LEGEND:
         from matplotlib import colormaps
@@ -130,7 +130,7 @@ def style(index: int, count: int = 1) -> dict[str, Any]:
     return {"color": COLOURS[index % len(COLOURS)], "linestyle": dashes, "linewidth": 1.2}
 
 
-def _distinct(curves: Mapping[str, Any]) -> dict[str, Any]:
+def _distinct_curves(curves: Mapping[str, Any]) -> dict[str, Any]:
     """Return curves without those that lie on another one, which has their names as well."""
     whole = np.concatenate([curve.ravel() for curve in curves.values()]) if curves else np.zeros(0)
     whole = whole[np.isfinite(whole)]
@@ -148,7 +148,7 @@ def _distinct(curves: Mapping[str, Any]) -> dict[str, Any]:
 
 def _most_moving(table: Labelled) -> tuple[Labelled, int]:
     """Return the columns that change most, in their own order, as many as a key holds, and how many are left out."""
-    first = fitting(len(table.names), LONGEST_LEGEND)
+    first = fit_lines(len(table.names), LONGEST_LEGEND)
     left = len(table.names) - first
     if not left or not len(table.values):
         return table, 0
@@ -157,21 +157,21 @@ def _most_moving(table: Labelled) -> tuple[Labelled, int]:
     return columns_at(table, chosen), left
 
 
-def _lines(ax: Any, along: Any, table: Labelled, logarithmic: bool) -> None:
+def _draw_lines(ax: Any, along: Any, table: Labelled, logarithmic: bool) -> None:
     table, left = _most_moving(table)
     if left:
         count = len(table.names)
         ax.set_title(f"the {count} that change most; {left} more are left out", fontsize=8, loc="left")
     values = np.maximum(np.abs(table.values), FLOOR) if logarithmic else table.values
     curves = {name: values[:, i] for i, name in enumerate(table.names)}
-    for i, (name, curve) in enumerate(curves.items() if logarithmic else _distinct(curves).items()):
-        ax.plot(along, curve, label=name, **style(i))
+    for i, (name, curve) in enumerate(curves.items() if logarithmic else _distinct_curves(curves).items()):
+        ax.plot(along, curve, label=name, **line_style_of(i))
     if logarithmic:
         ax.set_yscale("log")
     if len(table.names) > 1:
-        legend(ax)
+        place_legend(ax)
 
 
-def legend(ax: Any) -> None:
+def place_legend(ax: Any) -> None:
     """Put the legend of a panel to the right of it, where it hides nothing."""
     ax.legend(fontsize=7, ncols=1, loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)

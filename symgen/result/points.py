@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.vocabulary.rotations import matrix
-from symgen.describe.facts.lengths import datum_of, own_length
-from symgen.describe.formulas.evaluate import scalars
+from symgen.base.vocabulary.rotations import rotation_matrix_of
+from symgen.describe.facts.lengths import origin_of_sizes, own_length
+from symgen.describe.formulas.evaluate import scalar_values
 from symgen.describe.mechanism import Mechanism
 
 Array = NDArray[np.float64]
@@ -33,9 +33,9 @@ class Points:
     dimension : int
         2 in the plane, 3 in space.
     slender : bool
-        Whether some bodies are nodes of beams, whose own lengths say nothing of these.
+        Whether some bodies are nodes of beams, whose own lengths are not those of the beam.
     datum : tuple of float
-        The place that a point is measured from (`symgen.describe.facts.lengths.datum_of`).
+        The place that a point is measured from (`symgen.describe.facts.lengths.origin_of_sizes`).
     speeds : tuple of int
         For each body where its velocities begin.
     """
@@ -47,7 +47,7 @@ class Points:
     speeds: tuple[int, ...] = ()
 
     @classmethod
-    def of(cls, mechanism: Mechanism, parameters: Mapping[str, float]) -> Points:
+    def of_mechanism(cls, mechanism: Mechanism, parameters: Mapping[str, float]) -> Points:
         """Collect the bodies of `mechanism` with the lengths that they have at these parameters."""
         bodies, speeds, first, first_speed = [], [], 0, 0
         for body in mechanism.bodies:
@@ -57,7 +57,7 @@ class Points:
             first_speed += len(body.speeds)
         slender = any(force.flexures for force in mechanism.forces)
         dimension = 3 if mechanism.space == "spatial" else 2
-        datum = tuple(datum_of(mechanism, scalars(parameters))[:dimension])
+        datum = tuple(origin_of_sizes(mechanism, scalar_values(parameters))[:dimension])
         return cls(tuple(bodies), dimension, slender, datum, tuple(speeds))
 
     def size(self, q: Array) -> float:
@@ -78,7 +78,7 @@ class Points:
         extent = float(np.linalg.norm(np.ptp(places, axis=0)))
         return max(longest, extent) or float(np.linalg.norm(places[0] - self.datum))
 
-    def distance(self, a: Array, b: Array) -> float:
+    def largest_distance(self, a: Array, b: Array) -> float:
         """Return the largest distance [m] between corresponding points, over all bodies and times.
 
         Parameters
@@ -86,9 +86,9 @@ class Points:
         a, b : Array, shape (k, nq)
             Coordinates at the same times.
         """
-        return float(self.distances(a, b).max(initial=0.0))
+        return float(self.distances_over_time(a, b).max(initial=0.0))
 
-    def distances(self, a: Array, b: Array) -> Array:
+    def distances_over_time(self, a: Array, b: Array) -> Array:
         """Return the largest distance [m] over all bodies at each time, shape (k,)."""
         largest = np.zeros(len(a))
         for i, length in self.bodies:
@@ -137,7 +137,7 @@ def rotation_matrices(orientation: Array) -> Array:
         c, s = np.cos(orientation[:, 0]), np.sin(orientation[:, 0])
         return np.stack([np.stack([c, -s], 1), np.stack([s, c], 1)], 1)
     e0, e1, e2, e3 = (orientation / np.linalg.norm(orientation, axis=1, keepdims=True)).T
-    return np.stack([np.stack(row, 1) for row in matrix((e0, e1, e2, e3))], 1)
+    return np.stack([np.stack(row, 1) for row in rotation_matrix_of((e0, e1, e2, e3))], 1)
 
 
 #: Two motions agree when no point of a body is farther from its counterpart than this share of the mechanism's size:
@@ -180,7 +180,7 @@ class Agreement:
         return int(away[0]) if len(away) else None
 
 
-def agreement(points: Points, a: Array, b: Array) -> Agreement:
+def compare_motions(points: Points, a: Array, b: Array) -> Agreement:
     """Compare two motions.
 
     Parameters
@@ -192,7 +192,7 @@ def agreement(points: Points, a: Array, b: Array) -> Agreement:
     """
     with np.errstate(all="ignore"):
         size = points.size(a)
-        return Agreement(points.distances(a, b), AGREEMENT * size, float(np.finfo(np.float64).eps) * size)
+        return Agreement(points.distances_over_time(a, b), AGREEMENT * size, float(np.finfo(np.float64).eps) * size)
 
 
 @dataclass(frozen=True)

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.base.errors import counted
+from symgen.base.errors import plural
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.result.labelled import Array, Labelled
 from symgen.result.points import rotation_matrices
-from symgen.result.signals import SignalTables, filled, of_forces
+from symgen.result.signals import SignalTables, fill_table, signals_of_forces
 from symgen.run.layout import abi
 
 if TYPE_CHECKING:
@@ -85,28 +85,28 @@ class Acting:
                 part = -value * multipliers[:, row]
                 generalised[column] = generalised[column] + part if column in generalised else part
             if seat.body == GROUND:
-                force, moment = self._on_ground(generalised, columns)
+                force, moment = self._reaction_on_ground(generalised, columns)
             else:
-                force, moment = self._on_body(seat.body, generalised, columns[seat.body])
-            place = self._in_space(np.asarray(seat.place))[..., np.newaxis, :]
-            arm = (place @ np.swapaxes(self._axes(seat.body), 1, 2))[..., 0, :]
+                force, moment = self._reaction_on_body(seat.body, generalised, columns[seat.body])
+            place = self._three_components(np.asarray(seat.place))[..., np.newaxis, :]
+            arm = (place @ np.swapaxes(self._axes_of_body(seat.body), 1, 2))[..., 0, :]
             moment = moment - np.cross(arm, force)
             vectors[joint] = {"F": force, "M": moment}
-        return self._table(
+        return self._make_table(
             "reactions", (vectors[joint][part[0]][:, "xyz".index(part[1:] or "z")] for joint, part in self._parts)
         )
 
     @cached_property
     def signals(self) -> SignalTables:
         """The columns of all tables of forces."""
-        return of_forces(self.info, {joint: seat.body for joint, seat in self.seats.items()})
+        return signals_of_forces(self.info, {joint: seat.body for joint, seat in self.seats.items()})
 
     @property
     def _parts(self) -> list[tuple[str, str]]:
         """Joint and component of each column of the reactions."""
         return [(joint, part) for s in self.signals["reactions"] for joint, _, part in [s.key.rpartition(".")]]
 
-    def _vectors(self, letter: str) -> dict[str, list[int]]:
+    def _columns_of_vectors(self, letter: str) -> dict[str, list[int]]:
         """Return the columns of the reactions that are components of forces (F) or moments (M), by joint."""
         columns = dict[str, list[int]]()
         for i, (joint, part) in enumerate(self._parts):
@@ -118,42 +118,44 @@ class Acting:
         """Return reactions in the axes of the bodies that they act on."""
         values = reactions.values.copy()
         for letter in "FM":
-            for joint, columns in self._vectors(letter).items():
+            for joint, columns in self._columns_of_vectors(letter).items():
                 body = self.seats[joint].body
                 if body != GROUND and len(columns) > 1:
-                    turned = self._in_space(reactions.values[:, columns])[:, np.newaxis] @ self._axes(body)
+                    turned = self._three_components(reactions.values[:, columns])[:, np.newaxis] @ self._axes_of_body(
+                        body
+                    )
                     values[:, columns] = turned[:, 0, : len(columns)]
-        return self._table("body_reactions", values.T)
+        return self._make_table("body_reactions", values.T)
 
     def magnitudes(self, reactions: Labelled) -> Labelled:
         """Return the lengths of the reactions' forces, and of their moments where these have several components."""
-        columns = {"F": self._vectors("F"), "T": self._vectors("M")}
+        columns = {"F": self._columns_of_vectors("F"), "T": self._columns_of_vectors("M")}
         places = [columns[s.key[-1]][s.key[:-2]] for s in self.signals["magnitudes"]]
-        return self._table("magnitudes", (np.linalg.norm(reactions.values[:, place], axis=1) for place in places))
+        return self._make_table("magnitudes", (np.linalg.norm(reactions.values[:, place], axis=1) for place in places))
 
-    def _table(self, table: str, columns: Iterable[Array]) -> Labelled:
+    def _make_table(self, table: str, columns: Iterable[Array]) -> Labelled:
         values = [*columns]
         stacked = np.column_stack(values) if values else np.zeros((len(self.states), 0))
-        return filled(stacked, self.signals[table])
+        return fill_table(stacked, self.signals[table])
 
     @property
     def _spatial(self) -> bool:
         return any(velocity.name.endswith(".vz") for velocity in self.info.velocities)
 
-    def _on_ground(
+    def _reaction_on_ground(
         self, generalised: Mapping[int, Array], columns: Mapping[str, list[tuple[int, str]]]
     ) -> tuple[Array, Array]:
         """Return the reaction on the ground: what balances the joint's forces on all bodies, about the origin."""
         total, about = np.zeros((len(self.states), 3)), np.zeros((len(self.states), 3))
         for body, indices in columns.items():
             if any(i in generalised for i, _ in indices):
-                force, moment = self._on_body(body, generalised, indices)
-                place = np.column_stack(self._coordinates(body, "xyz" if self._spatial else "xy"))
+                force, moment = self._reaction_on_body(body, generalised, indices)
+                place = np.column_stack(self._coordinates_of_body(body, "xyz" if self._spatial else "xy"))
                 total -= force
-                about -= moment + np.cross(self._in_space(place), force)
+                about -= moment + np.cross(self._three_components(place), force)
         return total, about
 
-    def _on_body(
+    def _reaction_on_body(
         self, body: str, generalised: Mapping[int, Array], indices: list[tuple[int, str]]
     ) -> tuple[Array, Array]:
         """Return force, and moment about the centre of mass, both in ground axes, shapes (k, 3)."""
@@ -163,25 +165,25 @@ class Acting:
         if "omega" in parts:
             return force, np.column_stack([nothing, nothing, parts["omega"]])
         moment = np.column_stack([parts.get(c, nothing) for c in ("wx", "wy", "wz")])  # in body axes
-        return force, (moment[:, np.newaxis] @ np.swapaxes(self._axes(body), 1, 2))[:, 0]
+        return force, (moment[:, np.newaxis] @ np.swapaxes(self._axes_of_body(body), 1, 2))[:, 0]
 
-    def _axes(self, body: str) -> Array:
+    def _axes_of_body(self, body: str) -> Array:
         """Return the rotation matrices of a body at the outputs, shape (k, 3, 3)."""
         names = {quantity.name for quantity in self.info.coordinates}
         turns = np.zeros((len(self.states), 3, 3)) + np.eye(3)
         if f"{body}.theta" in names:
-            turns[:, :2, :2] = rotation_matrices(np.column_stack(self._coordinates(body, ("theta",))))
+            turns[:, :2, :2] = rotation_matrices(np.column_stack(self._coordinates_of_body(body, ("theta",))))
         elif f"{body}.e0" in names:
-            turns = rotation_matrices(np.column_stack(self._coordinates(body, ("e0", "e1", "e2", "e3"))))
+            turns = rotation_matrices(np.column_stack(self._coordinates_of_body(body, ("e0", "e1", "e2", "e3"))))
         return turns
 
     @staticmethod
-    def _in_space(vectors: Array) -> Array:
+    def _three_components(vectors: Array) -> Array:
         """Return vectors with three components."""
         missing = 3 - vectors.shape[-1]
         return np.concatenate([vectors, np.zeros((*vectors.shape[:-1], missing))], axis=-1)
 
-    def _coordinates(self, body: str, names: Iterable[str]) -> list[Array]:
+    def _coordinates_of_body(self, body: str, names: Iterable[str]) -> list[Array]:
         """Return coordinates of a body at the outputs."""
         indices = {quantity.name: i for i, quantity in enumerate(self.info.coordinates)}
         return [self.states[:, indices[f"{body}.{name}"]] for name in names]
@@ -193,7 +195,7 @@ CUTOFF = 1e-6
 _SHARE = 1e-8
 
 
-def seats(mechanism: Mechanism, parameters: Mapping[str, float]) -> dict[str, Seat]:
+def seats_of_reactions(mechanism: Mechanism, parameters: Mapping[str, float]) -> dict[str, Seat]:
     """Return where the reactions of all joints act, by name: at the points ``at`` of their first bodies."""
     markers, nothing = dict(mechanism.seats), (0.0,) * len(mechanism.gravity)
     by_joint = dict[str, Seat]()
@@ -224,7 +226,7 @@ class Forces:
     seats: Mapping[str, Seat]
 
     def __repr__(self) -> str:
-        return f"<Forces of {counted(len(self.seats), 'joint')} at {counted(len(self.outcome.times), 'output')}>"
+        return f"<Forces of {plural(len(self.seats), 'joint')} at {plural(len(self.outcome.times), 'output')}>"
 
     @property
     def compiled(self) -> CompiledModel:
@@ -239,13 +241,13 @@ class Forces:
     @cached_property
     def signals(self) -> SignalTables:
         """The columns of all tables of forces."""
-        return of_forces(self.compiled.info, {joint: seat.body for joint, seat in self.seats.items()})
+        return signals_of_forces(self.compiled.info, {joint: seat.body for joint, seat in self.seats.items()})
 
     # -- multipliers ---------------------------------------------------------------------------------------------------
 
     def multipliers(self) -> Labelled:
         """Return lambda at all outputs, of minimum norm where the rows of D are dependent."""
-        return filled(_minimum_norm(self.outcome), self.signals["lam"])
+        return fill_table(_multipliers_of_minimum_norm(self.outcome), self.signals["lam"])
 
     def final(self) -> dict[str, float]:
         """Return the multipliers at the last output by name; empty where there is no output."""
@@ -254,7 +256,7 @@ class Forces:
             return {}
         # evaluated there alone: a run without other requests need not evaluate every output again
         last = replace(o, times=o.times[-1:], states=o.states[-1:], status_columns=o.status_columns[-1:])
-        values = _minimum_norm(last)[0]
+        values = _multipliers_of_minimum_norm(last)[0]
         return {row.name: float(x) for row, x in zip(self.compiled.info.rows, values, strict=True)}
 
     @property
@@ -263,7 +265,7 @@ class Forces:
         info = self.compiled.info
         ambiguous = {name.partition(".")[0] for pair in info.dropped_rows for name in pair.split(" = ")}
         if self.redundant and not self.compiled.law.unique_multipliers:
-            columns, _ = _weighed(self.outcome, self.outcome.start.t, self.outcome.start.y)
+            columns, _ = _weighed_rows(self.outcome, self.outcome.start.t, self.outcome.start.y)
             off = self.compiled.off(self.outcome.start.w)
             rows = [i for i, row in enumerate(info.rows) if row.name not in off]
             left, singular, _ = np.linalg.svd(columns.T[rows], full_matrices=True)
@@ -276,7 +278,7 @@ class Forces:
 
     def reactions(self, multipliers: Labelled) -> Labelled:
         """Return -D^T lambda of each joint on its first body, at all outputs; see `Acting.reactions`."""
-        return self._acting.reactions(self._entries(), multipliers.values)
+        return self._acting.reactions(self._entries_at_outputs(), multipliers.values)
 
     def in_body_axes(self, reactions: Labelled) -> Labelled:
         """Return reactions in the axes of the bodies that they act on."""
@@ -290,7 +292,7 @@ class Forces:
     def _acting(self) -> Acting:
         return Acting(self.compiled.info, self.seats, self.outcome.states)
 
-    def _entries(self) -> Array:
+    def _entries_at_outputs(self) -> Array:
         """Return the entries of D that vary at all outputs, as ``geometry`` leaves them."""
         from symgen.run.layout.probe import Ready
 
@@ -313,25 +315,25 @@ def constraint_jacobian(outcome: Motion, t: float, y: Array) -> Array:
     return outcome.compiled.jacobian(w)
 
 
-def _minimum_norm(outcome: Motion) -> Array:
+def _multipliers_of_minimum_norm(outcome: Motion) -> Array:
     """Return the multipliers at all outputs, shape (k, m), of minimum norm where the law leaves a choice."""
     values = outcome.multipliers.copy()
     if outcome.compiled.law.unique_multipliers:
         return values
-    held = _held(outcome)
+    held = _rows_in_force(outcome)
     # looped code keeps a pivot of rows that are off, and counts it
     counted = outcome.compiled.info.m if outcome.compiled.shape == "looped" else held.sum(axis=1)
     dependent = outcome.status_columns[:, abi.RANK] < counted
     dependent |= outcome.start.rank < outcome.compiled.in_force(outcome.start.w)
     usable = np.isfinite(values).all(axis=1) & np.isfinite(outcome.states).all(axis=1)
     for k in np.flatnonzero(dependent & usable):
-        columns, weights = _weighed(outcome, float(outcome.times[k]), outcome.states[k])
+        columns, weights = _weighed_rows(outcome, float(outcome.times[k]), outcome.states[k])
         columns, forces = columns * held[k], values[k] / weights
         values[k] = weights * np.linalg.lstsq(columns, columns @ forces, rcond=CUTOFF)[0]
     return values
 
 
-def _held(outcome: Motion) -> Array:
+def _rows_in_force(outcome: Motion) -> Array:
     """Return 1 for rows in force and 0 for rows that are off, at all outputs, shape (k, m)."""
     info, status = outcome.compiled.info, outcome.status_columns
     held = np.ones((len(status), info.m))
@@ -339,7 +341,7 @@ def _held(outcome: Motion) -> Array:
     return held
 
 
-def _weighed(outcome: Motion, t: float, y: Array) -> tuple[Array, Array]:
+def _weighed_rows(outcome: Motion, t: float, y: Array) -> tuple[Array, Array]:
     """Return G^1/2 D^T R, shape (nv, m), and the diagonal of R, shape (m,): all of its entries have one unit.
 
     R scales angular rows by the mechanism's length, G scales angles by lengths of bodies, so norms and thresholds do

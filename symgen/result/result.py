@@ -12,24 +12,24 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from symgen.base.arguments import path as argument_path
-from symgen.base.arguments import shown, switch, words
-from symgen.base.errors import InputError, nearest
+from symgen.base.arguments import kind_of_value, truth_value, words
+from symgen.base.arguments import path_argument as argument_path
+from symgen.base.errors import InputError, suggest
 from symgen.base.files import check_path, write_whole
-from symgen.base.memory import require
-from symgen.result.contract import contract
-from symgen.result.export import SAVED, netcdf, to_xarray, with_last_state, write_columns
+from symgen.base.memory import require_memory
+from symgen.result.contract import json_contract
+from symgen.result.export import SAVED, add_last_state, netcdf_writer, to_xarray, write_columns
 from symgen.result.labelled import Array, Labelled, columns_at
+from symgen.result.motion_tables import MotionTables
 from symgen.result.signals import TABLES, acceleration_table
-from symgen.result.tables import MotionTables
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
+    from symgen.result.motion_tables import Measured
     from symgen.result.reactions import Forces
     from symgen.result.sensitivities import Sensitivities
-    from symgen.result.tables import Measured
     from symgen.run.single.events import EventRecord
     from symgen.run.single.last_state import LastState
     from symgen.run.single.outcome import Outcome, RankEvent
@@ -234,7 +234,7 @@ class Result(MotionTables):
         """Return the reaction of one joint, shape (k, 3), in space (k, 6): force [N] and moment [N m]."""
         joints = list(dict.fromkeys(name.rpartition(".")[0] for name in self.reactions.names))
         if joint not in joints:
-            raise InputError("joint", "the name of a joint", shown(joint), nearest(str(joint), joints))
+            raise InputError("joint", "the name of a joint", kind_of_value(joint), suggest(str(joint), joints))
         return self.reactions[joint]
 
     @cached_property
@@ -256,9 +256,9 @@ class Result(MotionTables):
         """
         if self.sensitivities is None:
             raise InputError("gradient", "a run with sensitivities=(...)", "one without")
-        from symgen.result.sensitivities import place_of
+        from symgen.result.sensitivities import place_of_column
 
-        return self.sensitivities.column(*place_of(self, name))
+        return self.sensitivities.column(*place_of_column(self, name))
 
     @property
     def interrupted(self) -> bool:
@@ -301,7 +301,7 @@ class Result(MotionTables):
 
     def to_json(self) -> dict[str, Any]:
         """Return the contract of ``symgen run --json``; numbers that are not finite become None."""
-        return contract(self)
+        return json_contract(self)
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return all tables as one data frame over time; columns have the names that `select` takes.
@@ -347,15 +347,15 @@ class Result(MotionTables):
             If the ending is not known, the library for it is missing, or the file cannot be written.
         """
         file = check_path("save", argument_path("save", path), SAVED, "data")
-        chosen, ending, headed = words("quantities", quantities), file.suffix.lower(), switch("units", units)
+        chosen, ending, headed = words("quantities", quantities), file.suffix.lower(), truth_value("units", units)
         if headed and ending != ".csv":
             raise InputError("save: units", "a file ending in .csv, whose headings carry them", f"'{file}'")
         if chosen and ending != ".nc":
             return write_columns(file, self.t, self.select(chosen), True, {})
         size = 40.0 * len(self.t) * sum(len(self.columns(table)) for table in self.names)
-        require("save", f"{len(self.t)} outputs of {self.mechanism}", size)
+        require_memory("save", f"{len(self.t)} outputs of {self.mechanism}", size)
         if ending == ".nc":
-            return write_whole(file, netcdf(with_last_state(to_xarray(self), self)))
+            return write_whole(file, netcdf_writer(add_last_state(to_xarray(self), self)))
         return write_columns(file, self.t, self.whole(), headed, {"run": self.to_json()})
 
     def __repr__(self) -> str:

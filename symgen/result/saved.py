@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from symgen.base.errors import InputError, quoted
-from symgen.base.files import check_name, check_rows, need, unheaded
+from symgen.base.errors import InputError, quote
+from symgen.base.files import check_csv_rows, check_file_name, name_without_unit, need_library
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.describe.parts.columns import FORMS
 from symgen.result.export import LAST_HEADER, LAST_PREFIX, SAVED
@@ -81,7 +81,7 @@ class Recorded:
         """
         for name in names:
             if name not in self.columns:
-                raise InputError(self.whence, "the motion of this mechanism", f"no column {quoted(name)}")
+                raise InputError(self.whence, "the motion of this mechanism", f"no column {quote(name)}")
         values = np.zeros((len(self.t), len(names)))
         for i, name in enumerate(names):
             values[:, i] = self.columns[name]
@@ -90,19 +90,19 @@ class Recorded:
         return values
 
 
-def _read(option: str, path: Path, use: Callable[[Recorded], _Value]) -> _Value:
+def _read_or_refuse(option: str, path: Path, use: Callable[[Recorded], _Value]) -> _Value:
     """Return the value of `use` for a file of a result; a `KeyError` means that something is missing in it."""
     ending = path.suffix.lower()
     if ending not in SAVED:
         raise InputError(option, f"a file ending in {', '.join(SAVED)}", f"'{path}'")
-    read = {".nc": _of_dataset, ".csv": _of_csv, ".parquet": _of_parquet}[ending]
-    return checked_file(option, path, lambda path: use(read(path, f"{option} '{path.name}'")), SAVED[ending])
+    read = {".nc": _read_dataset, ".csv": _read_csv, ".parquet": _read_parquet}[ending]
+    return read_result_file(option, path, lambda path: use(read(path, f"{option} '{path.name}'")), SAVED[ending])
 
 
-def checked_file(option: str, path: Path, read: Callable[[Path], _Value], libraries: Sequence[str]) -> _Value:
+def read_result_file(option: str, path: Path, read: Callable[[Path], _Value], libraries: Sequence[str]) -> _Value:
     """Return the value of `read` for a file, with sentences about files that are missing or hold something else."""
-    need(option, *libraries)
-    check_name(option, path)
+    need_library(option, *libraries)
+    check_file_name(option, path)
     if not path.is_file():
         raise InputError(option, "a file of a result", f"'{path}', which is none")
     try:
@@ -148,7 +148,7 @@ def _check_table(name: str, variable: xr.DataArray) -> None:
         raise ValueError(f"'{name}' has no labels {TABLES[name]}")
 
 
-def _of_dataset(path: Path, whence: str) -> Recorded:
+def _read_dataset(path: Path, whence: str) -> Recorded:
     dataset, columns = dataset_of(path), dict[str, Array]()
     check_names(dataset["kind_of_energy"].values.tolist())
     for table in _TABLES:
@@ -163,12 +163,12 @@ def _of_dataset(path: Path, whence: str) -> Recorded:
     return Recorded(whence, t, columns, str(facts["mechanism"]), json.loads(facts["run"]), last)
 
 
-def _of_csv(path: Path, whence: str) -> Recorded:
+def _read_csv(path: Path, whence: str) -> Recorded:
     with path.open(encoding="utf-8", newline="") as file:
         rows = csv.reader(file)
-        names, cells = [unheaded(name) for name in next(rows)], list(rows)
+        names, cells = [name_without_unit(name) for name in next(rows)], list(rows)
     check_names(names)
-    check_rows(whence, names, cells)
+    check_csv_rows(whence, names, cells)
     values = np.array([[float(x or "nan") for x in row] for row in cells])
     if not len(values):
         raise ValueError("it has no rows")
@@ -176,7 +176,7 @@ def _of_csv(path: Path, whence: str) -> Recorded:
     return Recorded(whence, columns.pop("t"), columns)
 
 
-def _of_parquet(path: Path, whence: str) -> Recorded:
+def _read_parquet(path: Path, whence: str) -> Recorded:
     import pandas as pd
 
     frame = pd.read_parquet(path, engine="pyarrow")
@@ -185,7 +185,7 @@ def _of_parquet(path: Path, whence: str) -> Recorded:
     return Recorded(whence, np.asarray(frame.index, dtype=np.float64), columns)
 
 
-def recorded(motion: Any) -> Recorded:
+def recorded_motion(motion: Any) -> Recorded:
     """Return the motion of a result, or of whatever has the tables ``q``, ``v`` and ``a`` over ``t``.
 
     Raises
@@ -218,7 +218,7 @@ def read_recorded(option: str, path: Path) -> Recorded:
     InputError
         If there is no such file, or it is none of a result.
     """
-    return _read(option, path, lambda motion: motion)
+    return _read_or_refuse(option, path, lambda motion: motion)
 
 
 _OF_BODY = re.compile(r"(\w+)(\.(?:start|end|[0-9]+))?\.(\w+)")
@@ -237,20 +237,20 @@ def read_last_state(option: str, path: Path) -> LastState:
         If there is no such file, or it is none of a result.
     """
 
-    def state(saved: Recorded) -> LastState:
+    def last_state_of(saved: Recorded) -> LastState:
         if saved.last is None:
-            return _of_columns(saved)
+            return _state_of_columns(saved)
         last = LastState.of_header(*saved.last)
         if last is None:
             raise InputError(option, "the last state as it was written", f"'{path}', in which it was changed")
         return last
 
-    return _read(option, path, state)
+    return _read_or_refuse(option, path, last_state_of)
 
 
-def _of_columns(saved: Recorded) -> LastState:
-    def row(labels: Iterable[str]) -> dict[str, float]:
-        # bodies have names without a dot, nodes of beams with one, before which no head of a table stands
+def _state_of_columns(saved: Recorded) -> LastState:
+    def row_of_columns(labels: Iterable[str]) -> dict[str, float]:
+        # bodies have names without a dot, nodes of beams with one, which no head of a table precedes
         heads = {form.partition(".")[0] for form in FORMS.values()}
         own = (
             name
@@ -261,7 +261,9 @@ def _of_columns(saved: Recorded) -> LastState:
         return {name: float(saved.columns[name][-1]) for name in own}
 
     work = 0.0 if saved.mechanism else float(saved.columns["energy.work"][-1])
-    last = LastState(saved.mechanism, "", float(saved.t[-1]), row(_PLACES), row(ACCELERATIONS), work)
+    last = LastState(
+        saved.mechanism, "", float(saved.t[-1]), row_of_columns(_PLACES), row_of_columns(ACCELERATIONS), work
+    )
     # states of a file are columns with the names of outputs, which have no dot
     own = {name: float(column[-1]) for name, column in saved.columns.items() if "." not in name}
     return replace(last, states=own or None)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 from symgen.describe.facts.kinks import discontinuities_of
 from symgen.describe.formulas.readings import TABLES as FORMULAS
 from symgen.result.evaluated import Evaluated
@@ -45,7 +45,7 @@ TABLES = ("q", "v", "a", "joint_coordinates", *FORMULAS)
 CONSISTENT = 1e-6
 
 
-def prepared(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, tuple[str, ...]]:
+def prepare_for_directions(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, tuple[str, ...]]:
     """Return a run that can have directions, and notes on what was chosen for that.
 
     Parameters
@@ -78,7 +78,7 @@ def prepared(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, tuple[
         if "ode" in forms:
             hint = f"take {works[0]}"
         raise InputError("sensitivities: integrator", f"an explicit scheme ({', '.join(works)})", got, hint)
-    run = _with_slopes(ready).run()
+    run = _add_derivative_code(ready).run()
     watched = run.spec.events
     if any(x.jumps for x in discontinuities_of(run.plan.mechanism)) or (watched and watched.rows is not None):
         expected, got = "a run without jumps of formulas", "formulas that jump where the state passes zero"
@@ -87,7 +87,7 @@ def prepared(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, tuple[
     return run, tuple(notes)
 
 
-def _with_slopes(ready: Preparation) -> Preparation:
+def _add_derivative_code(ready: Preparation) -> Preparation:
     """Return a run with the code for derivatives."""
     plan = ready.plan
     return replace(ready, plan=replace(plan, choice=replace(plan.choice, directed=True)), assembled=None)
@@ -113,7 +113,7 @@ class Differentiated:
     """
 
     def __init__(self, mechanism: Mechanism, settings: Settings, names: Mapping[str, str]) -> None:
-        run, self._notes = prepared(mechanism, settings)
+        run, self._notes = prepare_for_directions(mechanism, settings)
         self.directions = named_directions(run, names)
         self._start = StartDirections(run, self.directions)
         self.run = with_moving_kinks(run, self._start)
@@ -155,15 +155,15 @@ class Differentiated:
         reason, status = result.reason, result.status
         still = [name for name, moves in zip(own.names, own.moves, strict=True) if not moves]
         warnings = (*result.warnings, *(f"{name} changes nothing in this run" for name in still))
-        if together := self._shared(own):
+        if together := self._warning_on_shared_forces(own):
             warnings = (*warnings, together)
-        doubt = own.doubt(result)
+        doubt = own.reason_for_doubt(result)
         if doubt and status == "ok":
             status, reason = "unverified", doubt
         return replace(result, sensitivities=own, notes=notes, warnings=warnings, status=status, reason=reason)
 
     @staticmethod
-    def _shared(own: Sensitivities) -> str:
+    def _warning_on_shared_forces(own: Sensitivities) -> str:
         """Return the warning on forces at rest that joints do not determine, empty without such."""
         rows = own.resting_together
         if not rows:
@@ -206,7 +206,7 @@ class Sensitivities:
     @cached_property
     def violation(self) -> float:
         """How far directions leave the constraints: a row's largest derivative over a coordinate's."""
-        return float(self._evaluated.apart().max(initial=0.0))
+        return float(self._evaluated.distance_from_constraints().max(initial=0.0))
 
     @cached_property
     def _errors(self) -> tuple[Array, Array] | None:
@@ -224,7 +224,7 @@ class Sensitivities:
         Derivatives of quantities are those at the same time; a quantity at the event changes by its rate times
         these as well.
         """
-        times = self._evaluated.end()
+        times = self._evaluated.directions_of_end()
         return None if times is None else dict(zip(self.names, times.tolist(), strict=True))
 
     @property
@@ -251,7 +251,7 @@ class Sensitivities:
             If the table has no sensitivities.
         """
         if name not in TABLES:
-            raise InputError("sensitivities", f"a table with sensitivities ({', '.join(TABLES)})", quoted(name))
+            raise InputError("sensitivities", f"a table with sensitivities ({', '.join(TABLES)})", quote(name))
         if name not in self._tables:
             if self._evaluated is None:
                 raise InputError("sensitivities", "a result of this process", "one that was pickled or copied")
@@ -297,7 +297,7 @@ class Sensitivities:
         by = dict(zip(self.names, self.units, strict=True))
         return {"by": by, "violation": self.violation, "error": self.error, "end": self.end, "final": final}
 
-    def doubt(self, result: Result) -> str | None:
+    def reason_for_doubt(self, result: Result) -> str | None:
         """Return why the sensitivities of a run are in doubt, None where they are not."""
         if doubt := doubt_of_motion(result):
             return doubt
@@ -338,7 +338,7 @@ def derivative_unit(unit: str, by: str) -> str:
     return f"{unit or '1'}/{below}" if not any(sign in unit for sign in " /") else f"({unit})/{below}"
 
 
-def place_of(result: Result, name: str) -> tuple[str, int, str]:
+def place_of_column(result: Result, name: str) -> tuple[str, int, str]:
     """Return the table, the place and the unit of a column of a result.
 
     Raises
@@ -348,6 +348,6 @@ def place_of(result: Result, name: str) -> tuple[str, int, str]:
     """
     places = {n: at for n, at in result._places.items() if at[0] in TABLES}
     if name not in places:
-        raise InputError("gradient", "a quantity with sensitivities", quoted(name), nearest(name, places))
+        raise InputError("gradient", "a quantity with sensitivities", quote(name), suggest(name, places))
     table, place = places[name]
     return table, place, getattr(result, table).units[place]

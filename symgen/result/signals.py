@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from symgen.base.arguments import words
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.formulas.readings import TABLES as FORMULAS
 from symgen.describe.mechanism import ACCELERATIONS
@@ -78,7 +78,7 @@ SignalTables = dict[str, tuple[Signal, ...]]
 _Columns = Iterable[tuple[str, str]]
 
 
-def of_run(mechanism: Mechanism, info: ModelInfo) -> SignalTables:
+def signals_of_run(mechanism: Mechanism, info: ModelInfo) -> SignalTables:
     """Return all tables of a run.
 
     Parameters
@@ -90,12 +90,14 @@ def of_run(mechanism: Mechanism, info: ModelInfo) -> SignalTables:
     """
     joints = [c for q in info.joint_coordinates for c in ((q.name, q.unit), (f"{q.name}.rate", f"{q.unit}/s"))]
     tables = {
-        "q": _table("q", ((q.name, q.unit) for q in info.coordinates), e.STATE),
-        "v": _table("v", ((v.name, v.unit) for v in info.velocities), e.STATE, info.nq),
-        "a": _table("a", ((accelerated(v.name), f"{v.unit}^2") for v in info.velocities), e.ACCELERATION),
-        "joint_coordinates": _table("joint_coordinates", joints, e.JOINT),
-        **of_forces(info, {joint.name: joint.bodies[0] for joint in mechanism.joints}),
-        **of_formulas(mechanism),
+        "q": _signals_of_table("q", ((q.name, q.unit) for q in info.coordinates), e.STATE),
+        "v": _signals_of_table("v", ((v.name, v.unit) for v in info.velocities), e.STATE, info.nq),
+        "a": _signals_of_table(
+            "a", ((acceleration_name(v.name), f"{v.unit}^2") for v in info.velocities), e.ACCELERATION
+        ),
+        "joint_coordinates": _signals_of_table("joint_coordinates", joints, e.JOINT),
+        **signals_of_forces(info, {joint.name: joint.bodies[0] for joint in mechanism.joints}),
+        **signals_of_formulas(mechanism),
         "energy": (
             Signal("energy", "kinetic", "J", e.STATUS, abi.KINETIC),
             Signal("energy", "potential", "J", e.STATUS, abi.POTENTIAL),
@@ -112,7 +114,7 @@ def of_run(mechanism: Mechanism, info: ModelInfo) -> SignalTables:
     return {table: tables[table] for table in TABLES}
 
 
-def of_forces(info: ModelInfo, bodies: Mapping[str, str]) -> SignalTables:
+def signals_of_forces(info: ModelInfo, bodies: Mapping[str, str]) -> SignalTables:
     """Return the tables of multipliers and reactions.
 
     A point mass, unlike the ground, takes no moment.
@@ -135,26 +137,26 @@ def of_forces(info: ModelInfo, bodies: Mapping[str, str]) -> SignalTables:
         lengths.append((f"{joint}.F", "N"))
         lengths += [(f"{joint}.T", "N m")] if turns and spatial else []
     return {
-        "lam": _table("lam", ((row.name, multiplier_unit(row.unit)) for row in info.rows), e.MULTIPLIER),
-        "reactions": _table("reactions", parts, e.REACTION),
-        "body_reactions": _table("body_reactions", parts, e.BODY_REACTION),
-        "magnitudes": _table("magnitudes", lengths, e.MAGNITUDE),
+        "lam": _signals_of_table("lam", ((row.name, multiplier_unit(row.unit)) for row in info.rows), e.MULTIPLIER),
+        "reactions": _signals_of_table("reactions", parts, e.REACTION),
+        "body_reactions": _signals_of_table("body_reactions", parts, e.BODY_REACTION),
+        "magnitudes": _signals_of_table("magnitudes", lengths, e.MAGNITUDE),
     }
 
 
-def of_formulas(mechanism: Mechanism) -> SignalTables:
+def signals_of_formulas(mechanism: Mechanism) -> SignalTables:
     """Return the tables of points, force elements with drivers, and the file's own outputs."""
     return {
-        table: _table(table, ((c.name, c.unit) for c in columns(mechanism)), e.SIDE)
+        table: _signals_of_table(table, ((c.name, c.unit) for c in columns(mechanism)), e.SIDE)
         for table, columns in FORMULAS.items()
     }
 
 
-def _table(table: str, columns: _Columns, source: int, first: int = 0) -> tuple[Signal, ...]:
+def _signals_of_table(table: str, columns: _Columns, source: int, first: int = 0) -> tuple[Signal, ...]:
     return tuple(Signal(table, key, unit, source, first + i) for i, (key, unit) in enumerate(columns))
 
 
-def accelerated(velocity: str) -> str:
+def acceleration_name(velocity: str) -> str:
     """Return the name of the acceleration for the name of a velocity."""
     body, _, component = velocity.rpartition(".")
     return f"{body}.{ACCELERATIONS[component]}"
@@ -163,7 +165,7 @@ def accelerated(velocity: str) -> str:
 def acceleration_table(values: Array, velocities: Labelled) -> Labelled:
     """Return accelerations as a table, by the columns of the velocities."""
     units = tuple(f"{unit}^2" for unit in velocities.units)
-    return Labelled(values, tuple(map(accelerated, velocities.names)), units)
+    return Labelled(values, tuple(map(acceleration_name, velocities.names)), units)
 
 
 def multiplier_unit(row_unit: str) -> str:
@@ -171,7 +173,7 @@ def multiplier_unit(row_unit: str) -> str:
     return {"m": "N", "m/s": "N", "rad": "N m", "rad/s": "N m"}.get(row_unit, f"J/({row_unit})")
 
 
-def filled(values: Array, signals: Sequence[Signal]) -> Labelled:
+def fill_table(values: Array, signals: Sequence[Signal]) -> Labelled:
     """Return `values` as the table with these columns."""
     return Labelled(values, tuple(s.key for s in signals), tuple(s.unit for s in signals))
 
@@ -180,10 +182,10 @@ def check_single(name: str, columns: Iterable[str]) -> None:
     """Refuse to draw over what is several columns."""
     several = [*columns]
     if len(several) != 1:
-        raise InputError("over", "one column", f"{quoted(name)}, which is {len(several)}", ", ".join(several[:6]))
+        raise InputError("over", "one column", f"{quote(name)}, which is {len(several)}", ", ".join(several[:6]))
 
 
-def choose(
+def choose_columns(
     columns: Mapping[str, str], names: Sequence[str], mechanism: str, tables: Sequence[str] = ()
 ) -> dict[str, str]:
     """Return the columns that names mean, with their tables.
@@ -216,6 +218,6 @@ def choose(
             groups |= dict.fromkeys(column.partition(".")[0] for column in columns)
             candidates = [*columns, *groups] if len(columns) <= 60 or "." in name else [*groups]
             expected = f"a quantity of {mechanism}"
-            raise InputError(f"quantity {quoted(name)}", expected, "none of that name", nearest(name, candidates))
+            raise InputError(f"quantity {quote(name)}", expected, "none of that name", suggest(name, candidates))
         chosen |= matches
     return chosen

@@ -33,27 +33,27 @@ def errors_of_steps(evaluated: Evaluated) -> tuple[Array, Array] | None:
         return None
     info, duration, bodies = run.compiled.info, run.spec.until - run.start.t, evaluated.states()
     own = info if run.tree is None else run.tree.bodies.info
-    sizes = np.maximum(errors.sizes, _largest(np.abs(bodies).max(axis=0, initial=0.0), own.nq, own.work))
+    sizes = np.maximum(errors.sizes, _largest_error(np.abs(bodies).max(axis=0, initial=0.0), own.nq, own.work))
     sizes[:, 1] = np.maximum(sizes[:, 1], sizes[:, 0] / duration)
     with np.errstate(invalid="ignore", divide="ignore"):
-        parts = np.where((errors.errors > 0.0) & ~(sizes <= least_sizes(evaluated)), errors.errors / sizes, 0.0)
+        parts = np.where((errors.errors > 0.0) & ~(sizes <= rounding_sizes(evaluated)), errors.errors / sizes, 0.0)
     parts[np.isnan(parts)] = np.inf
     worst = parts.argmax(axis=1)
     return parts.max(axis=1), errors.times[np.arange(len(worst)), worst]
 
 
-def least_sizes(evaluated: Evaluated) -> Array:
+def rounding_sizes(evaluated: Evaluated) -> Array:
     """Return the size up to which coordinates, velocities and auxiliary states of directions are rounding, (n, 3)."""
     run, info = evaluated.run, evaluated.run.compiled.info
     values = np.abs(np.vstack([run.start.y, evaluated.course.outcome.states])).max(axis=0)
-    natural = _largest(values[:, np.newaxis], info.nq, info.work)
+    natural = _largest_error(values[:, np.newaxis], info.nq, info.work)
     natural[:, 1] = np.maximum(natural[:, 1], natural[:, 0] / (run.spec.until - run.start.t))
     slopes, p = evaluated.start.parameters(run.compiled), run.start.p
     share = np.abs(slopes[p != 0.0] / p[p != 0.0, np.newaxis]).max(axis=0, initial=0.0)
     return np.asarray(_ROUNDING * np.minimum(share, 1.0 / _LEAST)[:, np.newaxis] * natural)
 
 
-def _largest(values: Array, nq: int, work: int) -> Array:
+def _largest_error(values: Array, nq: int, work: int) -> Array:
     """Return the largest of coordinates, velocities and auxiliary states without the work, shape (n, 3)."""
     parts = values[:nq], values[nq:work], values[work + 1 :]
     return np.stack([part.max(axis=0, initial=0.0) for part in parts], axis=1)

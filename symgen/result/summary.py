@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
-from symgen.base.errors import counted
+from symgen.base.errors import plural
 from symgen.result.contract import json_value
 from symgen.result.labelled import Labelled, notebook_table
 from symgen.result.result import FAILED
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from symgen.result.result import Result
 
 
-def lines(result: Result) -> list[tuple[str, str]]:
+def summary_lines(result: Result) -> list[tuple[str, str]]:
     """Return (label, text) pairs that say what was run and how it went."""
     if result.rtol is None:
         steps = f"step {result.step:g} s"
@@ -32,16 +32,16 @@ def lines(result: Result) -> list[tuple[str, str]]:
     pairs = [
         ("mechanism", result.mechanism),
         ("method", f"{result.method}, {result.integrator}, {steps}, until {result.until:g} s"),
-        *([("coordinates", _coordinates(result))] if result.coordinates != "absolute" else []),
+        *([("coordinates", _coordinates_in_words(result))] if result.coordinates != "absolute" else []),
         ("status", status_in_words(result)),
         (
             "steps",
-            f"{result.steps}{rejected}, {counted(result.evaluations, 'evaluation')} of the right-hand side{together}",
+            f"{result.steps}{rejected}, {plural(result.evaluations, 'evaluation')} of the right-hand side{together}",
         ),
         ("time", f"run {s.run:.4g} s{spread}; compiled code ready in {s.compile:.3g} s{derivation}"),
         ("violations", f"position {result.position_violation_max:.3g}, velocity {result.velocity_violation_max:.3g}"),
         ("energy error", f"{result.energy_drift_max:.3g} J"),
-        ("rank", f"{rank.rank} of {counted(rank.rows, 'row')}{dropped}"),
+        ("rank", f"{rank.rank} of {plural(rank.rows, 'row')}{dropped}"),
     ]
     if result.rank_event_count:
         pairs.append(("passages", f"{result.rank_event_count} near singular positions"))
@@ -54,7 +54,7 @@ def lines(result: Result) -> list[tuple[str, str]]:
     return pairs
 
 
-def _coordinates(result: Result) -> str:
+def _coordinates_in_words(result: Result) -> str:
     """Return the coordinates of the state, in words."""
     count = len(result.state)
     return f"{result.coordinates}, {count} numbers of the state; the rank is that over all rows of the mechanism"
@@ -82,11 +82,11 @@ def status_in_words(result: Result) -> str:
 
 def summary_table(result: Result) -> str:
     """Return the summary as an HTML table."""
-    rows = [*lines(result), *(("warning", w) for w in result.warnings), *(("note", n) for n in result.notes)]
+    rows = [*summary_lines(result), *(("warning", w) for w in result.warnings), *(("note", n) for n in result.notes)]
     return notebook_table((), rows)
 
 
-def extremes(table: Labelled) -> dict[str, dict[str, Any]]:
+def extreme_values(table: Labelled) -> dict[str, dict[str, Any]]:
     """Return unit, last, smallest and largest value of each column, None where there is none."""
     entries: dict[str, dict[str, Any]] = {}
     for i, (name, unit) in enumerate(zip(table.names, table.units, strict=True)):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.base.digits import cleaned
+from symgen.base.digits import clean
 from symgen.base.errors import AssemblyError, InputError
 from symgen.base.vocabulary.measures import GROUND
 from symgen.derive.methods import METHODS
@@ -20,20 +20,20 @@ from symgen.result.export import SAVED
 from symgen.result.labelled import Array, Labelled, columns_at, least_scale, unit_scales
 from symgen.result.live_run import LIVE_INTEGRATOR, is_live, live_of_run
 from symgen.result.player.live import NONE, Live
-from symgen.result.player.motion_page import Page, live_script, page, page_data
-from symgen.result.player.recording import PlottedGroup, RecordedEvent, Recording, parts_of, position_groups
-from symgen.result.plots import panels
-from symgen.result.saved import check_names, checked_file, dataset_of
+from symgen.result.player.motion_page import Page, live_script, motion_page, page_data
+from symgen.result.player.recording import PlottedGroup, RecordedEvent, Recording, groups_by_unit, position_groups
+from symgen.result.plots import panels_of_table
+from symgen.result.saved import check_names, dataset_of, read_result_file
 from symgen.result.signals import TABLES
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.result.tables import MotionTables
+    from symgen.result.motion_tables import MotionTables
 
 
-def view(result: MotionTables, beside: MotionTables | None = None, live: bool | str = True) -> Page:
+def view_motion(result: MotionTables, beside: MotionTables | None = None, live: bool | str = True) -> Page:
     """Return the page of a motion.
 
     Parameters
@@ -53,11 +53,13 @@ def view(result: MotionTables, beside: MotionTables | None = None, live: bool | 
     first, second = playable_motion(result), None if beside is None else playable_motion(beside)
     if beside is not None and second is not None and beside.q.names != result.q.names:
         raise InputError("view", f"another motion of {first.mechanism.name}", f"one of {second.mechanism.name}")
-    method = METHODS.canonical(live, "live") if isinstance(live, str) else ""
+    method = METHODS.resolve_alias(live, "live") if isinstance(live, str) else ""
     if method and not is_live(method):
         expected = f"a method that '{LIVE_INTEGRATOR}' solves, as pages run no other scheme"
         raise InputError("live", expected, f"'{live}'")
-    return page(first, *(live_of_run(first.mechanism, result.run_facts(), method) if live else (None, "")), second)
+    return motion_page(
+        first, *(live_of_run(first.mechanism, result.run_facts(), method) if live else (None, "")), second
+    )
 
 
 def view_data(result: MotionTables, live: bool = True) -> tuple[dict[str, Any], str]:
@@ -93,10 +95,10 @@ def playable_motion(result: MotionTables) -> Recording:
         raise InputError("view", "a result with outputs", f"one of {result.mechanism} without")
     mechanism, run = result.measured.mechanism, result.run_facts()
     values = parameter_values(mechanism) | dict(result.parameters)
-    return _recording(mechanism, values, result.t, result.q.values, lambda table: result.whole((table,)), run)
+    return _recording_of_result(mechanism, values, result.t, result.q.values, lambda table: result.whole((table,)), run)
 
 
-def _recording(
+def _recording_of_result(
     mechanism: Mechanism,
     values: Mapping[str, float],
     t: Array,
@@ -112,7 +114,7 @@ def _recording(
         for e in run.get("rank_events", [])
     ]
     moments += [RecordedEvent(e["t"], e["t"], "event", e["name"]) for e in run.get("events", [])]
-    reactions, pushed = _reactions(mechanism, read("reactions"))
+    reactions, pushed = _reaction_groups(mechanism, read("reactions"))
     elements = read("elements")
     pulls = [name for name in elements.names if name.endswith(".force")]
     pulling = tuple(name.removesuffix(".force") for name in pulls)
@@ -122,7 +124,7 @@ def _recording(
         *(t, q),
         facts=tuple(facts),
         status=run["status"],
-        groups=tuple(_groups(mechanism, q, read)),
+        groups=tuple(_groups_of_columns(mechanism, q, read)),
         reactions=reactions,
         pushed=pushed,
         pulls=np.stack([elements[name] for name in pulls], axis=1) if pulls else None,
@@ -131,7 +133,7 @@ def _recording(
     )
 
 
-def _reactions(mechanism: Mechanism, table: Labelled) -> tuple[Array | None, tuple[str, ...]]:
+def _reaction_groups(mechanism: Mechanism, table: Labelled) -> tuple[Array | None, tuple[str, ...]]:
     labels = ("Fx", "Fy", "Fz") if mechanism.space == "spatial" else ("Fx", "Fy")
     names = dict.fromkeys(name.rpartition(".")[0] for name in table.names)
     owners = tuple(name for name in names if all(f"{name}.{label}" in table.names for label in labels))
@@ -140,7 +142,7 @@ def _reactions(mechanism: Mechanism, table: Labelled) -> tuple[Array | None, tup
     return np.stack([[table[f"{name}.{label}"] for label in labels] for name in owners]).transpose(2, 0, 1), owners
 
 
-#: Tables that a page plots, each with the section of its groups and what stands before the meaning of their units.
+#: Tables that a page plots, each with the section of its groups and the words before the meaning of their units.
 _PLOTTED = {
     "outputs": ("outputs", "outputs"),
     "elements": ("forces and drivers", "elements"),
@@ -161,7 +163,7 @@ _NONZERO = ("magnitudes", "reactions", "body_reactions")
 _LOST = 1e3
 
 
-def _groups(mechanism: Mechanism, q: Array, read: Callable[[str], Labelled]) -> Iterator[PlottedGroup]:
+def _groups_of_columns(mechanism: Mechanism, q: Array, read: Callable[[str], Labelled]) -> Iterator[PlottedGroup]:
     """Yield the quantities that a page plots, the most important ones first."""
     tables = {table: read(table) for table in _PLOTTED}
     scales = dict[str, float]()
@@ -172,23 +174,23 @@ def _groups(mechanism: Mechanism, q: Array, read: Callable[[str], Labelled]) -> 
         if table == "q":
             yield from position_groups(mechanism, q)
             continue
-        for title, unit, logarithmic, part in _titled(table, head, tables[table]):
+        for title, unit, logarithmic, part in _title_of_motion(table, head, tables[table]):
             scale = 0.0 if logarithmic else max(scales[unit], least_scale(scales, unit)) if unit in scales else 0.0
             if table in _NONZERO:
                 scale *= _LOST
-                if not cleaned(part.values, scale).any():
+                if not clean(part.values, scale).any():
                     continue
             if table == "body_reactions" and title.partition(":")[0] in grounded:
                 continue  # they are those in ground axes
-            for whole, some in parts_of(title, part.names):
+            for whole, some in groups_by_unit(title, part.names):
                 names, values, further = part.names[some], part.values[:, some], table not in _ALWAYS
                 options: dict[str, Any] = {"further": further, "section": section, "scale": scale}
                 yield PlottedGroup(whole, unit, names, values, logarithmic, **options)
 
 
-def _titled(table: str, head: str, columns: Labelled) -> Iterator[tuple[str, str, bool, Labelled]]:
+def _title_of_motion(table: str, head: str, columns: Labelled) -> Iterator[tuple[str, str, bool, Labelled]]:
     """Yield the groups of a table: title, unit, whether sizes are drawn as logarithms, and columns."""
-    for meaning, unit, logarithmic, part in panels(columns):
+    for meaning, unit, logarithmic, part in panels_of_table(columns):
         owners = [name.partition(".")[0] for name in part.names]
         if table in _BY_JOINT:
             for joint in dict.fromkeys(owners):
@@ -223,7 +225,7 @@ def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None
     """
     first = recorded_file(option, path, mechanism)
     second = None if beside is None else recorded_file(option, beside, mechanism)
-    return page(first, *(_live_of_file(option, path, mechanism) if live else (None, "")), second)
+    return motion_page(first, *(_live_of_file(option, path, mechanism) if live else (None, "")), second)
 
 
 def _live_of_file(option: str, path: Path, mechanism: Mechanism) -> tuple[Live | None, str]:
@@ -231,7 +233,7 @@ def _live_of_file(option: str, path: Path, mechanism: Mechanism) -> tuple[Live |
     from symgen.base.settings import Settings
     from symgen.run.planning.inputs import put_inputs
 
-    run: dict[str, Any] = json.loads(_dataset(option, path).attrs["run"])
+    run: dict[str, Any] = json.loads(_read_dataset(option, path).attrs["run"])
     own = {p.name for p in mechanism.parameters} - set(mechanism.inputs)
     run["parameters"] = {k: float(v) for k, v in run["parameters"].items() if k in own}
     run["inputs"] = {k: v for k, v in run["inputs"].items() if k in mechanism.inputs}
@@ -251,11 +253,11 @@ def _live_of_file(option: str, path: Path, mechanism: Mechanism) -> tuple[Live |
 
 def mechanism_name(option: str, path: Path) -> str:
     """Return the mechanism of the result in a NetCDF file."""
-    return str(_dataset(option, path).attrs["mechanism"])
+    return str(_read_dataset(option, path).attrs["mechanism"])
 
 
-def _dataset(option: str, path: Path) -> xr.Dataset:
-    def read(path: Path) -> xr.Dataset:
+def _read_dataset(option: str, path: Path) -> xr.Dataset:
+    def read_result_dataset(path: Path) -> xr.Dataset:
         dataset = dataset_of(path)
         if not {"q", "energy", "violations", "reactions"} <= set(dataset.data_vars) or "mechanism" not in dataset.attrs:
             raise ValueError("it has not the tables of a result")
@@ -264,7 +266,7 @@ def _dataset(option: str, path: Path) -> xr.Dataset:
         check_names(dataset["kind_of_energy"].values.tolist())
         return dataset
 
-    return checked_file(option, path, read, SAVED[".nc"])
+    return read_result_file(option, path, read_result_dataset, SAVED[".nc"])
 
 
 def recorded_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
@@ -275,7 +277,7 @@ def recorded_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
     InputError
         If the file is none of a result of the mechanism.
     """
-    data = _dataset(option, path)
+    data = _read_dataset(option, path)
     names = {
         "coordinate": [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates],
         "velocity": [f"{b.name}.{s}" for b in mechanism.bodies for s in b.speeds],
@@ -295,4 +297,4 @@ def recorded_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
     run: dict[str, Any] = json.loads(data.attrs["run"])
     own = {p.name for p in mechanism.parameters}
     numbers = parameter_values(mechanism, {k: float(v) for k, v in run["parameters"].items() if k in own})
-    return _recording(mechanism, numbers, data["time"].values, data["q"].values, tables.__getitem__, run)
+    return _recording_of_result(mechanism, numbers, data["time"].values, data["q"].values, tables.__getitem__, run)

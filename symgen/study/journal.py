@@ -19,8 +19,8 @@ from typing import IO, TYPE_CHECKING, Any
 
 from symgen.base.errors import InputError, SimulationError
 from symgen.base.escapes import printable
-from symgen.base.files import check_name
-from symgen.base.plugins import stamps
+from symgen.base.files import check_file_name
+from symgen.base.plugins import plugin_digests
 from symgen.base.version import __version__
 from symgen.compile.store.identity import combined_digest
 from symgen.compile.store.locks import file_lock
@@ -53,11 +53,11 @@ def cell_key(**parts: object) -> str:
     TypeError
         If a part has another type, whose text might not determine the value.
     """
-    text = json.dumps(parts, sort_keys=True, separators=(",", ":"), default=_plain)
+    text = json.dumps(parts, sort_keys=True, separators=(",", ":"), default=_plain_key)
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
-def _plain(value: object) -> dict[str, Any]:
+def _plain_key(value: object) -> dict[str, Any]:
     if isinstance(value, Mapping):
         return dict(value)
     raise TypeError(f"a cell's key cannot hold a {type(value).__name__}")
@@ -68,7 +68,7 @@ def code_identity() -> str:
     from symgen.base.ir.program import FORMAT
     from symgen.run.compiling.folders import generator_digest
 
-    return combined_digest(__version__, str(FORMAT), generator_digest(), package_digest(), *stamps())
+    return combined_digest(__version__, str(FORMAT), generator_digest(), package_digest(), *plugin_digests())
 
 
 # -- the file ----------------------------------------------------------------------------------------------------------
@@ -111,7 +111,7 @@ class Journal:
             self._file.close()
             self._file = None
             if self._created and not self._done and self.path is not None:  # a refused process leaves no file
-                for path in (self.path, _lock_of(self.path)):
+                for path in (self.path, _lock_path(self.path)):
                     with suppress(OSError):
                         path.unlink()
         if self._lock is not None:
@@ -160,7 +160,7 @@ class Journal:
         if key in self._done:
             raise ValueError(f"cell {key} is in the journal already")
         entry = {"key": key, "outcome": dict(outcome)}
-        line = json.dumps(entry | {"sha256": _digest(entry)}, allow_nan=False).encode()
+        line = json.dumps(entry | {"sha256": _entry_digest(entry)}, allow_nan=False).encode()
         recorded: Outcome = json.loads(line)["outcome"]
         if self._file is not None:
             try:
@@ -176,17 +176,17 @@ class Journal:
     def _open(self, path: Path) -> None:
         import filelock
 
-        check_name(f"journal '{path}'", path)
+        check_file_name(f"journal '{path}'", path)
         if not path.parent.is_dir():  # the lock would create it
             raise InputError(f"journal '{path}'", "a file in a folder that exists", f"no folder '{path.parent}'")
-        _content(path)  # a file that is no journal gets no lock file
+        _journal_bytes(path)  # a file that is no journal gets no lock file
         try:
-            lock = file_lock(_lock_of(path))
+            lock = file_lock(_lock_path(path))
             lock.acquire(timeout=0)
         except filelock.Timeout:
             raise InputError(f"journal '{path}'", "one that no other process uses", "one in use") from None
         except OSError as error:
-            raise _unusable(path, error) from None
+            raise _unusable_error(path, error) from None
         self._lock = lock
         try:
             self._read(path)
@@ -196,10 +196,10 @@ class Journal:
 
     def _read(self, path: Path) -> None:
         try:
-            content = _content(path)
+            content = _journal_bytes(path)
             whole, ended, torn = content.rpartition(b"\n")
             keep = len(whole) + len(ended)
-            self._done.update(filter(None, map(_parsed, whole.split(b"\n")[1:] if ended else ())))
+            self._done.update(filter(None, map(_parse_line, whole.split(b"\n")[1:] if ended else ())))
             self._created = not path.exists()
             self._file = path.open("ab", buffering=0)
             if torn or (content and not ended):
@@ -207,49 +207,49 @@ class Journal:
             if keep == 0:
                 self._file.write(HEADER)
         except OSError as error:
-            raise _unusable(path, error) from None
+            raise _unusable_error(path, error) from None
 
 
-def _lock_of(path: Path) -> Path:
+def _lock_path(path: Path) -> Path:
     return path.with_name(path.name + ".lock")
 
 
-def _content(path: Path) -> bytes:
+def _journal_bytes(path: Path) -> bytes:
     """Return the bytes of a journal, empty if the file does not exist."""
     if path.exists() and not path.is_file():
         raise InputError(f"journal '{path}'", "a file", "a folder, a pipe or a device")
     try:
         content = path.read_bytes() if path.exists() else b""
     except OSError as error:
-        raise _unusable(path, error) from None
+        raise _unusable_error(path, error) from None
     if not content.startswith(HEADER) and not HEADER.startswith(content):
         got = "something else in line 1"
         raise InputError(f"journal '{path}'", "a journal of symgen", got, "it was left as it is; name another file")
     return content
 
 
-def _parsed(line: bytes) -> tuple[str, Outcome] | None:
+def _parse_line(line: bytes) -> tuple[str, Outcome] | None:
     """Return key and outcome of a line, None of a damaged one."""
     try:
         entry = json.loads(line)
         written = entry.pop("sha256")
-        return (entry["key"], _shown(entry["outcome"])) if written == _digest(entry) else None
+        return (entry["key"], _printable_outcome(entry["outcome"])) if written == _entry_digest(entry) else None
     except (ValueError, RecursionError, AttributeError, LookupError, TypeError):
         return None
 
 
-def _shown(value: object) -> Any:
+def _printable_outcome(value: object) -> Any:
     """Return an outcome with printable texts, as symgen writes them: a journal may come from somebody else."""
     if isinstance(value, str):
         return printable(value)
     if isinstance(value, dict):
-        return {key: _shown(each) for key, each in value.items()}
-    return [_shown(each) for each in value] if isinstance(value, list) else value
+        return {key: _printable_outcome(each) for key, each in value.items()}
+    return [_printable_outcome(each) for each in value] if isinstance(value, list) else value
 
 
-def _digest(entry: Mapping[str, Any]) -> str:
+def _entry_digest(entry: Mapping[str, Any]) -> str:
     return hashlib.sha256(json.dumps(entry, allow_nan=False, sort_keys=True).encode()).hexdigest()[:32]
 
 
-def _unusable(path: Path, error: OSError) -> InputError:
+def _unusable_error(path: Path, error: OSError) -> InputError:
     return InputError(f"journal '{path}'", "a file that can be written", error.strerror or "an error")

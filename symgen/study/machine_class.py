@@ -6,7 +6,7 @@ import platform
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from symgen.base.memory import processors
+from symgen.base.memory import processor_count
 
 #: Libraries whose versions matter for run times and last digits.
 LIBRARIES = ("numpy", "llvmlite", "numba", "sympy", "scipy")
@@ -26,12 +26,12 @@ def processor_model() -> str:
 
 def machine_class() -> str:
     """Return processor, architecture, cores and system in words."""
-    n = processors()
+    n = processor_count()
     core = "1 core" if n == 1 else f"{n} cores"
     return f"{processor_model()} ({platform.machine()}), {core}, {platform.system()}"
 
 
-def versions() -> dict[str, str]:
+def library_versions() -> dict[str, str]:
     """Return the versions of symgen, Python and the libraries by name."""
     from symgen.base.version import __version__
 
@@ -46,4 +46,4 @@ def versions() -> dict[str, str]:
 
 def version_list() -> str:
     """Return the versions in one line: ``symgen 0.1.0, Python 3.13.0, ...``."""
-    return ", ".join(f"{name} {text}" for name, text in versions().items())
+    return ", ".join(f"{name} {text}" for name, text in library_versions().items())

@@ -20,7 +20,7 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from symgen.base.errors import SimulationError
-from symgen.base.plugins import in_sentences, load_plugins, loaded_files
+from symgen.base.plugins import explain_plugin_errors, load_plugins, loaded_plugin_files
 from symgen.study.journal import Journal, Outcome
 
 #: Numerical libraries start threads by these variables; a process of a study is one thread.
@@ -149,7 +149,7 @@ def run_cells(
     advance()
     interrupted = False
     try:
-        with contextlib.closing(_computed(missing, compute, processes, patience)) as computed:
+        with contextlib.closing(_compute_cells(missing, compute, processes, patience)) as computed:
             for cell, outcome in computed:
                 if outcome is not None:
                     journal.add(cell.key, outcome)
@@ -163,12 +163,14 @@ def run_cells(
 Computed = Iterator[tuple[Cell, Outcome | None]]
 
 
-def _computed(cells: Sequence[Cell], compute: Callable[[Any], Outcome | None], processes: int, patience: float) -> Any:
+def _compute_cells(
+    cells: Sequence[Cell], compute: Callable[[Any], Outcome | None], processes: int, patience: float
+) -> Any:
     """Yield cells as they finish: in this process, and in others as soon as one takes longer than `patience`."""
     worthwhile = patience == 0.0
     for i, cell in enumerate(cells):
         if worthwhile and processes > 1 and len(cells) - i > 1:
-            yield from _spread(cells[i:], compute, processes)
+            yield from _spread_over_processes(cells[i:], compute, processes)
             return
         began = time.monotonic()
         yield cell, compute(cell.task)
@@ -178,27 +180,27 @@ def _computed(cells: Sequence[Cell], compute: Callable[[Any], Outcome | None], p
 # -- several processes -------------------------------------------------------------------------------------------------
 
 
-def _spread(cells: Sequence[Cell], compute: Callable[[Any], Outcome | None], processes: int) -> Computed:
+def _spread_over_processes(cells: Sequence[Cell], compute: Callable[[Any], Outcome | None], processes: int) -> Computed:
     """Yield cells as processes finish them; the processes end with this generator."""
     context = multiprocessing.get_context("spawn")
     ours, theirs = context.Pipe()
     shares, count = Shares(cells), min(processes, len(cells))
     # a pool of one process each: cells that share code go to the process that has it
-    pools = [ProcessPoolExecutor(1, context, _begin, (theirs, loaded_files())) for _ in range(count)]
+    pools = [ProcessPoolExecutor(1, context, _begin_process, (theirs, loaded_plugin_files())) for _ in range(count)]
     running = dict[Future[Outcome | None], tuple[int, Cell]]()
 
-    def send(which: int) -> None:
-        if (cell := shares.next_of(which)) is not None:
-            running[pools[which].submit(_computed_there, compute, cell.task)] = which, cell
+    def send_cell(which: int) -> None:
+        if (cell := shares.next_cell(which)) is not None:
+            running[pools[which].submit(_compute_in_process, compute, cell.task)] = which, cell
 
     try:
         with one_thread_each():
             for which in list(range(count)) * AHEAD:
-                send(which)
+                send_cell(which)
         while running:
             for future in wait(running, return_when=FIRST_COMPLETED).done:
                 which, cell = running.pop(future)
-                send(which)
+                send_cell(which)
                 yield cell, future.result()
     except BrokenProcessPool:
         raise SimulationError("a process of the study died; a journal holds what was done before") from None
@@ -209,7 +211,7 @@ def _spread(cells: Sequence[Cell], compute: Callable[[Any], Outcome | None], pro
 
 
 class Shares:
-    """Cells that processes take: group by group, and from the group of another process where no other group is left.
+    """Cells for processes: a process takes them group by group, and helps another group once none is left.
 
     Parameters
     ----------
@@ -223,7 +225,7 @@ class Shares:
             groups.setdefault(cell.group, deque()).append(cell)
         self._untouched, self._own = deque(groups.values()), dict[int, deque[Cell]]()
 
-    def next_of(self, process: int) -> Cell | None:
+    def next_cell(self, process: int) -> Cell | None:
         """Return the next cell of a process, None if no cell is left."""
         own = self._own.get(process)
         if not own and self._untouched:
@@ -234,8 +236,8 @@ class Shares:
         return longest.pop() if longest else None
 
 
-@in_sentences
-def _computed_there(compute: Callable[[Any], Outcome | None], task: object) -> Outcome | None:
+@explain_plugin_errors
+def _compute_in_process(compute: Callable[[Any], Outcome | None], task: object) -> Outcome | None:
     """Compute a cell in another process: errors leave it without the lines that they passed."""
     return compute(task)
 
@@ -257,14 +259,14 @@ def one_thread_each() -> Iterator[None]:
                 os.environ[name] = value
 
 
-def _begin(study: Connection, plugins: tuple[str, ...]) -> None:
+def _begin_process(study: Connection, plugins: tuple[str, ...]) -> None:
     """Prepare a process: Ctrl-C is for the study's own process, this one ends with the study and has its plugins."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_follow, args=(study,), daemon=True).start()
+    threading.Thread(target=_follow_process, args=(study,), daemon=True).start()
     load_plugins(plugins)
 
 
-def _follow(study: Connection) -> None:
+def _follow_process(study: Connection) -> None:
     """End this process as soon as the study has, in the middle of a cell too; nothing is ever sent."""
     with contextlib.suppress(EOFError, OSError):
         study.recv()

@@ -7,7 +7,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from symgen.base.arguments import path as argument_path
+from symgen.base.arguments import path_argument as argument_path
 from symgen.base.errors import InputError
 
 if TYPE_CHECKING:

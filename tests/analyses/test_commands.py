@@ -91,15 +91,15 @@ def test_bad_use_ends_in_a_sentence(cli, words, code, says):
 
 MASS = '''"""Find the mass of a mechanism."""
 
-from symgen.analyses.kinds import Analysis, Option, AnalysisOutput, settings_of
+from symgen.analyses.kinds import Analysis, Option, AnalysisOutput, change_settings_checked
 
 
 def mass(model, settings=None, **changes):
     """Return the mass of all bodies [kg]."""
-    from symgen.describe.formulas.evaluate import parameter_values, scalars
+    from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 
-    whole = settings_of("mass", settings, changes, ("parameters",))
-    value = scalars(parameter_values(model.mechanism, whole.parameters)).value
+    whole = change_settings_checked("mass", settings, changes, ("parameters",))
+    value = scalar_values(parameter_values(model.mechanism, whole.parameters)).value
     return sum(value(body.mass, body.name) for body in model.mechanism.bodies)
 
 

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 import symgen
-from symgen.analyses.limits import ReachedLimit, reached_limits
 from symgen.analyses.prescribed.dead_centre_room import room_to_dead_centre
+from symgen.analyses.reached_limits import ReachedLimit, reached_limits
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import Number
-from symgen.describe.facts.digest import identity
+from symgen.describe.facts.digest import mechanism_digest
 from symgen.describe.files.validate import validate
-from symgen.study.report.machine import machine
+from symgen.study.report.machine_report import machine_report
 
 #: A rocker of 1.5 m, 2.5 m from the pivot of a crank of 1 m, with a coupler of 2 m.
 ROCKER = """
@@ -90,12 +90,12 @@ def test_nothing_is_computed_with_limits(swung):
     model, _ = swung
     without = tomllib.loads(ROCKER)
     del without["outputs"]["reach"]["largest"], without["parameters"]["width"]["largest"]
-    assert identity(validate(without, "rocker.toml")) == identity(model.mechanism)
+    assert mechanism_digest(validate(without, "rocker.toml")) == mechanism_digest(model.mechanism)
 
 
 @pytest.mark.slow
 def test_a_report_names_what_is_exceeded_and_the_room(swung):
-    document = machine(*swung)
+    document = machine_report(*swung)
     (limits,) = (section for section in document.sections if section.title == "Limits")
     assert limits.text == ("Exceeded: swing, reach.",)
     moods = [row[-1].mood for row in limits.tables[0].rows]

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Self
 
-from symgen.cli._editor.document import Document
+from symgen.cli._editor.edited_file import Document
 from symgen.cli._editor.server import Editor
 from tests.browser.chromium import PATIENCE, Chromium
 

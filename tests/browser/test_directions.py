@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from symgen.describe.files.builder import MechanismBuilder
-from symgen.result.player.motion_page import page
+from symgen.result.player.motion_page import motion_page
 from symgen.result.player.recording import Recording
 from tests.browser.chromium import WITHOUT_WEBGL, Chromium
 
@@ -48,7 +48,7 @@ def test_forces_in_the_plane(frame: str, chromium: Chromium, tmp_path: Path) -> 
     builder.force("f", "force", body="a", at="tip", force=(3.0, -4.0), frame=frame)
     q = np.array([[0.0, 0.0, angle] for angle in ANGLES])
     path = tmp_path / "arm.html"
-    page(Recording(builder.build(), {}, np.arange(4.0), q)).save(path)
+    motion_page(Recording(builder.build(), {}, np.arange(4.0), q)).save(path)
     chromium.open(path, scripts=(HEARD,))
     for k, angle in enumerate(ANGLES):
         c, s = (1.0, 0.0) if frame == "ground" else (math.cos(angle), math.sin(angle))
@@ -64,7 +64,7 @@ def space(tmp_path: Path, kind: str, **keys: object) -> Path:
     builder.force("f", kind, body="a", **keys)
     q = np.array([[0.0, 0.0, 0.0, math.cos(angle / 2), math.sin(angle / 2), 0.0, 0.0] for angle in ANGLES])
     path = tmp_path / "space.html"
-    page(Recording(builder.build(), {}, np.arange(4.0), q)).save(path)
+    motion_page(Recording(builder.build(), {}, np.arange(4.0), q)).save(path)
     return path
 
 

@@ -17,7 +17,7 @@ pytestmark = pytest.mark.browser
 
 @pytest.fixture
 def file(tmp_path: Path) -> Path:
-    own = catalogue.file_of("four-bar")
+    own = catalogue.file_of_entry("four-bar")
     assert own is not None
     return Path(shutil.copy(own, tmp_path / "bar.toml"))
 
@@ -335,7 +335,7 @@ def test_a_driven_four_bar_from_an_empty_file_by_the_mouse_alone(page: Page, fil
 
 
 def test_a_mechanism_in_space_is_edited_by_its_text(page: Page, file: Path) -> None:
-    own = catalogue.file_of("heavy-top")
+    own = catalogue.file_of_entry("heavy-top")
     assert own is not None
     file.write_text(own.read_text(encoding="utf-8"))
     page.open()

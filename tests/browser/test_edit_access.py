@@ -16,7 +16,7 @@ pytestmark = pytest.mark.browser
 
 @pytest.fixture
 def page(chromium: Chromium, tmp_path: Path) -> Iterator[Page]:
-    own = catalogue.file_of("driven-four-bar")
+    own = catalogue.file_of_entry("driven-four-bar")
     assert own is not None
     with Page.of(chromium, Path(shutil.copy(own, tmp_path / "bar.toml"))) as opened:
         yield opened

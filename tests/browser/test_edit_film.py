@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from symgen.describe.files.template import template
+from symgen.describe.files.template import new_file_text
 from tests.browser.chromium import Chromium
 from tests.browser.editor_page import KEPT, Page
 
@@ -17,7 +17,7 @@ pytestmark = pytest.mark.browser
 @pytest.fixture
 def page(chromium: Chromium, tmp_path: Path) -> Iterator[Page]:
     file = tmp_path / "crank-rocker.toml"
-    file.write_text(template("crank-rocker"))
+    file.write_text(new_file_text("crank-rocker"))
     with Page.of(chromium, file) as opened:
         yield opened
 

@@ -22,7 +22,7 @@ pytestmark = pytest.mark.browser
 
 @pytest.fixture
 def file(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
-    own = catalogue.file_of(request.param)
+    own = catalogue.file_of_entry(request.param)
     assert own is not None
     return Path(shutil.copy(own, tmp_path / f"{request.param}.toml"))
 

@@ -13,11 +13,11 @@ from support.emitted import mechanism_of
 from support.random_closed import make
 
 from symgen.api import Model, load
-from symgen.compile.native.javascript import HELPERS
+from symgen.compile.native.javascript_code import HELPERS
 from symgen.describe import catalogue
 from symgen.describe.files.builder import MechanismBuilder
 from symgen.result.player.live import live_part
-from symgen.result.player.motion_page import page
+from symgen.result.player.motion_page import motion_page
 from symgen.result.player.recording import Recording
 from tests.browser.chromium import WITHOUT_WEBGL, Chromium
 from tests.browser.uncontracted import Uncontracted, prepared
@@ -127,7 +127,7 @@ def test_near_bars_hide_far_ones_from_either_side(
     aside, upright = np.array([0.3, 0.0, 0.0]), [1.0, 0.0, 0.0, 0.0]
     q = np.array([[*(aside + apart), *upright, *(0.4 * np.array(along) - apart), *upright]])
     path = tmp_path / "crossed.html"
-    page(Recording(crossed.build(), {}, np.zeros(1), q)).save(path)
+    motion_page(Recording(crossed.build(), {}, np.zeros(1), q)).save(path)
     chromium.open(path)
     middle = """(() => {
       window.symgen.look(%r, %r, [0, 0, 0]);
@@ -185,7 +185,7 @@ def test_rates_are_those_of_the_compiled_code(
         return
     recording = Recording(mechanism, load(name).parameters(), np.zeros(1), q[None, :])
     path = tmp_path / "page.html"
-    page(recording, live, why).save(path)
+    motion_page(recording, live, why).save(path)
     random, info = np.random.default_rng(7), compiled.info
     states, fused, w = [], [], start.w.copy()
     pivots = range(info.sections["pivot"][0], info.sections["pivot"][0] + info.m)
@@ -381,7 +381,7 @@ def test_frames_with_200_bodies(chromium: Chromium, tmp_path: Path) -> None:
             q[k, 3 * i : 3 * i + 3] = x + 0.5 * math.cos(angle), y + 0.5 * math.sin(angle), angle
             x, y = x + math.cos(angle), y + math.sin(angle)
     path = tmp_path / "long.html"
-    page(Recording(mechanism, {}, t, q)).save(path)
+    motion_page(Recording(mechanism, {}, t, q)).save(path)
     chromium.open(path)
     chromium.call("Performance.enable", timeDomain="threadTicks")
     found = []

@@ -5,7 +5,7 @@ import json
 import pytest
 from compile.native import printed, printed_search
 
-from symgen.compile.native import javascript as js
+from symgen.compile.native import javascript_code as js
 from symgen.run.loops import searching
 from tests.browser.chromium import Chromium
 
@@ -26,7 +26,7 @@ def test_events_of_functions_of_time(chromium: Chromium) -> None:
 {js.HELPERS}{js.LOOP_HELPERS}
 const calls = {json.dumps(calls[first : first + 50])};
 {printed.HARNESS}
-{js.javascript({"decide": function})}
+{js.javascript_functions({"decide": function})}
 return calls.filter(([before, result, after]) => {{
   const given = before.map((x) => (typeof x === "string" ? unpacked(x) : x));
   const arrays = given.filter((x) => x instanceof Float64Array);

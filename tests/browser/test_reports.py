@@ -6,9 +6,9 @@ import pytest
 
 import symgen
 from symgen.study.report.document import ReportDocument
-from symgen.study.report.machine import machine
-from symgen.study.report.picture import sketched
-from symgen.study.report.write import html, write
+from symgen.study.report.machine_report import machine_report
+from symgen.study.report.picture import sketches_section
+from symgen.study.report.write import html_report, write
 from tests.browser.chromium import Chromium
 
 pytestmark = pytest.mark.browser
@@ -22,7 +22,9 @@ def test_a_tall_sketch_is_no_taller_than_a_screen(chromium: Chromium, tmp_path: 
         for name, (w, h) in shapes.items()
     }
     path = tmp_path / "report.html"
-    path.write_text(html(ReportDocument("sketches", (), (), "", tuple(sketched(sketches)))), encoding="utf-8")
+    path.write_text(
+        html_report(ReportDocument("sketches", (), (), "", tuple(sketches_section(sketches)))), encoding="utf-8"
+    )
     for width in (1280, 390):
         chromium.open(path, width)
         tall, wide = chromium.run("[...document.querySelectorAll('.pictures img')].map((i) => i.clientHeight)")
@@ -35,5 +37,5 @@ def test_a_tall_sketch_is_no_taller_than_a_screen(chromium: Chromium, tmp_path: 
 
 def test_a_report_is_printed(tmp_path):
     model = symgen.load("pendulum")
-    path = write(machine(model, model.simulate(until=0.5)), tmp_path / "pendulum.pdf")
+    path = write(machine_report(model, model.simulate(until=0.5)), tmp_path / "pendulum.pdf")
     assert path.read_bytes().startswith(b"%PDF") and path.stat().st_size > 20_000

@@ -13,7 +13,7 @@ from support.runs import interrupt
 
 from symgen.api import load
 from symgen.base.errors import SimulationError
-from symgen.study.comparison import compare as whole
+from symgen.study.comparison import compare_models as whole
 from symgen.study.comparison import model_comparison as module
 from symgen.study.journal import Journal
 
@@ -147,7 +147,7 @@ def test_why_there_is_no_reference_is_kept_for_those_who_go_on(cli, tmp_path, mo
     def none(*arguments):
         raise SimulationError("nothing is near enough")
 
-    monkeypatch.setattr(module, "reference", none)
+    monkeypatch.setattr(module, "reference_motion", none)
     report, journal = tmp_path / "report.html", tmp_path / "rows.journal"
     arguments = ("compare", "pendulum", *SMALL, "--repeat", "1", "--jobs", "1", "--json", "--journal", journal)
     arguments = (*arguments, "-o", report, "--start", "bob.vy=0.5")
@@ -160,8 +160,8 @@ def test_why_there_is_no_reference_is_kept_for_those_who_go_on(cli, tmp_path, mo
 
 
 def test_the_sketch_at_the_head_of_a_report_is_where_runs_begin():
-    from symgen.cli._report import sketches_of
+    from symgen.cli._report import sketches_at_start
 
     model, start = load("pendulum"), {"bob.x": 0.0, "bob.y": -1.0}
-    assert sketches_of([model], {}, start) == {"pendulum": model.draw(start=start).svg}
+    assert sketches_at_start([model], {}, start) == {"pendulum": model.draw(start=start).svg}
     assert model.draw(start=start).svg != model.draw().svg

@@ -7,7 +7,15 @@ import numpy as np
 import pytest
 
 from symgen.api import load
-from symgen.base.digits import cleaned, column, complex_digits, digits, digits_of_rows, scale_of, without_rounding
+from symgen.base.digits import (
+    clean,
+    clear_matrix_rounding,
+    digits,
+    format_column,
+    format_complex,
+    format_rows,
+    scale_of,
+)
 from symgen.cli import main
 from symgen.result.labelled import Labelled, column_texts
 
@@ -16,32 +24,32 @@ ROUNDING = re.compile(r"\de-(1[3-9]|[2-9]\d)")
 
 
 def test_numbers_are_judged_beside_their_column() -> None:
-    assert column([1.0, -3e-13, 2e-12, -0.0]) == ["1", "0", "2e-12", "0"]
-    assert column([1e-20, 3e-21]) == ["1e-20", "3e-21"]  # a length of nothing but small numbers
-    assert column([1e-20, 3e-21], "rad") == ["0", "0"]  # nobody turns by that
-    assert column([1e-9, 1e-22], "m") == ["1e-09", "0"]
-    assert column([float("nan"), float("inf"), 1e-9]) == ["nan", "inf", "1e-09"]
+    assert format_column([1.0, -3e-13, 2e-12, -0.0]) == ["1", "0", "2e-12", "0"]
+    assert format_column([1e-20, 3e-21]) == ["1e-20", "3e-21"]  # a length of nothing but small numbers
+    assert format_column([1e-20, 3e-21], "rad") == ["0", "0"]  # nobody turns by that
+    assert format_column([1e-9, 1e-22], "m") == ["1e-09", "0"]
+    assert format_column([float("nan"), float("inf"), 1e-9]) == ["nan", "inf", "1e-09"]
     assert digits(-1e-18, 0.0) == "-1e-18" and digits(1.0 / 3.0, 1.0, 3) == "0.333"
-    assert scale_of([], "m") == 0.0 and column([]) == []
-    assert complex_digits(-1e-17 + 6j) == ("0", "+6") and complex_digits(2 + 1e-15j) == ("2", "")
-    np.testing.assert_array_equal(cleaned(np.array([1.0, -1e-15, np.nan]), 1.0), [1.0, 0.0, np.nan])
+    assert scale_of([], "m") == 0.0 and format_column([]) == []
+    assert format_complex(-1e-17 + 6j) == ("0", "+6") and format_complex(2 + 1e-15j) == ("2", "")
+    np.testing.assert_array_equal(clean(np.array([1.0, -1e-15, np.nan]), 1.0), [1.0, 0.0, np.nan])
 
 
 def test_columns_of_a_matrix_that_are_rounding_throughout() -> None:
     """By one part in 1e14 of the whole: small entries of a column with a unit of its own stay."""
-    assert digits_of_rows([[1e-17, 30.0], [2e-16, 1e-15]]) == [["0", "30"], ["0", "0"]]
-    assert digits_of_rows([[1e-9, 1e3], [-2e-11, 1.0]]) == [["1e-09", "1000"], ["-2e-11", "1"]]
+    assert format_rows([[1e-17, 30.0], [2e-16, 1e-15]]) == [["0", "30"], ["0", "0"]]
+    assert format_rows([[1e-9, 1e3], [-2e-11, 1.0]]) == [["1e-09", "1000"], ["-2e-11", "1"]]
 
 
 def test_entries_that_rounding_leaves_of_a_sum() -> None:
     """Of both their row and their column: a row or a column of small numbers has a unit of its own."""
     np.testing.assert_array_equal(
-        without_rounding(np.array([[-4.9e-17, 1.0, 1e-15], [-4.9, 3e-16, 1e-20], [1e-15, 1e-15, 1e-20]])),
+        clear_matrix_rounding(np.array([[-4.9e-17, 1.0, 1e-15], [-4.9, 3e-16, 1e-20], [1e-15, 1e-15, 1e-20]])),
         [[0.0, 1.0, 0.0], [-4.9, 0.0, 0.0], [0.0, 0.0, 0.0]],
     )
     small = np.array([[1e3, 1e-9], [1.0, 1e-12]])
-    np.testing.assert_array_equal(without_rounding(small), small)
-    assert without_rounding(np.zeros((0, 3))).shape == (0, 3)
+    np.testing.assert_array_equal(clear_matrix_rounding(small), small)
+    assert clear_matrix_rounding(np.zeros((0, 3))).shape == (0, 3)
 
 
 @pytest.mark.parametrize("name", ["pendulum", "four-bar", "heavy-top"])

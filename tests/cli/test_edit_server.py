@@ -20,14 +20,14 @@ import pytest
 
 from symgen.api import load
 from symgen.base.errors import InputError
-from symgen.cli._editor.document import Document
-from symgen.cli._editor.drafts import Drafts, _with_numbers_as_parameters
+from symgen.cli._editor.drafts import Drafts, _numbers_as_parameters
+from symgen.cli._editor.edited_file import Document
 from symgen.cli._editor.server import LARGEST_REQUEST, Editor
 from symgen.describe import catalogue
 from symgen.describe.facts.digest import digest
 from symgen.describe.files.load import LARGEST_FILE
 
-FOUR_BAR = catalogue.file_of("four-bar")
+FOUR_BAR = catalogue.file_of_entry("four-bar")
 assert FOUR_BAR is not None
 TEXT = FOUR_BAR.read_text(encoding="utf-8")
 
@@ -210,7 +210,7 @@ def test_a_moved_number_needs_no_new_code(tmp_path: Path) -> None:
     file, digests = tmp_path / "stopped.toml", set[str]()
     for length in (-0.5, -0.45):
         file.write_text(STOPPED.replace("[-0.5, 0.0]", f"[{length}, 0.0]"), encoding="utf-8")
-        digests.add(digest(_with_numbers_as_parameters(load(file).mechanism)))
+        digests.add(digest(_numbers_as_parameters(load(file).mechanism)))
     assert len(digests) == 1
 
 
@@ -218,7 +218,7 @@ def test_a_moved_number_needs_no_new_code(tmp_path: Path) -> None:
 def test_a_motion_with_a_stop_is_that_of_a_run(tmp_path: Path) -> None:
     file = tmp_path / "stopped.toml"
     file.write_text(STOPPED, encoding="utf-8")
-    moved, run = Drafts(file).motion(STOPPED, "a", 1), load(file).simulate()
+    moved, run = Drafts(file).run_motion(STOPPED, "a", 1), load(file).simulate()
     part = moved["data"]["motions"][0]
     q = np.frombuffer(base64.b64decode(part["q"]), "<f4").reshape(-1, part["count"])
     assert q[:, -1] == pytest.approx(run.q.values[-1], abs=1e-6)
@@ -227,9 +227,9 @@ def test_a_motion_with_a_stop_is_that_of_a_run(tmp_path: Path) -> None:
 
 def test_a_later_question_takes_the_place_of_an_earlier_one(tmp_path: Path) -> None:
     drafts, text = Drafts(tmp_path / "a.toml"), TEXT.replace("until = 10.0", "until = 0.1")
-    assert drafts.motion(text, "a", 2)["status"] == "ok"
-    assert drafts.motion(text, "a", 1) == {"superseded": True}
-    assert drafts.motion(text, "b", 1)["status"] == "ok"
+    assert drafts.run_motion(text, "a", 2)["status"] == "ok"
+    assert drafts.run_motion(text, "a", 1) == {"superseded": True}
+    assert drafts.run_motion(text, "b", 1)["status"] == "ok"
 
 
 def test_characters_are_counted_as_pages_count_them(editor: Editor) -> None:
@@ -305,13 +305,13 @@ def test_ten_megabytes_are_one_sentence(editor: Editor, tmp_path: Path) -> None:
 
 def test_documents_by_the_words_of_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    copy = Document.of("four-bar", None)
+    copy = Document.of_arguments("four-bar", None)
     assert copy.path == Path("four-bar.toml") and copy.read() == {"text": TEXT, "digest": ""}
     assert list(tmp_path.iterdir()) == []  # nothing is written before it is saved
     assert copy.save(TEXT, "", False)["saved"] and Path("four-bar.toml").read_text() == TEXT
-    new = Document.of(None, "crane")
+    new = Document.of_arguments(None, "crane")
     assert 'name = "crane"' in new.read()["text"] and not Path("crane.toml").exists()
-    assert Document.of("four-bar.toml", None).read()["digest"]
+    assert Document.of_arguments("four-bar.toml", None).read()["digest"]
 
 
 @pytest.mark.parametrize(

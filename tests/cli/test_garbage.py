@@ -8,8 +8,8 @@ import pytest
 SPARING = """
 import gc
 usual = gc.get_threshold()
-from symgen.cli import FIRST, sparing
-sparing()
+from symgen.cli import FIRST, spare_collections
+spare_collections()
 {body}
 """
 

@@ -14,11 +14,11 @@ import symgen
 from symgen.cli import main
 from symgen.derive.formulate.formulate import formulate
 from symgen.describe.files.validate import validate
-from symgen.result.reading.boxes import name
+from symgen.result.reading.boxes import name_box
 from symgen.result.reading.notations import latex
-from symgen.result.reading.quantity_names import functions, input_names
+from symgen.result.reading.quantity_names import input_names, table_functions
 from symgen.result.reading.symbolic import exact_literal
-from symgen.result.reading.typeset import texts
+from symgen.result.reading.typeset import text_writer
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +43,7 @@ def worth(text, values, tables=()):
     words = {name: getattr(np, name) for name in "sin cos tan sqrt exp log tanh sign floor".split()}
     words |= {"asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2, "Abs": abs}
     words |= {"Min": min, "Max": max, "Piecewise": piecewise, "Eq": np.equal, "Ne": np.not_equal}
-    words |= functions(tables)
+    words |= table_functions(tables)
     for i, (key, x) in enumerate(values.items()):
         text = re.sub(rf"(?<![\w.]){re.escape(key)}(?![\w.])", f"_{i}", text)
         words[f"_{i}"] = np.float64(x)
@@ -60,13 +60,13 @@ def test_shown_expressions_have_the_values_of_the_graph(equations, monkeypatch):
     values = {title: inputs[key] for key, title in input_names(equations).items() if key in inputs}
     nodes = list(all_nodes(equations))
     expected = node_values(equations.graph, nodes, inputs, equations.tables)
-    shown = [worth(text, values, equations.tables) for text in map(texts(equations), nodes)]
+    shown = [worth(text, values, equations.tables) for text in map(text_writer(equations), nodes)]
     assert shown == pytest.approx(expected, rel=1e-12, abs=1e-12)
 
 
 def test_long_expressions_are_counted_instead(equations, monkeypatch):
     monkeypatch.setattr("symgen.result.reading.typeset.LONGEST", 3)
-    assert texts(equations)(equations.kinetic).endswith(" operations>")
+    assert text_writer(equations)(equations.kinetic).endswith(" operations>")
 
 
 def formulas(*components, **sections):
@@ -79,7 +79,7 @@ def formulas(*components, **sections):
         **sections,
     }
     e = formulate(validate(raw, "test"))
-    return e, list(map(texts(e), e.forces))
+    return e, list(map(text_writer(e), e.forces))
 
 
 @pytest.mark.parametrize("text", ["0.25*(-2*k*3*a.x)/(a.y*(c - a.vx))", "-7*3*k*c/(k*a.x*a.y)/3"])
@@ -94,7 +94,7 @@ def test_text_means_what_the_formula_says(text):
 def test_interpolated_functions_have_names_that_can_be_read():
     e = formulate(symgen.load("cam-follower").mechanism)
     (row,) = (row for row in e.rows if row.name == "cam.driver")
-    shown = list(map(texts(e), (row.phi, row.nu, row.gamma)))
+    shown = list(map(text_writer(e), (row.phi, row.nu, row.gamma)))
     assert shown == ["follower.y - table_lift(t*speed)", "speed*slope_lift(t*speed)", "speed**2*second_lift(t*speed)"]
     _, shown = formulas("line(a.x)", 0.0, tables={"line": {"x": [0.0, 1.0], "y": [0.0, 2.0]}})
     assert shown[0] == "table_line(a.x)"
@@ -114,7 +114,7 @@ def test_interpolated_functions_have_names_that_can_be_read():
     ],
 )
 def test_latex_names(text, expected):
-    assert latex(name(text)) == expected
+    assert latex(name_box(text)) == expected
 
 
 def test_numbers_are_shown_with_all_digits():

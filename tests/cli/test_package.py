@@ -14,7 +14,7 @@ from support.rotation import of_turn
 
 import symgen
 from symgen.cli import main
-from symgen.compile.store.modules import load_module, plain_function
+from symgen.compile.store.loaded_modules import load_module, plain_function
 from symgen.derive.methods import METHODS
 from symgen.describe import catalogue
 from symgen.run.layout import abi

@@ -120,7 +120,7 @@ def test_a_plugin_that_cannot_be_loaded_is_one_sentence(cli, tmp_path: Path, tex
         file.write_text(text, encoding="utf-8")
     code, out, err = cli("run", "pendulum", "--plugin", file)
     assert code == 2 and not out and sentence in err and err.count("\n") == 1
-    assert str(file) not in plugins.loaded_files()
+    assert str(file) not in plugins.loaded_plugin_files()
 
 
 def test_another_ending_is_refused(tmp_path: Path) -> None:

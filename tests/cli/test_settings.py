@@ -61,12 +61,12 @@ def test_every_setting_is_an_option_of_every_command_that_runs(name):
     assert {n for n in settings.setting_names() if n not in found} == WITHOUT[name]
     for setting in set(settings.setting_names()) - WITHOUT[name]:
         option = found[setting]
-        assert settings.flag(setting) in option.opts
-        if settings.about(setting).kind is not dict:
-            usual = OTHER.get((name, setting), settings.default(setting))
+        assert settings.command_flag(setting) in option.opts
+        if settings.setting_description(setting).kind is not dict:
+            usual = OTHER.get((name, setting), settings.default_of_setting(setting))
             assert option.get_default(click.Context(COMMANDS[name])) == usual or usual is False
         assert option.help and option.help[0].isupper() and option.help.endswith(".")
-        unit = settings.about(setting).unit
+        unit = settings.setting_description(setting).unit
         assert not unit or f"[{unit}]" in option.help
 
 
@@ -81,8 +81,8 @@ def test_options_that_the_page_names_are_those_of_its_commands(names, text):
 
 def test_defaults_in_help_are_those_of_the_table():
     for setting in set(settings.setting_names()) - WITHOUT["run"]:
-        about, usual = settings.about(setting), settings.default(setting)
-        found = re.search(r"\[default: (.*)\]", helped("run")[settings.flag(setting)])
+        about, usual = settings.setting_description(setting), settings.default_of_setting(setting)
+        found = re.search(r"\[default: (.*)\]", helped("run")[settings.command_flag(setting)])
         if isinstance(usual, str | int | float) and not isinstance(usual, bool):
             assert found, setting
             assert found[1] == str(usual), setting
@@ -94,9 +94,9 @@ def test_defaults_in_help_are_those_of_the_table():
 def test_tolerances_that_the_table_names_are_those_of_a_run():
     spec = inspect.signature(RunSpec).parameters
     for name in ("rtol", "atol"):
-        assert float(settings.about(name).otherwise) == spec[name].default
+        assert float(settings.setting_description(name).otherwise) == spec[name].default
     for name in ("max_violation", "max_energy_error"):
-        assert settings.default(name) == spec[name].default
+        assert settings.default_of_setting(name) == spec[name].default
 
 
 def test_python_says_every_setting():
@@ -104,7 +104,7 @@ def test_python_says_every_setting():
     page = (PAGES / "python.md").read_text(encoding="utf-8")
     for name in settings.setting_names():
         assert f"\n{name} : " in text and f"`{name}`" in page, name
-        assert settings.about(name).help in text, name
+        assert settings.setting_description(name).help in text, name
     assert settings.setting_names() == tuple(f.name for f in fields(symgen.Settings))
 
 

@@ -23,7 +23,7 @@ def narrow(monkeypatch: pytest.MonkeyPatch) -> None:
     """Make standard output a terminal of 80 characters."""
     monkeypatch.setattr(
         _tables,
-        "console",
+        "make_console",
         lambda: Console(width=80, force_terminal=True, color_system=None, markup=False, highlight=False),
     )
 
@@ -84,7 +84,7 @@ def test_a_wide_table_comes_in_parts_or_names_what_is_left_out(
     in_parts: bool, narrow: None, capsys: pytest.CaptureFixture[str]
 ) -> None:
     headings, cells = [f"c{k}" for k in range(5)], ["x" * 20] * 5
-    _tables.show_rows(_tables.console(), headings, [cells], in_parts=in_parts)
+    _tables.show_rows(_tables.make_console(), headings, [cells], in_parts=in_parts)
     text = capsys.readouterr().out
     shown = [line.split() for line in text.splitlines() if line.lstrip().startswith("c")]
     assert shown == ([["c0", "c1", "c2"], ["c0", "c3", "c4"]] if in_parts else [["c0", "c1", "c2"]])

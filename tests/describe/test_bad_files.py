@@ -9,7 +9,7 @@ import pytest
 
 from symgen.base.errors import InputError
 from symgen.describe.files.load import LARGEST_FILE, load_mechanism, parse_toml
-from symgen.describe.files.validate import errors_of, validate
+from symgen.describe.files.validate import collect_errors, validate
 
 GOOD = """
 [mechanism]
@@ -244,7 +244,7 @@ def test_one_sentence(path, value, sentence):
     assert sentence in message
     assert "\n" not in message
     assert error.value.exit_code == 2
-    first, *others = map(str, errors_of(changed(path, value), "rod.toml"))
+    first, *others = map(str, collect_errors(changed(path, value), "rod.toml"))
     assert first == message
     assert not others or path == "mechanism.space"  # in the other space more of the file is wrong
 

@@ -5,7 +5,7 @@ import copy
 import pytest
 
 from symgen.base.errors import InputError
-from symgen.describe.files.validate import errors_of, validate
+from symgen.describe.files.validate import collect_errors, validate
 
 RIGID = {"mass": 1.0, "inertia": [1.0, 1.0, 1.0], "points": {"P": [0.1, 0.0, 0.0]}}
 GOOD = {
@@ -95,7 +95,7 @@ def test_one_sentence(section, table, sentence):
     message = str(error.value)
     assert message.startswith(f"thing.toml: {section}.it") and sentence in message
     assert "\n" not in message and len(message) < 400
-    assert [str(each) for each in errors_of(raw, "thing.toml")] == [message]
+    assert [str(each) for each in collect_errors(raw, "thing.toml")] == [message]
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,8 @@ from support.emitted import mechanism_of
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.describe.beams.beam_lines import weights
-from symgen.describe.facts.finer_beams import refined
+from symgen.describe.beams.beam_lines import node_weights
+from symgen.describe.facts.finer_beams import refine_beams
 from symgen.describe.mechanism import Mechanism
 
 STIFF = {"axial": 1e4, "bending": 1.0, "mass": 2.0, "rotary": 1e-3}
@@ -27,7 +27,7 @@ def body(mechanism: Mechanism, name: str):
 @pytest.mark.parametrize("elements", [1, 2, 3, 4, 5, 6, 9, 16])
 def test_masses_of_nodes_are_those_of_the_beam(elements):
     """Mass, centre and moment of inertia; above one element the weights integrate cubics exactly and are positive."""
-    w, x = np.array(weights(elements)), np.arange(elements + 1.0)
+    w, x = np.array(node_weights(elements)), np.arange(elements + 1.0)
     assert np.all(w > 0.0)
     for power in range(4 if elements > 1 else 2):
         assert abs(w @ x**power / (elements ** (power + 1) / (power + 1)) - 1.0) <= 1e-12
@@ -153,7 +153,7 @@ def test_a_clamped_end_gives_its_mass_to_the_body(space):
     beam = {"start": [0.5, 0.3, *pad], "end": [1.5, 0.3, *pad], "clamp": "hub", **more}
     clamped = mechanism_of(raw(beam, space, bodies={"hub": hub}))
     hubs = body(clamped, "hub")
-    end = weights(8)[0] / 8
+    end = node_weights(8)[0] / 8
     assert abs(hubs.mass.value - 3.0 - 2.0 * end) <= 1e-14
     turn = np.array([[np.cos(0.4), -np.sin(0.4)], [np.sin(0.4), np.cos(0.4)]])
     place = turn.T @ (np.array([0.5, 0.3]) - [0.2, 0.1])
@@ -205,7 +205,7 @@ def test_elements_are_spread_over_the_segments_of_a_line():
     places = {b.name: tuple(e.value for e in b.position) for b in mechanism.bodies}
     assert [places[n] for n in ("rod.4", "rod.7", "rod.end")] == [(1.0, 0.0), (1.0, 1.0), (0.99, 1.0)]
     assert mechanism.forces[-1].bodies == ("rod.4",)
-    finer, names = refined(mechanism)
+    finer, names = refine_beams(mechanism)
     twice = {b.name: tuple(e.value for e in b.position) for b in finer.bodies}
     assert len(finer.bodies) == 17
     np.testing.assert_allclose([twice[names[name]] for name in places], list(places.values()), atol=1e-15)
@@ -216,7 +216,7 @@ def test_elements_are_spread_over_the_segments_of_a_line():
 def test_elements_are_doubled():
     push = {"type": "force", "body": "rod", "at": "3", "force": ["-rod.3.vx", 0.0]}
     mechanism = mechanism_of(raw(forces={"push": push}, outputs={"moment": "rod.e3.M"}))
-    finer, names = refined(mechanism)
+    finer, names = refine_beams(mechanism)
     assert len(finer.bodies) == 17 and names["rod.3"] == "rod.6" and names["rod.end"] == "rod.end"
     assert finer.forces[-1].bodies == ("rod.6",)
     assert b"rod.6.vx" in msgspec.json.encode(finer.forces[-1])

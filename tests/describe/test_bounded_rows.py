@@ -11,12 +11,12 @@ import symgen
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import ZERO, Expr
 from symgen.describe.bounded import RowFamily
+from symgen.describe.bounds.bounded_modes import refuse_bounds, rows_by_family
 from symgen.describe.bounds.dry_friction import Friction
-from symgen.describe.bounds.keys import BOUNDS, KeyOfJoints, families, keys_of_any_joint, nouns
-from symgen.describe.bounds.modes import families_of, refuse_bounds
-from symgen.describe.facts.digest import canonical, digest, identity
+from symgen.describe.bounds.keys import BOUNDS, KeyOfJoints, all_families, keys_of_any_joint, nouns_of_families
+from symgen.describe.facts.digest import canonical_text, digest, mechanism_digest
+from symgen.describe.files.json_schema import file_schema
 from symgen.describe.files.load import parse_toml
-from symgen.describe.files.schema import schema
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Joint, Mechanism
 from symgen.describe.parts.scope import Scope
@@ -83,12 +83,12 @@ def braked(monkeypatch: pytest.MonkeyPatch) -> Mechanism:
 
 
 def test_a_further_kind_has_its_key_words_and_digest(braked: Mechanism) -> None:
-    assert "brake" in keys_of_any_joint() and "brake" in str(schema())
-    assert Brake.family in families() and "brakes" in nouns()
-    assert list(families_of(braked)) == [Brake.family]
+    assert "brake" in keys_of_any_joint() and "brake" in str(file_schema())
+    assert Brake.family in all_families() and "brakes" in nouns_of_families()
+    assert list(rows_by_family(braked)) == [Brake.family]
     plain = validate(parse_toml(PENDULUM, "brake"), "brake.toml")
-    assert '"brakes"' in canonical(braked).replace("'", '"') and "brakes" not in canonical(plain)
-    assert digest(braked) != digest(plain) and identity(braked) != identity(plain)
+    assert '"brakes"' in canonical_text(braked).replace("'", '"') and "brakes" not in canonical_text(plain)
+    assert digest(braked) != digest(plain) and mechanism_digest(braked) != mechanism_digest(plain)
 
 
 def test_a_further_kind_runs_and_is_refused_in_its_own_words(braked: Mechanism) -> None:

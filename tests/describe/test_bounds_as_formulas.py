@@ -4,7 +4,7 @@ import pytest
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.describe.bounds.modes import mode_events
+from symgen.describe.bounds.bounded_modes import mode_events
 from symgen.describe.facts.kinks import changes_in_time, discontinuities_of, jumps_in_time
 from symgen.describe.files.load import parse_toml
 from symgen.describe.files.validate import validate

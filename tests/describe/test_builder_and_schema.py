@@ -12,8 +12,8 @@ from support.texts import texts
 from symgen.base.errors import InputError
 from symgen.describe import MechanismBuilder, catalogue
 from symgen.describe.files.builder import to_toml
+from symgen.describe.files.json_schema import file_schema
 from symgen.describe.files.load import load_mechanism, read_raw
-from symgen.describe.files.schema import schema
 from symgen.describe.files.validate import validate
 from symgen.describe.forces import FORCES
 from symgen.describe.joints import JOINTS
@@ -141,12 +141,12 @@ def check(value, rule, path="$"):
 
 @pytest.mark.parametrize("name", catalogue.names())
 def test_the_catalogue_fulfils_the_schema(name):
-    check(read_raw(name)[0], schema())
+    check(read_raw(name)[0], file_schema())
 
 
 def test_the_schema_refuses_what_the_validator_refuses():
     raw = tomllib.loads(PENDULUM)
-    check(raw, schema())
+    check(raw, file_schema())
     for section, key, value in (
         ("bodies", "masss", 1.0),
         ("joints", "type", "revolut"),
@@ -156,13 +156,13 @@ def test_the_schema_refuses_what_the_validator_refuses():
         name = next(iter(raw[section]))
         wrong = raw | {section: {name: raw[section][name] | {key: value}}}
         with pytest.raises(AssertionError):
-            check(wrong, schema())
+            check(wrong, file_schema())
         with pytest.raises(InputError):
             validate(wrong, "rod.toml")
 
 
 def test_the_schema_is_json_and_knows_every_kind():
-    text = json.dumps(schema(), allow_nan=False)
+    text = json.dumps(file_schema(), allow_nan=False)
     assert "$ref" not in text
     for name in (*JOINTS.names, *JOINTS.aliases, *FORCES.names):
         assert f'"{name}"' in text

@@ -15,7 +15,7 @@ from symgen.base.errors import InputError
 from symgen.describe import catalogue
 from symgen.describe.files.builder import to_toml
 from symgen.describe.files.load import load_mechanism, read_raw
-from symgen.describe.files.template import template
+from symgen.describe.files.template import new_file_text
 from symgen.describe.files.validate import validate
 from symgen.describe.forces import FORCES
 from symgen.describe.joints import JOINTS
@@ -148,7 +148,7 @@ def test_the_script_writes_a_file_that_describes_a_closed_chain(tmp_path):
 
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_the_template_is_a_mechanism_with_every_key_explained(space):
-    text = template("my-crane", space)
+    text = new_file_text("my-crane", space)
     raw = tomllib.loads(text)
     mechanism = validate(raw, "my-crane.toml")
     assert (mechanism.name, mechanism.space) == ("my-crane", space)
@@ -162,7 +162,7 @@ def test_the_template_is_a_mechanism_with_every_key_explained(space):
     others = [k for registry in (JOINTS, FORCES) for k, kind in registry.items() if space not in kind.SPACES]
     assert not [k for k in others if f" {k}," in text]
     with pytest.raises(InputError, match="lower-case words joined by dashes"):
-        template("My crane")
+        new_file_text("My crane")
 
 
 @pytest.mark.parametrize("model", [*catalogue.all_names(), *FILES], ids=str)

@@ -9,17 +9,17 @@ import pytest
 from symgen.api import load
 from symgen.base.errors import InputError
 from symgen.describe import catalogue
-from symgen.describe.files.changes import Change, changed_text, wide_units, with_line_ends
 from symgen.describe.files.load import parse_toml
-from symgen.describe.files.places import outline
-from symgen.describe.files.renaming import removed, renamed_text
-from symgen.describe.files.snippets import Spot, snippet
-from symgen.describe.files.validate import errors_of, validate
-from symgen.describe.files.words import words_of_sections
+from symgen.describe.files.places import outline_of_document
+from symgen.describe.files.renaming import remove_from_text, rename_in_text
+from symgen.describe.files.section_words import words_of_sections
+from symgen.describe.files.snippets import Spot, snippet_changes
+from symgen.describe.files.text_changes import Change, apply_changes, keep_line_ends, utf16_places
+from symgen.describe.files.validate import collect_errors, validate
 
 
 def text_of(name: str) -> str:
-    file = catalogue.file_of(name)
+    file = catalogue.file_of_entry(name)
     assert file is not None
     return file.read_text(encoding="utf-8")
 
@@ -29,8 +29,8 @@ EMPTY = '# mine\n[mechanism]\nname = "new"\n'
 
 
 def added(text: str, kind: str, *spots: Spot, angle: float = 0.0) -> tuple[str, str]:
-    changes, path = snippet(kind, spots, parse_toml(text, "x"), outline(text), text, angle)
-    return changed_text(text, changes), path
+    changes, path = snippet_changes(kind, spots, parse_toml(text, "x"), outline_of_document(text), text, angle)
+    return apply_changes(text, changes), path
 
 
 def is_inserted(before: str, after: str) -> bool:
@@ -40,25 +40,25 @@ def is_inserted(before: str, after: str) -> bool:
 
 
 def test_changes_that_overlap_are_refused() -> None:
-    assert changed_text("abc", [Change(2, 3, "z"), Change(0, 1, "")]) == "bz"
+    assert apply_changes("abc", [Change(2, 3, "z"), Change(0, 1, "")]) == "bz"
     with pytest.raises(InputError):
-        changed_text("abc", [Change(0, 2, ""), Change(1, 3, "")])
+        apply_changes("abc", [Change(0, 2, ""), Change(1, 3, "")])
 
 
 def test_characters_beyond_the_first_plane_are_two_for_pages() -> None:
-    assert wide_units("abc") is None
-    assert wide_units("a\U0001f600b") == [0, 1, 3, 4]
+    assert utf16_places("abc") is None
+    assert utf16_places("a\U0001f600b") == [0, 1, 3, 4]
 
 
 def test_line_ends() -> None:
-    assert with_line_ends("a\nb\n", "a\nc\n") == "a\nb\n"
-    assert with_line_ends("a\nb\n", "a\r\nc\r\n") == "a\r\nb\r\n"
-    assert with_line_ends("a\nb\nc\n", "a\r\nb\n") == "a\r\nb\nc\r\n"
+    assert keep_line_ends("a\nb\n", "a\nc\n") == "a\nb\n"
+    assert keep_line_ends("a\nb\n", "a\r\nc\r\n") == "a\r\nb\r\n"
+    assert keep_line_ends("a\nb\nc\n", "a\r\nb\n") == "a\r\nb\nc\r\n"
 
 
 def test_an_outline_has_all_headers_and_mentions() -> None:
     text = 'a.b = 1\n[x."y z"]\n  [x.w]  # c\nk = { m = [1, "t"] }\n[[n]]\n'
-    parts = outline(text)
+    parts = outline_of_document(text)
     assert {path: text[slice(*span)] for path, span in parts.values.items()}["x", "w", "k", "m"] == '[1, "t"]'
     assert [(h.path, text[h.start : h.end]) for h in parts.headers] == [
         (("x", "y z"), '[x."y z"]'),
@@ -197,7 +197,7 @@ def lines_that_differ(before: str, after: str) -> list[str]:
 
 
 def test_a_body_is_renamed_wherever_it_is_named_and_nowhere_else() -> None:
-    assert lines_that_differ(NAMED, renamed_text(NAMED, "bodies.crank", "wheel", "x")) == [
+    assert lines_that_differ(NAMED, rename_in_text(NAMED, "bodies.crank", "wheel", "x")) == [
         "[bodies.wheel]",
         'between = ["ground", "wheel"]',
         'between = ["wheel", "rod"]',
@@ -209,7 +209,7 @@ def test_a_body_is_renamed_wherever_it_is_named_and_nowhere_else() -> None:
 
 
 def test_a_parameter_a_point_and_a_joint_of_one_name_are_told_apart() -> None:
-    assert lines_that_differ(NAMED, renamed_text(NAMED, "parameters.arm", "r", "x")) == [
+    assert lines_that_differ(NAMED, rename_in_text(NAMED, "parameters.arm", "r", "x")) == [
         "r = 1.0            # arm",
         'arms = "2*r"',
         'mass = "r"',
@@ -218,12 +218,12 @@ def test_a_parameter_a_point_and_a_joint_of_one_name_are_told_apart() -> None:
         'at = ["arm", ["-r", 0.0]]',
         'torque = "-crank.omega*r + rod.omega - arm.angle"',
     ]
-    assert lines_that_differ(NAMED, renamed_text(NAMED, "bodies.crank.points.arm", "tip", "x")) == [
+    assert lines_that_differ(NAMED, rename_in_text(NAMED, "bodies.crank.points.arm", "tip", "x")) == [
         'points = { tip = ["arm", 0.0] }',
         'at = ["tip", ["-arm", 0.0]]',
         'when = "crank.tip.y < -0.5"',
     ]
-    assert lines_that_differ(NAMED, renamed_text(NAMED, "joints.arm", "shaft", "x")) == [
+    assert lines_that_differ(NAMED, rename_in_text(NAMED, "joints.arm", "shaft", "x")) == [
         "[joints.shaft]",
         'torque = "-crank.omega*arm + rod.omega - shaft.angle"',
     ]
@@ -242,14 +242,14 @@ def test_a_parameter_a_point_and_a_joint_of_one_name_are_told_apart() -> None:
 )
 def test_names_that_are_refused(path: str, name: str, sentence: str) -> None:
     with pytest.raises(InputError, match=sentence):
-        renamed_text(NAMED, path, name, "x")
+        rename_in_text(NAMED, path, name, "x")
 
 
 def test_a_body_goes_with_its_joints_and_comments_stay_with_their_tables() -> None:
     text = FOUR_BAR.replace("[bodies.rocker]", "# the rocker\n# of steel\n[bodies.rocker]").replace(
         "[joints.A]", "# all pins\n\n# first\n[joints.A]"
     )
-    after = removed(text, "bodies.rocker", "x")
+    after = remove_from_text(text, "bodies.rocker", "x")
     raw = parse_toml(after, "x")
     assert set(raw["bodies"]) == {"crank", "coupler"} and set(raw["joints"]) == {"A", "B"}
     assert "rocker" not in after.replace("rocker_mass", "") and "of steel" not in after
@@ -259,9 +259,9 @@ def test_a_body_goes_with_its_joints_and_comments_stay_with_their_tables() -> No
 
 def test_a_parameter_goes_with_its_line_unless_it_is_needed() -> None:
     text = FOUR_BAR.replace("[parameters]\n", "[parameters]\nspare = 3.0  # of no use\n")
-    assert removed(text, "parameters.spare", "x") == FOUR_BAR
+    assert remove_from_text(text, "parameters.spare", "x") == FOUR_BAR
     with pytest.raises(InputError, match="crank_mass"):
-        removed(FOUR_BAR, "parameters.crank_mass", "x")
+        remove_from_text(FOUR_BAR, "parameters.crank_mass", "x")
 
 
 @pytest.mark.slow_cases("jansen-leg", "scissor-lift")
@@ -271,9 +271,9 @@ def test_every_body_and_joint_of_the_catalogue_can_be_renamed(name: str) -> None
     raw = parse_toml(text, name)
     for section in ("bodies", "joints"):
         for old in [*raw.get(section, {})][:3]:
-            after = renamed_text(text, f"{section}.{old}", "other_name", name)
-            assert errors_of(parse_toml(after, name), name) == ()
-            assert renamed_text(after, f"{section}.other_name", old, name) == text
+            after = rename_in_text(text, f"{section}.{old}", "other_name", name)
+            assert collect_errors(parse_toml(after, name), name) == ()
+            assert rename_in_text(after, f"{section}.other_name", old, name) == text
 
 
 # -- words -------------------------------------------------------------------------------------------------------------

@@ -6,7 +6,7 @@ import tomllib
 import pytest
 from support.emitted import mechanism_of
 
-from symgen.base.errors import LONGEST_PART, InputError, nearest, quoted
+from symgen.base.errors import LONGEST_PART, InputError, quote, suggest
 from symgen.base.escapes import printable
 from symgen.derive.formulate.formulate import formulate
 from symgen.describe.files.load import LONGEST_KEY, load_mechanism, parse_toml
@@ -169,20 +169,20 @@ def test_texts_for_people_are_one_printable_line():
 
 
 def test_words_of_messages():
-    assert quoted("a'b\n") == '"a\'b\\n"' and quoted("x" * 99) == "'" + "x" * 55 + "...'"
-    assert quoted(3) == "'3'" and quoted(b"\x00") == "'b'\\x00''"
+    assert quote("a'b\n") == '"a\'b\\n"' and quote("x" * 99) == "'" + "x" * 55 + "...'"
+    assert quote(3) == "'3'" and quote(b"\x00") == "'b'\\x00''"
     assert printable("a\u202eb") == "a\\u202eb" and printable("ä Δ") == "ä Δ"
 
     class Unspeakable:
         def __str__(self):
             raise RuntimeError
 
-    assert quoted(Unspeakable()) == "an object of type 'Unspeakable'"
+    assert quote(Unspeakable()) == "an object of type 'Unspeakable'"
     assert str(InputError("a", "b", "c" * 10_000)) == "a: expected b, got " + "c" * LONGEST_PART + "..."
     place = str(InputError("crane.toml: bodies." + "b" * 10_000 + ".mass", "b", "c"))
     assert len(place) < 300 and place.startswith("crane.toml: bodies.b") and "b.mass: expected b" in place
-    assert nearest("q", [f"name{i}" for i in range(100)]).endswith(", name61, name62 and 40 more")
-    assert nearest("name7x", [f"name{i}" for i in range(3000)]) == "did you mean 'name7'?"
+    assert suggest("q", [f"name{i}" for i in range(100)]).endswith(", name61, name62 and 40 more")
+    assert suggest("name7x", [f"name{i}" for i in range(3000)]) == "did you mean 'name7'?"
 
 
 def test_a_number_of_too_many_digits_is_refused_in_a_sentence_of_symgen():

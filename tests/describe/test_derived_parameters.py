@@ -13,7 +13,7 @@ from symgen.describe.files.builder import MechanismBuilder
 from symgen.describe.files.load import load_mechanism
 from symgen.describe.formulas.evaluate import evaluation_order, parameter_values
 from symgen.describe.formulas.parser import FormulaNames, parse
-from symgen.study.ensemble.sweep import sweep
+from symgen.study.ensemble.parameter_sweep import sweep
 
 #: In an order that no formula could be worked out in from the top.
 DERIVED = {"inertia": "mass*length**2/12", "mass": "density*length", "density": 1.9, "length": 0.8, "half": "length/2"}

@@ -6,9 +6,9 @@ import mpmath
 import pytest
 
 import symgen
+from symgen.base.vocabulary.elementary_functions import ELEMENTARY
 from symgen.base.vocabulary.expressions import FUNCTIONS
-from symgen.base.vocabulary.functions import ELEMENTARY
-from symgen.describe.formulas.duals import Dual, Duals, applied, dual, parameter_duals
+from symgen.describe.formulas.duals import Dual, Duals, apply_to_duals, as_dual, parameter_duals
 from symgen.describe.formulas.evaluate import parameter_values
 
 POINT = {"acosh": 1.7}
@@ -24,7 +24,7 @@ EXACT = {
 def test_functions(name):
     first, count = POINT.get(name, 0.6), FUNCTIONS[name][0]
     points, rates = (first, 0.45)[:count], (1.5, -0.7)[:count]
-    got = applied(name, [Dual(x, (rate, 2.0 * rate)) for x, rate in zip(points, rates, strict=True)])
+    got = apply_to_duals(name, [Dual(x, (rate, 2.0 * rate)) for x, rate in zip(points, rates, strict=True)])
     with mpmath.workdps(40):
         h = mpmath.mpf(10) ** -15
         ends = [
@@ -38,9 +38,9 @@ def test_functions(name):
 def test_what_is_constant_between_jumps():
     a = Dual(0.4, (1.0,))
     for name in ("lt", "le", "gt", "ge", "sign", "not", "and", "or"):
-        arguments = [a, dual(0.3)][: FUNCTIONS[name][0]]
-        assert set(applied(name, arguments).slopes) <= {0.0}
-    assert applied("where", [dual(1.0), a, dual(2.0)]).slopes == (1.0,)
+        arguments = [a, as_dual(0.3)][: FUNCTIONS[name][0]]
+        assert set(apply_to_duals(name, arguments).slopes) <= {0.0}
+    assert apply_to_duals("where", [as_dual(1.0), a, as_dual(2.0)]).slopes == (1.0,)
 
 
 def test_formulas_of_parameters_follow(tmp_path):

@@ -15,7 +15,14 @@ from symgen.cli import main
 from symgen.describe.files.load import load_mechanism
 from symgen.describe.files.validate import validate
 from symgen.describe.formats import Import, format_of, read_robot
-from symgen.describe.formats._frames import Pose, axis_rotation, of_quaternion, of_rpy, quaternion, times
+from symgen.describe.formats._poses import (
+    Pose,
+    axis_rotation,
+    matrix_product,
+    quaternion_of_rotation,
+    rotation_from_quaternion,
+    rotation_from_rpy,
+)
 from symgen.run.compiling.closing import free_velocities
 
 #: A lever of two links that a fixed joint holds together, a slide on it, a follower, and a link without mass.
@@ -348,7 +355,7 @@ def test_the_command_and_every_other_command(tmp_path: Path, capsys: pytest.Capt
 
 
 def test_rotations() -> None:
-    rotation = of_rpy((0.3, -0.8, 2.0))
+    rotation = rotation_from_rpy((0.3, -0.8, 2.0))
     x, y, z = (
         np.array(axis_rotation(axis, angle))
         for axis, angle in (((1.0, 0, 0), 0.3), ((0, 1.0, 0), -0.8), ((0, 0, 1.0), 2.0))
@@ -357,8 +364,8 @@ def test_rotations() -> None:
     for angle in (0.1, 3.1, -3.1, 2.0):
         for axis in ((1.0, 0.0, 0.0), (0.2, -1.0, 0.4), (0.0, 0.0, -1.0)):
             turn = axis_rotation(axis, angle)
-            assert np.allclose(of_quaternion(quaternion(turn)), turn)
+            assert np.allclose(rotation_from_quaternion(quaternion_of_rotation(turn)), turn)
     inner = Pose((1.0, 2.0, 3.0), rotation)
     assert np.allclose((inner @ inner.inverse()).origin, 0.0) and np.allclose(
-        times(rotation, inner.inverse().rotation), np.eye(3)
+        matrix_product(rotation, inner.inverse().rotation), np.eye(3)
     )

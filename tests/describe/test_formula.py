@@ -11,9 +11,9 @@ from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import FUNCTIONS, Call, Name, Number
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.formula_text import to_text
-from symgen.describe.formulas.names import CALLABLE
+from symgen.describe.formulas.identifiers import CALLABLE
 from symgen.describe.formulas.parser import FormulaNames, parse
-from symgen.describe.tables import Table
+from symgen.describe.table_functions import Table
 
 NAMES = FormulaNames(
     "a formula",

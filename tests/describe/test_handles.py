@@ -8,10 +8,10 @@ import pytest
 
 from symgen.api import load
 from symgen.describe import catalogue
-from symgen.describe.files.changes import Change, changed_text
-from symgen.describe.files.handles import Handle, handles, numbers_of_parameters
+from symgen.describe.files.handles import Handle, movable_points, spans_of_parameters
 from symgen.describe.files.load import parse_toml
-from symgen.describe.files.places import outline
+from symgen.describe.files.places import outline_of_document
+from symgen.describe.files.text_changes import Change, apply_changes
 from symgen.describe.files.validate import validate
 
 RIG = """\
@@ -56,11 +56,11 @@ def found(text: str) -> tuple[dict[str, Handle], Any]:
     raw, mechanism = parse_toml(text, "rig.toml"), validate(parse_toml(text, "rig.toml"), "rig.toml")
     model = load(mechanism)
     q = model.initial_state(model.parameters())[0]
-    return {h.name: h for h in handles(mechanism, raw, outline(text).values, text, list(q))}, model
+    return {h.name: h for h in movable_points(mechanism, raw, outline_of_document(text).values, text, list(q))}, model
 
 
 def moved(text: str, handle: Handle, dx: float, dy: float) -> str:
-    return changed_text(
+    return apply_changes(
         text, [Change(f.start, f.end, repr(f.value + f.right * dx + f.up * dy)) for f in handle.followers]
     )
 
@@ -85,7 +85,7 @@ def test_points_lie_where_the_picture_has_them() -> None:
     poses = scene.poses(model.initial_state(model.parameters())[0])
     spring = next(item for item in scene.items if item.name == "spring").marks[0]
     end = by_name["forces.spring.at.1"]
-    assert poses.out(spring.other, [spring.to])[0][:2] == pytest.approx((end.x, end.y))
+    assert poses.to_ground(spring.other, [spring.to])[0][:2] == pytest.approx((end.x, end.y))
 
 
 @pytest.mark.parametrize(
@@ -108,7 +108,7 @@ def test_a_point_goes_where_it_is_moved(name: str, way: tuple[float, float]) -> 
 
 
 def test_a_pin_of_two_bodies_moves_on_both() -> None:
-    file = catalogue.file_of("four-bar")
+    file = catalogue.file_of_entry("four-bar")
     assert file is not None
     text = file.read_text(encoding="utf-8")
     handle = found(text)[0]["joints.B"]
@@ -130,11 +130,11 @@ def test_a_formula_of_several_parameters_stays_as_it_is() -> None:
 
 
 def test_in_space_nothing_is_dragged() -> None:
-    file = catalogue.file_of("heavy-top")
+    file = catalogue.file_of_entry("heavy-top")
     assert file is not None
     assert found(file.read_text(encoding="utf-8"))[0] == {}
 
 
 def test_numbers_of_parameters_are_found_by_their_digits() -> None:
-    spans = numbers_of_parameters(parse_toml(RIG, "x"), outline(RIG).values, RIG)
+    spans = spans_of_parameters(parse_toml(RIG, "x"), outline_of_document(RIG).values, RIG)
     assert {name: RIG[slice(*span)] for name, span in spans.items()} == {"half": "500", "reach": "2.0", "mast": "1.5"}

@@ -41,7 +41,7 @@ def test_a_kind_is_imported_when_asked_for(package):
     registry = Registry(package, "kind", aliases={"double": "two-words"})
     assert registry.get("plain") == "the plain one"
     assert registry.get("double") == "the other one"
-    assert registry.canonical("double") == "two-words"
+    assert registry.resolve_alias("double") == "two-words"
     assert "double" in registry
     with pytest.raises(RuntimeError, match="imported"):
         registry.get("broken")

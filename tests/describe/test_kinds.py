@@ -10,7 +10,7 @@ from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import ZERO, Name, Number
 from symgen.base.vocabulary.measures import Angle, Component, Distance, Nonholonomic
 from symgen.describe import MechanismBuilder
-from symgen.describe.files.schema import described
+from symgen.describe.files.json_schema import key_texts
 from symgen.describe.forces import FORCES
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.joints import JOINTS
@@ -290,7 +290,7 @@ def test_the_centre_of_a_point_mass():
 def test_every_kind_documents_its_keys(registry):
     for name, kind in registry.items():
         for key in kind.__struct_fields__:
-            assert key in described(kind), f"{name} says nothing about {key}"
+            assert key in key_texts(kind), f"{name} says nothing about {key}"
 
 
 def test_kinds_that_files_use_stay():

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from symgen.describe.files.places import places
+from symgen.describe.files.places import places_in_document
 
 WORDS = ("a", "b-1", "3", "true", "x_y")
 QUOTED = ('"a.b"', "'c d'", '"q\\"#"', '"\\u00e9"', "''", '"[d]"', "'='")
@@ -79,7 +79,7 @@ def text_at(text, span):
 
 
 def check(text):
-    found, read = places(text), dict(paths_of(tomllib.loads(text)))
+    found, read = places_in_document(text), dict(paths_of(tomllib.loads(text)))
     assert set(found) == set(read)
     for path, place in found.items():
         if place.key is not None:
@@ -129,5 +129,5 @@ x'''
     ],
 )
 def test_places_in_a_mechanism_file(path, key, value):
-    assert tuple(places(DOCUMENT)[path]) == (key, value)
+    assert tuple(places_in_document(DOCUMENT)[path]) == (key, value)
     check(DOCUMENT)

@@ -7,8 +7,8 @@ import pytest
 
 from symgen.base.errors import InputError
 from symgen.describe.files.load import LARGEST_FILE, load_mechanism
-from symgen.describe.files.problems import problems, with_line
-from symgen.describe.files.validate import errors_of, validate
+from symgen.describe.files.problems import problems_of_text, sentence_with_line
+from symgen.describe.files.validate import collect_errors, validate
 
 GOOD = """\
 [mechanism]
@@ -75,7 +75,7 @@ reset = { "load.vy" = "-load.vy" }
 
 
 def found(text):
-    return [(problem.line, problem.where) for problem in problems(text, "cart.toml")]
+    return [(problem.line, problem.where) for problem in problems_of_text(text, "cart.toml")]
 
 
 def changed(*changes):
@@ -87,7 +87,7 @@ def changed(*changes):
 
 
 def test_nothing_is_wrong_with_a_good_file():
-    assert problems(GOOD, "cart.toml") == ()
+    assert problems_of_text(GOOD, "cart.toml") == ()
 
 
 ONE = {
@@ -149,8 +149,8 @@ def test_mistakes_in_all_kinds_of_tables_are_found_at_once():
 
 def test_problems_say_what_errors_say():
     text = changed(("mass = 2.0", "mass = true"), ("[bodies.load]\nmass = 1.0", "[bodies.load]\nmass = [1.0]"))
-    errors = errors_of(tomllib.loads(text), "cart.toml")
-    assert [f"cart.toml: {problem}" for problem in problems(text, "cart.toml")] == list(map(str, errors))
+    errors = collect_errors(tomllib.loads(text), "cart.toml")
+    assert [f"cart.toml: {problem}" for problem in problems_of_text(text, "cart.toml")] == list(map(str, errors))
     assert len(errors) == 2
     with pytest.raises(InputError) as first:
         validate(tomllib.loads(text), "cart.toml")
@@ -158,7 +158,7 @@ def test_problems_say_what_errors_say():
 
 
 def test_places_are_those_of_keys_and_values():
-    (problem,) = problems(changed(('force = ["road(cart.x)", 0.0]', "force = { x = 1.0 }")), "cart.toml")
+    (problem,) = problems_of_text(changed(('force = ["road(cart.x)", 0.0]', "force = { x = 1.0 }")), "cart.toml")
     assert problem.place.key == (49, 1, len("force"))
     assert problem.place.value == (49, 9, len("{ x = 1.0 }"))
 
@@ -194,7 +194,7 @@ force = [0.0, -1.0]
     ],
 )
 def test_elements_of_beams_have_the_places_of_the_beam(old, new, expected):
-    assert problems(BEAMS, "arm.toml") == ()
+    assert problems_of_text(BEAMS, "arm.toml") == ()
     assert BEAMS.count(old) == 1
     assert found(BEAMS.replace(old, new)) == [expected]
 
@@ -213,7 +213,7 @@ def test_an_error_has_its_line_where_it_is_printed(wrong):
     with pytest.raises(InputError) as error:
         load_mechanism(wrong)
     assert str(error.value) == "cart.toml: bodies.load.mass: expected a value above 0, got -1.0"
-    assert with_line(error.value) == "cart.toml:22: bodies.load.mass: expected a value above 0, got -1.0"
+    assert sentence_with_line(error.value) == "cart.toml:22: bodies.load.mass: expected a value above 0, got -1.0"
 
 
 @pytest.mark.parametrize("later", [GOOD.replace("[mechanism]", "[mechanism"), b"\xff", "#" * (LARGEST_FILE + 1), None])
@@ -224,14 +224,14 @@ def test_an_error_keeps_its_sentence_where_the_file_was_changed(wrong, later):
         wrong.unlink()
     else:
         wrong.write_bytes(later if isinstance(later, bytes) else later.encode())
-    assert with_line(error.value) == str(error.value)
+    assert sentence_with_line(error.value) == str(error.value)
 
 
 def test_errors_of_other_sources_have_no_file(tmp_path):
     with pytest.raises(InputError) as error:
         validate(tomllib.loads(GOOD.replace("mass = 1.0", "mass = -1.0")), "cart.toml")
     assert error.value.file is None
-    assert with_line(error.value) == str(error.value)
+    assert sentence_with_line(error.value) == str(error.value)
 
 
 def test_the_key_of_an_error_survives_pickling():

@@ -6,13 +6,13 @@ import weakref
 import msgspec
 
 from symgen.api import load
-from symgen.describe.remembered import remembered
+from symgen.describe.remembered import compute_once
 
 
 def test_once_for_each_mechanism_for_as_long_as_it_is_there():
     asked = []
 
-    @remembered
+    @compute_once
     def name(mechanism):
         asked.append(mechanism.name)
         return mechanism.name

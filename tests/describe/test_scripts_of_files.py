@@ -6,11 +6,11 @@ import pytest
 
 from symgen.describe import catalogue
 from symgen.describe.files.load import parse_toml
-from symgen.describe.files.script import script
+from symgen.describe.files.script import script_of_mechanism
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
 
-FILES = sorted(name for name in catalogue.names() if catalogue.file_of(name) is not None)
+FILES = sorted(name for name in catalogue.names() if catalogue.file_of_entry(name) is not None)
 
 
 def built(text: str) -> Mechanism:
@@ -22,10 +22,10 @@ def built(text: str) -> Mechanism:
 
 @pytest.mark.parametrize("name", FILES)
 def test_a_script_builds_the_mechanism_of_its_file(name: str) -> None:
-    path = catalogue.file_of(name)
+    path = catalogue.file_of_entry(name)
     assert path is not None
     raw = parse_toml(path.read_text(encoding="utf-8"), name)
-    assert built(script(raw)) == validate(raw, name)
+    assert built(script_of_mechanism(raw)) == validate(raw, name)
 
 
 HOSTILE = r"""
@@ -53,4 +53,4 @@ height = { value = "rod.y + 1", unit = "m" }
 
 def test_texts_of_a_file_are_literals_and_stops_have_a_call() -> None:
     raw = parse_toml(HOSTILE, "bar")
-    assert built(script(raw)) == validate(raw, "bar")
+    assert built(script_of_mechanism(raw)) == validate(raw, "bar")

@@ -9,13 +9,13 @@ from support.curves import curve
 from symgen.base.errors import InputError
 from symgen.base.ir.derivative import jacobian
 from symgen.base.ir.graph import Graph
-from symgen.base.ir.program import of_table
+from symgen.base.ir.program import table_of_payload
 from symgen.describe.facts.digest import digest
 from symgen.describe.files.builder import MechanismBuilder, to_toml
 from symgen.describe.files.validate import validate
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.parser import FormulaNames, parse
-from symgen.describe.tables import Table
+from symgen.describe.table_functions import Table
 
 KINDS = [("cubic", False), ("cubic", True), ("pchip", False), ("pchip", True)]
 
@@ -71,7 +71,7 @@ def test_in_formulas_and_on_the_graph():
     slope = jacobian(g, [g.call(table.function, a)], [("q", 0)])[0]["q", 0]
     second = jacobian(g, [slope], [("q", 0)])[0]["q", 0]
     third = jacobian(g, [second], [("q", 0)])[0]["q", 0]
-    derived = [of_table(g.nodes[n].payload) for n in (slope, second, third)]
+    derived = [table_of_payload(g.nodes[n].payload) for n in (slope, second, third)]
     assert derived == [("f", "slope"), ("f", "second"), ("f", "third")]
     assert jacobian(g, [third], [("q", 0)])[0] == {}  # it is constant between points
     straight = jacobian(g, [g.call("table:f'", a)], [("q", 0)])[0]

@@ -6,8 +6,8 @@ import pytest
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.describe.bounds.modes import mode_events, without_bounds
-from symgen.describe.facts.digest import canonical, identity
+from symgen.describe.bounds.bounded_modes import mode_events, without_bounds
+from symgen.describe.facts.digest import canonical_text, mechanism_digest
 from symgen.describe.files.load import read_raw
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
@@ -39,9 +39,9 @@ def test_a_file_without_stops_is_the_same_as_before() -> None:
     plain = four_bar()
     assert without_bounds(four_bar({"lower": -1.0})) == plain
     assert without_bounds(plain) is plain
-    assert "stops" not in canonical(plain)
-    assert identity(plain) != identity(four_bar({"lower": -1.0}))
-    assert canonical(four_bar({"lower": -1.0})) != canonical(four_bar({"lower": -1.1}))
+    assert "stops" not in canonical_text(plain)
+    assert mechanism_digest(plain) != mechanism_digest(four_bar({"lower": -1.0}))
+    assert canonical_text(four_bar({"lower": -1.0})) != canonical_text(four_bar({"lower": -1.1}))
 
 
 @pytest.mark.parametrize(

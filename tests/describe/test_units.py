@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from symgen.base import arguments
 from symgen.base.errors import InputError
 from symgen.base.unit_symbols import BASES, PLAIN, PREFIXABLE, PREFIXES, SYMBOLS
-from symgen.base.units import Unit, known, read_amount, read_unit, unit_of
-from symgen.describe.facts.typed_units import Typed, typed_in_si, units_of_number
-from symgen.describe.files.load import parse_toml, with_parameters
+from symgen.base.units import Unit, known_unit, read_amount, read_unit, unit_of
+from symgen.describe.facts.typed_units import Typed, typed_numbers_in_si, units_of_number
+from symgen.describe.files.load import parse_toml, set_parameters
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
 
@@ -98,7 +98,7 @@ def test_a_unit_has_its_factor(text):
     si, factor = UNITS[text]
     unit = unit_of(text, "here")
     assert unit.si == si and float(unit.factor) == pytest.approx(factor, rel=1e-15)
-    assert unit.fits(known(si)) and known(si).is_si and known(si).factor == 1
+    assert unit.fits(known_unit(si)) and known_unit(si).is_si and known_unit(si).factor == 1
     assert unit.to_si(3.0) == pytest.approx(3.0 * factor, rel=1e-15)
 
 
@@ -117,7 +117,7 @@ def test_there_are_enough_of_both():
     "text", ["", "m", "kg m^2", "N m s/rad", "N*m", "1", "J s", "N m/A", "ohm", "W/(m K)", "Nm", "1/s"]
 )
 def test_texts_of_si_units_stay_what_they_are(text):
-    unit = known(text)
+    unit = known_unit(text)
     assert unit.is_si and unit.si == unit.text == text
     assert math.copysign(1.0, unit.to_si(-0.0)) == -1.0 and unit.to_si(0.1) == 0.1
 
@@ -134,11 +134,11 @@ units = st.one_of(products, st.tuples(products, products).map(lambda x: f"{x[0]}
 @example("GL^-1 GL^-1/(%^-1 GL^-1 GL^-1)", 0.0)  # whose text in the SI is longer than a file's may be
 @given(units, st.floats(-1e6, 1e6, allow_subnormal=False).map(lambda x: float(f"{x:.14g}")))
 def test_numbers_come_back(text, number):
-    unit = known(text)
+    unit = known_unit(text)
     there = unit.to_si(number)
     if 1e-290 < abs(there) < 1e290:
-        assert unit.of_si(there) == number
-    assert known(unit.si).factor == 1 and dict(known(unit.si).exponents) == dict(unit.exponents)
+        assert unit.from_si(there) == number
+    assert known_unit(unit.si).factor == 1 and dict(known_unit(unit.si).exponents) == dict(unit.exponents)
 
 
 @given(
@@ -149,7 +149,7 @@ def test_numbers_come_back(text, number):
 def test_decimal_numbers_are_converted_without_rounding(digits, places, text):
     """600 mm is the double nearest to 0.6, not the product of two rounded numbers."""
     number = float(Fraction(digits, 10**places))
-    assert known(text).to_si(number) == float(Fraction(digits, 10**places) * known(text).factor)
+    assert known_unit(text).to_si(number) == float(Fraction(digits, 10**places) * known_unit(text).factor)
 
 
 @given(st.text(max_size=30))
@@ -162,8 +162,8 @@ def test_any_text_is_a_unit_or_none(text):
 
 def test_every_symbol_says_what_it_is_and_leads_to_si():
     for name, symbol in SYMBOLS.items():
-        unit = known(name)
-        assert unit.factor == symbol.factor and known(symbol.si).is_si and symbol.name
+        unit = known_unit(name)
+        assert unit.factor == symbol.factor and known_unit(symbol.si).is_si and symbol.name
 
 
 # -- in files ----------------------------------------------------------------------------------------------------------
@@ -235,7 +235,7 @@ def rod(text: str = ROD) -> Mechanism:
 def test_a_file_in_other_units_is_that_in_si_units():
     from msgspec import structs
 
-    from symgen.describe.facts.digest import digest, identity
+    from symgen.describe.facts.digest import digest, mechanism_digest
 
     text = ROD
     for written, plain in IN_SI.items():
@@ -245,7 +245,7 @@ def test_a_file_in_other_units_is_that_in_si_units():
     unshown = tuple(structs.replace(p, shown="") for p in other.parameters)
     assert (*unshown[:2], unshown[3]) == (*si.parameters[:2], si.parameters[3])
     assert structs.replace(other, parameters=()) == structs.replace(si, parameters=())
-    assert identity(si) == identity(structs.replace(other, parameters=si.parameters))
+    assert mechanism_digest(si) == mechanism_digest(structs.replace(other, parameters=si.parameters))
     # the one parameter whose file has no unit in the plain text
     assert digest(other) == digest(
         rod(text.replace(f"turn = {math.radians(17)!r}", 'turn = { value = 0.1, unit = "rad" }'))
@@ -319,7 +319,7 @@ def test_where_no_unit_is_read_the_number_in_si_units_is_said():
 
 def test_values_from_python_are_in_si_units():
     raw = tomllib.loads(ROD)
-    changed = validate(with_parameters(raw, {"l": 0.5, "turn": 0.25}, "rod.toml"), "rod.toml")
+    changed = validate(set_parameters(raw, {"l": 0.5, "turn": 0.25}, "rod.toml"), "rod.toml")
     assert {p.name: p.value for p in changed.parameters} == {"l": 0.5, "half": 0.25, "turn": 0.25, "push": 0.02}
     assert [p.shown for p in changed.parameters] == ["mm", "cm", "deg", "N mm"]
 
@@ -328,16 +328,16 @@ def test_typed_numbers_are_in_the_unit_of_the_file():
     def typed(text: str) -> Typed:
         amount = read_amount(text)
         assert amount is not None
-        return Typed.of(amount)
+        return Typed.from_amount(amount)
 
     names = ("l", "half", "turn", "rod.theta", "rod.vx", "pin.angle", "pin.angle.rate", "p", "unknown")
     values = {name: typed("500") for name in names}
     values |= {"rod.omega": typed("30 rpm"), "rod.x": typed("2 cm"), "push": typed("1 N m"), "rod.y": 0.25}
     expected = {"l": 0.5, "half": 5.0, "turn": math.radians(500), **dict.fromkeys(names[3:], 500.0)}
     expected |= {"rod.omega": math.pi, "rod.x": 0.02, "push": 1.0, "rod.y": 0.25}
-    assert typed_in_si(rod(), values, "--set") == expected
+    assert typed_numbers_in_si(rod(), values, "--set") == expected
     with pytest.raises(InputError, match=r"^--start rod\.x: expected a unit such as m, mm, cm, km, in, got 'deg'$"):
-        typed_in_si(rod(), {"rod.x": typed("5 deg")}, "--start")
+        typed_numbers_in_si(rod(), {"rod.x": typed("5 deg")}, "--start")
     assert units_of_number(rod(), "l") == ("m", "mm")
 
 

@@ -5,7 +5,7 @@ import pytest
 from support.beams import at_end, cantilever
 
 import symgen
-from symgen.derive.lower.looped.instances import instances
+from symgen.derive.lower.looped.instances import instances_of_mechanism
 from symgen.derive.lower.looped.kernels import kernel_stem
 from symgen.describe.files.builder import MechanismBuilder
 
@@ -25,7 +25,7 @@ def spatial(elements, **keys):
 
 
 def kernels(model):
-    return {kernel_stem(i) for i in instances(model.mechanism) if i.kind == "force"}
+    return {kernel_stem(i) for i in instances_of_mechanism(model.mechanism) if i.kind == "force"}
 
 
 @pytest.mark.parametrize("make", [cantilever, spatial])

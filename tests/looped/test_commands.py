@@ -7,7 +7,7 @@ import pytest
 
 from symgen.api import load
 from symgen.base.errors import InputError
-from symgen.study.ensemble.sweep import sweep
+from symgen.study.ensemble.parameter_sweep import sweep
 
 
 def test_a_run_says_its_shape(cli):

@@ -16,8 +16,8 @@ from symgen.compile.store.paths import ENVIRONMENT_VARIABLE
 from symgen.compile.store.stats import cache_stats
 from symgen.derive.lower.factor import Elimination
 from symgen.derive.lower.looped.forms import form_key
-from symgen.derive.lower.looped.instances import instances
-from symgen.derive.lower.looped.law import is_loopable, refuse_dense
+from symgen.derive.lower.looped.instances import instances_of_mechanism
+from symgen.derive.lower.looped.looped_law import is_loopable, refuse_dense
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import MultiplierMethod
 from symgen.run.compiling.choices import choose_shape
@@ -52,12 +52,12 @@ def test_panels_hold_a_factor(seed):
     for i, near in enumerate(neighbours):
         for j in near:
             matrix[i, j] = values[min(i, j), max(i, j)]
-    elimination = Elimination.of(neighbours)
+    elimination = Elimination.lay_out(neighbours)
     panels = np.zeros(elimination.size)
     for i in range(n):
         for j in (i, *sorted(neighbours[i])):
-            panels[elimination.target(i, j)] = matrix[i, j]
-    table = elimination.table()
+            panels[elimination.place_of_entry(i, j)] = matrix[i, j]
+    table = elimination.lists_for_code()
     right = np.arange(1.0, n + 1.0)
     x, starts = right.copy(), table[2 + n : 2 + n + table[0]]
     nodes = []
@@ -104,7 +104,7 @@ def test_kernels_do_not_know_their_mechanism():
 def test_numbers_are_data_and_zeros_are_kinds():
     keys = {}
     for name in ("four-bar", "n-four-bar:3"):
-        for instance in instances(load(name).mechanism):
+        for instance in instances_of_mechanism(load(name).mechanism):
             keys.setdefault(instance.kind, set()).add(instance.key)
     assert len(keys["body"]) == 1
     assert len(keys["joint"]) == 2  # on the ground, and between bodies

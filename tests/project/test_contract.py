@@ -20,10 +20,10 @@ import pytest
 import symgen
 from symgen.base.settings import Settings
 from symgen.cli import COMMANDS, group, main
-from symgen.describe.files.schema import schema
+from symgen.describe.files.json_schema import file_schema
 from symgen.result.labelled import Labelled
 from symgen.result.result import Result
-from symgen.study.ensemble.sweep import sweep
+from symgen.study.ensemble.parameter_sweep import sweep
 
 KEPT = Path(__file__).resolve().parents[1] / "data" / "contract.json"
 
@@ -95,7 +95,7 @@ def public(kind: type) -> set[str]:
 def file_keys() -> dict[str, set[str]]:
     """Return the keys of every section, and of every joint and force by its type."""
     found: dict[str, set[str]] = {}
-    for section, table in schema()["properties"].items():
+    for section, table in file_schema()["properties"].items():
         entry = table.get("additionalProperties") or table
         for kind in entry.get("oneOf") or entry.get("anyOf") or [entry]:
             own = kind.get("properties", {})

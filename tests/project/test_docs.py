@@ -24,9 +24,9 @@ from symgen.describe.facts.digest import digest
 from symgen.describe.files.load import parse_toml
 from symgen.describe.files.validate import validate
 from symgen.describe.forces import FORCES
-from symgen.describe.formulas.names import CALLABLE
+from symgen.describe.formulas.identifiers import CALLABLE
 from symgen.describe.joints import JOINTS
-from symgen.describe.parts.events import EventSection
+from symgen.describe.parts.event_sections import EventSection
 from symgen.describe.parts.sections import (
     BodySection,
     InputSection,

@@ -5,8 +5,8 @@ from collections import Counter
 import pytest
 
 from benchmarks import meeting
+from symgen.describe.files.json_schema import file_schema
 from symgen.describe.files.load import parse_toml
-from symgen.describe.files.schema import schema
 from symgen.run.compiling.folders import generator_digest
 
 #: A table takes minutes: at each state of the sources another one of so many parts is computed again.
@@ -24,7 +24,7 @@ def test_the_page_is_the_stored_table() -> None:
 
 def test_every_feature_of_a_file_has_a_row() -> None:
     files = [parse_toml(text, name) for name, text in meeting.FEATURES.items()]
-    sections = schema()["properties"]
+    sections = file_schema()["properties"]
     assert set(sections) == {section for file in files for section in file}
     kinds = sections["joints"]["additionalProperties"]["oneOf"]
     shared = Counter(key for kind in kinds for key in kind["properties"])

@@ -18,7 +18,8 @@ from symgen.describe.mechanism import Defaults
 #: of the memory the process has taken at most until then.
 SCRIPT = """\
 import contextlib, io, json, re, resource, sys
-import numba, numpy, symgen.api, symgen.study.ensemble.sweep, symgen.study.comparison.compare, symgen.study.stress.study
+import numba, numpy, symgen.api, symgen.study.stress.study
+import symgen.study.ensemble.parameter_sweep, symgen.study.comparison.compare_models
 from symgen.cli import main
 limit = 6_000_000_000
 resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
@@ -95,14 +96,14 @@ def test_a_disk_that_is_too_small(tmp_path, monkeypatch):
 
 
 def test_requests(monkeypatch):
-    monkeypatch.setattr(memory, "available", lambda: 1e9)
-    memory.require("x", "little", 7.9e8)
+    monkeypatch.setattr(memory, "available_bytes", lambda: 1e9)
+    memory.require_memory("x", "little", 7.9e8)
     with pytest.raises(
         InputError, match=r"^x: expected no more than 80% of the free memory, 0.8 GB, got much, about 2 GB$"
     ):
-        memory.require("x", "much", 2e9)
-    monkeypatch.setattr(memory, "available", lambda: None)
-    memory.require("x", "anything", 1e30)
+        memory.require_memory("x", "much", 2e9)
+    monkeypatch.setattr(memory, "available_bytes", lambda: None)
+    memory.require_memory("x", "anything", 1e30)
 
 
 def groups(root: Path, name: str, limit: str, used: int, files: int, old: bool) -> None:
@@ -124,13 +125,13 @@ def test_groups_of_a_container_count(tmp_path, monkeypatch, old):
     monkeypatch.setattr(memory, "_GROUPS", root)
     real = Path.read_text
     monkeypatch.setattr(Path, "read_text", lambda p, *a: line if str(p) == "/proc/self/cgroup" else real(p, *a))
-    assert min(memory._of_groups()) == 2500.0
+    assert min(memory._free_memory_of_control_groups()) == 2500.0
     groups(base, "", "1000", 900, 0, old)  # a container sees its own group as the root
-    assert min(memory._of_groups()) == 100.0
+    assert min(memory._free_memory_of_control_groups()) == 100.0
 
 
 def test_this_machine_says_something():
-    found = memory.available()
+    found = memory.available_bytes()
     assert found is None or 1e6 < found < 1e15
 
 
@@ -139,7 +140,7 @@ def test_constant_steps_have_an_output_each_whoever_names_the_integrator(monkeyp
     from symgen.run.planning.outputs import check_saving
 
     mechanism = msgspec.structs.replace(load("four-bar").mechanism, defaults=Defaults(until=10.0, step=1e-3))
-    monkeypatch.setattr(memory, "available", lambda: 1e9)
+    monkeypatch.setattr(memory, "available_bytes", lambda: 1e9)
     check_saving(mechanism, Settings())
     constant = msgspec.structs.replace(mechanism, defaults=Defaults(10.0, 1e-5, integrator="rk4"))
     for described, settings in (

@@ -20,7 +20,7 @@ from symgen.base import keywords, settings
 from symgen.describe.files import builder_keys
 from symgen.describe.files.builder import MechanismBuilder
 from symgen.describe.parts import sections
-from symgen.describe.parts.events import EventSection
+from symgen.describe.parts.event_sections import EventSection
 
 #: Cells, each with what its last line shows: the name of the method, and something that is in it.
 CELLS = (
@@ -86,8 +86,8 @@ def test_no_call_hides_its_arguments(call: Any) -> None:
     text, table = inspect.getdoc(call) or "", settings.setting_names()
     for p in parameters:
         if p.kind is p.KEYWORD_ONLY and p.name in table and "**changes" in text:
-            assert p.default == settings.default(p.name)
-            assert f"\n{p.name} : " in text and settings.about(p.name).help in text
+            assert p.default == settings.default_of_setting(p.name)
+            assert f"\n{p.name} : " in text and settings.setting_description(p.name).help in text
 
 
 def test_keywords_are_the_settings_of_the_table() -> None:

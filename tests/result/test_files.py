@@ -159,9 +159,9 @@ def test_latex_reads_a_figure_or_says_why_it_cannot_be_measured(result, tmp_path
 
 
 def test_violations_are_drawn_on_a_logarithmic_axis(result):
-    from symgen.result.plots import drawing
+    from symgen.result.plots import figure_over_column
 
-    figure = drawing(result.along("t"), result.select(["q", "violations"]), "")
+    figure = figure_over_column(result.along("t"), result.select(["q", "violations"]), "")
     labels = {ax.get_ylabel(): ax.get_yscale() for ax in figure.axes}
     assert labels == {"position [m]": "linear", "angle [rad]": "linear", "violation [m, m/s, m/s$^2$]": "log"}
     assert figure.axes[-1].get_xlabel() == "t [s]"

@@ -3,7 +3,7 @@ import pytest
 
 from symgen.base.errors import InputError
 from symgen.result.labelled import Labelled
-from symgen.result.signals import choose
+from symgen.result.signals import choose_columns
 
 
 @pytest.fixture
@@ -35,7 +35,7 @@ def test_a_refusal_names_each_quantity_once():
     """Tables, and what names of their columns begin with, may be called the same."""
     known = dict.fromkeys(("energy.total", "energy.drift", "lam.pin.x", "rod.x"), "energy")
     with pytest.raises(InputError) as refused:
-        choose(known, ["zzzzzz"], "rods")
+        choose_columns(known, ["zzzzzz"], "rods")
     named = str(refused.value).partition("known: ")[2].partition(" and ")[0].split(", ")
     assert {"energy", "lam", "rod"} <= set(named) and len(named) == len(set(named))
 

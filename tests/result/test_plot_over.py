@@ -5,7 +5,7 @@ import pytest
 
 import symgen
 from symgen.cli import main
-from symgen.result.plots import drawing, paths
+from symgen.result.plots import figure_of_paths, figure_over_column
 from symgen.study.ensemble.sweep_plot import sweep_figure
 
 SVG = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF"}
@@ -18,7 +18,7 @@ def wiper():
 
 def test_torque_over_angle(wiper):
     shown = wiper.select(["motor.torque", "motor.power", "shaft.F", "pivot.F"])
-    figure = drawing(wiper.along("crank.theta"), shown, wiper.title)
+    figure = figure_over_column(wiper.along("crank.theta"), shown, wiper.title)
     assert [ax.get_ylabel() for ax in figure.axes] == ["motor.torque [N m]", "motor.power [W]", "force [N]"]
     assert figure.axes[-1].get_xlabel() == "crank.theta [rad]"
     x, y = figure.axes[0].lines[0].get_data()
@@ -29,7 +29,7 @@ def test_torque_over_angle(wiper):
 def test_curves_that_coincide_are_one_line_with_both_names():
     circle = np.exp(1j * np.linspace(0.0, 6.0, 50))
     curve = np.column_stack([circle.real, circle.imag])
-    axes = paths({"a.P": curve, "b.Q": curve + 1e-9, "c.R": 2.0 * curve}, "").axes[0]
+    axes = figure_of_paths({"a.P": curve, "b.Q": curve + 1e-9, "c.R": 2.0 * curve}, "").axes[0]
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["a.P, b.Q", "c.R"]
     assert len(axes.lines) == 2
 

@@ -9,14 +9,14 @@ from symgen import load
 from symgen.api import Model
 from symgen.base.errors import InputError
 from symgen.describe import catalogue
-from symgen.describe.formulas.readings import of_reaction
+from symgen.describe.formulas.readings import readings_of_reaction
 
 EXACT = {"rtol": 1e-11, "atol": 1e-11}
 
 
 def reporting(name: str, folder: Path, outputs: str) -> Model:
     """Return an entry of the catalogue with further outputs."""
-    path = catalogue.file_of(name)
+    path = catalogue.file_of_entry(name)
     assert path is not None
     text = path.read_text(encoding="utf-8")
     head = "[outputs]\n"
@@ -28,7 +28,7 @@ def reporting(name: str, folder: Path, outputs: str) -> Model:
 
 def all_reactions(name: str, folder: Path) -> tuple[Model, list[str]]:
     joints = [joint for joint in load(name).mechanism.joints if joint.kind != "driver"]
-    names = [f"{joint.name}.{label}" for joint in joints for label in of_reaction(joint)]
+    names = [f"{joint.name}.{label}" for joint in joints for label in readings_of_reaction(joint)]
     assert names
     lines = (f'r{i} = {{ value = "{name}", unit = "N" }}\n' for i, name in enumerate(names))
     return reporting(name, folder, "".join(lines)), names

@@ -8,7 +8,7 @@ import pytest
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.result.signals import of_run
+from symgen.result.signals import signals_of_run
 
 
 @pytest.fixture(scope="module")
@@ -213,7 +213,7 @@ def test_repeated_runs_report_the_shortest():
 def test_columns_are_known_before_a_run(name):
     model = symgen.load(name)
     result = model.simulate(until=0.01, step=1e-2, integrator="rk4")
-    tables = of_run(model.mechanism, result.outcome.compiled.info)
+    tables = signals_of_run(model.mechanism, result.outcome.compiled.info)
     assert [s.name for table in tables.values() for s in table] == list(result.whole().names)
     assert tuple(s.unit for table in tables.values() for s in table) == result.whole().units
     assert {table: tuple(s.key for s in signals) for table, signals in tables.items()} == {

@@ -11,10 +11,10 @@ import symgen
 from symgen.base.settings import Settings
 from symgen.result.judge import JUMP_DOUBT, JUMP_FAILURE, judge
 from symgen.result.points import Points
-from symgen.result.reruns.verification import verified
+from symgen.result.reruns.verification import verify_run
 from symgen.run.planning.prepare import prepare
 from symgen.run.single.outcome import RankEvent
-from symgen.study.references.reference import reference
+from symgen.study.references.reference import reference_motion
 from symgen.study.stress.bench import Base
 from symgen.study.stress.families import singular_passage
 
@@ -27,7 +27,7 @@ def outcome_of(model, method="direct-correction", verify=False, **changes):
 
 def judged(run, outcome):
     """The verdict, with a second run where the settings ask for it."""
-    return judge(run, outcome, verified(run, outcome)[2] if run.plan.settings.verify else None)
+    return judge(run, outcome, verify_run(run, outcome)[2] if run.plan.settings.verify else None)
 
 
 @pytest.fixture(scope="module")
@@ -105,7 +105,7 @@ CONSTANT = {"integrator": "rk4", "step": 1e-3}
 )
 def test_runs_that_are_wrong_behind_a_passage_are_not_ok(gap, settings, status):
     """A parallelogram that misses its flat position by a gap: its pivot stays above what counts as near-singular."""
-    level = singular_passage(Base.of("four-bar"), gap)
+    level = singular_passage(Base.of_mechanism("four-bar"), gap)
     result = symgen.load(level.mechanism).simulate(until=level.until, parameters=level.parameters, **settings)
     assert result.status == status and result.rank_event_count == 0
 
@@ -150,8 +150,8 @@ def test_a_second_run_that_differs_does_not(four_bar, seen):
 def error_of(model, result):
     """The distance from SciPy's solution of independently derived equations."""
     q, v = result.q.values, result.v.values
-    known = reference(model.mechanism, model.parameters(), q[0], v[0], result.t)
-    return Points.of(model.mechanism, model.parameters()).distance(q, known.q)
+    known = reference_motion(model.mechanism, model.parameters(), q[0], v[0], result.t)
+    return Points.of_mechanism(model.mechanism, model.parameters()).largest_distance(q, known.q)
 
 
 @pytest.mark.slow_cases("changes3")

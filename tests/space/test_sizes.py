@@ -5,7 +5,7 @@ import pytest
 from support.emitted import Emitted
 
 from symgen.describe.files.load import load_mechanism
-from symgen.describe.formulas.evaluate import scalars
+from symgen.describe.formulas.evaluate import scalar_values
 from symgen.describe.formulas.start import described_start
 
 #: Entry -> bodies, coordinates, velocities, rows, rank.
@@ -30,7 +30,7 @@ def test_sizes_and_ranks(name):
     assert mechanism.name.startswith(name.partition(":")[0])
     emitted = Emitted(mechanism)
     values = {p.name: p.value for p in mechanism.parameters}
-    q = np.array(described_start(mechanism, scalars(values))[0])
+    q = np.array(described_start(mechanism, scalar_values(values))[0])
     found = emitted.at(0.0, q, np.zeros(emitted.info.nv), emitted.parameters(values), law=False)
     values = np.linalg.svd(found.d, compute_uv=False) if len(found.d) else np.zeros(0)
     rank = int(np.sum(values > 1e-9))

@@ -15,12 +15,12 @@ from study.report import made
 from symgen.base.errors import InputError, SimulationError
 from symgen.cli._tables import show_study
 from symgen.study.comparison import combinations
-from symgen.study.comparison import compare as whole
+from symgen.study.comparison import compare_models as whole
 from symgen.study.comparison import model_comparison as module
 from symgen.study.comparison.combinations import Combinations
-from symgen.study.comparison.comparison_rows import with_ratios
+from symgen.study.comparison.comparison_rows import add_ratios
 from symgen.study.journal import Journal
-from symgen.study.report.comparison import comparison
+from symgen.study.report.comparison_report import comparison_report
 
 ROW_KEYS = {
     *("method", "integrator", "step", "rtol", "status", "reason", "error", "run_seconds", "run_seconds_spread"),
@@ -94,7 +94,7 @@ def test_a_run_that_exceeds_its_limits_is_measured_to_its_end(capsys):
     show_study(study)
     text = " ".join(capsys.readouterr().out.split())
     assert "failed +" in text and "+ exceeded a limit of a run" in text and beyond.reason in text
-    notes = [note for table in comparison([study]).sections[0].parts[-1].tables for note in table.notes]
+    notes = [note for table in comparison_report([study]).sections[0].parts[-1].tables for note in table.notes]
     assert any(note.startswith("+ exceeded a limit of a run") for note in notes)
 
 
@@ -107,8 +107,8 @@ def test_a_run_that_fails_without_limits_too_has_no_error():
 
 
 def test_rows_below_the_reference_are_marked(monkeypatch):
-    real = module.reference
-    monkeypatch.setattr(module, "reference", lambda *a, **k: replace(real(*a, **k), estimated_error=1e-3))
+    real = module.reference_motion
+    monkeypatch.setattr(module, "reference_motion", lambda *a, **k: replace(real(*a, **k), estimated_error=1e-3))
     study = symgen.compare("pendulum", ["lagrange"], ["rk4"], [1e-2], until=0.5, repeat=1)
     assert study.rows[0].below_reference
 
@@ -136,7 +136,7 @@ def test_what_is_wrong_is_refused_before_anything_runs(arguments, sentence, monk
         raise AssertionError("something was run")
 
     monkeypatch.setattr(module, "timed", never)
-    monkeypatch.setattr(module, "reference", never)
+    monkeypatch.setattr(module, "reference_motion", never)
     with pytest.raises(InputError) as caught:
         symgen.compare("four-bar", **arguments)
     assert sentence in str(caught.value)
@@ -158,7 +158,7 @@ def test_rows_warn_of_what_single_runs_warn_of():
         assert row.warnings == single.warnings
     told = [row for row in study.rows if any("exceeds 0.4 s" in text for text in row.warnings)]
     assert [(row.method, row.step) for row in told] == [("baumgarte", 0.5)] and not study.common_warnings
-    table = comparison([study]).sections[0].parts[-1].tables[0]
+    table = comparison_report([study]).sections[0].parts[-1].tables[0]
     assert [note for note in table.notes if "exceeds 0.4 s" in note and note.startswith("baumgarte, euler, step 0.5 s")]
 
 
@@ -256,9 +256,9 @@ def test_methods_of_all_that_no_integrator_suits_are_left_out(cli):
 
 
 def test_without_methods_the_six_of_the_source_are_compared():
-    assert combinations._named((), combinations.DEFAULT_METHODS, ()) == combinations.DEFAULT_METHODS
+    assert combinations._select_names((), combinations.DEFAULT_METHODS, ()) == combinations.DEFAULT_METHODS
     assert (
-        len(combinations._named(("all",), (), symgen.derive.methods.METHODS.names))
+        len(combinations._select_names(("all",), (), symgen.derive.methods.METHODS.names))
         == len(symgen.derive.methods.METHODS.names)
         > 15
     )
@@ -289,7 +289,7 @@ def test_cost_ratios_are_to_lagrange_with_the_same_setting(study):
 
 def test_what_a_ratio_may_vary_by_comes_from_both_runs():
     clocks = (("lagrange", 2.0, 2.2), ("baumgarte", 3.0, 3.6))
-    base, other = with_ratios([made.row(m, 1e-3, 0.0, shortest, run_seconds_median=x) for m, shortest, x in clocks])
+    base, other = add_ratios([made.row(m, 1e-3, 0.0, shortest, run_seconds_median=x) for m, shortest, x in clocks])
     assert (base.cost_ratio, base.cost_ratio_spread) == (1.0, 0.0)
     assert other.cost_ratio == 1.5
     assert other.cost_ratio_spread == pytest.approx(1.5 * (0.1 + 0.2))
@@ -322,7 +322,7 @@ def test_a_journal_gives_rows_back_and_computes_only_what_is_missing(tmp_path, m
     with Journal(path) as journal:
         first = symgen.compare("pendulum", **arguments, until=0.5, repeat=1, journal=journal)
     monkeypatch.setattr(module, "timed", lambda *a: calls.append(1) or real(*a))
-    monkeypatch.setattr(module, "reference", None)  # it is in the journal as well
+    monkeypatch.setattr(module, "reference_motion", None)  # it is in the journal as well
     arguments["steps"] = [2e-2, 1e-2, 5e-3]
     with Journal(path) as journal:
         second = symgen.compare("pendulum", **arguments, until=0.5, repeat=1, journal=journal)
@@ -352,7 +352,7 @@ def test_errors_are_to_the_motion_from_the_start_that_is_asked_for(name, start):
     assert "independently derived" in found.how
     times = np.linspace(0.0, 0.3, 4)
     mechanism, settings = symgen.load(name).mechanism, symgen.Settings(start=start)
-    assert module.compute(module.ReferenceTask(mechanism, settings, times))["how"] == found.how
+    assert module.compute_cell_ahead(module.ReferenceTask(mechanism, settings, times))["how"] == found.how
 
 
 @pytest.mark.slow
@@ -370,7 +370,7 @@ def test_without_a_reference_rows_stay_and_the_study_says_why(monkeypatch):
     def none(*_, **__):
         raise SimulationError("no way through")
 
-    monkeypatch.setattr(module, "reference", none)
+    monkeypatch.setattr(module, "reference_motion", none)
     study = symgen.compare("pendulum", ["lagrange"], ["rk4"], [1e-2], until=0.5, repeat=1)
     assert study.how == "none" and "no way through" in study.note
     assert study.rows[0].status == "ok" and study.rows[0].error is None and study.rows[0].run_seconds > 0.0

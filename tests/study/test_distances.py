@@ -41,7 +41,7 @@ def test_errors_of_a_pendulum_are_those_from_its_energy():
 def test_errors_are_distances_to_a_run_with_tight_tolerances(name, until, step):
     study, row, run, fine = compared(name, until, step)
     model = symgen.load(name)
-    size = Points.of(model.mechanism, model.parameters()).size(np.asarray(run.q))
+    size = Points.of_mechanism(model.mechanism, model.parameters()).size(np.asarray(run.q))
     split, off = (2 if model.mechanism.space == "planar" else 3), 0.0
     for joint in run.forces.seats:
         difference = run.reactions[joint] - fine.reactions[joint]
@@ -61,10 +61,10 @@ def test_velocities_of_points_are_the_slopes_of_their_places():
     h, instants = 1e-4, np.arange(1, 6) * 0.05
     times = np.sort(np.concatenate([instants - h, instants, instants + h]))
     run = model.simulate(method="direct-correction", integrator="dop853", rtol=1e-12, until=0.3, times=times)
-    points, q, v = Points.of(model.mechanism, model.parameters()), np.asarray(run.q), np.asarray(run.v)
+    points, q, v = Points.of_mechanism(model.mechanism, model.parameters()), np.asarray(run.q), np.asarray(run.v)
     before, after = q[0::3], q[2::3]
     still = points.speed_distances((q[1::3], v[1::3]))
-    assert still == pytest.approx(points.distances(after, before) / (2.0 * h), rel=1e-5)
+    assert still == pytest.approx(points.distances_over_time(after, before) / (2.0 * h), rel=1e-5)
 
 
 @pytest.mark.slow

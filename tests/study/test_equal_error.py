@@ -10,9 +10,9 @@ from study.report import made
 from symgen.base.errors import InputError
 from symgen.cli._tables import show_study
 from symgen.study.comparison.combinations import Combinations
-from symgen.study.comparison.equal_error import front, interpolated, times_at
+from symgen.study.comparison.equal_error import pareto_front, time_at_error, times_at
 from symgen.study.journal import Journal
-from symgen.study.report.comparison import comparison
+from symgen.study.report.comparison_report import comparison_report
 
 
 def line(method, errors, **changes):
@@ -23,9 +23,9 @@ def test_times_between_settings_lie_on_a_power_law():
     """Fourth order: a tenth of the error takes 10^(1/4) times the time, between the settings as at them."""
     points = [(16.0**-k, 2.0**k) for k in range(6)]
     for error in (1e-1, 1e-3, 1e-6):
-        assert interpolated(points, error) == pytest.approx(error**-0.25)
-    assert interpolated(points, 16.0**-2) == pytest.approx(4.0)
-    assert interpolated(points, 2.0) is None and interpolated(points, 1e-9) is None
+        assert time_at_error(points, error) == pytest.approx(error**-0.25)
+    assert time_at_error(points, 16.0**-2) == pytest.approx(4.0)
+    assert time_at_error(points, 2.0) is None and time_at_error(points, 1e-9) is None
 
 
 def test_ratios_are_taken_within_rounds():
@@ -47,9 +47,9 @@ def test_rows_without_a_resolved_error_are_no_points():
 
 def test_the_front_is_what_none_surpasses():
     rows = [made.row("a", 1e-3, e, t) for e, t in ((1e-3, 1.0), (1e-5, 2.0), (1e-4, 3.0), (1e-9, 4.0), (1e-12, 5.0))]
-    assert front(rows, 1e-14) == {0, 1, 3, 4}
-    assert front(rows, 1e-8) == {0, 1, 3}
-    assert front([made.row("a", 1e-3, None, 0.1, status="failed", reason="")], 1e-8) == frozenset()
+    assert pareto_front(rows, 1e-14) == {0, 1, 3, 4}
+    assert pareto_front(rows, 1e-8) == {0, 1, 3}
+    assert pareto_front([made.row("a", 1e-3, None, 0.1, status="failed", reason="")], 1e-8) == frozenset()
 
 
 @pytest.mark.slow
@@ -72,7 +72,7 @@ def test_a_study_interpolates_times_of_all_its_lines(tmp_path, capsys):
     assert "time / lagrange" in text and "CPU [ms]" in text and "^ on the front" in text
     # run times by evaluations: a busy machine decides which rows are on the front otherwise
     paced = replace(study, rows=tuple(replace(row, run_seconds=1e-7 * row.evaluations) for row in study.rows))
-    section = next(part for part in comparison([paced]).sections if part.title == "pendulum")
+    section = next(part for part in comparison_report([paced]).sections if part.title == "pendulum")
     more = section.parts[0]
     assert [section.pictures[0].name, more.pictures[0].name] == ["pendulum-front", "pendulum-ratio"]
     assert any(table.caption.startswith("CPU time at an error") for table in more.tables)

@@ -6,13 +6,13 @@ import pytest
 
 from symgen import load
 from symgen.study.stress.bench import Base, NotApplicable
-from symgen.study.stress.families import levels_of
-from symgen.study.stress.findings import gain_law, slope
+from symgen.study.stress.families import levels_of_family
+from symgen.study.stress.findings import fitted_slope, gain_law
 
 
 def test_slopes_are_those_of_powers():
-    assert slope([(x, 3.0 * x**-1.5) for x in (0.1, 0.3, 1.0, 2.0)]) == pytest.approx(-1.5)
-    assert slope([(1.0, 1.0), (2.0, 4.0)]) is None
+    assert fitted_slope([(x, 3.0 * x**-1.5) for x in (0.1, 0.3, 1.0, 2.0)]) == pytest.approx(-1.5)
+    assert fitted_slope([(1.0, 1.0), (2.0, 4.0)]) is None
 
 
 def test_findings_have_the_least_point_and_both_slopes():
@@ -28,11 +28,11 @@ def test_findings_have_the_least_point_and_both_slopes():
 
 
 def test_gains_are_in_units_of_the_rate_that_the_rule_of_the_motion_takes():
-    base = Base.of("four-bar")
-    level = levels_of("gain", base, True)[3]
+    base = Base.of_mechanism("four-bar")
+    level = levels_of_family("gain", base, True)[3]
     options = {"method.rule": "motion"}
     result = load("four-bar").simulate(
-        method="baumgarte", integrator="rk4", step=1e-2, until=base.nominal, options=options, verify=False
+        method="baumgarte", integrator="rk4", step=1e-2, until=base.nominal_values, options=options, verify=False
     )
     (note,) = (n for n in result.notes if "rule=motion" in n)
     rate = float(note.partition("alpha = beta = ")[2].partition(" ")[0])
@@ -44,4 +44,4 @@ def test_a_mechanism_at_rest_has_no_gains_of_motion(tmp_path):
     text += 'points = { A = [-1.0, 0.0] }\nposition = [1.0, 0.0]\n\n[joints.O]\ntype = "revolute"\n'
     (tmp_path / "still.toml").write_text(text + 'between = ["ground", "a"]\nat = [[0.0, 0.0], "A"]\n', encoding="utf-8")
     with pytest.raises(NotApplicable, match="nothing moves"):
-        levels_of("gain", Base.of(tmp_path / "still.toml"), True)
+        levels_of_family("gain", Base.of_mechanism(tmp_path / "still.toml"), True)

@@ -7,9 +7,9 @@ from click.testing import CliRunner
 import symgen
 from symgen.base.errors import InputError
 from symgen.cli.compare import command
-from symgen.study.comparison.gradients import slopes_of
+from symgen.study.comparison.gradients import difference_slopes
 from symgen.study.journal import Journal
-from symgen.study.report.comparison import comparison
+from symgen.study.report.comparison_report import comparison_report
 
 RUNS = {
     "methods": ["lagrange", "direct-correction", "ggl"],
@@ -68,7 +68,7 @@ def test_journals_tables_and_reports(study, journal):
     with Journal(journal) as records:
         again = symgen.compare("four-bar", journal=records, **RUNS)
     assert again.rows == study.rows
-    tables = [table for part in comparison([study], "", [], {}).sections[0].parts for table in part.tables]
+    tables = [table for part in comparison_report([study], "", [], {}).sections[0].parts for table in part.tables]
     table = next(table for table in tables if table.caption.startswith("Derivatives by parameters"))
     assert len(table.rows) == len(study.rows)
 
@@ -84,7 +84,7 @@ def test_the_command_shows_them():
 
 
 def test_differences_of_fourth_order():
-    assert slopes_of({k: np.array([(1.0 + 0.1 * k) ** 4]) for k in (-2, -1, 1, 2)}, 0.1) == pytest.approx([4.0])
+    assert difference_slopes({k: np.array([(1.0 + 0.1 * k) ** 4]) for k in (-2, -1, 1, 2)}, 0.1) == pytest.approx([4.0])
 
 
 @pytest.mark.parametrize(

@@ -212,9 +212,9 @@ def test_a_process_that_dies_ends_the_study_and_keeps_what_is_done(tmp_path):
 def test_a_process_keeps_to_a_group_and_then_helps_with_the_longest():
     a, b, c = ([Cell(f"{name}{i}", name, None) for i in range(count)] for name, count in (("a", 2), ("b", 5), ("c", 1)))
     shares = Shares([*a, *b, *c])
-    taken = [shares.next_of(process).key for process in (0, 1, 0, 1, 0, 0, 0)]
+    taken = [shares.next_cell(process).key for process in (0, 1, 0, 1, 0, 0, 0)]
     assert taken == ["a0", "b0", "a1", "b1", "c0", "b4", "b3"]
-    assert shares.next_of(1).key == "b2" and shares.next_of(0) is None is shares.next_of(1)
+    assert shares.next_cell(1).key == "b2" and shares.next_cell(0) is None is shares.next_cell(1)
 
 
 @pytest.mark.parametrize("processes", [1, 2])

@@ -10,12 +10,12 @@ import symgen
 from symgen.base.errors import InputError
 from symgen.describe import MechanismBuilder
 from symgen.describe.facts.lengths import own_length
-from symgen.describe.mechanism import bounded
+from symgen.describe.mechanism import with_largest_step
 from symgen.result.points import Points
 from symgen.study.references.closed_forms import CLOSED
 from symgen.study.references.independent import IndependentEquations
-from symgen.study.references.motion import CompiledEquations, motion
-from symgen.study.references.reference import reference
+from symgen.study.references.motion import CompiledEquations, motion_with_estimate
+from symgen.study.references.reference import reference_motion
 from symgen.study.references.solvers import SOLVERS
 from tests.derive.methods.test_hard_cases import two_links
 
@@ -34,7 +34,11 @@ def both(name, times, parameters=None):
     model = symgen.load(name)
     values = model.parameters(parameters)
     arguments = model.mechanism, values, *start_of(model, parameters), times
-    return reference(*arguments), reference(*arguments, solver="scipy-dop853"), Points.of(model.mechanism, values)
+    return (
+        reference_motion(*arguments),
+        reference_motion(*arguments, solver="scipy-dop853"),
+        Points.of_mechanism(model.mechanism, values),
+    )
 
 
 @pytest.mark.slow_cases("n-four-bar:3-0.6-None", "pendulum-5.0-None", "driven-four-bar-1.5-None")
@@ -74,7 +78,7 @@ def test_andrews_meets_the_published_values():
     published = json.loads((DATA / "andrews_ivp.json").read_text())
     end = dict(zip(published["coordinates"], published["end"], strict=False))
     model = symgen.load("andrews")
-    found = reference(
+    found = reference_motion(
         model.mechanism, model.parameters(), *start_of(model), np.array([0.0, 0.03]), solver="scipy-dop853"
     )
     theta = {b.name: found.q[-1, 3 * i + 2] for i, b in enumerate(model.mechanism.bodies)}
@@ -93,7 +97,7 @@ def test_another_mechanism_of_the_same_name_gets_the_general_route(tmp_path):
         '[joints.link]\ntype = "distance"\nbetween = ["ground", "bob"]\nat = [[0.0, 0.0], "centre"]\nlength = 2.0\n'
     )
     model = symgen.load(path)
-    found = reference(model.mechanism, {}, *start_of(model), np.linspace(0.0, 1.0, 5))
+    found = reference_motion(model.mechanism, {}, *start_of(model), np.linspace(0.0, 1.0, 5))
     assert "independently derived" in found.how
     energy = found.q[:, 1] * 1.0
     assert energy[-1] < -0.4
@@ -120,21 +124,21 @@ def test_runs_that_part_at_a_singular_position_are_not_passed_silently(monkeypat
     monkeypatch.setattr(module, "PHASES", (1.0, 0.85))
     model = symgen.load("n-four-bar:3")
     times = np.linspace(0.0, 10.0, 11)
-    found = reference(model.mechanism, {}, *start_of(model), times, solver="scipy-dop853")
-    exact = reference(model.mechanism, {}, *start_of(model), times)
-    points = Points.of(model.mechanism, {})
+    found = reference_motion(model.mechanism, {}, *start_of(model), times, solver="scipy-dop853")
+    exact = reference_motion(model.mechanism, {}, *start_of(model), times)
+    points = Points.of_mechanism(model.mechanism, {})
     assert "part by more than 0.0001 of the mechanism's size" in found.note and "not known which branch" in found.note
     parted = float(found.note.split("t = ")[1].split(" s")[0])
     assert 0.0 < parted <= 10.0
     assert found.estimated_error > 1e-6
-    assert points.distance(found.q, exact.q) > 1e-6  # and it was right not to be believed
+    assert points.largest_distance(found.q, exact.q) > 1e-6  # and it was right not to be believed
 
 
 @pytest.mark.slow
 def test_a_regular_mechanism_with_short_links_is_not_taken_for_a_singular_one():
     """Links of centimetres make the singular values of D small everywhere."""
     model = symgen.load("andrews")
-    found = reference(
+    found = reference_motion(
         model.mechanism, model.parameters(), *start_of(model), np.linspace(0.0, 0.01, 6), solver="scipy-dop853"
     )
     assert "singular" not in found.how
@@ -170,18 +174,18 @@ def test_scipy_s_solvers_agree_within_what_they_say(name, until, solver):
     model = symgen.load(name)
     values, times = model.parameters(), np.linspace(0.0, until, 11)
     arguments = model.mechanism, values, *start_of(model), times
-    usual, found = reference(*arguments), reference(*arguments, solver=solver)
-    distance = Points.of(model.mechanism, values).distance(usual.q, found.q)
+    usual, found = reference_motion(*arguments), reference_motion(*arguments, solver=solver)
+    distance = Points.of_mechanism(model.mechanism, values).largest_distance(usual.q, found.q)
     assert f"SciPy {SOLVERS[solver][0]} at" in found.how
     assert distance <= 10.0 * (usual.estimated_error + found.estimated_error) <= 1e-4
-    at_start = reference(*arguments[:-1], np.zeros(1), solver=solver)
+    at_start = reference_motion(*arguments[:-1], np.zeros(1), solver=solver)
     assert np.allclose(at_start.q, arguments[2], atol=1e-12)
 
 
 def test_an_unknown_solver_is_refused():
     model = symgen.load("pendulum")
     with pytest.raises(InputError, match=r"reference_by: .*scipy-radau.*did you mean 'scipy-radau'"):
-        reference(model.mechanism, {}, *start_of(model), np.linspace(0.0, 1.0, 3), solver="scipy-rado")
+        reference_motion(model.mechanism, {}, *start_of(model), np.linspace(0.0, 1.0, 3), solver="scipy-rado")
 
 
 def test_own_lengths():
@@ -196,14 +200,14 @@ def test_own_lengths():
 
 def test_distances_count_the_far_end():
     model = symgen.load("four-bar")
-    points = Points.of(model.mechanism, model.parameters())
+    points = Points.of_mechanism(model.mechanism, model.parameters())
     a = np.zeros((1, 9))
     b = a.copy()
     b[0, 5] = 1e-3
-    assert points.distance(a, b) == pytest.approx(4e-3, rel=1e-6)
-    assert points.distance(a, a) == 0.0
+    assert points.largest_distance(a, b) == pytest.approx(4e-3, rel=1e-6)
+    assert points.largest_distance(a, a) == 0.0
     b[0, 5] = 2.0 * np.pi
-    assert points.distance(a, b) < 1e-14
+    assert points.largest_distance(a, b) < 1e-14
 
 
 @pytest.mark.slow
@@ -213,7 +217,7 @@ def test_a_massless_coupler_has_references_and_they_are_those_of_a_distance_join
     for massless in (True, False):
         model = two_links(massless)
         start = start_of(model)
-        found.append(reference(model.mechanism, {}, *start, times).q[:, :6])
+        found.append(reference_motion(model.mechanism, {}, *start, times).q[:, :6])
         y = np.concatenate(start)
         by_scipy, compiled = (kind(model.mechanism, {}) for kind in (IndependentEquations, CompiledEquations))
         rates.append(by_scipy.rate(0.0, y))
@@ -240,7 +244,7 @@ def test_a_bob_on_a_massless_rod_in_space_has_the_reference_of_one_at_a_distance
         else:
             raw.joint("link", "distance", between=("ground", "bob"), at=((0, 0, 0), (0, 0, 0)), length=1.0)
         model = symgen.Model(raw.build())
-        found.append(reference(model.mechanism, {}, *start_of(model), times).q[:, :3])
+        found.append(reference_motion(model.mechanism, {}, *start_of(model), times).q[:, :3])
     assert np.abs(found[0] - found[1]).max() < 1e-10 and np.abs(found[0][-1, 1]) > 0.1
 
 
@@ -274,7 +278,7 @@ def swung(times, passages):
 def test_references_see_a_push_that_is_shorter_than_a_step(solver, tmp_path):
     """100 N for 3 ms: solvers do not see it, or take its ends for positions at which accelerations are unknown."""
     times, (begin, end) = np.linspace(0.0, 2.0, 201), (0.7011, 0.7041)
-    found = reference(*pushed(tmp_path, f"100 if {begin} < t < {end} else 0"), times, solver=solver)
+    found = reference_motion(*pushed(tmp_path, f"100 if {begin} < t < {end} else 0"), times, solver=solver)
     off = np.abs(found.q[:, 0] - swung(times, {begin: 100.0, end: 0.0})).max()
     assert "singular" not in found.how
     assert off < 10.0 * found.estimated_error + 1e-10 and found.estimated_error < 1e-7
@@ -284,7 +288,7 @@ def test_references_see_a_push_that_is_shorter_than_a_step(solver, tmp_path):
 def test_references_of_stress_studies_see_a_short_push_as_well(tmp_path):
     mechanism, values, q, v = pushed(tmp_path, "100 if 0.7011 < t < 0.7041 else 0")
     times = np.linspace(0.0, 2.0, 11)
-    found = motion(CompiledEquations(mechanism, values), q, v, times)
+    found = motion_with_estimate(CompiledEquations(mechanism, values), q, v, times)
     off = np.abs(found.q[:, 0] - swung(times, {0.7011: 100.0, 0.7041: 0.0})).max()
     assert off < 10.0 * found.estimated_error + 1e-10 and found.estimated_error < 1e-6
 
@@ -299,11 +303,11 @@ def test_references_see_a_smooth_pulse(solver, w, max_step, tmp_path):
     """A bell of 0.3 sqrt(pi) N s, behind which a spring swings on: no output is near."""
     times, at = np.linspace(0.0, 2.0, 11), 0.7321
     mechanism, values, q, v = pushed(tmp_path, f"{0.3 / w}*exp(-((t - {at})/{w})**2)")
-    mechanism = bounded(mechanism, max_step)
+    mechanism = with_largest_step(mechanism, max_step)
     if solver in SOLVERS:
-        found = reference(mechanism, values, q, v, times, solver=solver)
+        found = reference_motion(mechanism, values, q, v, times, solver=solver)
     else:
-        found = motion(CompiledEquations(mechanism, values), q, v, times)
+        found = motion_with_estimate(CompiledEquations(mechanism, values), q, v, times)
     blow = 0.3 * np.sqrt(np.pi) * np.exp(-(w**2)) / 2.0  # of a bell, its transform at 2 rad/s
     expected = 0.3 * np.cos(2.0 * times) + np.where(times > at, blow * np.sin(2.0 * (times - at)), 0.0)
     off = np.abs(found.q[:, 0] - expected).max()
@@ -321,7 +325,7 @@ def test_references_see_a_force_between_two_places(solver, tmp_path):
     times, edge, faster = np.linspace(0.0, 2.0, 6), 0.7 - 4e-4, np.sqrt(1.0 + 2.0 * 6.6 * 8e-4)
     behind = edge + (faster - 1.0) / 6.6
     expected = np.where(times < edge, 0.3 + times, 1.0 + 4e-4 + faster * (times - behind))
-    found = reference(mechanism, values, q, v + np.array([1.0, 0.0]), times, solver=solver)
+    found = reference_motion(mechanism, values, q, v + np.array([1.0, 0.0]), times, solver=solver)
     off = np.abs(found.q[:, 0] - expected).max()
     assert off < 10.0 * found.estimated_error + 1e-10 and found.estimated_error < 1e-7
 
@@ -331,16 +335,16 @@ def test_runs_through_singular_positions_differ_between_close_outputs(monkeypatc
     """Steps longer than from one output to the next would end at the outputs alone, and all runs be the same."""
     from symgen.study.references import reference as module
 
-    steps, by_steps = list[float](), module.by_steps
+    steps, by_steps = list[float](), module.integrate_by_steps
 
     def counted(equations, y, times, scheme, **more):
         steps.extend([scheme.step] if scheme.step else [])
         return by_steps(equations, y, times, scheme, **more)
 
-    monkeypatch.setattr(module, "by_steps", counted)
+    monkeypatch.setattr(module, "integrate_by_steps", counted)
     model = symgen.load("n-four-bar:1")
     times = np.linspace(0.0, 0.5, 51)
-    found = reference(model.mechanism, {}, *start_of(model), times, solver="scipy-dop853")
+    found = reference_motion(model.mechanism, {}, *start_of(model), times, solver="scipy-dop853")
     if not steps:
         equations = IndependentEquations(model.mechanism, {})
         module.pass_through(equations, equations.state(*start_of(model)), times, 0.05)

@@ -8,7 +8,7 @@ from symgen import compare, load
 from symgen.describe.files.load import validate
 from symgen.study.references.independent import IndependentEquations
 from symgen.study.references.motion import CompiledEquations
-from symgen.study.references.reference import reference
+from symgen.study.references.reference import reference_motion
 from symgen.study.stress.study import stress
 from tests.derive.formulate.test_primitives import ARMS
 
@@ -67,10 +67,10 @@ def test_states_of_a_file_have_a_second_derivation(tmp_path):
     matrix = np.array([[0.0, 1.0, 0.0], [-15.0, -0.5, 2.5], [2.0, -0.5, -1.0]])
     exact = np.array([expm(matrix * t) @ [0.1, 0.0, 0.3] for t in times])
     q, v = np.array([0.1, 0.0, 0.0]), np.zeros(3)
-    found = reference(model.mechanism, {}, q, v, times)
+    found = reference_motion(model.mechanism, {}, q, v, times)
     np.testing.assert_allclose(np.column_stack([found.q[:, 0], found.v[:, 0], found.z]), exact, rtol=0.0, atol=1e-12)
     compiled = CompiledEquations(model.mechanism, {})
-    rates = compiled.rate(0.0, compiled.project(0.0, np.concatenate([q, v, compiled.starts])))
+    rates = compiled.rate(0.0, compiled.nearest_state(0.0, np.concatenate([q, v, compiled.starts])))
     np.testing.assert_allclose(rates[[0, 3, 6]], matrix @ exact[0], rtol=1e-13, atol=1e-14)
     (row,) = compare(path, ["lagrange"], ["dop853"], rtols=[1e-11], repeat=1).rows
     assert row.status == "ok" and row.error < 1e-10
@@ -87,10 +87,10 @@ def test_rotors_have_a_second_derivation(where):
         start = model.assemble(compiled)
         q, v = compiled.info.parts(start.y)
         motions.append(
-            reference(model.mechanism, model.parameters(), q, v, times).q[:, : 6 if where == "plane" else 14]
+            reference_motion(model.mechanism, model.parameters(), q, v, times).q[:, : 6 if where == "plane" else 14]
         )
         if rotor == "keys" and where == "plane":
             forms = [form(model.mechanism, model.parameters()) for form in (IndependentEquations, CompiledEquations)]
-            rates = [form.rate(0.0, form.project(0.0, form.state(q, v))) for form in forms]
+            rates = [form.rate(0.0, form.nearest_state(0.0, form.state(q, v))) for form in forms]
             np.testing.assert_allclose(*rates, rtol=1e-12, atol=1e-12)
     np.testing.assert_allclose(*motions, rtol=0.0, atol=1e-12)

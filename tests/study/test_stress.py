@@ -17,12 +17,12 @@ from symgen.result.points import Points
 from symgen.run.starts import assembler
 from symgen.study.journal import Journal
 from symgen.study.references.independent import IndependentEquations
-from symgen.study.references.motion import CompiledEquations, InterpretedEquations, motion
-from symgen.study.references.reference import reference
+from symgen.study.references.motion import CompiledEquations, InterpretedEquations, motion_with_estimate
+from symgen.study.references.reference import reference_motion
 from symgen.study.references.solvers import fastest_modes
 from symgen.study.stress.bench import Base, Level
 from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute_cell
-from symgen.study.stress.families import FAMILIES, levels_of
+from symgen.study.stress.families import FAMILIES, levels_of_family
 from symgen.study.stress.findings import largest_root
 from symgen.study.stress.stress_rows import save_stress_csv
 from symgen.study.stress.study import QUICK_COMPILATION, _Study, method_pairs, stress
@@ -37,28 +37,28 @@ ROOT = Path(__file__).resolve().parents[2]
 @pytest.mark.slow
 def test_compiled_equations_are_the_interpreted_ones():
     """SciPy's DOP853 on lambdified equations and extrapolation on compiled ones agree, at other parameter values."""
-    mechanism = Base.of("slider-crank").stressed
+    mechanism = Base.of_mechanism("slider-crank").stressed
     values = symgen.load(mechanism).parameters()
     equations = CompiledEquations(mechanism, values)
     changed = {**values, "stress_stiffness": 300.0, "stress_damping": 2.0, "stress_mass": 3.0, "stress_gravity": 0.5}
     q, v = start_of(symgen.load(mechanism), changed)
     times = np.linspace(0.0, 0.5, 6)
     equations.set_parameters(changed)
-    found = motion(equations, q, v, times)
-    other = reference(mechanism, changed, q, v, times, solver="scipy-dop853")
-    apart = Points.of(mechanism, changed).distance(found.q, other.q)
+    found = motion_with_estimate(equations, q, v, times)
+    other = reference_motion(mechanism, changed, q, v, times, solver="scipy-dop853")
+    apart = Points.of_mechanism(mechanism, changed).largest_distance(found.q, other.q)
     assert apart < 1e-9
     assert apart < 10.0 * (found.estimated_error + other.estimated_error)
     assert found.estimated_error < 1e-9
 
 
 def test_compiled_slopes_are_differences_of_the_interpreted_rates():
-    mechanism = Base.of("slider-crank").stressed
+    mechanism = Base.of_mechanism("slider-crank").stressed
     values = {**symgen.load(mechanism).parameters(), "stress_stiffness": 300.0, "stress_damping": 2.0}
     equations, plain = CompiledEquations(mechanism, values), IndependentEquations(mechanism, values)
     q, v = start_of(symgen.load(mechanism), values)
-    y = equations.project(0.0, np.concatenate([q, v + 0.3]))
-    plain.project(0.0, y)
+    y = equations.nearest_state(0.0, np.concatenate([q, v + 0.3]))
+    plain.nearest_state(0.0, y)
     found, expected = equations.slopes(0.1, y), plain.slopes(0.1, y)
     assert np.abs(expected).max() > 100.0
     np.testing.assert_allclose(found, expected, atol=1e-7 * np.abs(expected).max())
@@ -97,7 +97,7 @@ value = "0.1 + 0.05*sin(3*t)"
 
 
 def test_interpreted_equations_are_the_compiled_ones_and_undefined_where_these_are():
-    mechanism = Base.of("slider-crank").stressed
+    mechanism = Base.of_mechanism("slider-crank").stressed
     values = {**symgen.load(mechanism).parameters(), "stress_stiffness": 300.0, "stress_mass": 3.0}
     pair = [kind(mechanism, values) for kind in (CompiledEquations, InterpretedEquations)]
     q, v = np.linspace(0.1, 0.9, 9), np.linspace(-1.0, 1.0, 9)
@@ -125,7 +125,7 @@ def test_attempts_of_a_search_on_a_driven_cart_compile_nothing_anew(tmp_path):
 
 
 def search_on_a_cart(file):
-    level = levels_of("stiffness", Base.of(Path(file)), True)[1]
+    level = levels_of_family("stiffness", Base.of_mechanism(Path(file)), True)[1]
     known = compute_cell(CellReference(level))
     assert compute_cell(RunTask(level, "lagrange", "rk4", known))["outcome"] in ("ok", "diverged")
     print("the search begins", file=sys.stderr, flush=True)
@@ -143,7 +143,7 @@ def test_a_stiff_motion_has_a_reference_too():
     mechanism = builder.build()
     values = {"c": 1e8}
     times = np.linspace(0.0, 1.0, 5)
-    found = motion(CompiledEquations(mechanism, values), np.array([0.0, -1.0]), np.zeros(2), times)
+    found = motion_with_estimate(CompiledEquations(mechanism, values), np.array([0.0, -1.0]), np.zeros(2), times)
     assert "Radau" in found.how
     np.testing.assert_allclose(found.q[:, 1], -1.0 - 2.0 * 9.81 / 1e8 * times, rtol=0.0, atol=1e-9)
 
@@ -159,7 +159,7 @@ def test_a_solver_that_gives_up_costs_its_reference_alone(monkeypatch):
     mechanism = symgen.load("pendulum").mechanism
     equations = CompiledEquations(mechanism, {p.name: p.value for p in mechanism.parameters})
     with pytest.raises(SimulationError, match="cannot be integrated beyond t = 0 s: the state is not finite"):
-        motion(equations, np.array([-1.0, 0.0]), np.zeros(2), np.array([0.0, 0.1]))
+        motion_with_estimate(equations, np.array([-1.0, 0.0]), np.zeros(2), np.array([0.0, 0.1]))
 
 
 # -- families ----------------------------------------------------------------------------------------------------------
@@ -168,7 +168,7 @@ def test_a_solver_that_gives_up_costs_its_reference_alone(monkeypatch):
 @pytest.mark.parametrize("family", FAMILIES)
 @pytest.mark.parametrize("quick", [True, False])
 def test_families_make_cases(family, quick):
-    levels = levels_of(family, Base.of("four-bar"), quick)
+    levels = levels_of_family(family, Base.of_mechanism("four-bar"), quick)
     assert levels and len({level.label for level in levels}) == len(levels)
     for level in levels:
         assert level.family == family and len(level.values) == (2 if family in ("alpha-beta", "step-stiffness") else 1)
@@ -181,13 +181,13 @@ def test_one_compiled_module_serves_all_cases_but_those_with_other_joints():
     """What compiles is told by the digest: the base, two redundant ones, and the linkage of adjustable lengths."""
     from symgen.describe.facts.digest import digest
 
-    base = Base.of("four-bar")
-    found = {digest(level.mechanism) for name in FAMILIES for level in levels_of(name, base, False)}
+    base = Base.of_mechanism("four-bar")
+    found = {digest(level.mechanism) for name in FAMILIES for level in levels_of_family(name, base, False)}
     assert len(found) == 4
 
 
 def test_neutral_handles_change_nothing():
-    base = Base.of("four-bar")
+    base = Base.of_mechanism("four-bar")
     plain = symgen.load("four-bar").simulate(integrator="dop853", rtol=1e-10, until=1.0)
     same = symgen.load(base.stressed).simulate(integrator="dop853", rtol=1e-10, until=1.0)
     np.testing.assert_allclose(same["coupler.x"][-1], plain["coupler.x"][-1], atol=1e-9)
@@ -196,7 +196,7 @@ def test_neutral_handles_change_nothing():
 @pytest.mark.slow
 def test_handles_turn_what_they_say():
     """Twice the mass factor and twice gravity, by the independent equations: forces and masses double."""
-    base = Base.of("four-bar")
+    base = Base.of_mechanism("four-bar")
     values = symgen.load(base.stressed).parameters()
     equations = CompiledEquations(base.stressed, values)
     q, v = np.linspace(0.1, 0.9, 9), np.zeros(9)
@@ -251,10 +251,10 @@ def test_a_search_is_in_the_same_case_whatever_the_extent(quick, monkeypatch):
         asked.append(tasks)
         return [(task, {}) for task in tasks], False
 
-    monkeypatch.setattr(_Study, "_computed", motions)
-    monkeypatch.setattr("symgen.study.stress.study.without_reference", lambda motion: None)
-    monkeypatch.setattr("symgen.study.stress.study._row", lambda task, outcome: None)
-    monkeypatch.setattr("symgen.study.stress.study._limit", lambda task, outcome: None)
+    monkeypatch.setattr(_Study, "_compute_cells", motions)
+    monkeypatch.setattr("symgen.study.stress.study.cells_without_reference", lambda motion: None)
+    monkeypatch.setattr("symgen.study.stress.study._make_row", lambda task, outcome: None)
+    monkeypatch.setattr("symgen.study.stress.study._make_limit", lambda task, outcome: None)
     stress(["four-bar"], ["stiffness", "damping"], ["lagrange"], quick=quick)
     assert [(task.level.family, task.level.values) for task in asked[2]] == [
         ("stiffness", (1e4,)),
@@ -269,11 +269,11 @@ def test_a_search_is_in_the_same_case_whatever_the_extent(quick, monkeypatch):
 @pytest.fixture(scope="module")
 def damped():
     """The four-bar with a stiff damper, its reference, and the fastest decay by the independent equations."""
-    level = levels_of("damping", Base.of("four-bar"), False)[1]
+    level = levels_of_family("damping", Base.of_mechanism("four-bar"), False)[1]
     known = compute_cell(CellReference(level))
     values = symgen.load(level.mechanism).parameters(level.parameters)
     equations = CompiledEquations(level.mechanism, values)
-    y = equations.project(0.0, np.concatenate([known["q"][0], np.zeros(equations.n)]))
+    y = equations.nearest_state(0.0, np.concatenate([known["q"][0], np.zeros(equations.n)]))
     return level, known, fastest_modes(equations, y)[0]
 
 
@@ -287,7 +287,7 @@ def test_the_largest_step_of_rk4_is_where_its_region_of_stability_ends(damped):
 
 def test_the_length_of_a_point_on_a_link_is_the_diagonal_of_its_motion():
     """Else nothing of a pendulum would be within a tenth of its length: the largest step would be that of an error."""
-    level = levels_of("duration", Base.of("pendulum"), True)[0]
+    level = levels_of_family("duration", Base.of_mechanism("pendulum"), True)[0]
     known = compute_cell(CellReference(level))
     assert known["length"] == pytest.approx(math.sqrt(5.0), rel=1e-2)
     found = compute_cell(LimitTask(level, "lagrange", "rk4", known))
@@ -317,7 +317,7 @@ def test_baumgarte_s_gains_are_stable_up_to_the_limit_of_rk4():
 @pytest.mark.slow
 def test_errors_of_long_links_count_in_lengths_of_the_crank():
     """In lengths of links of 1e6 m a crank that stands still would be right."""
-    level = levels_of("length-ratio", Base.of("four-bar"), False)[-1]
+    level = levels_of_family("length-ratio", Base.of_mechanism("four-bar"), False)[-1]
     known = compute_cell(CellReference(level))
     assert level.values == (1e6,) and known["length"] == 1.0
     still = np.array(known["q"])[:1].repeat(len(known["q"]), axis=0)
@@ -369,7 +369,7 @@ def test_cells_see_a_force_between_two_places(space, tmp_path):
 
 
 def test_what_is_too_slow_is_told_without_a_clock():
-    level = levels_of("duration", Base.of("four-bar"), True)[0]
+    level = levels_of_family("duration", Base.of_mechanism("four-bar"), True)[0]
     from dataclasses import replace
 
     known = {"unusable": None, "estimated_error": 0.0, "length": 1.0, "decay": 0.0, "parameters": {}}
@@ -472,10 +472,10 @@ def test_a_reference_does_with_less_where_rounding_forbids_more(monkeypatch):
     mechanism = symgen.load("pendulum").mechanism
     times = np.linspace(0.0, 1.0, 5)
     equations = CompiledEquations(mechanism, {"bob_mass": 1.0})
-    best = motion(equations, np.array([-1.0, 0.0]), np.zeros(2), times)
+    best = motion_with_estimate(equations, np.array([-1.0, 0.0]), np.zeros(2), times)
     monkeypatch.setattr(compiled, "FINE", 1e-18)
     monkeypatch.setattr(compiled, "BUDGET", 20_000)
-    found = motion(equations, np.array([-1.0, 0.0]), np.zeros(2), times)
+    found = motion_with_estimate(equations, np.array([-1.0, 0.0]), np.zeros(2), times)
     assert "at 3e-14" in best.how and "at 1e-10" in found.how
     np.testing.assert_allclose(found.q, best.q, atol=1e-8)
 

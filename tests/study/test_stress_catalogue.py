@@ -5,10 +5,10 @@ from dataclasses import replace
 import pytest
 
 from study.report.made import stress_row
-from symgen.study.report import stress as report
 from symgen.study.report import stress_figures
-from symgen.study.report.stress import FEW_MODELS
-from symgen.study.stress.findings import cause, findings
+from symgen.study.report import stress_report as report
+from symgen.study.report.stress_report import FEW_MODELS
+from symgen.study.stress.findings import cause_of_failure, findings_of_study
 from symgen.study.stress.stress_rows import Limit, Stress, outcomes_of_models, shares_of_models
 
 MODELS = tuple(f"model-{i}" for i in range(FEW_MODELS + 1))
@@ -64,13 +64,13 @@ def test_findings_sum_up_many_models():
         "rk4 is stable up to 2.785.",
         "Largest stable steps in damping, of 3 cases: lagrange with rk4 in 2 and penalty with rk4 in 1.",
     ):
-        assert sentence in findings(STUDY)
-    assert "hardest: 1 on model-1, 1 ok and 1 inaccurate." in " ".join(findings(STUDY))
+        assert sentence in findings_of_study(STUDY)
+    assert "hardest: 1 on model-1, 1 ok and 1 inaccurate." in " ".join(findings_of_study(STUDY))
 
 
 def test_cases_without_a_reference_are_named_with_their_model():
     unusable = (("model-2", "duration", "20 s", "too long"),)
-    text = " ".join(findings(replace(STUDY, unusable=unusable)))
+    text = " ".join(findings_of_study(replace(STUDY, unusable=unusable)))
     assert "1 case could not be judged for want of a reference: duration 20 s on model-2." in text
 
 
@@ -85,13 +85,13 @@ def test_of_ties_the_first_is_one_of_several():
         Limit("model-0", "damping", "1e4 N s/m", method, "rk4", step, step, 1.0)
         for method, step in (("lagrange", 0.1), ("ggl", 0.3), ("penalty", 0.3), ("null-space", 0.1), ("x", None))
     )
-    text = " ".join(findings(replace(STUDY, rows=rows, limits=limits)))
+    text = " ".join(findings_of_study(replace(STUDY, rows=rows, limits=limits)))
     assert "among models: model-1 (4 of 4); fewest: model-2 and 1 other (0 of 2)." in text
     assert "hardest: 1 on model-2 and 3 others, 1 diverged." in text
     assert "accurate most often with a = 100 and 10000, in 1 of 2 cells." in text
     assert "Largest stable steps in damping, of 1 case: ggl with rk4 in 1 and penalty with rk4 in 1." in text
     same = tuple(row(model, "lagrange", "ok") for model in MODELS)
-    assert "among models: model-0 and 3 others (1 of 1)." in " ".join(findings(replace(STUDY, rows=same)))
+    assert "among models: model-0 and 3 others (1 of 1)." in " ".join(findings_of_study(replace(STUDY, rows=same)))
 
 
 @pytest.mark.parametrize(
@@ -106,12 +106,12 @@ def test_of_ties_the_first_is_one_of_several():
     ],
 )
 def test_causes_are_told_from_the_rows(changes, words):
-    assert words in cause(replace(row("-", "null-space", "inaccurate"), **changes))
+    assert words in cause_of_failure(replace(row("-", "null-space", "inaccurate"), **changes))
 
 
 @pytest.mark.slow
 def test_the_report_shows_all_models_at_once(monkeypatch):
-    monkeypatch.setattr(report, "regions", lambda study: ())
+    monkeypatch.setattr(report, "region_pictures", lambda study: ())
     document = report.stress_report(STUDY)
     section = next(s for s in document.sections if s.title == "Map of methods and cases")
     assert section.pictures[0].name == "overview" and section.pictures[0].data.startswith(b"<svg")
@@ -124,21 +124,21 @@ def test_a_map_has_no_columns_for_a_single_pair():
     """They would be empty but for one field; a study of that pair alone has them."""
     shared = [row("model-0", name, "ok", family="gravity") for name in ("lagrange", "penalty")]
     single = [row("model-0", "baumgarte", "ok", family="gain", values=(x,), case=f"{x}") for x in (0.1, 1.0)]
-    assert stress_figures._of_many_pairs([*shared, *single]) == shared
-    assert stress_figures._of_many_pairs(single) == single
+    assert stress_figures._rows_of_many_pairs([*shared, *single]) == shared
+    assert stress_figures._rows_of_many_pairs(single) == single
 
 
 def test_too_many_cells_are_not_listed(monkeypatch):
-    monkeypatch.setattr(report, "regions", lambda study: ())
-    monkeypatch.setattr(report, "maps", lambda study: ())
+    monkeypatch.setattr(report, "region_pictures", lambda study: ())
+    monkeypatch.setattr(report, "outcome_maps", lambda study: ())
     monkeypatch.setattr(report, "MOST_CELLS", len(ROWS) - 1)
     section = report.stress_report(STUDY).sections[-1]
     assert section.title == "All cells" and not section.parts and "--csv" in section.text[0]
 
 
 def test_pairs_left_out_are_in_the_report(monkeypatch):
-    monkeypatch.setattr(report, "regions", lambda study: ())
-    monkeypatch.setattr(report, "maps", lambda study: ())
+    monkeypatch.setattr(report, "region_pictures", lambda study: ())
+    monkeypatch.setattr(report, "outcome_maps", lambda study: ())
     out = (("model-0", "ggl", "radau5", "too long"),)
     document = report.stress_report(replace(STUDY, left_out=out))
     section = next(s for s in document.sections if s.title == "What is not judged")

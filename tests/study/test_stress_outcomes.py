@@ -8,11 +8,11 @@ import pytest
 
 from study.report.made import stress_row
 from symgen.study.runner import Cell, Status
-from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES, Run, classify, false_success
-from symgen.study.stress.findings import cause, explained, findings, largest_root
-from symgen.study.stress.progress import Whole
+from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES, Run, classify_outcome, false_success
+from symgen.study.stress.findings import cause_of_failure, explain_failures, findings_of_study, largest_root
 from symgen.study.stress.searches import largest_steps
 from symgen.study.stress.stress_rows import Map, Stress
+from symgen.study.stress.study_progress import Whole
 
 REGULAR = np.ones(11)
 FLAT = np.array([1.0, 0.8, 0.5, 0.3, 0.1, 0.05, 0.2, 0.4, 0.6, 0.8, 1.0])
@@ -49,7 +49,7 @@ JUMP = np.array([0.0] * 5 + [1.0] * 6)
     ],
 )
 def test_outcomes(changes, outcome):
-    assert classify(replace(GOOD, **changes)) == outcome
+    assert classify_outcome(replace(GOOD, **changes)) == outcome
     assert outcome in OUTCOMES
 
 
@@ -151,13 +151,13 @@ STUDY = Stress(("four-bar",), ROWS, (), (), ())
 
 
 def test_the_map_sums_up():
-    shown = Map.of(STUDY)
+    shown = Map.of_study(STUDY)
     assert shown.lines == (("lagrange", "rk4"), ("penalty", "rk4"), ("auto", "auto"))
     assert [shown.entry(line, "stiffness").text for line in shown.lines] == ["1/2 i", "0/3 idt", "1/1 r"]
 
 
 def test_findings_say_what_the_rows_say():
-    found = " ".join(findings(STUDY))
+    found = " ".join(findings_of_study(STUDY))
     assert "Of 7 cells of the map 2 ok, 2 inaccurate, 1 diverged, 1 too slow and 1 refused." in found
     assert "integrator: auto (1 of 1); fewest: penalty with rk4 (0 of 3)." in found
     assert (
@@ -169,43 +169,45 @@ def test_findings_say_what_the_rows_say():
         in found
     )
     study = replace(STUDY, rows=(*ROWS, row("auto", "inaccurate", 0.02, "3", integrator="auto", step=None)))
-    assert "auto reports success with an error above 0.001 of the length in 1 cell of 3." in " ".join(findings(study))
+    assert "auto reports success with an error above 0.001 of the length in 1 cell of 3." in " ".join(
+        findings_of_study(study)
+    )
     assert [r.method for r in study.false_successes] == ["lagrange", "penalty", "auto"]
 
 
 def test_every_false_success_is_explained():
-    assert "constant step" in cause(ROWS[1])
-    assert "penalty" in cause(ROWS[4])
-    assert "branch" in cause(row("lagrange", "wrong branch", 1.0))
-    assert "add up" in cause(row("auto", "inaccurate", 1.0, step=None))
-    assert explained(ROWS[1]).startswith("lagrange with rk4, stiffness 2: error 0.002 m; ")
+    assert "constant step" in cause_of_failure(ROWS[1])
+    assert "penalty" in cause_of_failure(ROWS[4])
+    assert "branch" in cause_of_failure(row("lagrange", "wrong branch", 1.0))
+    assert "add up" in cause_of_failure(row("auto", "inaccurate", 1.0, step=None))
+    assert explain_failures(ROWS[1]).startswith("lagrange with rk4, stiffness 2: error 0.002 m; ")
 
 
 def test_planes_stay_out_of_the_list_and_the_map():
     plane = row("baumgarte", "inaccurate", 1.0, values=(1.0, 2.0), watched=False, family="alpha-beta")
     study = replace(STUDY, rows=(*ROWS, plane))
     assert plane not in study.false_successes
-    assert "alpha-beta" not in Map.of(study).families
+    assert "alpha-beta" not in Map.of_study(study).families
 
 
 def test_cells_that_nobody_judged_count_nothing():
     unjudged = row("lagrange", "unjudged", None, "2")
-    found = findings(Stress(("four-bar",), (row("lagrange", "ok", 1e-6), unjudged), (), (), ()))
+    found = findings_of_study(Stress(("four-bar",), (row("lagrange", "ok", 1e-6), unjudged), (), (), ()))
     assert "Stiffness: accurate in every case that was judged with every pair of method and integrator." in found
 
 
 def test_an_empty_study_has_no_findings():
-    assert findings(Stress(("four-bar",), (), (), (), ())) == ()
+    assert findings_of_study(Stress(("four-bar",), (), (), (), ())) == ()
 
 
 def test_progress_counts_all_parts_and_what_a_journal_had_is_no_work():
     seen = []
     first, second = ([Cell(f"{part}{i}", "", None, cost) for i in range(2)] for part, cost in (("a", 1.0), ("b", 3.0)))
-    whole = Whole.of([*first, *second], lambda what, status: seen.append((what, status)))
-    show = whole.part("first", first)
+    whole = Whole.of_study([*first, *second], lambda what, status: seen.append((what, status)))
+    show = whole.begin_part("first", first)
     show(Status(1, 2, 0.5, None))
     show(Status(2, 2, 1.0, 0.0))
-    whole.part("second", second)(Status(0, 2, 0.0, None))
+    whole.begin_part("second", second)(Status(0, 2, 0.0, None))
     assert [(what, status.done, status.total, status.share) for what, status in seen] == [
         ("first", 1, 4, 0.125),
         ("first", 2, 4, 0.25),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import symgen
-from symgen.study.references.routes import derivable, two_routes, underived
+from symgen.study.references.routes import derivable_part, motion_by_two_routes, parts_without_derivation
 from symgen.study.stress.study import stress
 from tests.support.struck import BALL
 
@@ -61,7 +61,7 @@ def height(t):
 def test_a_block_that_stops_is_on_its_closed_form(tmp_path, friction, other):
     (path := tmp_path / "block.toml").write_text(block(friction))
     times = np.linspace(0.0, 0.8, 17)
-    found = two_routes(symgen.load(path).mechanism, {}, times)
+    found = motion_by_two_routes(symgen.load(path).mechanism, {}, times)
     np.testing.assert_allclose(found.q[:, 0], slid(times), rtol=0.0, atol=1e-13)
     assert found.estimated_error < 1e-12 and f"estimated from {other} with abm" in found.how
     assert found.how.endswith("; there is no second derivation of dry friction")
@@ -72,7 +72,7 @@ def test_comparisons_take_events_that_change_the_state(tmp_path):
     """Errors of the reference and of a row are those of the closed form of a bouncing ball."""
     (path := tmp_path / "ball.toml").write_text(BALL)
     times = np.linspace(0.0, 1.2, 13)
-    found = two_routes(symgen.load(path).mechanism, {}, times)
+    found = motion_by_two_routes(symgen.load(path).mechanism, {}, times)
     np.testing.assert_allclose(found.q[:, 1], height(times), rtol=0.0, atol=1e-12)
     study = symgen.compare(path, ["lagrange"], ["dop853"], rtols=[1e-8], repeat=1, until=1.2, output_step=0.1)
     assert study.how.endswith("; there is no second derivation of events that change the state")
@@ -88,10 +88,12 @@ def test_comparisons_take_events_that_change_the_state(tmp_path):
 def test_what_is_left_has_the_same_constraints(tmp_path):
     (path := tmp_path / "block.toml").write_text(block(CONSTANT) + '[events.turn]\nwhen = "block.x - 0.1"\n')
     mechanism = symgen.load(path).mechanism
-    assert underived(mechanism) == "dry friction" and derivable(mechanism).joints == mechanism.joints
-    assert not derivable(mechanism).bounded and not underived(derivable(mechanism))
+    assert (
+        parts_without_derivation(mechanism) == "dry friction" and derivable_part(mechanism).joints == mechanism.joints
+    )
+    assert not derivable_part(mechanism).bounded and not parts_without_derivation(derivable_part(mechanism))
     plain = symgen.load("four-bar").mechanism
-    assert derivable(plain) is plain
+    assert derivable_part(plain) is plain
 
 
 @pytest.mark.slow

@@ -15,7 +15,7 @@ from support.models import EVERYTHING, GEARED, READING, ROUGH, parallelogram
 from symgen.api import Model, load
 from symgen.base.errors import AssemblyError
 from symgen.base.ir.program import BY_PIVOTS, COUNTERS, STATUS
-from symgen.derive.lower.looped.law import is_loopable
+from symgen.derive.lower.looped.looped_law import is_loopable
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS
 from symgen.describe import catalogue

@@ -8,7 +8,7 @@ import numpy as np
 
 from support.models import EVERYTHING
 from support.random_space import make
-from symgen.describe.files.schema import schema
+from symgen.describe.files.json_schema import file_schema
 from symgen.describe.forces import FORCES
 from symgen.describe.joints import JOINTS
 
@@ -40,7 +40,7 @@ _ALIKE = ("parameters", "inputs", "states", "tables", "bodies", "beams", "stops"
 
 def places(part: dict[str, Any] | None = None, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
     """Yield the path of every text of the schema: keys, ``*`` for any name, indices, and names of alternatives."""
-    part = schema() if part is None else part
+    part = file_schema() if part is None else part
     kinds = part.get("type", ())
     if "string" in ([kinds] if isinstance(kinds, str) else kinds) and "enum" not in part:
         yield path

@@ -13,7 +13,7 @@ import numpy as np
 
 from symgen.base.ir.program import COUNTERS, SCALES, STATUS
 from symgen.base.vocabulary.infos import LawInfo
-from symgen.compile.store.emitted import CodeOrigin, EmittedFunction, imported
+from symgen.compile.store.emitted import CodeOrigin, EmittedFunction, import_library
 from symgen.compile.store.identity import combined_digest
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
@@ -95,7 +95,7 @@ class Emitted:
             module = types.ModuleType(f"{package.__name__}.{stem}")
             module.__package__ = package.__name__
             sys.modules[module.__name__] = module
-            module.__dict__["__builtins__"] = {**vars(builtins), "__import__": imported}
+            module.__dict__["__builtins__"] = {**vars(builtins), "__import__": import_library}
             exec(compile(source, f"<{stem}>", "exec"), module.__dict__)
             self.modules[stem] = module
         if compiled:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from functools import cache, partial
 from pathlib import Path
 
-from symgen.derive.lower.looped.law import is_loopable
+from symgen.derive.lower.looped.looped_law import is_loopable
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS
 from symgen.describe.files.load import load_mechanism

@@ -34,7 +34,7 @@ def node_values(
     """Values of nodes for values of the inputs; `tables` as in the equations."""
     known = {f"{'~' if t.pieces else ''}{t.name}": t for t in tables}
     value: dict[int, float] = {}
-    for node in graph.needed(outputs):
+    for node in graph.required_nodes(outputs):
         op, args, payload = graph.nodes[node]
         numbers = [value[a] for a in args]
         if op == "const":

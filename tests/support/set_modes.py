@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.base.errors import InputError, nearest
+from symgen.base.errors import InputError, suggest
 from symgen.base.ir.numerics import SKIP
 from symgen.compile.loopcode.entry import direct
 from symgen.compile.loopcode.exact import compiled_form
@@ -46,7 +46,7 @@ def set_modes(simulation: Simulation, modes: Mapping[str, tuple[float, float, fl
     places = {info.rows[row].name: k for k, row in enumerate(info.switchable)}
     for name, (held, constant, sign, limit) in modes.items():
         if name not in places:
-            raise InputError("modes", "a row that may be off", name, nearest(name, places))
+            raise InputError("modes", "a row that may be off", name, suggest(name, places))
         if held not in (0.0, 1.0) or sign not in (-1.0, 0.0, 1.0) or not np.isfinite(constant + limit):
             expected = "1 or 0, a finite value, a sign of -1, 0 or 1 and a finite effort"
             raise InputError(f"modes.{name}", expected, f"{held:g}, {constant:g}, {sign:g}, {limit:g}")

@@ -19,7 +19,7 @@ from benchmarks.plain.motion import integrate
 from benchmarks.plain.start import start
 from benchmarks.plain.system import System, read
 from symgen.api import Model, load
-from symgen.compile.store.modules import plain_function
+from symgen.compile.store.loaded_modules import plain_function
 
 DEFECTS = Path(__file__).resolve().parents[1] / "data" / "defects"
 _COMMAND = "import sys; from symgen.cli import main; sys.exit(main(sys.argv[1:]))"

@@ -14,7 +14,7 @@ from benchmarks.plain.start import choose_turns
 from benchmarks.plain.system import read
 from symgen.api import load
 from symgen.base.settings import Settings
-from symgen.compile.store.modules import plain_function
+from symgen.compile.store.loaded_modules import plain_function
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import spanning_tree
 from symgen.run.planning.plan import Purpose

@@ -1,8 +1,8 @@
 """Forces of rows with bounds along a recorded motion: closed stops, and what slides with bounds by a reaction.
 
 Along a motion the modes are known: a stop is closed where its gap and the rate of it are 0, and what slides acts
-against the rate. A closed stop pushes as much as spares the actuators. A force by a reaction depends on the efforts,
-which change the reaction, so that both are found in turn.
+against the rate. The force of a closed stop is the one that spares the actuators most. A force by a reaction depends on
+the efforts, which change the reaction, so that both are found in turn.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.errors import counted
+from symgen.base.errors import plural
 from symgen.base.vocabulary.expressions import Expr, Name, Reading, call
 from symgen.base.vocabulary.measures import Effort
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.bounds.by_motion import beside_reaction, over_reaction
-from symgen.describe.bounds.by_reaction import held_by_reactions
-from symgen.describe.bounds.modes import one_sided, rate_of
+from symgen.describe.bounds.bounded_modes import measure_derivative, one_sided_rows
+from symgen.describe.bounds.by_motion import force_over_reaction, force_without_reaction
+from symgen.describe.bounds.by_reaction import rows_bounded_by_reactions
 from symgen.describe.mechanism import Force, Mechanism, Parameter
 from symgen.run.compiling.side import compile_side
 
@@ -57,9 +57,9 @@ class Contacts:
     stops: tuple[BoundedRow, ...] = ()
 
     @classmethod
-    def of(cls, mechanism: Mechanism) -> Contacts:
+    def of_mechanism(cls, mechanism: Mechanism) -> Contacts:
         """Return these rows of a mechanism."""
-        return cls(held_by_reactions(mechanism), one_sided(mechanism))
+        return cls(rows_bounded_by_reactions(mechanism), one_sided_rows(mechanism))
 
     @property
     def rows(self) -> tuple[BoundedRow, ...]:
@@ -71,25 +71,25 @@ class Contacts:
         """The inputs that represent their forces."""
         return tuple(f"{row.row}{_MARK}" for row in self.rows)
 
-    def exerted(self, mechanism: Mechanism) -> Mechanism:
+    def as_inputs(self, mechanism: Mechanism) -> Mechanism:
         """Return a mechanism with their forces as inputs, beside what does not depend on reactions."""
         forces = list[Force]()
         for row, parameter in zip(self.rows, self.parameters, strict=True):
-            magnitude = call("add", Name(parameter), beside_reaction(row))
+            magnitude = call("add", Name(parameter), force_without_reaction(row))
             forces.append(Force(parameter, "force", (), (Effort("bound", row.measure, magnitude),)))
         inputs = tuple(Parameter(name, 0.0, "", input=True) for name in self.parameters)
         whole = (*mechanism.parameters, *inputs)
         return msgspec.structs.replace(mechanism, forces=(*mechanism.forces, *forces), parameters=whole)
 
-    def along(self, mechanism: Mechanism, motion: PrescribedMotion, length: float) -> Along:
+    def contacts_along_motion(self, mechanism: Mechanism, motion: PrescribedMotion, length: float) -> Along:
         """Return their reactions and closed stops along a motion."""
         formulas = list[tuple[str, Expr]]()
         for row in self.sliding:
             cosines = (cosine for line in row.across for cosine in line)
-            formulas += [(f"{row.name} over its reaction", over_reaction(row))]
+            formulas += [(f"{row.name} over its reaction", force_over_reaction(row))]
             formulas += [(f"{row.name} across {i}", Reading("", cosine)) for i, cosine in enumerate(cosines)]
         for stop in self.stops:
-            formulas += [stop.place, (f"rate of {stop.name}", rate_of(stop))]
+            formulas += [stop.place, (f"rate of {stop.name}", measure_derivative(stop))]
         side = compile_side(mechanism, motion.compiled, "bounds", "places of rows with bounds", formulas)
         columns = iter(motion.observed(side.function, len(formulas)).T)
         names, reactions = [row.name for row in motion.compiled.info.rows], list[Reaction]()
@@ -122,7 +122,7 @@ class Reaction:
         return force
 
 
-#: Takes the forces by reactions and which stops push; returns efforts with the forces of stops behind them, and
+#: Takes the forces by reactions and which stops push; returns efforts, then the forces of stops, and
 #: multipliers.
 Solve = Callable[[Array, Flags], tuple[Array, Array]]
 
@@ -135,7 +135,7 @@ class Along:
     reactions: tuple[Reaction, ...]
     closed: Flags
 
-    def forces(self, solve: Solve) -> tuple[Array, Flags, list[str]]:
+    def solve_forces(self, solve: Solve) -> tuple[Array, Flags, list[str]]:
         """Return forces by reactions, the stops that push, and sentences on both."""
         forces = np.zeros((len(self.closed), len(self.reactions)))
         pushing, apart, count = self.closed.copy(), np.inf, self.closed.shape[1]
@@ -148,14 +148,14 @@ class Along:
             forces, pushing = new, pushing & ~pulling
             if settled:
                 break
-        return forces, pushing, self._sentences(apart, forces)
+        return forces, pushing, self._sentences_on_stops(apart, forces)
 
-    def _sentences(self, apart: float, forces: Array) -> list[str]:
+    def _sentences_on_stops(self, apart: float, forces: Array) -> list[str]:
         sentences = list[str]()
         for i, stop in enumerate(self.contacts.stops):
             if times := int(self.closed[:, i].sum()):
                 sentences.append(
-                    f"{stop.name} is closed at {counted(times, 'time')}: efforts are the least with what it can bear"
+                    f"{stop.name} is closed at {plural(times, 'time')}: efforts are the least with what it can bear"
                 )
         if apart > 1e-9 * float(np.abs(forces).max(initial=0.0)):
             names = ", ".join(row.name for row in self.contacts.sliding)

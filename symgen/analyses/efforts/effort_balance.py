@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from symgen.analyses.efforts.actuators import WHERE, Actuator
 from symgen.analyses.efforts.contacts import CHEAP, Contacts, Flags
 from symgen.base import arguments
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 from symgen.derive.lower.windings import winding_order
-from symgen.describe.facts.lengths import datum_of
-from symgen.describe.formulas.evaluate import parameter_values, scalars
+from symgen.describe.facts.lengths import origin_of_sizes
+from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.mechanism import Mechanism
 from symgen.result.saved import Recorded
-from symgen.result.signals import accelerated
+from symgen.result.signals import acceleration_name
 from symgen.run.compiling.side import compile_side
 from symgen.run.layout import abi
 from symgen.run.planning.plan import Purpose
@@ -73,7 +73,7 @@ class Balanced:
     notes: list[str]
 
 
-def balance(
+def balance_efforts(
     mechanism: Mechanism,
     actuators: tuple[Actuator, ...],
     settings: Settings,
@@ -108,12 +108,12 @@ def balance(
     )
     for name, value in weights.items():
         if name not in names:
-            raise InputError("weights", "the name of an actuator", quoted(name), nearest(name, names))
+            raise InputError("weights", "the name of an actuator", quote(name), suggest(name, names))
         arguments.number(f"weights '{name}'", value, positive=True)
-    still, *others = _motions(mechanism, actuators, contacts.parameters, settings, record)
+    still, *others = _motions_with_unit_efforts(mechanism, actuators, contacts.parameters, settings, record)
     length, count = float(still.start.w[abi.LENGTH]), len(actuators)
     weighed = np.array([float(weights.get(a.name, 1.0 / length if a.turning else 1.0)) for a in actuators])
-    efforts, missing, ranks, lam, found = _with_contacts(mechanism, still, others, weighed, contacts)
+    efforts, missing, ranks, lam, found = _solve_with_contacts(mechanism, still, others, weighed, contacts)
     motion = replace(still, prescribed_multipliers=lam)
     formulas = [(f"{a.name}.rate", a.rate) for a in actuators if a.rate is not None]
     rates = np.zeros((len(motion.times), 0))
@@ -138,43 +138,47 @@ def balance(
     return Balanced(motion, efforts, rates, missing, notes)
 
 
-def _with_contacts(
+def _solve_with_contacts(
     mechanism: Mechanism,
     still: PrescribedMotion,
     others: list[PrescribedMotion],
     weighed: Array,
     contacts: Contacts,
 ) -> tuple[Array, Array, NDArray[np.int64], Array, list[str]]:
-    """Return efforts, accelerations left and ranks as `_solved` does, multipliers, and sentences on `contacts`."""
+    """Return what `_solve_efforts` does, multipliers, and sentences on `contacts`."""
     count, first = len(weighed), len(weighed) + len(contacts.sliding)
     base = still.responses
     ways = [other.responses.multipliers - base.multipliers for other in others]
 
-    def multipliers(efforts: Array, columns: Sequence[int]) -> Array:
+    def multipliers_of_columns(efforts: Array, columns: Sequence[int]) -> Array:
         found: Array = base.multipliers + sum(ways[j] * efforts[:, [i]] for i, j in enumerate(columns))
         return found
 
     if not contacts.rows:
-        efforts, missing, ranks = _solved(still, others, weighed)
-        return efforts, missing, ranks, multipliers(efforts, range(count)), []
+        efforts, missing, ranks = _solve_efforts(still, others, weighed)
+        return efforts, missing, ranks, multipliers_of_columns(efforts, range(count)), []
     pushes = [other.responses.accelerations - base.accelerations for other in others[count:first]]
     free, cheap = [*range(count), *range(first, len(others))], np.full(len(others) - first, CHEAP * weighed.min())
     acting = np.ones((len(still.times), len(free)), dtype=np.bool_)
 
-    def solve(forces: Array, pushing: Flags) -> tuple[Array, Array]:
+    def solve_pushing(forces: Array, pushing: Flags) -> tuple[Array, Array]:
         nonlocal missing
         acting[:, count:] = pushing
         pushed = sum((a * forces[:, [i]] for i, a in enumerate(pushes)), np.zeros_like(base.accelerations))
-        efforts, missing, _ = _solved(still, [others[j] for j in free], np.append(weighed, cheap), acting, pushed)
-        return efforts, multipliers(np.column_stack([forces, efforts]), [*range(count, first), *free])
+        efforts, missing, _ = _solve_efforts(
+            still, [others[j] for j in free], np.append(weighed, cheap), acting, pushed
+        )
+        return efforts, multipliers_of_columns(np.column_stack([forces, efforts]), [*range(count, first), *free])
 
     missing = np.zeros(len(still.times))
-    forces, pushing, sentences = contacts.along(mechanism, still, float(still.start.w[abi.LENGTH])).forces(solve)
-    efforts, lam = solve(forces, pushing)
-    return efforts[:, :count], missing, _solved(still, others[:count], weighed)[2], lam, sentences
+    forces, pushing, sentences = contacts.contacts_along_motion(
+        mechanism, still, float(still.start.w[abi.LENGTH])
+    ).solve_forces(solve_pushing)
+    efforts, lam = solve_pushing(forces, pushing)
+    return efforts[:, :count], missing, _solve_efforts(still, others[:count], weighed)[2], lam, sentences
 
 
-def _motions(
+def _motions_with_unit_efforts(
     mechanism: Mechanism,
     actuators: tuple[Actuator, ...],
     loads: tuple[str, ...],
@@ -187,14 +191,14 @@ def _motions(
     info = code.info
     velocities = [v.name for v in info.velocities]
     q, v = record.table([c.name for c in info.coordinates]), record.table(velocities)
-    a = record.table([accelerated(name) for name in velocities])
-    instant, datum = (float(record.t[0]), ()), datum_of(mechanism, scalars(values))
+    a = record.table([acceleration_name(name) for name in velocities])
+    instant, datum = (float(record.t[0]), ()), origin_of_sizes(mechanism, scalar_values(values))
 
-    def close(compiled: CompiledModel, ask_light: bool) -> Start:
+    def close_start(compiled: CompiledModel, ask_light: bool) -> Start:
         p = compiled.parameter_array(values, plan.method_parameters)
         return assemble(compiled, q[0].copy(), list(v[0]), p, False, None, ask_light, None, instant, datum)
 
-    compiled, start = closed_by(plan, code, close)
+    compiled, start = closed_by(plan, code, close_start)
     states = np.zeros((len(record.t), info.ny))
     states[:, : info.nq], states[:, info.nq : info.work] = q, v
     states[:, info.own_states] = record.table([x.name for x in info.states])
@@ -216,7 +220,7 @@ def _motions(
     still = replace(still, status_columns=still.measured())
     places = {parameter.name: i for i, parameter in enumerate(info.parameters)}
 
-    def with_effort(parameter: str, value: float) -> PrescribedMotion:
+    def parameters_with_effort(parameter: str, value: float) -> PrescribedMotion:
         other = start.p.copy()
         other[places[parameter]] = value
         compiled.prepare(other)
@@ -224,18 +228,18 @@ def _motions(
 
     for actuator in actuators:
         still.p[places[actuator.parameter]] = 0.0
-    ones = [with_effort(actuator.parameter, 1.0) for actuator in actuators]
+    ones = [parameters_with_effort(actuator.parameter, 1.0) for actuator in actuators]
     none = still.responses.accelerations
     for actuator, one in zip(actuators, ones, strict=True):
         if actuator.rate is None:
             once = one.responses.accelerations - none
-            twice = with_effort(actuator.parameter, 2.0).responses.accelerations - none
+            twice = parameters_with_effort(actuator.parameter, 2.0).responses.accelerations - none
             if not np.abs(twice - 2.0 * once).max() <= LINEAR * np.abs(once).max(initial=1e-300):
-                raise InputError(WHERE, "inputs that efforts are proportional to", quoted(actuator.name))
-    return [still, *ones, *(with_effort(name, 1.0) for name in loads)]
+                raise InputError(WHERE, "inputs that efforts are proportional to", quote(actuator.name))
+    return [still, *ones, *(parameters_with_effort(name, 1.0) for name in loads)]
 
 
-def _solved(
+def _solve_efforts(
     still: PrescribedMotion,
     others: list[PrescribedMotion],
     weighed: Array,
@@ -264,12 +268,12 @@ def _solved(
     efforts = np.einsum("kji,kj->ki", right, parts) / sizes
     ranks = regular.sum(axis=1)
     for k in np.flatnonzero(ranks < len(weighed)):
-        efforts[k] -= _unfelt(right[k][regular[k]], sizes[k], weighed, efforts[k])
+        efforts[k] -= _efforts_without_effect(right[k][regular[k]], sizes[k], weighed, efforts[k])
     rest = goals - np.einsum("kij,kj->ki", effects, efforts)
     return efforts, np.abs(rest).max(axis=1), ranks
 
 
-def _unfelt(felt: Array, sizes: Array, weighed: Array, efforts: Array) -> Array:
+def _efforts_without_effect(felt: Array, sizes: Array, weighed: Array, efforts: Array) -> Array:
     """Return the part of efforts that does nothing and whose absence leaves the least sum of weighted squares.
 
     Parameters

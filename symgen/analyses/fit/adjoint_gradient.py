@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import AnalysisError
 from symgen.result.build import build_result
 from symgen.result.evaluated import Evaluated
-from symgen.result.sensitivities import Sensitivities, doubt_of_motion, place_of, prepared
+from symgen.result.sensitivities import Sensitivities, doubt_of_motion, place_of_column, prepare_for_directions
 from symgen.run.directions.adjoint import Adjoint, run_for_adjoint
 from symgen.run.directions.directed_model import DirectedModel, Seeds, lanes_of
 from symgen.run.directions.directions import Course, DirectedPart, run_with_directions
@@ -76,7 +76,7 @@ class EndDirections:
         own = self.start.parameters(compiled)
         return np.hstack([own, np.zeros((len(own), self.compiled.info.ny))])
 
-    def course(self, adjoint: Adjoint) -> Course:
+    def course_of_run(self, adjoint: Adjoint) -> Course:
         """Return the end of a run with these directions."""
         outcome, ny, n = adjoint.outcome, self.compiled.info.ny, self.start.count
         seeds = Seeds(np.hstack([np.zeros((ny, n)), np.eye(ny)]), self.parameters(self.compiled))
@@ -205,7 +205,7 @@ def adjoint_gradient(
     Uncovered
         If the run has no adjoint.
     """
-    run, notes = prepared(mechanism, settings)
+    run, notes = prepare_for_directions(mechanism, settings)
     start = StartDirections(run, named_directions(run, keys))
     run = with_moving_kinks(run, start)
     if quick and run.compiled.law.operations.get("rhs", 0) > LARGEST:
@@ -214,9 +214,9 @@ def adjoint_gradient(
     result = build_result(run, adjoint.outcome)
     if result.outcome.code != abi.DONE:
         raise AnalysisError(f"{where}: the run does not reach its end: {result.reason}")
-    table, place, unit = place_of(result, column)
+    table, place, unit = place_of_column(result, column)
     ends = EndDirections(start, run.compiled)
-    own = Sensitivities(Evaluated(run, ends, ends.course(adjoint)), result.outcome)
+    own = Sensitivities(Evaluated(run, ends, ends.course_of_run(adjoint)), result.outcome)
     by, n = own.table(table)[-1, place], start.count
     began = time.perf_counter()
     seeds = start.seeds()

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from symgen.base import arguments
 from symgen.base.errors import InputError
-from symgen.base.settings import Settings, is_set
+from symgen.base.settings import Settings, differs_from_default
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.build import build_result
 from symgen.result.sensitivities import Differentiated
@@ -32,7 +32,7 @@ Bounds = tuple[float | None, float | None]
 _RTOL = _ATOL = 1e-10
 
 
-def with_tight_tolerances(where: str, settings: Settings) -> Settings:
+def tighten_tolerances(where: str, settings: Settings) -> Settings:
     """Return the settings of a run whose derivatives count: tight tolerances where they are left open.
 
     Raises
@@ -42,12 +42,12 @@ def with_tight_tolerances(where: str, settings: Settings) -> Settings:
     """
     if not isinstance(settings.start, Mapping):
         raise InputError(where, "a run that begins at a start", "one that goes on from another run")
-    if not is_set(settings, "step"):
+    if not differs_from_default(settings, "step"):
         settings = replace(settings, rtol=settings.rtol or _RTOL, atol=settings.atol or _ATOL)
     return replace(settings, verify=False)
 
 
-def with_numbers(mechanism: Mechanism, settings: Settings, numbers: Mapping[str, float]) -> Settings:
+def put_numbers(mechanism: Mechanism, settings: Settings, numbers: Mapping[str, float]) -> Settings:
     """Return settings with values of numbers: parameters, values of the start, ``method.NAME``."""
     parameters, start, options = dict(settings.parameters), dict(settings.start), dict(settings.options)
     own = {p.name for p in mechanism.parameters}
@@ -83,12 +83,12 @@ class FreeNumbers:
 
     def __init__(self, where: str, mechanism: Mechanism, settings: Settings, keys: Mapping[str, str]) -> None:
         self.where, self.mechanism, self.keys, self.names, self.runs = where, mechanism, keys, tuple(keys), 0
-        self.settings = with_tight_tolerances(where, settings)
+        self.settings = tighten_tolerances(where, settings)
 
     def settings_at(self, x: Array) -> Settings:
         """Return the settings of a run with values of the numbers."""
         numbers = dict(zip(self.keys.values(), x.tolist(), strict=False))
-        return with_numbers(self.mechanism, self.settings, numbers)
+        return put_numbers(self.mechanism, self.settings, numbers)
 
     def run(self, times: Sequence[float], x: Array | None = None) -> tuple[Differentiated, Result]:
         """Make a run to the last of some times; with the values of the settings where there is no `x`."""
@@ -99,9 +99,9 @@ class FreeNumbers:
 
     def values(self, directions: Sequence[RunDirection], run: Prepared, result: Result) -> Array:
         """Return the values of the numbers in a run that was made without `x`."""
-        return np.array([self._value(d, run, result) for d in directions])
+        return np.array([self._value_of_number(d, run, result) for d in directions])
 
-    def _value(self, d: RunDirection, run: Prepared, result: Result) -> float:
+    def _value_of_number(self, d: RunDirection, run: Prepared, result: Result) -> float:
         if d.kind == "parameter":
             return float(parameter_values(self.mechanism, self.settings.parameters)[d.key])
         if d.kind == "method":
@@ -116,7 +116,7 @@ class FreeNumbers:
         return float(start[d.key])
 
 
-def with_bounds(where: str, free: Mapping[str, Bounds | None] | Sequence[str]) -> dict[str, Bounds]:
+def names_with_bounds(where: str, free: Mapping[str, Bounds | None] | Sequence[str]) -> dict[str, Bounds]:
     """Return names of free numbers with their bounds, which a sequence of names leaves open.
 
     Raises
@@ -128,18 +128,18 @@ def with_bounds(where: str, free: Mapping[str, Bounds | None] | Sequence[str]) -
         free = dict.fromkeys(arguments.words(where, free), (None, None))
     if not free:
         raise InputError(where, "numbers to be found", "none")
-    return {name: _pair(f"{where} '{name}'", pair) for name, pair in free.items()}
+    return {name: _read_bounds(f"{where} '{name}'", pair) for name, pair in free.items()}
 
 
-def _pair(where: str, bounds: object) -> Bounds:
+def _read_bounds(where: str, bounds: object) -> Bounds:
     expected = "a lower and an upper bound, each a number or None"
-    pair = arguments.listed(where, bounds, expected) or [None, None]
+    pair = arguments.entries_of(where, bounds, expected) or [None, None]
     if len(pair) != 2 or not all(x is None or isinstance(x, Real) for x in pair):
-        raise InputError(where, expected, arguments.shown(bounds))
+        raise InputError(where, expected, arguments.kind_of_value(bounds))
     return pair[0], pair[1]
 
 
-def limits(where: str, names: Sequence[str], bounds: Iterable[Bounds], start: Array) -> tuple[Array, Array]:
+def arrays_of_bounds(where: str, names: Sequence[str], bounds: Iterable[Bounds], start: Array) -> tuple[Array, Array]:
     """Return lower and upper bounds, infinite where there are none.
 
     Raises

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.fit.free_numbers import Bounds, FreeNumbers, limits, with_bounds
+from symgen.analyses.fit.free_numbers import Bounds, FreeNumbers, arrays_of_bounds, names_with_bounds
 from symgen.analyses.fit.measured_data import MeasuredData, measured_columns
 from symgen.analyses.fit.null_directions import null_directions
-from symgen.base.errors import AnalysisError, AssemblyError, InputError, counted, nearest, quoted
-from symgen.describe.facts.lifted import lifted
-from symgen.result.sensitivities import place_of
+from symgen.base.errors import AnalysisError, AssemblyError, InputError, plural, quote, suggest
+from symgen.describe.facts.lifted import lift_numbers
+from symgen.result.sensitivities import place_of_column
 from symgen.run.layout import abi
 
 if TYPE_CHECKING:
@@ -130,21 +130,21 @@ class Identification:
         weights: Mapping[str, float],
     ) -> None:
         self.data, self.bias, self.names = data, bias, tuple(free)
-        own = lifted("identify: free", mechanism, self.names)
+        own = lift_numbers("identify: free", mechanism, self.names)
         self.free = FreeNumbers("identify: free", own.mechanism, settings, own.keys)
         self._last: tuple[bytes, Array, Array] | None = None
         first, result = self.free.run(data[0].t.tolist())
         self.start = np.array([*self.free.values(first.directions, first.run, result), *(0.0 for _ in bias)])
         self.units = {d.name: d.unit for d in first.directions}
-        self.quantities = self._chosen(result, quantities)
-        self.scales = {name: weights.get(name) or 1.0 / self._deviation(name) for name in self.quantities}
+        self.quantities = self._choose_quantities(result, quantities)
+        self.scales = {name: weights.get(name) or 1.0 / self._standard_deviation(name) for name in self.quantities}
         for name in (*bias, *weights):
             if name not in self.quantities:
-                raise InputError("identify", "a measured quantity", quoted(name), nearest(name, self.quantities))
-            self.units[f"bias of {name}"] = self._unit(result, name)
+                raise InputError("identify", "a measured quantity", quote(name), suggest(name, self.quantities))
+            self.units[f"bias of {name}"] = self._unit_of_quantity(result, name)
         self.labels = (*self.names, *(f"bias of {name}" for name in bias))
         every = [*free.values(), *((None, None) for _ in bias)]
-        self.bounds = limits("identify: free", self.labels, every, self.start)
+        self.bounds = arrays_of_bounds("identify: free", self.labels, every, self.start)
         count = sum(len(d.t) for d in data for name in self.quantities if name in d.columns)
         if count < len(self.labels):
             got = f"{count} for {len(self.labels)} unknowns"
@@ -153,51 +153,51 @@ class Identification:
     @property
     def sizes(self) -> Array:
         """What a change of each number is measured by: its value at the start, or what there is of its kind."""
-        spread = [1.0] * len(self.names) + [self._deviation(name) for name in self.bias]
+        spread = [1.0] * len(self.names) + [self._standard_deviation(name) for name in self.bias]
         return np.where(self.start != 0.0, np.abs(self.start), spread)
 
-    def _chosen(self, result: Result, quantities: Sequence[str]) -> tuple[str, ...]:
+    def _choose_quantities(self, result: Result, quantities: Sequence[str]) -> tuple[str, ...]:
         """Return the measured quantities that the model has."""
         measured = dict.fromkeys(name for data in self.data for name in data.columns)
         for name in quantities:
             if name not in measured:
-                raise InputError("identify: quantities", "measured columns", quoted(name), nearest(name, measured))
+                raise InputError("identify: quantities", "measured columns", quote(name), suggest(name, measured))
         chosen = tuple(quantities or (name for name in measured if name in result._places))
         if not chosen:
             expected = f"a column of {self.free.mechanism.name}, such as {result.q.names[0]}"
-            raise InputError(self.data[0].whence, expected, ", ".join(map(quoted, measured)) or "none")
+            raise InputError(self.data[0].whence, expected, ", ".join(map(quote, measured)) or "none")
         for name in chosen:
-            place_of(result, name)
+            place_of_column(result, name)
         return chosen
 
-    def _deviation(self, name: str) -> float:
+    def _standard_deviation(self, name: str) -> float:
         """Return the standard deviation of measured numbers, or their size where they do not change."""
         values = np.concatenate([data.columns[name] for data in self.data if name in data.columns])
         return float(np.std(values)) or float(np.abs(values).max(initial=0.0)) or 1.0
 
     @staticmethod
-    def _unit(result: Result, name: str) -> str:
-        return place_of(result, name)[2]
+    def _unit_of_quantity(result: Result, name: str) -> str:
+        return place_of_column(result, name)[2]
 
-    def at(self, x: Array) -> tuple[Array, Array]:
+    def residuals_and_slopes(self, x: Array) -> tuple[Array, Array]:
         """Return residuals and their derivatives; infinite ones where the model has no motion."""
         if self._last is None or self._last[0] != x.tobytes():
-            self._last = x.tobytes(), *self._both(x)
+            self._last = x.tobytes(), *self._compute_residuals_and_slopes(x)
         return self._last[1], self._last[2]
 
     def residuals(self, x: Array) -> Array:
         """Return residuals."""
-        return self.at(x)[0]
+        return self.residuals_and_slopes(x)[0]
 
     def slopes(self, x: Array) -> Array:
         """Return the derivatives of residuals."""
-        return self.at(x)[1]
+        return self.residuals_and_slopes(x)[1]
 
     def result_at(self, x: Array, data: MeasuredData) -> Result:
         """Return the run with values of the free numbers."""
         return self.free.run(data.t.tolist(), x)[1]
 
-    def _both(self, x: Array) -> tuple[Array, Array]:
+    def _compute_residuals_and_slopes(self, x: Array) -> tuple[Array, Array]:
         residuals, slopes = list[Array](), list[Array]()
         for data in self.data:
             try:
@@ -212,7 +212,7 @@ class Identification:
                 if not whole or result is None:
                     residuals.append(np.full(len(data.t), np.inf))
                 else:
-                    table, place, _ = place_of(result, name)
+                    table, place, _ = place_of_column(result, name)
                     values = getattr(result, table).values[:, place]
                     by[:, : len(self.names)] = result.gradient(name).values
                     if name in self.bias:
@@ -246,10 +246,10 @@ def fit_to_data(
     sources: list[object] = list(data) if isinstance(data, list | tuple) else [data]
     if not sources:
         raise InputError("identify: data", "measured columns", "none")
-    bounds = with_bounds("identify: free", free)
+    bounds = names_with_bounds("identify: free", free)
     columns = [measured_columns(source, k) for k, source in enumerate(sources)]
     task = Identification(mechanism, settings, columns, bounds, quantities, bias, dict(weights or {}))
-    residuals, slopes = task.at(task.start)
+    residuals, slopes = task.residuals_and_slopes(task.start)
     if not np.all(np.isfinite(residuals)):
         raise AnalysisError(
             "identify: the model has no motion over the times of the data with the values it begins with"
@@ -270,18 +270,18 @@ def fit_to_data(
         gtol=1e-12,
         max_nfev=100,
     )
-    return _fit(task, solution)
+    return _fit_with_statistics(task, solution)
 
 
-def _fit(task: Identification, solution: Any) -> Fit:
+def _fit_with_statistics(task: Identification, solution: Any) -> Fit:
     """Return a fit with its statistics."""
     from scipy.stats import t as student
 
-    x, (residuals, slopes), labels = solution.x, task.at(solution.x), task.labels
+    x, (residuals, slopes), labels = solution.x, task.residuals_and_slopes(solution.x), task.labels
     sizes = np.where(x != 0.0, np.abs(x), task.sizes)
     null, notes = null_directions(slopes, sizes, labels), list[str]()
     if solution.status == 0:
-        notes.append(f"the search ended after {counted(solution.nfev, 'step')} before it was still")
+        notes.append(f"the search ended after {plural(solution.nfev, 'step')} before it was still")
     active = solution.active_mask != 0
     free, count = np.flatnonzero(~active), len(residuals) - len(labels)
     errors, correlations = np.full(len(x), np.nan), np.full((len(x), len(x)), np.nan)

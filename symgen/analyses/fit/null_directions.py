@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-#: A direction is none below this part of the largest singular value, or behind a gap of this size.
+#: A direction is none below this part of the largest singular value, or beyond a gap of this size.
 NONE, GAP = 1e-10, 1e-8
 #: Exponents in words have at most this denominator, and are right to this.
 _DENOMINATOR, _NEAR = 6, 1e-3
@@ -38,10 +38,10 @@ def null_directions(slopes: Array, sizes: Array, labels: Sequence[str]) -> tuple
     gaps = np.flatnonzero(values[1:] < GAP * values[:-1])
     if len(gaps):
         none[gaps[0] + 1 :] = True
-    return tuple(_in_words(row, labels) for row in rows[none])
+    return tuple(_direction_in_words(row, labels) for row in rows[none])
 
 
-def _in_words(row: Array, labels: Sequence[str]) -> str:
+def _direction_in_words(row: Array, labels: Sequence[str]) -> str:
     """Return a sentence on one direction of relative changes."""
     parts = row / row[int(np.argmax(np.abs(row)))]
     moving = [(name, x) for name, x in zip(labels, parts, strict=True) if abs(x) > _NEAR]
@@ -49,16 +49,18 @@ def _in_words(row: Array, labels: Sequence[str]) -> str:
         return f"{moving[0][0]} changes nothing that was measured"
     powers = [Fraction(x).limit_denominator(_DENOMINATOR) for _, x in moving]
     if any(abs(float(f) - x) > _NEAR for f, (_, x) in zip(powers, moving, strict=True)):
-        return f"{_listed([name for name, _ in moving])} can change together without a change of what was measured"
+        return (
+            f"{_names_in_words([name for name, _ in moving])} can change together without a change of what was measured"
+        )
     if all(f == 1 for f in powers):
-        return f"{_listed([name for name, _ in moving])} can be multiplied by one number"
-    factors = [f"{name} by {_power(f)}" for (name, _), f in zip(moving, powers, strict=True)]
-    return f"{_listed(factors)} can be multiplied together, for any number z"
+        return f"{_names_in_words([name for name, _ in moving])} can be multiplied by one number"
+    factors = [f"{name} by {_power_text(f)}" for (name, _), f in zip(moving, powers, strict=True)]
+    return f"{_names_in_words(factors)} can be multiplied together, for any number z"
 
 
-def _power(f: Fraction) -> str:
+def _power_text(f: Fraction) -> str:
     return "z" if f == 1 else f"z^{f}" if f.denominator == 1 and f > 0 else f"z^({f})"
 
 
-def _listed(names: Sequence[str]) -> str:
+def _names_in_words(names: Sequence[str]) -> str:
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

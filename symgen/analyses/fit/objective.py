@@ -16,15 +16,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from symgen.analyses.fit.adjoint_gradient import adjoint_gradient, is_cheaper
-from symgen.analyses.fit.free_numbers import Bounds, FreeNumbers, limits, with_bounds
+from symgen.analyses.fit.free_numbers import Bounds, FreeNumbers, arrays_of_bounds, names_with_bounds
 from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError
-from symgen.describe.facts.lifted import lifted
+from symgen.describe.facts.lifted import lift_numbers
 from symgen.describe.mechanism import Mechanism, Output
 from symgen.describe.parts.context import Context
-from symgen.describe.parts.inputs import with_formulas
+from symgen.describe.parts.driven_mechanism import put_formulas
 from symgen.describe.parts.scope import Scope
-from symgen.result.sensitivities import derivative_unit, place_of
+from symgen.result.sensitivities import derivative_unit, place_of_column
 from symgen.run.directions.kept_run import Uncovered
 from symgen.run.layout import abi
 
@@ -118,20 +118,20 @@ class Objective:
         by: Mapping[str, Bounds | None] | Sequence[str],
         way: str = "auto",
     ) -> None:
-        self._where, self.quantity, pairs = where, quantity, with_bounds(f"{where}: by", by)
-        own = lifted(f"{where}: by", mechanism, tuple(pairs))
-        mechanism, self._column = _with_output(where, own.mechanism, quantity)
+        self._where, self.quantity, pairs = where, quantity, names_with_bounds(f"{where}: by", by)
+        own = lift_numbers(f"{where}: by", mechanism, tuple(pairs))
+        mechanism, self._column = _add_output(where, own.mechanism, quantity)
         self._free = FreeNumbers(f"{where}: by", mechanism, settings, own.keys)
         until = mechanism.defaults.until if settings.until is None else settings.until
         self.mechanism = mechanism
         self.names, self.bounds, self._times = self._free.names, list(pairs.values()), (float(until),)
         self._pages = list[Array]()
-        self._quick = arguments.one_of(f"{where}: way", way, ("auto", "forward", "adjoint")) == "auto"
+        self._quick = arguments.one_word_of(f"{where}: way", way, ("auto", "forward", "adjoint")) == "auto"
         self._way = way if not self._quick else "adjoint" if is_cheaper(len(self.names)) else "forward"
         self.doubt: str | None = None
-        self.first, directions, prepared = self._run(None)
+        self.first, directions, prepared = self._run_with_derivatives(None)
         self.x0 = self._free.values(directions, prepared, self.first.result)
-        limits(f"{where}: by", self.names, self.bounds, self.x0)
+        arrays_of_bounds(f"{where}: by", self.names, self.bounds, self.x0)
         self._last: tuple[bytes, tuple[float, Array]] | None = None
 
     def __repr__(self) -> str:
@@ -144,42 +144,42 @@ class Objective:
 
     def settings_at(self, x: ArrayLike) -> Settings:
         """Return the settings of the run with values of the numbers, for a run of `mechanism`."""
-        return self._free.settings_at(self._checked(x))
+        return self._free.settings_at(self._check_values(x))
 
     def __call__(self, x: ArrayLike) -> tuple[float, Array]:
         """Return the value and the gradient."""
-        array = self._checked(x)
+        array = self._check_values(x)
         if self._last is None or self._last[0] != array.tobytes():
-            self._last = array.tobytes(), self._at(array)
+            self._last = array.tobytes(), self._gradient_at(array)
         value, slopes = self._last[1]
         return value, slopes.copy()
 
-    def _checked(self, x: ArrayLike) -> Array:
+    def _check_values(self, x: ArrayLike) -> Array:
         array = np.array(arguments.numbers(f"{self._where}: x", x))
         if len(array) != len(self.names):
             expected = f"one number each for {', '.join(self.names)}"
             raise InputError(f"{self._where}: x", expected, f"{len(array)} numbers")
         return array
 
-    def _at(self, x: Array) -> tuple[float, Array]:
+    def _gradient_at(self, x: Array) -> tuple[float, Array]:
         try:
-            return self._pair(self._run(x)[0])
+            return self._value_and_gradient(self._run_with_derivatives(x)[0])
         except Uncovered:
             raise
         except (InputError, AssemblyError, AnalysisError):
             return np.inf, np.zeros(len(x))
 
-    def _run(self, x: Array | None) -> tuple[Gradient, tuple[RunDirection, ...], Prepared]:
+    def _run_with_derivatives(self, x: Array | None) -> tuple[Gradient, tuple[RunDirection, ...], Prepared]:
         """Make a run with the values `x`, by default as the settings are; return it with its derivatives."""
-        gradient, directions, prepared = self._directed(x)
+        gradient, directions, prepared = self._run_with_directions(x)
         doubtful = gradient.result.status == "unverified"
         self.doubt = gradient.result.reason if doubtful else None
         return gradient, directions, prepared
 
-    def _directed(self, x: Array | None) -> tuple[Gradient, tuple[RunDirection, ...], Prepared]:
+    def _run_with_directions(self, x: Array | None) -> tuple[Gradient, tuple[RunDirection, ...], Prepared]:
         if self._way == "adjoint":
             try:
-                return self._by_adjoint(x)
+                return self._run_by_adjoint(x)
             except Uncovered:
                 if not self._quick:
                     raise
@@ -187,9 +187,9 @@ class Objective:
         run, result = self._free.run(self._times, x)
         if result.outcome.code != abi.DONE:
             raise AnalysisError(f"{self._where}: the run does not reach its end: {result.reason}")
-        return self._gradient(result), run.directions, run.run
+        return self._gradient_of_result(result), run.directions, run.run
 
-    def _by_adjoint(self, x: Array | None) -> tuple[Gradient, tuple[RunDirection, ...], Prepared]:
+    def _run_by_adjoint(self, x: Array | None) -> tuple[Gradient, tuple[RunDirection, ...], Prepared]:
         settings = self._free.settings if x is None else self._free.settings_at(x)
         self._free.runs += 1
         ending = replace(settings, times=[*self._times], until=self._times[-1])
@@ -202,11 +202,11 @@ class Objective:
         gradient = Gradient(adjoint.value, adjoint.unit, slopes, units, adjoint.result, "adjoint", adjoint.memory)
         return gradient, adjoint.directions, adjoint.run
 
-    def _pair(self, gradient: Gradient) -> tuple[float, Array]:
+    def _value_and_gradient(self, gradient: Gradient) -> tuple[float, Array]:
         return gradient.value, np.array([gradient.by[name] for name in self.names])
 
-    def _gradient(self, result: Result) -> Gradient:
-        table, place, unit = place_of(result, self._column)
+    def _gradient_of_result(self, result: Result) -> Gradient:
+        table, place, unit = place_of_column(result, self._column)
         assert result.sensitivities is not None, "the run has directions"
         if result.sensitivities.end is not None:
             hint = "take record_when, or Result.gradient and result.sensitivities.end"
@@ -216,7 +216,7 @@ class Objective:
         return Gradient(float(getattr(result, table).values[-1, place]), unit, slopes, units, result)
 
 
-def _with_output(where: str, mechanism: Mechanism, quantity: str) -> tuple[Mechanism, str]:
+def _add_output(where: str, mechanism: Mechanism, quantity: str) -> tuple[Mechanism, str]:
     """Return a mechanism that reports a quantity, and the name of its column; formulas become outputs."""
     text = arguments.text(where, quantity).strip()
     if re.fullmatch(r"[^\W\d][\w.]*", text):
@@ -224,6 +224,6 @@ def _with_output(where: str, mechanism: Mechanism, quantity: str) -> tuple[Mecha
     name = "objective"
     while any(name == output.name for output in mechanism.outputs):
         name += "_"
-    output = Output(name, Scope(Context.of(mechanism), where).of_motion("", text))
-    outputs = (*mechanism.outputs, with_formulas(output, dict(mechanism.input_formulas)))
+    output = Output(name, Scope(Context.of_mechanism(mechanism), where).of_motion("", text))
+    outputs = (*mechanism.outputs, put_formulas(output, dict(mechanism.input_formulas)))
     return msgspec.structs.replace(mechanism, outputs=outputs), name

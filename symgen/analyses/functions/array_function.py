@@ -70,8 +70,8 @@ class _Converted:
     def __call__(self, *given: object, **named: object) -> Any:
         function = self.function
         names = [_NAMES[x] for x in function.arguments]
-        numbers, out = self._bound(names, given, named)
-        arrays = [self._array(name, x, n) for name, x, n in zip(names, numbers, function.lengths, strict=True)]
+        numbers, out = self._bind_arguments(names, given, named)
+        arrays = [self._as_array(name, x, n) for name, x, n in zip(names, numbers, function.lengths, strict=True)]
         counts = {len(a) for a in arrays if a.ndim == 2}
         if len(counts) > 1:
             raise InputError(function.name, "as many states in each argument", " and ".join(map(str, sorted(counts))))
@@ -79,13 +79,13 @@ class _Converted:
         results = np.empty((counts.pop() if many else 1, *function.shape))
         wrong, code = function.rows(self.block, arrays, results)
         if wrong >= 0:
-            raise self._fault(arrays, wrong, code, many)
+            raise self._error_of_state(arrays, wrong, code, many)
         result = results if many else results[0]
         if out is not None:
-            return self._put(out, result)
+            return self._put_result(out, result)
         return result if many or function.shape else float(result)
 
-    def _bound(self, names: list[str], given: tuple[Any, ...], named: dict[str, Any]) -> tuple[list[Any], Any]:
+    def _bind_arguments(self, names: list[str], given: tuple[Any, ...], named: dict[str, Any]) -> tuple[list[Any], Any]:
         """Return the arguments in their order and the array for the result."""
         rest = dict(zip((*names, "out"), given, strict=False)) | named
         unknown = [name for name in rest if name not in (*names, "out")]
@@ -100,29 +100,29 @@ class _Converted:
             numbers = self.values(numbers)
         return [*(rest[name] for name in names[:-1]), numbers], rest.get("out")
 
-    def _array(self, name: str, value: Any, length: int) -> Array:
+    def _as_array(self, name: str, value: Any, length: int) -> Array:
         """Return an argument as numbers side by side."""
         where = f"{self.function.name}: {name}"
         expected = f"an array of shape ({length},) or (k, {length})"
         try:
             array = np.ascontiguousarray(value, dtype=np.float64)
         except (TypeError, ValueError):
-            raise InputError(where, expected, arguments.shown(value)) from None
+            raise InputError(where, expected, arguments.kind_of_value(value)) from None
         if np.ndim(value) not in (1, 2) or array.shape[-1] != length:
-            got = f"one of shape {np.shape(value)}" if np.ndim(value) else arguments.shown(value)
+            got = f"one of shape {np.shape(value)}" if np.ndim(value) else arguments.kind_of_value(value)
             raise InputError(where, expected, got)
         return array
 
-    def _put(self, out: Any, result: Any) -> Any:
+    def _put_result(self, out: Any, result: Any) -> Any:
         """Put a result into the caller's array."""
         shape = np.shape(result)
         if not isinstance(out, np.ndarray) or out.shape != shape or out.dtype != np.float64 or not out.flags.writeable:
             expected = f"a writeable array of shape {shape} of 64-bit numbers"
-            raise InputError(f"{self.function.name}: out", expected, arguments.shown(out))
+            raise InputError(f"{self.function.name}: out", expected, arguments.kind_of_value(out))
         out[...] = result
         return out
 
-    def _fault(self, arrays: list[Array], wrong: int, code: int, many: bool) -> InputError:
+    def _error_of_state(self, arrays: list[Array], wrong: int, code: int, many: bool) -> InputError:
         """Return the error of a state for which a function has no value."""
         where = self.function.name + (f": state {wrong}" if many else "")
         for name, array in zip(self.function.arguments, arrays, strict=True):

@@ -19,7 +19,7 @@ from typing import Any, Literal
 from symgen.base.errors import InputError
 from symgen.base.keywords import DrivenKeywords, PlaceKeywords, StateKeywords, keyword_names
 from symgen.base.registry import Registry
-from symgen.base.settings import Settings, changed
+from symgen.base.settings import Settings, change_settings
 
 #: Settings of analyses about a state, and of motions that drivers prescribe.
 OF_STATES, OF_MOTIONS = keyword_names(StateKeywords), keyword_names(DrivenKeywords)
@@ -87,13 +87,13 @@ PLACE = (
 )
 
 
-def of_motion(start: str) -> tuple[Option, ...]:
+def motion_settings(start: str) -> tuple[Option, ...]:
     """Return the settings of a motion that drivers prescribe; `start` is what the help says of ``--start``."""
     names = ("parameters", "inputs", "start", "strict", "shape")
     return tuple(Option(name, start if name == "start" else "") for name in names)
 
 
-def of_tables(shown: str, drawn: str) -> tuple[Option, ...]:
+def table_options(shown: str, drawn: str) -> tuple[Option, ...]:
     """Return the options of what is done with tables over time: what ``--quantity`` names and ``--plot`` draws."""
     return (
         Option("--quantity", shown, "columns", "NAME,NAME", "quantities"),
@@ -128,7 +128,7 @@ class AnalysisTable:
     left: Sequence[str] = ()
 
 
-def in_notebook(items: Iterable[str | AnalysisTable], notes: Iterable[str] = ()) -> str:
+def html_output(items: Iterable[str | AnalysisTable], notes: Iterable[str] = ()) -> str:
     """Return the output of a command as HTML."""
     from symgen.result.labelled import notebook_table
 
@@ -177,7 +177,7 @@ class Analysis:
     options : tuple of Option
         In the order of the help.
     examples : tuple of str
-        Lines that can be typed as they stand.
+        Lines that can be typed as they are.
     """
 
     methods: tuple[Callable[..., Any], ...]
@@ -186,7 +186,7 @@ class Analysis:
     examples: tuple[str, ...]
 
 
-def settings_of(
+def change_settings_checked(
     where: str, settings: Settings | None, changes: Mapping[str, object], counting: Sequence[str] = OF_STATES
 ) -> Settings:
     """Replace single settings.
@@ -196,17 +196,17 @@ def settings_of(
     InputError
         If a single one would count for nothing; of settings that are given all at once, those are of no account.
     """
-    whole = changed(settings, changes)
+    whole = change_settings(settings, changes)
     for name in changes:
         if name not in counting:
             raise InputError(f"{where}: {name}", f"one of {', '.join(counting)}", "a setting of runs")
     return whole
 
 
-def settings_at(where: str, settings: Settings | None, changes: Mapping[str, object], at: object) -> Settings:
+def settings_about_place(where: str, settings: Settings | None, changes: Mapping[str, object], at: object) -> Settings:
     """Return settings of an analysis about a place; settings of a run count where a run leads there."""
     counting = OF_STATES if isinstance(at, str | Mapping) else keyword_names(PlaceKeywords)
-    return settings_of(where, settings, changes, counting)
+    return change_settings_checked(where, settings, changes, counting)
 
 
 ANALYSES: Registry[Analysis] = Registry(__name__, "analysis")

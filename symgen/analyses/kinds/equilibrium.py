@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Unpack
 
-from symgen.analyses.kinds import STATE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_of
+from symgen.analyses.kinds import STATE, Analysis, AnalysisOutput, AnalysisTable, Option, change_settings_checked
 from symgen.base.digits import digits, scale_of
-from symgen.base.errors import InputError, counted, fitting
+from symgen.base.errors import InputError, fit_lines, plural
 from symgen.base.keywords import StateKeywords
 from symgen.base.settings import Settings
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from symgen.analyses.model_methods import Analysed
-    from symgen.analyses.rest.equilibrium import Equilibrium
+    from symgen.analyses.rest.equilibria import Equilibrium
 
     Array = NDArray[np.float64]
 
@@ -40,9 +40,9 @@ def equilibrium(model: Analysed, settings: Settings | None = None, **changes: Un
     AnalysisError
         If no equilibrium is found.
     """
-    from symgen.analyses.linear.places import rest_from
+    from symgen.analyses.linear.named_places import rest_from
 
-    return rest_from(model.mechanism, settings_of("equilibrium", settings, changes))
+    return rest_from(model.mechanism, change_settings_checked("equilibrium", settings, changes))
 
 
 def equilibria(
@@ -67,9 +67,9 @@ def equilibria(
     AnalysisError
         If no equilibrium is found.
     """
-    from symgen.analyses.linear.places import scanned
+    from symgen.analyses.linear.named_places import scan_for_rests
 
-    return scanned(model.mechanism, settings_of("equilibria", settings, changes), scan)
+    return scan_for_rests(model.mechanism, change_settings_checked("equilibria", settings, changes), scan)
 
 
 def steady(
@@ -92,9 +92,9 @@ def steady(
     AnalysisError
         If no steady motion is found.
     """
-    from symgen.analyses.linear.places import steady_from
+    from symgen.analyses.linear.named_places import steady_from
 
-    return steady_from(model.mechanism, settings_of("steady", settings, changes), cyclic)
+    return steady_from(model.mechanism, change_settings_checked("steady", settings, changes), cyclic)
 
 
 def command(
@@ -116,22 +116,22 @@ def command(
         results = (steady(model, settings) if moving else equilibrium(model, settings),)
     return AnalysisOutput(
         {"mechanism": model.mechanism.name, "equilibria": [one.to_dict() for one in results]},
-        (item for one in results for item in shown(one)),
+        (item for one in results for item in equilibrium_lines(one)),
         dict.fromkeys(note for one in results for note in one.notes),
     )
 
 
-def shown(result: Equilibrium) -> Iterator[str | AnalysisTable]:
+def equilibrium_lines(result: Equilibrium) -> Iterator[str | AnalysisTable]:
     """Yield the lines of an equilibrium."""
     squares = ", ".join([f"{x:.6g}" for x in result.omega_squared[:8]] + ["..."] * (len(result.omega_squared) > 8))
     yield f"{result.stability}; omega^2 [1/s^2]: {squares or 'nothing can move'}"
-    yield f"  {counted(result.iterations, 'step')}, largest force that is not balanced {result.residual:.3g}"
+    yield f"  {plural(result.iterations, 'step')}, largest force that is not balanced {result.residual:.3g}"
     if result.not_unique:
         yield f"  reactions are not unique at {', '.join(result.not_unique)}"
     for title, values in (("coordinate", result.q), ("state", result.states), ("multiplier", result.multipliers)):
-        first = fitting(len(values), MOST)
+        first = fit_lines(len(values), MOST)
         if values:
-            kinds = {name: _kind(name) if title == "coordinate" else "" for name in values}
+            kinds = {name: _scale_of_coordinate(name) if title == "coordinate" else "" for name in values}
             scales = {
                 kind: scale_of((x for n, x in values.items() if kinds[n] == kind), kind) for kind in kinds.values()
             }
@@ -141,7 +141,7 @@ def shown(result: Equilibrium) -> Iterator[str | AnalysisTable]:
             yield f"... and {len(values) - first} more; --json has all"
 
 
-def _kind(coordinate: str) -> str:
+def _scale_of_coordinate(coordinate: str) -> str:
     """Return the scale of a coordinate: a length for lengths, a radian for angles."""
     return "m" if coordinate.rpartition(".")[2] in ("x", "y", "z", "displacement") else "rad"
 

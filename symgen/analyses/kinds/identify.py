@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Unpack
 
-from symgen.analyses.kinds import Analysis, AnalysisOutput, AnalysisTable, Option, settings_of
+from symgen.analyses.kinds import Analysis, AnalysisOutput, AnalysisTable, Option, change_settings_checked
 from symgen.base.errors import InputError
 from symgen.base.keywords import RunKeywords, keyword_names
 from symgen.base.settings import Settings
-from symgen.base.units import known
+from symgen.base.units import known_unit
 
 if TYPE_CHECKING:
     from symgen.analyses.fit.free_numbers import Bounds
@@ -69,7 +69,7 @@ def identify(
     """
     from symgen.analyses.fit.identification import fit_to_data
 
-    own = settings_of("identify", settings, changes, COUNTING)
+    own = change_settings_checked("identify", settings, changes, COUNTING)
     return fit_to_data(model.mechanism, own, data, free, quantities, bias, weights)
 
 
@@ -117,7 +117,7 @@ def objective(
     """
     from symgen.analyses.fit.objective import Objective
 
-    own = settings_of("objective", settings, changes, OF_ENDS)
+    own = change_settings_checked("objective", settings, changes, OF_ENDS)
     return Objective("objective", model.mechanism, own, quantity, by, way)
 
 
@@ -159,7 +159,7 @@ def gradient(
     """
     from symgen.analyses.fit.objective import Objective
 
-    own = settings_of("gradient", settings, changes, OF_ENDS)
+    own = change_settings_checked("gradient", settings, changes, OF_ENDS)
     return Objective("gradient", model.mechanism, own, quantity, by, way).first
 
 
@@ -186,15 +186,15 @@ def command(
                 raise InputError(option, "a name that --free has", f"'{name}'")
     pairs = {name: (least.get(name), most.get(name)) for name in free}
     fit = identify(load(), list(data), settings, free=pairs, bias=bias, quantities=quantities)
-    return AnalysisOutput(fit.to_json(), _shown(fit), (*fit.null, *fit.notes))
+    return AnalysisOutput(fit.to_json(), _fit_lines(fit), (*fit.null, *fit.notes))
 
 
-def _shown(fit: Fit) -> Iterator[str | AnalysisTable]:
+def _fit_lines(fit: Fit) -> Iterator[str | AnalysisTable]:
     """Yield values with errors and intervals, and how far the model is from the data."""
     rows = list[tuple[str, ...]]()
     for name, x in fit.parameters.items():
-        own = fit.written[name] if name in fit.written else known("")
-        values = (own.of_si(float(v)) for v in (x, fit.errors[name], *fit.intervals[name]))
+        own = fit.written[name] if name in fit.written else known_unit("")
+        values = (own.from_si(float(v)) for v in (x, fit.errors[name], *fit.intervals[name]))
         rows.append((name, *(f"{v:.6g}" for v in values), own.text if name in fit.written else fit.units[name]))
     headings = ("parameter", "value", "error", "95 % from", "to", "unit")
     yield AnalysisTable(headings, rows, left=("parameter", "unit"))

@@ -13,22 +13,22 @@ from symgen.analyses.kinds import (
     AnalysisOutput,
     AnalysisTable,
     Option,
+    change_settings_checked,
     check_over,
-    of_motion,
-    of_tables,
-    settings_of,
+    motion_settings,
+    table_options,
 )
 from symgen.base.digits import digits, scale_of
-from symgen.base.errors import InputError, counted
+from symgen.base.errors import InputError, plural
 from symgen.base.keywords import DrivenKeywords
-from symgen.base.settings import Settings, flag, is_set
+from symgen.base.settings import Settings, command_flag, differs_from_default
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from symgen.analyses.efforts.inverse import Inverse
+    from symgen.analyses.efforts.inverse_dynamics import Inverse
     from symgen.analyses.model_methods import Analysed
-    from symgen.analyses.prescribed.kinematics import Kinematics
+    from symgen.analyses.prescribed.driven_motion import Kinematics
     from symgen.result.result import Result
 
 
@@ -66,10 +66,10 @@ def inverse(
     AssemblyError
         If the mechanism cannot be closed.
     """
-    from symgen.analyses.efforts.inverse import inverse_dynamics as efforts_of
+    from symgen.analyses.efforts.inverse_dynamics import inverse_dynamics as efforts_of
 
     counting = OF_MOTIONS if motion is None else [name for name in OF_MOTIONS if name not in OF_DRIVEN]
-    whole = settings_of("inverse", settings, changes, counting)
+    whole = change_settings_checked("inverse", settings, changes, counting)
     return efforts_of(model.mechanism, whole, motion, times, actuators, weights)
 
 
@@ -91,8 +91,8 @@ def command(
     symgen inverse andrews --from run.nc --actuators drive
     """
     for name in OF_DRIVEN if motion is not None else ():
-        if is_set(settings, name):
-            raise InputError(flag(name), "settings of a recorded motion", "one of drivers' motion")
+        if differs_from_default(settings, name):
+            raise InputError(command_flag(name), "settings of a recorded motion", "one of drivers' motion")
     if quantities and save is None and plot is None:
         raise InputError("--quantity", "--save or --plot, where quantities go", "neither")
     check_over(over, plot)
@@ -101,7 +101,7 @@ def command(
     result.along(over or "t")
     return AnalysisOutput(
         result.to_json(),
-        _shown(result),
+        _effort_lines(result),
         (*result.notes, *filter(None, [result.too_few()])),
         result.ended,
         {
@@ -111,9 +111,9 @@ def command(
     )
 
 
-def _shown(result: Inverse) -> Iterator[str | AnalysisTable]:
+def _effort_lines(result: Inverse) -> Iterator[str | AnalysisTable]:
     """Yield the sizes of each actuator: its largest effort and when, root mean square, peak power and energy."""
-    yield f"{result.mechanism}: efforts at {counted(len(result.t), 'time')}"
+    yield f"{result.mechanism}: efforts at {plural(len(result.t), 'time')}"
     columns = {"largest": "max", "rms": "rms", "unit": "unit", "at [s]": "at"}
     columns |= {"peak power [W]": "peak_power", "energy [J]": "energy"}
     entries = result.summary()
@@ -155,8 +155,10 @@ KIND = Analysis(
             "NAME=VALUE",
             "weights",
         ),
-        *of_motion("Coordinate of the drivers' motion: of several closed positions of MODEL the nearest is used."),
-        *of_tables(
+        *motion_settings(
+            "Coordinate of the drivers' motion: of several closed positions of MODEL the nearest is used."
+        ),
+        *table_options(
             "What to save and plot in addition to efforts: a column, a joint or a table, such as power or reactions.",
             "efforts and power",
         ),

@@ -11,12 +11,12 @@ from symgen.analyses.kinds import (
     Analysis,
     AnalysisOutput,
     Option,
+    change_settings_checked,
     check_over,
-    of_motion,
-    of_tables,
-    settings_of,
+    motion_settings,
+    table_options,
 )
-from symgen.base.errors import counted
+from symgen.base.errors import plural
 from symgen.base.keywords import DrivenKeywords
 from symgen.base.settings import Settings
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from symgen.analyses.model_methods import Analysed
-    from symgen.analyses.prescribed.kinematics import Kinematics
+    from symgen.analyses.prescribed.driven_motion import Kinematics
 
 
 def kinematics(
@@ -55,9 +55,11 @@ def kinematics(
     AssemblyError
         If the mechanism cannot be closed.
     """
-    from symgen.analyses.prescribed.kinematics import driven_motion as motion_of
+    from symgen.analyses.prescribed.driven_motion import driven_motion as motion_of
 
-    return motion_of(model.mechanism, settings_of("kinematics", settings, changes, OF_MOTIONS), times, transmission)
+    return motion_of(
+        model.mechanism, change_settings_checked("kinematics", settings, changes, OF_MOTIONS), times, transmission
+    )
 
 
 def command(
@@ -76,18 +78,18 @@ def command(
     For example: symgen kinematics driven-four-bar --times "lin(0, 1, 361)" --transmission C --save motion.csv
     """
     from symgen.result.labelled import PRODUCTS, common_scales
-    from symgen.result.summary import extremes
+    from symgen.result.summary import extreme_values
 
     check_over(over, plot)
     result = kinematics(load(), times, settings, transmission)
     result.along(over or "t")
-    shown = extremes(result.select(quantities) if quantities else result.whole(("q",))) if len(result.t) else {}
+    shown = extreme_values(result.select(quantities) if quantities else result.whole(("q",))) if len(result.t) else {}
     loads = any(entry["unit"] in PRODUCTS or entry["unit"] == "N" for entry in shown.values())
     scales = common_scales((result.q, result.v, result.a, *((result.lam,) if loads else ())))
     scaled = {name: {**entry, "scale": scales.get(entry["unit"], 0.0)} for name, entry in shown.items()}
     return AnalysisOutput(
         result.to_json() | ({"quantities": shown} if quantities else {}),
-        (f"{result.mechanism}: {counted(len(result.t), 'time')}, {counted(result.steps, 'step')}", scaled),
+        (f"{result.mechanism}: {plural(len(result.t), 'time')}, {plural(result.steps, 'step')}", scaled),
         result.notes,
         result.ended,
         {
@@ -114,8 +116,10 @@ KIND = Analysis(
             "texts",
             "PIN",
         ),
-        *of_motion("Value of a coordinate: of several closed positions of MODEL the nearest is used."),
-        *of_tables("What to show, save and plot: a column, a body, a joint or a table, such as points.", "quantities"),
+        *motion_settings("Value of a coordinate: of several closed positions of MODEL the nearest is used."),
+        *table_options(
+            "What to show, save and plot: a column, a body, a joint or a table, such as points.", "quantities"
+        ),
         Option("--curves", "Draw the paths of points into FILE: .png, .svg, .pdf or .pgf.", "plot", "FILE"),
     ),
     examples=(

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Unpack
 
-from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_at
-from symgen.base.digits import digits_of_rows
+from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_about_place
+from symgen.base.digits import format_rows
 from symgen.base.keywords import PlaceKeywords
 from symgen.base.settings import Settings
 
 if TYPE_CHECKING:
-    from symgen.analyses.linear.linearise import LinearSystem
+    from symgen.analyses.linear.linear_system import LinearSystem
     from symgen.analyses.model_methods import Analysed
 
 
@@ -51,9 +51,11 @@ def linearise(
     AnalysisError
         If no equilibrium is found.
     """
-    from symgen.analyses.linear.places import NamedPlace, system_at
+    from symgen.analyses.linear.named_places import NamedPlace, system_at
 
-    place = NamedPlace(model.mechanism, settings_at("linearise", settings, changes, at), at, model.simulate, cyclic)
+    place = NamedPlace(
+        model.mechanism, settings_about_place("linearise", settings, changes, at), at, model.simulate, cyclic
+    )
     return system_at(place, states, instantaneous, by)
 
 
@@ -65,10 +67,10 @@ def command(load: Callable[[], Analysed], settings: Settings, **further: Any) ->
     """
     model = load()
     system = linearise(model, settings, **further)
-    return AnalysisOutput({"mechanism": model.mechanism.name, **system.to_dict()}, shown(system), system.notes)
+    return AnalysisOutput({"mechanism": model.mechanism.name, **system.to_dict()}, system_lines(system), system.notes)
 
 
-def shown(system: LinearSystem) -> Iterator[str | AnalysisTable]:
+def system_lines(system: LinearSystem) -> Iterator[str | AnalysisTable]:
     """Yield the lines of a linear system."""
     if not system.states:
         yield "no degree of freedom is left: there is nothing to linearise"
@@ -80,7 +82,7 @@ def shown(system: LinearSystem) -> Iterator[str | AnalysisTable]:
     )
     for title, rows, columns, values in matrices:
         if values.size:
-            cells = [(name, *row) for name, row in zip(rows, digits_of_rows(values.tolist()), strict=True)]
+            cells = [(name, *row) for name, row in zip(rows, format_rows(values.tolist()), strict=True)]
             yield AnalysisTable((title, *columns), cells, left=(title,))
     if system.left_out:
         yield f"outputs left out, as they depend on more than the states: {', '.join(system.left_out)}"

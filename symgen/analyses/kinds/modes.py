@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
-from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_at
+from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_about_place
 from symgen.base import arguments
-from symgen.base.digits import complex_digits, digits
-from symgen.base.errors import InputError, fitting
-from symgen.base.files import headed
+from symgen.base.digits import digits, format_complex
+from symgen.base.errors import InputError, fit_lines
+from symgen.base.files import heading_with_unit
 from symgen.base.keywords import PlaceKeywords
 from symgen.base.settings import Settings
 
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from symgen.analyses.linear.eigenmodes import Modes
     from symgen.analyses.linear.locus import Locus
-    from symgen.analyses.linear.modes import Modes
     from symgen.analyses.model_methods import Analysed
     from symgen.result.player.motion_page import Page
 
@@ -64,9 +64,11 @@ def modes(
     AnalysisError
         If no equilibrium is found.
     """
-    from symgen.analyses.linear.places import NamedPlace, modes_at
+    from symgen.analyses.linear.named_places import NamedPlace, modes_at
 
-    place = NamedPlace(model.mechanism, settings_at("modes", settings, changes, at), at, model.simulate, cyclic)
+    place = NamedPlace(
+        model.mechanism, settings_about_place("modes", settings, changes, at), at, model.simulate, cyclic
+    )
     return modes_at(place, states, count)
 
 
@@ -100,8 +102,8 @@ def view_mode(
     """
     from symgen.analyses.linear.animation import mode_page
 
-    whole = settings_at("view_mode", settings, changes, at)
-    number = arguments.whole("number", number, 1, 10**6)
+    whole = settings_about_place("view_mode", settings, changes, at)
+    number = arguments.whole_number("number", number, 1, 10**6)
     return mode_page(model.mechanism, modes(model, whole, at=at), number, whole.parameters)
 
 
@@ -127,9 +129,11 @@ def locus(
         Other settings are refused; settings of a run count where `at` is a time.
     """
     from symgen.analyses.linear.locus import eigenvalue_locus as locus_of
-    from symgen.analyses.linear.places import NamedPlace
+    from symgen.analyses.linear.named_places import NamedPlace
 
-    place = NamedPlace(model.mechanism, settings_at("locus", settings, changes, at), at, model.simulate, cyclic)
+    place = NamedPlace(
+        model.mechanism, settings_about_place("locus", settings, changes, at), at, model.simulate, cyclic
+    )
     return locus_of(place, over, states)
 
 
@@ -150,14 +154,14 @@ def command(
     name = model.mechanism.name
     if over is None:
         result = modes(model, settings, count=count, **place)
-        return AnalysisOutput({"mechanism": name, **result.to_dict()}, shown(result), result.notes)
+        return AnalysisOutput({"mechanism": name, **result.to_dict()}, mode_lines(result), result.notes)
     roots = locus(model, over, settings, **place)
-    return AnalysisOutput({"mechanism": name, **roots.to_dict()}, shown_locus(roots), files={plot: roots.plot})
+    return AnalysisOutput({"mechanism": name, **roots.to_dict()}, locus_lines(roots), files={plot: roots.plot})
 
 
-def shown(result: Modes) -> Iterator[str | AnalysisTable]:
+def mode_lines(result: Modes) -> Iterator[str | AnalysisTable]:
     """Yield the lines of modes."""
-    first = fitting(len(result.of_shapes), MOST)
+    first = fit_lines(len(result.of_shapes), MOST)
     freedom, many = result.degrees_of_freedom, len(result.eigenvalues)
     if not many:
         yield "no degree of freedom is left: there are no modes"
@@ -170,8 +174,8 @@ def shown(result: Modes) -> Iterator[str | AnalysisTable]:
     tables = {heading: parts for heading, parts in tables.items() if parts}
     rows = [
         (
-            *(str(k + 1), _complex(value), f"{result.frequencies[k]:.6g}", digits(result.damping[k], 1.0, 4)),
-            *(_shares(parts, k) for parts in tables.values()),
+            *(str(k + 1), _complex_text(value), f"{result.frequencies[k]:.6g}", digits(result.damping[k], 1.0, 4)),
+            *(_shares_in_words(parts, k) for parts in tables.values()),
         )
         for k, value in enumerate(result.of_shapes[:first])
     ]
@@ -183,7 +187,7 @@ def shown(result: Modes) -> Iterator[str | AnalysisTable]:
         yield f"of one eigenvalue, so that each shape alone and its shares are not unique: {groups}"
 
 
-def _shares(parts: Mapping[str, Any], k: int, most: int = 4) -> str:
+def _shares_in_words(parts: Mapping[str, Any], k: int, most: int = 4) -> str:
     shares = sorted(((name, float(values[k])) for name, values in parts.items()), key=lambda pair: -abs(pair[1]))
     shown = [(name, share) for name, share in shares[:most] if abs(share) >= 5e-4]
     left = sum(share for _, share in shares) - sum(share for _, share in shown)
@@ -191,21 +195,21 @@ def _shares(parts: Mapping[str, Any], k: int, most: int = 4) -> str:
     return text + (f", others {left:.1%}" if abs(left) >= 5e-4 else "")
 
 
-def _complex(x: complex) -> str:
-    real, imaginary = complex_digits(x)
+def _complex_text(x: complex) -> str:
+    real, imaginary = format_complex(x)
     return real + (f" +- {imaginary[1:]}i" if imaginary else "")
 
 
-def shown_locus(result: Locus) -> Iterator[str | AnalysisTable]:
+def locus_lines(result: Locus) -> Iterator[str | AnalysisTable]:
     """Yield the lines of a root locus."""
     headings = (
-        headed(result.name, result.own_unit.text),
+        heading_with_unit(result.name, result.own_unit.text),
         *(f"eigenvalue {k + 1} [1/s]" for k in range(result.branches.shape[1])),
     )
     rows = [
         (
             f"{result.as_written(value):g}",
-            *("".join((real, imaginary, "i" * bool(imaginary))) for real, imaginary in map(complex_digits, row)),
+            *("".join((real, imaginary, "i" * bool(imaginary))) for real, imaginary in map(format_complex, row)),
         )
         for value, row in zip(result.values, result.branches, strict=True)
     ]
@@ -213,7 +217,7 @@ def shown_locus(result: Locus) -> Iterator[str | AnalysisTable]:
     for crossing in result.crossings:
         becomes = "grows" if crossing.rising else "decays"
         value = f"{result.as_written(crossing.value):.9g} {result.own_unit.text}".strip()
-        yield f"from {result.name} = {value} on {_complex(crossing.eigenvalue)} {becomes}"
+        yield f"from {result.name} = {value} on {_complex_text(crossing.eigenvalue)} {becomes}"
 
 
 KIND = Analysis(

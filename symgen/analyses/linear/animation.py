@@ -11,11 +11,11 @@ import numpy as np
 from symgen.base.errors import InputError
 from symgen.describe.drawing.mechanism_scene import SHARE, build_scene
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.result.player.motion_page import Page, page
+from symgen.result.player.motion_page import Page, motion_page
 from symgen.result.player.recording import Recording, position_groups
 
 if TYPE_CHECKING:
-    from symgen.analyses.linear.modes import Modes
+    from symgen.analyses.linear.eigenmodes import Modes
     from symgen.describe.mechanism import Mechanism
 
 #: Largest displacement in parts of the picture's diagonal, and largest turn [rad].
@@ -45,7 +45,7 @@ def mode_recording(
     InputError
         If the mode does not exist, or shapes have other columns than coordinates of bodies.
     """
-    names = _names(mechanism)
+    names = _coordinate_names(mechanism)
     if not set(names) <= set(modes.names):
         got = ", ".join(modes.names[:4]) + (", ..." if len(modes.names) > 4 else "")
         raise InputError("mode", "shapes at rest, in coordinates of bodies", f"shapes in {got}")
@@ -76,10 +76,13 @@ def mode_page(mechanism: Mechanism, modes: Modes, number: int, parameters: Mappi
     """Return the page of a mode, with its reference state drawn faintly behind; see `mode_recording`."""
     recording = mode_recording(mechanism, modes, number, parameters)
     still = replace(
-        recording, q=np.tile([modes.about[n] for n in _names(mechanism)], (2, 1)), t=recording.t[[0, -1]], groups=()
+        recording,
+        q=np.tile([modes.about[n] for n in _coordinate_names(mechanism)], (2, 1)),
+        t=recording.t[[0, -1]],
+        groups=(),
     )
-    return page(recording, second=still)
+    return motion_page(recording, second=still)
 
 
-def _names(mechanism: Mechanism) -> list[str]:
+def _coordinate_names(mechanism: Mechanism) -> list[str]:
     return [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]

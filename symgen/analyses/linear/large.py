@@ -12,14 +12,23 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.linear.modes import Modes
-from symgen.analyses.rest.equilibrium import Equilibrium, not_unique, reduced_squares, stability_of
-from symgen.analyses.rest.settle import search
-from symgen.analyses.state.algebra import ROUNDED, Solver, in_order, level, null_space_split, solver, summed, symmetric
-from symgen.analyses.state.edges import edges
+from symgen.analyses.linear.eigenmodes import Modes
+from symgen.analyses.rest.equilibria import Equilibrium, joints_not_unique, reduced_squares, stability_in_words
+from symgen.analyses.rest.settle import search_equilibrium
+from symgen.analyses.state.algebra import (
+    ROUNDED,
+    Solver,
+    null_space_split,
+    solver_with_rows,
+    sort_eigenvalues,
+    sum_of_parts,
+    symmetric_part,
+    unit_stiffness,
+)
+from symgen.analyses.state.edges import sentence_on_edges
 from symgen.analyses.state.moving_drivers import note_on_moving_drivers, refuse_moving_drivers
-from symgen.analyses.state.sparse import Sparse
-from symgen.analyses.state.subject import inputs_at_start
+from symgen.analyses.state.sparse_statics import Sparse
+from symgen.analyses.state.subject import put_inputs_at_start
 from symgen.base.errors import AnalysisError, InputError
 from symgen.base.settings import Settings
 from symgen.run.layout import abi
@@ -61,14 +70,14 @@ def descriptor_equilibrium(mechanism: Mechanism, settings: Settings) -> tuple[Sp
     AnalysisError
         If no equilibrium is found.
     """
-    placed = inputs_at_start(mechanism, settings)
+    placed = put_inputs_at_start(mechanism, settings)
     settings = replace(placed.settings, method="lagrange", integrator="radau5", shape="looped", coordinates="absolute")
     run = prepare(placed.mechanism, settings, Purpose.DESCRIBED)
     mechanism, compiled, start = run.mechanism, run.compiled, run.start
     pattern, y = Pattern.of(compiled, start.w), start.y.copy()
     y[pattern.nq :] = 0.0
     active = np.setdiff1d(np.arange(pattern.m), pattern.masked)
-    return search(Sparse(mechanism, compiled, y, start.p, start.w, pattern, active), y)
+    return search_equilibrium(Sparse(mechanism, compiled, y, start.p, start.w, pattern, active), y)
 
 
 def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
@@ -96,18 +105,25 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
         raise InputError("count", f"fewer than the mechanism's {free} modes", str(count), "ask for all modes")
     if damping.nnz and abs(damping).max() > 0.0:  # at rest nothing turns, so that only dampers remain
         raise InputError("count", "a mechanism without dampers", "one that has some", "ask for all modes")
-    if _follows(stiffness, rows):
+    if _has_follower_forces(stiffness, rows):
         raise InputError("count", "forces that have a potential", "one that has none", "ask for all modes")
-    squares, vectors = _nearest(stiffness, mass, rows, count)
+    squares, vectors = _squares_nearest_zero(stiffness, mass, rows, count)
     roots = np.sqrt(-squares.astype(np.complex128))
     names = tuple(q.name for q in sparse.compiled.info.coordinates)
     about = {name: float(x) for name, x in zip(names, y, strict=False)}
     shapes = (motion @ vectors).T.astype(np.complex128)
     owners = np.array([v.name.rpartition(".")[0] for v in sparse.compiled.info.velocities])
-    notes, energy = edges(sparse, y), vectors * (mass @ vectors)
+    notes, energy = sentence_on_edges(sparse, y), vectors * (mass @ vectors)
     bodies = {body: energy[owners == body].sum(axis=0) / energy.sum(axis=0) for body in dict.fromkeys(owners.tolist())}
     return Modes(
-        in_order(np.concatenate([roots, -roots])), squares, free, names, shapes, bodies, about=about, notes=notes
+        sort_eigenvalues(np.concatenate([roots, -roots])),
+        squares,
+        free,
+        names,
+        shapes,
+        bodies,
+        about=about,
+        notes=notes,
     )
 
 
@@ -127,19 +143,19 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     sparse, y, lam, steps = descriptor_equilibrium(mechanism, settings)
     _, mass, rows, stiffness, _ = sparse.matrices(y, lam)
     free = sparse.pattern.nv - len(sparse.active)
-    if sparse.pattern.nv <= DENSE or free <= FREQUENCIES or _follows(stiffness, rows):
+    if sparse.pattern.nv <= DENSE or free <= FREQUENCIES or _has_follower_forces(stiffness, rows):
         small = sparse.pattern.nv <= DENSE or free > FREQUENCIES
-        basis = null_space_split(rows.toarray())[0] if small else _along(rows, free)
+        basis = null_space_split(rows.toarray())[0] if small else _free_directions(rows, free)
         squares = reduced_squares(mass, stiffness, basis)
-        stability = stability_of(squares)
+        stability = stability_in_words(squares)
     else:
-        squares = _nearest(stiffness, mass, rows, FREQUENCIES)[0]
-        stability = stability_of(np.append(squares, _far_below(stiffness, mass, rows, squares)))
+        squares = _squares_nearest_zero(stiffness, mass, rows, FREQUENCIES)[0]
+        stability = stability_in_words(np.append(squares, _far_negative_square(stiffness, mass, rows, squares)))
     info, columns = sparse.compiled.info, sparse.compiled.info.joint_coordinates
     out = np.zeros(info.m + 2 * len(columns))
     observe = Ready(sparse.compiled.model.observe, abi.OBSERVE)
     observe(0.0, y.copy(), sparse.p, sparse.w.copy(), np.zeros(info.ny), out)
-    lam, share = _smallest(sparse, y, lam)
+    lam, share = _smallest_multipliers(sparse, y, lam)
     places = {c.name: float(x) for c, x in zip(info.coordinates, y, strict=False)}
     return Equilibrium(
         q=places | {c.name: float(x) for c, x in zip(columns, out[info.m :: 2], strict=True)},
@@ -149,17 +165,17 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
         iterations=steps,
         states={x.name: float(y[info.own_states][i]) for i, x in enumerate(info.states)},
         multipliers={row.name: float(x) for row, x in zip(info.rows, lam, strict=True)},
-        not_unique=not_unique(mechanism, info, share),
+        not_unique=joints_not_unique(mechanism, info, share),
         y=y,
         lam=lam,
         notes=(
             *note_on_moving_drivers(sparse.mechanism, sparse.compiled, sparse.p, 0.0),
-            *edges(sparse, y),
+            *sentence_on_edges(sparse, y),
         ),
     )
 
 
-def _follows(stiffness: Any, rows: Any) -> bool:
+def _has_follower_forces(stiffness: Any, rows: Any) -> bool:
     """Whether the stiffness along free directions is not symmetric, as with forces that follow a body.
 
     What is not symmetric beside it is the rows' to take, and is no part of any motion: seen by some motions at random.
@@ -168,7 +184,7 @@ def _follows(stiffness: Any, rows: Any) -> bool:
     if not apart.nnz:
         return False
     # motions by forces of one size: what is soft moves most, so that nothing stiff beside it hides it
-    moved, even = solver(stiffness, rows), _regular(level(stiffness), rows)
+    moved, even = solver_with_rows(stiffness, rows), _solver_or_refuse(unit_stiffness(stiffness), rows)
     none, most = np.zeros(rows.shape[0]), float(abs(stiffness).max())
     for anything in np.random.default_rng(0).standard_normal((SEEN, stiffness.shape[0])):
         force = even(anything, none)[0]
@@ -180,23 +196,23 @@ def _follows(stiffness: Any, rows: Any) -> bool:
     return False
 
 
-def _along(rows: Any, free: int) -> Array:
+def _free_directions(rows: Any, free: int) -> Array:
     """Return an orthonormal basis of the few velocities that rows leave free, shape (nv, free)."""
     n, none = rows.shape[1], np.zeros(rows.shape[0])
-    solve = _regular(level(rows.T @ rows), rows)
+    solve = _solver_or_refuse(unit_stiffness(rows.T @ rows), rows)
     anything = np.random.default_rng(0).standard_normal((free, n))  # what is left of it is a basis almost surely
     basis = np.linalg.qr(np.array([solve(x, none)[0] for x in anything]).reshape(free, n).T)[0]
     return np.asarray(basis)
 
 
-def _smallest(sparse: Sparse, y: Array, lam: Array) -> tuple[Array, Array]:
+def _smallest_multipliers(sparse: Sparse, y: Array, lam: Array) -> tuple[Array, Array]:
     """Return the smallest multipliers that exert the same, and the share of each row in what exerts nothing."""
     extra = np.setdiff1d(np.arange(sparse.pattern.m), sparse.active)
     if not len(extra):
         return lam, np.zeros(sparse.pattern.m)
     whole = replace(sparse, active=np.arange(sparse.pattern.m)).derivatives(y, np.zeros(sparse.pattern.m))[1].tocsr()
     active = whole[sparse.active]
-    solve = _regular(level(whole.T @ whole), active)
+    solve = _solver_or_refuse(unit_stiffness(whole.T @ whole), active)
     # D_extra = C D_kept, so that (C, -1) exerts nothing: C from least squares
     none = np.zeros((len(extra), sparse.pattern.m))
     for i, row in enumerate(extra):
@@ -207,27 +223,27 @@ def _smallest(sparse: Sparse, y: Array, lam: Array) -> tuple[Array, Array]:
     return lam - loads * (basis @ (basis.T @ (lam / loads))), np.linalg.norm(basis, axis=1)
 
 
-def _nearest(stiffness: Any, mass: Any, rows: Any, count: int) -> tuple[Array, Array]:
+def _squares_nearest_zero(stiffness: Any, mass: Any, rows: Any, count: int) -> tuple[Array, Array]:
     """Return the squares of frequencies nearest to 0 in increasing order, and their shapes."""
     from scipy.sparse.linalg import LinearOperator, eigsh
 
     n, none = stiffness.shape[0], np.zeros(rows.shape[0])
-    solve = _regular(stiffness, rows)
+    solve = _solver_or_refuse(stiffness, rows)
     inverse = LinearOperator((n, n), matvec=lambda x: solve(x, none)[0], dtype=np.float64)
     begin = solve(mass @ np.ones(n), none)[0]
     squares, vectors = eigsh(
-        symmetric(stiffness), k=count, M=mass, sigma=0.0, OPinv=inverse, v0=begin, which="LM", tol=0.0
+        symmetric_part(stiffness), k=count, M=mass, sigma=0.0, OPinv=inverse, v0=begin, which="LM", tol=0.0
     )
     order = np.argsort(squares)
     squares, vectors = squares[order], vectors[:, order]
-    nothing = np.abs(squares) <= ROUNDED * summed(stiffness, vectors)
+    nothing = np.abs(squares) <= ROUNDED * sum_of_parts(stiffness, vectors)
     return np.where(nothing, 0.0, squares), np.asarray(vectors)
 
 
-def _far_below(stiffness: Any, mass: Any, rows: Any, squares: Array) -> list[float]:
+def _far_negative_square(stiffness: Any, mass: Any, rows: Any, squares: Array) -> list[float]:
     """Return a negative square of a frequency that is not among those nearest to 0, if one is found.
 
-    By Lanczos' iteration with (K - s M)^-1 for shifts s far below 0, one behind the other: its values are negative for
+    By Lanczos' iteration with (K - s M)^-1 for shifts s far below 0, one after the other: its values are negative for
     squares below s alone. A negative value among those of a part of the space proves one.
     """
     heavy = mass.diagonal()
@@ -236,7 +252,7 @@ def _far_below(stiffness: Any, mass: Any, rows: Any, squares: Array) -> list[flo
     end = -float(abs(stiffness).sum(axis=1).max()) / float(heavy.min(initial=np.inf))
     none, rng = np.zeros(rows.shape[0]), np.random.default_rng(0)
     while end < shift < 0.0:
-        solve = _regular(stiffness - shift * mass, rows)
+        solve = _solver_or_refuse(stiffness - shift * mass, rows)
         x = solve(mass @ rng.standard_normal(stiffness.shape[0]), none)[0]
         basis, images = list[Array](), list[Array]()
         for _ in range(LOOKED):
@@ -249,15 +265,15 @@ def _far_below(stiffness: Any, mass: Any, rows: Any, squares: Array) -> list[flo
             basis.append(x / size)
             images.append(solve(mass @ basis[-1], none)[0])
             x = images[-1].copy()
-        values = np.linalg.eigvalsh(symmetric(np.array(basis) @ (mass @ np.array(images).T)))
+        values = np.linalg.eigvalsh(symmetric_part(np.array(basis) @ (mass @ np.array(images).T)))
         if values[0] < -1e-9 * abs(values[-1]):
             return [shift + 1.0 / float(values[0])]
         shift *= 1e3
     return []
 
 
-def _regular(stiffness: object, rows: object) -> Solver:
-    solution = solver(stiffness, rows)
+def _solver_or_refuse(stiffness: object, rows: object) -> Solver:
+    solution = solver_with_rows(stiffness, rows)
     if solution is None:
         raise AnalysisError("the stiffness is singular: something can move without a force")
     return solution

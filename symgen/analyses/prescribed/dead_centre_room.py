@@ -10,7 +10,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.prescribed.kinematics import driven_motion
+from symgen.analyses.prescribed.driven_motion import driven_motion
 from symgen.base.errors import SymgenError
 from symgen.base.settings import Settings
 from symgen.base.vocabulary.expressions import Expr, Name, Number, call
@@ -37,7 +37,7 @@ class DeadCentreRoom(NamedTuple):
     looked : float
         How far was looked beyond the end.
     backward : bool
-        Whether it is behind the lower end of the travel.
+        Whether it is beyond the lower end of the travel.
     """
 
     driver: str
@@ -76,12 +76,14 @@ def room_to_dead_centre(
         return ()
     first = float(travel[0])
     try:
-        return tuple(_rooms(mechanism, drivers[0].name, row, (first - low, high - first), first, looked, parameters))
+        return tuple(
+            _rooms_at_ends(mechanism, drivers[0].name, row, (first - low, high - first), first, looked, parameters)
+        )
     except SymgenError:  # freedom that is not driven, a state of the file's own
         return ()
 
 
-def _rooms(
+def _rooms_at_ends(
     mechanism: Mechanism,
     name: str,
     row: Holonomic,
@@ -93,12 +95,14 @@ def _rooms(
     for backward, end in zip((True, False), ends, strict=True):
         value = call("sub" if backward else "add", Number(first), Name("t"))
         times = np.linspace(0.0, end + looked, _POSITIONS)
-        motion = driven_motion(_with_value(mechanism, name, value), Settings(parameters=dict(parameters)), times)
+        motion = driven_motion(
+            _put_driver_function(mechanism, name, value), Settings(parameters=dict(parameters)), times
+        )
         way = motion.passages[-1].t - end if motion.ended and motion.passages else math.nan
         yield DeadCentreRoom(name, row.unit, way, looked, backward)
 
 
-def _with_value(mechanism: Mechanism, name: str, value: Expr) -> Mechanism:
+def _put_driver_function(mechanism: Mechanism, name: str, value: Expr) -> Mechanism:
     """Return a mechanism whose driver follows another function of time."""
     joints = tuple(
         msgspec.structs.replace(joint, rows=tuple(msgspec.structs.replace(row, value=value) for row in joint.rows))

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from symgen.analyses.prescribed.passing import coordinate_rates
 from symgen.analyses.prescribed.prescribed import PrescribedRun
-from symgen.analyses.prescribed.tracing import trace
+from symgen.analyses.prescribed.tracing import trace_motion
 from symgen.base.errors import AnalysisError
 from symgen.describe.facts.kinks import jumps_in_time
 from symgen.run.breaks.in_time import InTime
@@ -65,23 +65,23 @@ def states_along(run: PrescribedRun, times: Array) -> tuple[Array, str]:
     for here, end in ((behind, times.max(initial=0.0)), (times < 0.0, times.min(initial=0.0))):
         if here.any():
             forward = np.unique(np.abs(times[here])) * np.sign(end)
-            values, apart = _one_way(run, side, forward, float(end))
+            values, apart = _integrate_one_way(run, side, forward, float(end))
             states[here], worst = values[:: 1 if end > 0.0 else -1], max(worst, apart)
     names = ", ".join(x.name for x in run.mechanism.states)
     return states, f"states along the motion ({names}) are off by about {worst:.1g} of their size" if worst else ""
 
 
-def _one_way(run: PrescribedRun, side: Side, times: Array, end: float) -> tuple[Array, float]:
+def _integrate_one_way(run: PrescribedRun, side: Side, times: Array, end: float) -> tuple[Array, float]:
     """Return states at times from 0 to an end, and the part of them that they are off by; 0 below the tolerance."""
-    pieces = list(pairwise([0.0, *_kinks(run, end), end]))
+    pieces = list(pairwise([0.0, *_kink_times(run, end), end]))
     before, size = None, FIRST
     while True:
         now, z = np.empty((len(times), len(side.labels))), run.start.y[run.compiled.info.own_states].copy()
         for a, b in pieces:
             inside = (times - a) * np.sign(end) > 0.0
             inside &= (times - b) * np.sign(end) <= 0.0
-            path = _path(run, a, b, size)
-            now[inside], z = _integrated(run, side, path, (a, b), z, times[inside])
+            path = _path_through_states(run, a, b, size)
+            now[inside], z = _integrate_piece(run, side, path, (a, b), z, times[inside])
         largest = np.abs(now).max(axis=0, initial=1e-300)
         apart = np.inf if before is None else float((np.abs(now - before) / largest).max(initial=0.0))
         if apart <= SETTLED or not {"q", "v", "winding"} & side.reads:
@@ -91,7 +91,7 @@ def _one_way(run: PrescribedRun, side: Side, times: Array, end: float) -> tuple[
         before, size = now, 2 * size
 
 
-def _kinks(run: PrescribedRun, end: float) -> list[float]:
+def _kink_times(run: PrescribedRun, end: float) -> list[float]:
     """Return the times inside a motion at which inputs or formulas jump or have kinks, in the order of the motion."""
     first, last = min(0.0, end), max(0.0, end)
     formulas, times = InTime(run.mechanism, run.numbers), {t for t, _ in run.held}
@@ -109,14 +109,14 @@ def _kinks(run: PrescribedRun, end: float) -> list[float]:
 Path = Callable[[float], tuple[Array, Array, Array]]
 
 
-def _path(run: PrescribedRun, begin: float, end: float, size: int) -> Path:
+def _path_through_states(run: PrescribedRun, begin: float, end: float, size: int) -> Path:
     """Return the motion in a piece without kinks through its states at equally distant times."""
     from scipy.interpolate import CubicHermiteSpline
 
     info = run.compiled.info
     inside = ASIDE * (end - begin)
     nodes = np.sort(np.linspace(begin + inside, end - inside, size + 1))
-    traced = trace(run, nodes)
+    traced = trace_motion(run, nodes)
     t, (q, v), a = traced.times, info.parts(traced.states), traced.accelerations
     if len(t) < 2:
         raise AnalysisError(f"the motion near t = {begin:.6g} s cannot be followed for the states of the file")
@@ -124,15 +124,15 @@ def _path(run: PrescribedRun, begin: float, end: float, size: int) -> Path:
     places, speeds = CubicHermiteSpline(t, q, slopes), CubicHermiteSpline(t, v, a)
     turned = traced.status[:, abi.N_STATUS :]
 
-    def at(time: float) -> tuple[Array, Array, Array]:
+    def state_at(time: float) -> tuple[Array, Array, Array]:
         k = int(np.clip(np.searchsorted(t, time), 1, len(t) - 1))
         nearest = k if abs(t[k] - time) < abs(time - t[k - 1]) else k - 1
         return places(time), speeds(time), turned[nearest]
 
-    return at
+    return state_at
 
 
-def _integrated(
+def _integrate_piece(
     run: PrescribedRun, side: Side, path: Path, ends: tuple[float, float], z: Array, times: Array
 ) -> tuple[Array, Array]:
     """Return states at times of a piece, and at its end."""
@@ -144,7 +144,7 @@ def _integrated(
 
     mark, stalled = begin, 0
 
-    def rate(t: float, states: Array) -> Array:
+    def rate_of_states(t: float, states: Array) -> Array:
         nonlocal mark, stalled
         mark, stalled = (t, 0) if abs(t - mark) > NEARLY * abs(end - begin) else (mark, stalled + 1)
         if stalled > STALLED:
@@ -159,7 +159,7 @@ def _integrated(
     at = np.append(times, end) if not len(times) or times[-1] != end else times
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # what fails is said below
-        done = solve_ivp(rate, ends, z, "LSODA", t_eval=at, rtol=TOLERANCE, atol=least)
+        done = solve_ivp(rate_of_states, ends, z, "LSODA", t_eval=at, rtol=TOLERANCE, atol=least)
     if not done.success or not np.all(np.isfinite(done.y)):
         raise AnalysisError(beyond.format(done.t[-1] if len(done.t) else begin))
     return done.y.T[: len(times)], done.y[:, -1]

@@ -65,13 +65,13 @@ def curve_through(info: ModelInfo, nodes: Sequence[tuple[Array, ...]]) -> Curve:
     """
     times = np.repeat([float(node[0][0]) for node in nodes], 2)
 
-    def through(value: int, rate: int) -> KroghInterpolator:
+    def interpolation_through(value: int, rate: int) -> KroghInterpolator:
         return KroghInterpolator(times, np.array([x for node in nodes for x in (node[value], node[rate])]))
 
-    q, v = through(1, 2), through(3, 4)
+    q, v = interpolation_through(1, 2), interpolation_through(3, 4)
     turned = np.array([node[5] for node in nodes])
 
-    def at(t: Array) -> tuple[Array, Array, Array]:
+    def states_at(t: Array) -> tuple[Array, Array, Array]:
         y = np.zeros((len(t), info.ny))
         y[:, : info.nq] = q(t)
         for first, _ in info.spins:
@@ -80,7 +80,7 @@ def curve_through(info: ModelInfo, nodes: Sequence[tuple[Array, ...]]) -> Curve:
         nearest = np.abs(t[:, np.newaxis] - times[::2]).argmin(axis=1)
         return y, np.atleast_2d(v.derivative(t)), turned[nearest]
 
-    return at
+    return states_at
 
 
 def coordinate_rates(info: ModelInfo, q: Array, v: Array) -> Array:

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.state.algebra import coordinate_differences
-from symgen.base.errors import AssemblyError, InputError, nearest
-from symgen.base.vocabulary.expressions import readings
+from symgen.base.errors import AssemblyError, InputError, suggest
+from symgen.base.vocabulary.expressions import readings_in
 from symgen.base.vocabulary.measures import GROUND, Integral
-from symgen.describe.bounds.modes import without_bounds
-from symgen.describe.formulas.evaluate import parameter_values, scalars
+from symgen.describe.bounds.bounded_modes import without_bounds
+from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.run.breaks.seams import seams_of_motion
@@ -40,7 +40,7 @@ Array = NDArray[np.float64]
 CUTOFF = 1e-9
 #: Coordinates of joints on the ground, where motors sit, are named rather than others.
 ON_GROUND = 10.0
-#: Places that a mechanism is closed from, and those behind the last new way after which no more are looked for.
+#: Places that a mechanism is closed from, and how many bring no new way before the search ends.
 TRIES, ENOUGH = 200, 40
 #: Positions as near as this are one, in lengths of the mechanism and radians.
 SAME_WAY = 1e-6
@@ -80,22 +80,24 @@ class PrescribedRun:
         return {q.name: float(x) for q, x in zip(self.compiled.info.parameters, self.start.p, strict=False)}
 
 
-def drivers_of(mechanism: Mechanism) -> tuple[str, ...]:
+def driver_names(mechanism: Mechanism) -> tuple[str, ...]:
     """Return the names of all drivers."""
     return tuple(joint.name for joint in mechanism.joints if joint.kind == DRIVER)
 
 
-def without(mechanism: Mechanism, names: Sequence[str]) -> Mechanism:
+def drop_joints(mechanism: Mechanism, names: Sequence[str]) -> Mechanism:
     """Return a mechanism without some of its joints."""
     joints = tuple(joint for joint in mechanism.joints if joint.name not in names)
     seats = tuple((name, marker) for name, marker in mechanism.seats if name not in names)
     return msgspec.structs.replace(mechanism, joints=joints, seats=seats)
 
 
-def instantaneous(mechanism: Mechanism) -> Mechanism:
+def without_history(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism without what a run alone determines: integrals, events, velocities, rows with bounds."""
     mechanism = without_bounds(mechanism)
-    outputs = tuple(o for o in mechanism.outputs if not any(isinstance(r.source, Integral) for r in readings(o.value)))
+    outputs = tuple(
+        o for o in mechanism.outputs if not any(isinstance(r.source, Integral) for r in readings_in(o.value))
+    )
     bodies = list[AnyBody]()
     for body in mechanism.bodies:
         nothing = (None,) * len(body.velocity)
@@ -124,7 +126,7 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
     InputError, AssemblyError
         If settings are wrong, or the mechanism cannot be closed.
     """
-    branch = settings.start if drivers_of(mechanism) else {}
+    branch = settings.start if driver_names(mechanism) else {}
     if not isinstance(branch, Mapping):
         raise InputError("start", "values of coordinates by name, to choose a branch by", "a state of a run")
     own = {x.name: branch[x.name] for x in mechanism.states if x.name in branch}
@@ -133,9 +135,9 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
     settings = replace(settings, start=own if branch or own else settings.start, until=end, times=(end,), step=end)
     settings = replace(settings, method="lagrange", integrator=None, output_step=None, coordinates="absolute")
     placed = put_inputs(mechanism, settings)
-    driven = instantaneous(placed.mechanism)
+    driven = without_history(placed.mechanism)
     ready = preparation(driven, placed.settings, Purpose.STATE)
-    near, words = branch_near(ready.plan, branch) if branch else (None, ())
+    near, words = nearest_branch(ready.plan, branch) if branch else (None, ())
     run = replace(ready, near=near).run()
     compiled, start = run.compiled, run.start
     held, p, seams = list[tuple[float, Array]](), start.p, placed.seams[1:]
@@ -171,7 +173,7 @@ def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: st
     AssemblyError
         If the mechanism cannot be closed.
     """
-    drivers = drivers_of(mechanism)
+    drivers = driver_names(mechanism)
     try:
         run = make_ready(mechanism, settings, until, first)
     except AssemblyError:
@@ -209,7 +211,7 @@ def _refuse_excess(
         With the drivers' names.
     """
     try:
-        loose = make_ready(without(instantaneous(mechanism), drivers), replace(settings, start={}), until)
+        loose = make_ready(drop_joints(without_history(mechanism), drivers), replace(settings, start={}), until)
     except (InputError, AssemblyError):  # the error is not in the driven coordinates
         return None
     info = loose.compiled.info
@@ -232,13 +234,13 @@ def free_coordinates(run: PrescribedRun, count: int) -> list[str]:
     _, _, right = np.linalg.svd(jacobian_at(compiled, start.t, start.y, start.p, start.w), full_matrices=True)
     basis = (right[-count:] * scale).T  # directions of v, shape (nv, count)
 
-    def joint_rates(v: Array) -> Array:
+    def rates_of_joints(v: Array) -> Array:
         y = start.y.copy()
         y[info.nq : info.nq + info.nv] = v
-        return _observed(compiled, start, y)[info.m + 1 :: 2]
+        return _observed_numbers(compiled, start, y)[info.m + 1 :: 2]
 
-    still = joint_rates(np.zeros(info.nv))
-    rates = np.vstack([np.column_stack([joint_rates(v) - still for v in basis.T]), basis])
+    still = rates_of_joints(np.zeros(info.nv))
+    rates = np.vstack([np.column_stack([rates_of_joints(v) - still for v in basis.T]), basis])
     names = [q.name for q in info.joint_coordinates] + [v.name for v in info.velocities]
     grounded = {joint.name for joint in run.mechanism.joints if GROUND in joint.bodies}
     weights = np.array([ON_GROUND if name.rpartition(".")[0] in grounded else 1.0 for name in names])
@@ -247,7 +249,7 @@ def free_coordinates(run: PrescribedRun, count: int) -> list[str]:
     return [names[k] for k in order[:count]]
 
 
-def _observed(compiled: CompiledModel, start: Start, y: Array) -> Array:
+def _observed_numbers(compiled: CompiledModel, start: Start, y: Array) -> Array:
     """Return the numbers that the model reports at a state: rows, then value and rate of each joint coordinate."""
     out = np.zeros(compiled.info.observed)
     observe = Ready(compiled.model.observe, abi.OBSERVE)
@@ -255,7 +257,7 @@ def _observed(compiled: CompiledModel, start: Start, y: Array) -> Array:
     return out
 
 
-def branch_near(plan: Plan, branch: Mapping[str, float]) -> tuple[Array, tuple[str, ...]]:
+def nearest_branch(plan: Plan, branch: Mapping[str, float]) -> tuple[Array, tuple[str, ...]]:
     """Close a mechanism at t = 0 from many places, and choose the way that is nearest to a start.
 
     Parameters
@@ -285,11 +287,11 @@ def branch_near(plan: Plan, branch: Mapping[str, float]) -> tuple[Array, tuple[s
     for name in branch:
         if name not in names:
             expected = "a coordinate of a body or joint: velocities follow from the drivers"
-            raise InputError(f"start '{name}'", expected, "none of that name", nearest(name, names))
+            raise InputError(f"start '{name}'", expected, "none of that name", suggest(name, names))
     places = [names.index(name) for name in branch]
     turning = np.array([units[i] == "rad" for i in places])
     described = np.array(
-        described_start(mechanism, scalars(parameter_values(mechanism, parameters)))[0], dtype=np.float64
+        described_start(mechanism, scalar_values(parameter_values(mechanism, parameters)))[0], dtype=np.float64
     )
     lengths = np.array([c.unit == "m" for c in info.coordinates])
     size = float(np.ptp(described[lengths])) or 1.0 if lengths.any() else 1.0
@@ -310,7 +312,7 @@ def branch_near(plan: Plan, branch: Mapping[str, float]) -> tuple[Array, tuple[s
             continue
         q = start.y[: info.nq].copy()
         if not any(np.abs(coordinate_differences(info, q, other)).max(initial=0.0) < SAME_WAY for other, _ in ways):
-            ways.append((q, np.concatenate([q, _observed(compiled, start, start.y)[info.m :: 2]])[places]))
+            ways.append((q, np.concatenate([q, _observed_numbers(compiled, start, start.y)[info.m :: 2]])[places]))
             last = k
     if not ways:
         raise refusal

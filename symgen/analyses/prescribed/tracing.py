@@ -55,7 +55,7 @@ class Traced(NamedTuple):
     steps: int
 
 
-def trace(run: PrescribedRun, times: Array) -> Traced:
+def trace_motion(run: PrescribedRun, times: Array) -> Traced:
     """Follow a motion through increasing times, those before 0 backwards.
 
     Parameters
@@ -80,13 +80,13 @@ def trace(run: PrescribedRun, times: Array) -> Traced:
     return Traced._make((*rows, before.passages + behind.passages, ended, before.steps + behind.steps))
 
 
-def followed(times: Array) -> tuple[Array, NDArray[np.bool_]]:
+def refine_times(times: Array) -> tuple[Array, NDArray[np.bool_]]:
     """Return times with others wherever they are far apart, and which of them are those given.
 
     Parameters
     ----------
     times : Array, shape (k,)
-        All behind 0, or all before it, in the order in which they are met [s].
+        All after 0, or all before it, in the order in which they are met [s].
     """
     end = float(times[-1])
     if end == 0.0:
@@ -122,7 +122,7 @@ class Tracer:
         info, model = compiled.info, compiled.model
         self.compiled, self.info, self.p, self.w = compiled, info, start.p, start.w.copy()
         self.span = max(float(np.abs(self.times).max()), 1e-9)
-        self.times, self.requested = followed(self.times)
+        self.times, self.requested = refine_times(self.times)
         sections = (info.sections[name][0] for name in ("residual", "change", "mask", "jacobian"))
         length = float(self.w[abi.LENGTH])
         numbers = (info.nq, info.nv, info.m, info.ny, info.windings, *sections, len(start.redundant_rows), info.nv)
@@ -161,43 +161,43 @@ class Tracer:
         while True:
             # in pieces, between which the process can be interrupted
             done = min(int(self.stand.counts[f.AT]) + PIECE, k)
-            code = self.follow(self.times[:done], rows)
+            code = self.enter_loop(self.times[:done], rows)
             if code == f.DONE:
                 if done == k:
                     break
                 continue
-            if self._chosen_anew():
+            if self._choose_rows_anew():
                 continue
             if code == f.CHOOSE:  # the same ones
                 self.clock[f.BEST] = self.clock[f.SINE]
                 continue
-            crossed = self._cross(code, rows) if code in (f.SINGULAR, f.PASSING) else False
-            if not crossed and not self._shortened(code):
-                ended = self._reason(code)
+            crossed = self._cross_singularity(code, rows) if code in (f.SINGULAR, f.PASSING) else False
+            if not crossed and not self._shorten_step(code):
+                ended = self._reason_of_end(code)
                 break
         if not ended and self.clock[f.SINE] < NEAR and np.isfinite(self.clock[f.SLOPE]):
-            self._cross(f.DONE, rows)  # the last states are near a singular position
+            self._cross_singularity(f.DONE, rows)  # the last states are near a singular position
         n = int(self.stand.counts[f.AT])
         taken = int(self.stand.counts[f.TAKEN])
         here: Any = slice(n) if self.requested.all() else np.flatnonzero(self.requested[:n])
         moved = self.times[here], rows.states[here], rows.accelerations[here]
         return Traced(*moved, rows.status[here], (*self.passages,), ended, taken)
 
-    def follow(self, times: Array, rows: Any) -> int:
+    def enter_loop(self, times: Array, rows: Any) -> int:
         """Enter the compiled loop."""
         here = np.ascontiguousarray(times)
         model = self.course, *self.functions
         return int(f.follow_motion(model, here, self.p, self.w, self.stand, rows, self.control))
 
-    def _shortened(self, code: int) -> bool:
+    def _shorten_step(self, code: int) -> bool:
         """Take shorter steps from here on; return whether they are long enough to be taken."""
         if code in (f.REFUSED, f.UNDEFINED):
             return False
         self.clock[f.REACH] = 0.5 * abs(self.clock[f.TRIED] - self.clock[f.TIME])
         return bool(self.clock[f.REACH] >= self.course.least)
 
-    def _chosen_anew(self) -> bool:
-        """Choose the rows that stand for all at the present position; return whether they are others."""
+    def _choose_rows_anew(self) -> bool:
+        """Choose the rows that represent all at the present position; return whether they are others."""
         if self._choose is None:
             return False
         Ready(self.functions[0], abi.MEASURE)(self.clock[f.TIME], self.stand.y, self.p, self.w)
@@ -208,21 +208,21 @@ class Tracer:
 
     # -- states near a singular position -------------------------------------------------------------------------------
 
-    def _taken(self) -> tuple[Array, ...]:
+    def _copy_stand(self) -> tuple[Array, ...]:
         return tuple(array.copy() for array in self.stand)
 
-    def _back_to(self, copies: tuple[Array, ...]) -> None:
+    def _restore_stand(self, copies: tuple[Array, ...]) -> None:
         for array, before in zip(self.stand, copies, strict=True):
             array[:] = before
 
-    def _at(self, t: float) -> bool:
+    def _go_to(self, t: float) -> bool:
         """Go to a time beside the present one, forward or backward; return whether that went well."""
         if t == self.clock[f.TIME]:
             return True
         nothing = f.Followed(np.empty((1, self.info.ny)), np.empty((1, self.info.nv)), self._status_row())
         at, self.stand.counts[f.AT] = int(self.stand.counts[f.AT]), 0
         self.clock[f.REACH] = self.span
-        while (code := self.follow(np.array([t]), nothing)) == f.CHOOSE:
+        while (code := self.enter_loop(np.array([t]), nothing)) == f.CHOOSE:
             self.clock[f.BEST] = self.clock[f.SINE]  # rows stay those that they are
         self.stand.counts[f.AT] = at
         return code == f.DONE
@@ -230,9 +230,9 @@ class Tracer:
     def _status_row(self) -> Array:
         return np.empty((1, abi.N_STATUS + self.info.windings))
 
-    def _cross(self, code: int, rows: object) -> bool:
+    def _cross_singularity(self, code: int, rows: object) -> bool:
         """Go over a singular position ahead, on the branch that continues the motion; return whether there is one."""
-        before, clock = self._taken(), self.clock.copy()
+        before, clock = self._copy_stand(), self.clock.copy()
         elapsed = abs(clock[f.TRIED] - clock[f.TIME])
         if code == f.PASSING:
             slope = (clock[f.SINE] + clock[f.TRIED_SINE]) / elapsed
@@ -243,52 +243,52 @@ class Tracer:
         middle = clock[f.TIME] + self.sign * clock[f.SINE] / slope
         for attempt in range(ATTEMPTS):
             width = max(SPACING / slope / 2.0**attempt, abs(middle - clock[f.TIME]))
-            if self._over(middle, width, rows):
+            if self._go_over_singularity(middle, width, rows):
                 return True
-            self._back_to(before)
+            self._restore_stand(before)
         return False
 
-    def _over(self, middle: float, width: float, rows: object) -> bool:
-        """Go over a singular position near `middle` from states before it to states behind it, `width` apart [s]."""
+    def _go_over_singularity(self, middle: float, width: float, rows: object) -> bool:
+        """Go over a singular position near `middle` from states before it to states after it, `width` apart [s]."""
         nodes = list[tuple[Array, ...]]()
         for k in range(1, NODES + 1):
-            if not self._at(middle - self.sign * k * width):
+            if not self._go_to(middle - self.sign * k * width):
                 return False
-            nodes.append(self._node())
+            nodes.append(self._state_of_loop())
         guess = curve_through(self.info, nodes)
         t = middle + self.sign * width
         y, a, _ = guess(np.array([t]))
         self.stand.y[:], self.stand.a[:], self.stand.jerk[:] = y[0], a[0], 0.0
         self.clock[f.TIME], self.stand.counts[f.SETTLED] = t, 0
         nothing = f.Followed(np.empty((0, self.info.ny)), np.empty((0, self.info.nv)), self._status_row()[:0])
-        if self.follow(np.zeros(0), nothing) != f.DONE:
+        if self.enter_loop(np.zeros(0), nothing) != f.DONE:
             return False
         far = np.abs(self.stand.y - y[0])[: self.info.nq] * self.sizes
         if not far.max() <= CONTINUED * self.clock[f.SINE]:
             return False
-        behind = self._taken()
+        behind = self._copy_stand()
         for k in range(1, NODES + 1):
-            if not self._at(middle + self.sign * k * width):
+            if not self._go_to(middle + self.sign * k * width):
                 return False
-            nodes.append(self._node())
+            nodes.append(self._state_of_loop())
         nodes.sort(key=lambda node: float(node[0][0]))
         curve = curve_through(self.info, nodes)
-        self._back_to(behind)
-        t = self._place(curve, middle, width)
-        self.passages.append(self._passage(t, "passed", curve))
-        self._write(curve, middle - self.sign * width, middle + self.sign * width, rows)
+        self._restore_stand(behind)
+        t = self._find_sign_change(curve, middle, width)
+        self.passages.append(self._make_passage(t, "passed", curve))
+        self._write_outputs(curve, middle - self.sign * width, middle + self.sign * width, rows)
         self.clock[f.REACH] = self.span
         return True
 
-    def _node(self) -> tuple[Array, ...]:
-        """Return time, q, q', v, v', angles that count turns, and the sine, where the loop stands."""
+    def _state_of_loop(self) -> tuple[Array, ...]:
+        """Return time, q, q', v, v', angles that count turns, and the sine, where the loop is."""
         nq, nv, s = self.info.nq, self.info.nv, self.stand
         q, v = s.y[:nq].copy(), s.y[nq : nq + nv].copy()
         now = np.array([self.clock[f.TIME]]), q, coordinate_rates(self.info, q, v), v, s.a.copy(), s.turned.copy()
         return (*now, np.array([self.clock[f.SINE]]))
 
-    def _write(self, curve: Curve, first: float, last: float, rows: Any) -> None:
-        """Write the outputs between two times from a curve, and go on behind them."""
+    def _write_outputs(self, curve: Curve, first: float, last: float, rows: Any) -> None:
+        """Write the outputs between two times from a curve, and go on after them."""
         here = np.flatnonzero((self.sign * (self.times - first) > 0.0) & (self.sign * (self.times - last) < 0.0))
         geometry, measure = (Ready(function, abi.MEASURE) for function in self.functions[:2])
         if len(here):
@@ -302,35 +302,35 @@ class Tracer:
                 rows.status[k] = np.append(w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + count])
         self.stand.counts[f.AT] = int(np.count_nonzero(self.sign * (self.times - last) < 0.0))
 
-    def _place(self, curve: Curve, middle: float, width: float) -> float:
+    def _find_sign_change(self, curve: Curve, middle: float, width: float) -> float:
         """Return where the determinant of D changes its sign, near `middle`."""
         from scipy.optimize import bisect
 
-        def sign(t: float) -> float:
+        def sign_of_determinant(t: float) -> float:
             y, _, _ = curve(np.array([t]))
             d = jacobian_at(self.compiled, t, y[0], self.p, self.w)
             return float(np.linalg.slogdet(d[self.compiled.section(self.w, "mask") == 0.0])[0])
 
-        if sign(middle - width) == sign(middle + width):
+        if sign_of_determinant(middle - width) == sign_of_determinant(middle + width):
             return middle
-        return float(bisect(sign, middle - width, middle + width, xtol=1e-300, maxiter=60, disp=False))
+        return float(bisect(sign_of_determinant, middle - width, middle + width, xtol=1e-300, maxiter=60, disp=False))
 
     # -- words ---------------------------------------------------------------------------------------------------------
 
-    def _passage(self, t: float, kind: str, curve: Curve | None) -> Passage:
-        """Return a singular position: of the curve there, or where the loop stands."""
+    def _make_passage(self, t: float, kind: str, curve: Curve | None) -> Passage:
+        """Return a singular position: of the curve there, or where the loop is."""
         y = self.stand.y if curve is None else curve(np.array([t]))[0][0]
         free, drivers = free_and_held(self.motion.mechanism, self.compiled, t, y, self.p, self.w)
         return Passage(float(t), kind, free, drivers)
 
-    def _reason(self, code: int) -> str:
+    def _reason_of_end(self, code: int) -> str:
         """Return the reason why the motion ends, in a sentence."""
         t, sine, slope, least = self.clock[f.TIME], self.clock[f.SINE], self.clock[f.SLOPE], self.course.least
         if code == f.UNDEFINED:
             return f"a formula is not finite after t = {t:.9g} s"
         if sine < SPACING:
             rest = 0.5 * sine / slope if slope > 0.0 and np.isfinite(slope) else 0.0  # its square falls to 0
-            passage = self._passage(t + self.sign * rest, "dead centre", None)
+            passage = self._make_passage(t + self.sign * rest, "dead centre", None)
             self.passages.append(passage)
             return passage.words
         # rows that are open a moment later although nothing has moved; the last attempt was nearer

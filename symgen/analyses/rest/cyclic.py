@@ -7,10 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.rest.settle import Settled, settle
-from symgen.analyses.state.reduced import tangent
+from symgen.analyses.rest.settle import Settled, settle_position
+from symgen.analyses.state.reduced import tangent_system
 from symgen.analyses.state.subject import Subject
-from symgen.base.errors import InputError, nearest
+from symgen.base.errors import InputError, suggest
 
 Array = NDArray[np.float64]
 
@@ -30,7 +30,7 @@ def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> Settled:
     subject : Subject
         In joint coordinates.
     cyclic : sequence of str
-        Names of these coordinates; by default those that nothing depends on, alone or together with others behind
+        Names of these coordinates; by default those that nothing depends on, alone or together with later ones
         them, which turn along.
 
     Raises
@@ -45,15 +45,15 @@ def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> Settled:
     for name in cyclic:
         if name not in names:
             expected = f"a coordinate of the joints of {subject.mechanism.name}"
-            raise InputError(f"cyclic '{name}'", expected, "none of that name", nearest(name, names))
-    free, units = _without_effect(subject)
-    with_time, ways = _ways(free, units, [names.index(name) for name in cyclic])
+            raise InputError(f"cyclic '{name}'", expected, "none of that name", suggest(name, names))
+    free, units = _directions_without_effect(subject)
+    with_time, ways = _sort_directions(free, units, [names.index(name) for name in cyclic])
     for name in cyclic:
         if names.index(name) not in ways:
             expected = "a coordinate that no force and no row depends on"
             raise InputError(f"cyclic '{name}'", expected, "one that changes them")
     turning = [names.index(name) for name in cyclic] or list(ways)
-    motion, y, info = subject.evaluated(subject.y).by("motion", "v"), subject.y.copy(), subject.compiled.info
+    motion, y, info = subject.evaluate(subject.y).by("motion", "v"), subject.y.copy(), subject.compiled.info
     v = y[subject.nq : subject.nq + subject.nv]
     along = np.array([with_time, *(ways[i] for i in turning)])
     moving = np.any((along != 0.0) @ (motion != 0.0), axis=0)
@@ -65,10 +65,10 @@ def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> Settled:
             raise InputError("steady", expected, got, "give it joints with axes, such as three hinges")
     rates = with_time + (motion @ v - with_time)[turning] @ along[1:]
     v[:] = np.where(moving, np.linalg.lstsq(motion, rates, rcond=None)[0], 0.0)
-    return settle(subject, y)
+    return settle_position(subject, y)
 
 
-def _without_effect(subject: Subject) -> tuple[Array, Array]:
+def _directions_without_effect(subject: Subject) -> tuple[Array, Array]:
     """Find ways along which nothing changes, here and elsewhere, of coordinates and of time.
 
     What a driver moves depends on time as its own row does, which therefore counts for nothing. Elsewhere velocities
@@ -82,15 +82,15 @@ def _without_effect(subject: Subject) -> tuple[Array, Array]:
         A length of the mechanism or a radian of each coordinate, and a time.
     """
     rng, spans, nq, nv = np.random.default_rng(0), subject.spans, subject.nq, subject.nv
-    rate = float(np.abs(subject.y[nq : nq + nv] / spans).max(initial=0.0)) or tangent(subject, subject.y).rate
+    rate = float(np.abs(subject.y[nq : nq + nv] / spans).max(initial=0.0)) or tangent_system(subject, subject.y).rate
     changes = list[Array]()
-    e = subject.evaluated(subject.y)
+    e = subject.evaluate(subject.y)
     for k in range(3):
-        y = subject.moved(subject.y, 0.3 * k * subject.lengths * rng.standard_normal(nq))
+        y = subject.move_state(subject.y, 0.3 * k * subject.lengths * rng.standard_normal(nq))
         y[nq : nq + nv] = rate * spans * rng.standard_normal(nv)
         a = rate**2 * spans * rng.standard_normal(nv)
-        lam = subject.split(subject.rows(e))[1].T @ (e.by("balance", "a") @ a)
-        e = subject.evaluated(y, a, lam, subject.t + 0.3 * k / rate)
+        lam = subject.split_freedom(subject.rows(e))[1].T @ (e.by("balance", "a") @ a)
+        e = subject.evaluate(y, a, lam, subject.t + 0.3 * k / rate)
         still = e.by("positions", "t")[:, 0] == 0.0
         for group in ("motion", "balance", "accelerations", "velocities", "positions"):
             by = np.hstack([e.by(group, "q") * subject.lengths, e.by(group, "t") / rate])
@@ -108,7 +108,7 @@ def _without_effect(subject: Subject) -> tuple[Array, Array]:
     return np.asarray(ways[nothing]), np.append(subject.lengths, 1.0 / rate)
 
 
-def _ways(free: Array, units: Array, named: Sequence[int]) -> tuple[Array, dict[int, Array]]:
+def _sort_directions(free: Array, units: Array, named: Sequence[int]) -> tuple[Array, dict[int, Array]]:
     """Sort ways along which nothing changes by the one coordinate that none of the others changes.
 
     That is a named one where it can be, else the one nearest to the ground in the tree.

@@ -18,13 +18,13 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.state.algebra import Solver, largest_magnitude, level, solver
+from symgen.analyses.state.algebra import Solver, largest_magnitude, solver_with_rows, unit_stiffness
 from symgen.analyses.state.subject import Subject
 from symgen.base.errors import AnalysisError
 from symgen.run.compiling.linearised import LinearisedState
 
 if TYPE_CHECKING:
-    from symgen.analyses.state.sparse import Sparse
+    from symgen.analyses.state.sparse_statics import Sparse
     from symgen.describe.mechanism import Mechanism
 
 Array = NDArray[np.float64]
@@ -41,7 +41,7 @@ NEAR, REACH = 0.15, 1.0
 OPENED = 0.05
 #: A closing step as long as this has no way; what everything is moved by then, in lengths of the mechanism and radians.
 SINGULAR, ASTRAY = 1e6, 0.01
-#: Factor of s where a step is too long, and the least part of its root that is left behind a short one.
+#: Factor of s where a step is too long, and the least part of its root that is left after a short one.
 FASTER, SLOWER = 4.0, 0.3
 #: Most iterations of Newton's method for states of the file at rest.
 MOST_ITERATIONS = 50
@@ -89,9 +89,9 @@ class DenseStatics:
     def _active(self) -> NDArray[np.bool_]:
         return np.append(~self.subject.redundant, np.ones(len(self.held), dtype=np.bool_))
 
-    def _parts(self, y: Array, lam: Array) -> tuple[Array, Array, Array, Array, Array]:
+    def _evaluate_parts(self, y: Array, lam: Array) -> tuple[Array, Array, Array, Array, Array]:
         subject = self.subject
-        e, by_position = at_balance(subject, y, lam[: subject.m])
+        e, by_position = evaluate_at_balance(subject, y, lam[: subject.m])
         motion, active = e.by("motion", "v"), ~subject.redundant
         rows, gaps = [e.by("velocities", "v")[active]], [e.value("positions")[active]]
         force = e.value("balance")
@@ -104,7 +104,7 @@ class DenseStatics:
             force = force + row * multiplier
             rows.append(row[np.newaxis])
             gaps.append(np.array([now - value]))
-        spans, units = subject.spans, self._units()[self._active]
+        spans, units = subject.spans, self._units_of_unknowns()[self._active]
         stiffness = spans[:, np.newaxis] * (by_position @ motion) * spans
         return (
             spans * force,
@@ -114,35 +114,35 @@ class DenseStatics:
             stiffness,
         )
 
-    def _units(self) -> Array:
+    def _units_of_unknowns(self) -> Array:
         """Return the units of rows and held coordinates: a length of the mechanism or 1 rad."""
         units = [self.subject.unit(name) for name, _ in self.held]
         return np.append(self.subject.gaps, [self.subject.length if unit == "m" else 1.0 for unit in units])
 
     def forces(self, y: Array, lam: Array) -> tuple[Array, Array]:
         """Return the residuals of the force balance D^T lambda - f (with M v' at constant velocities) and of rows."""
-        return self._parts(y, lam)[:2]
+        return self._evaluate_parts(y, lam)[:2]
 
     def derivatives(self, y: Array, lam: Array) -> tuple[Array, Array, Array]:
         """Return N, D of rows that do not depend on others and of what is held, and the stiffness K."""
-        return self._parts(y, lam)[2:]
+        return self._evaluate_parts(y, lam)[2:]
 
-    def whole(self, work: Array | None) -> Array:
+    def all_multipliers(self, work: Array | None) -> Array:
         """Return the multipliers of all rows, held quantities last; 0 if nothing is held."""
         multipliers = np.zeros(len(self._active))
         multipliers[self._active] = 0.0 if work is None else work
-        return np.asarray(multipliers / self._units())
+        return np.asarray(multipliers / self._units_of_unknowns())
 
-    def moved(self, y: Array, change: Array) -> Array:
+    def move_state(self, y: Array, change: Array) -> Array:
         """Return a state whose coordinates are moved by a change."""
-        return self.subject.moved(y, change)
+        return self.subject.move_state(y, change)
 
-    def wound(self, y: Array) -> DenseStatics:
+    def wind_angles(self, y: Array) -> DenseStatics:
         """Return the same with the angles that count turns as they are at a state less than half a turn away."""
-        return replace(self, subject=self.subject.wound(y))
+        return replace(self, subject=self.subject.wind_angles(y))
 
 
-def at_balance(subject: Subject, y: Array, lam: Array | None = None) -> tuple[LinearisedState, Array]:
+def evaluate_at_balance(subject: Subject, y: Array, lam: Array | None = None) -> tuple[LinearisedState, Array]:
     """Evaluate where the states of the file have come to rest, which are set in `y`; their stiffness is included.
 
     Returns
@@ -157,31 +157,31 @@ def at_balance(subject: Subject, y: Array, lam: Array | None = None) -> tuple[Li
     AnalysisError
         If their rates do not determine them.
     """
-    e = subject.evaluated(y, lam=lam)
+    e = subject.evaluate(y, lam=lam)
     if not subject.states:
         return e, e.by("balance", "q")
     own = subject.compiled.info.own_states
     for _ in range(MOST_ITERATIONS):
         slopes, rates, extents = e.by("states", "z"), e.value("states"), subject.extents(y)
-        change = _solved(slopes, rates)
+        change = _solve_or_none(slopes, rates)
         if change is None or not np.abs(change / extents).max() < ASTRAY_STATE:
             # singular here, and perhaps not further along the rates
-            change = _solved(slopes - np.abs(rates / extents).max() * np.eye(len(rates)), rates)
+            change = _solve_or_none(slopes - np.abs(rates / extents).max() * np.eye(len(rates)), rates)
         if change is None:
             break
         size = float(np.abs(change / subject.extents(y)).max())
         y[own] -= change
-        e = subject.evaluated(y, lam=lam)
+        e = subject.evaluate(y, lam=lam)
         if not size > 1e-14:
             break
-    following = _solved(e.by("states", "z"), e.by("states", "q"))
+    following = _solve_or_none(e.by("states", "z"), e.by("states", "q"))
     if following is None:
         names = ", ".join(x.name for x in subject.compiled.info.states)
         raise AnalysisError(f"no equilibrium: the rates of the states {names} do not determine them")
     return e, e.by("balance", "q") - e.by("balance", "z") @ following
 
 
-def _solved(matrix: Array, right: Array) -> Array | None:
+def _solve_or_none(matrix: Array, right: Array) -> Array | None:
     """Return the solution of a system, None where its matrix is singular."""
     try:
         return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
@@ -211,7 +211,7 @@ class Settled:
     steps: int
 
 
-def settle(subject: Subject, y: Array, held: Sequence[tuple[str, float]] = ()) -> Settled:
+def settle_position(subject: Subject, y: Array, held: Sequence[tuple[str, float]] = ()) -> Settled:
     """Return a position where all forces balance.
 
     Parameters
@@ -228,11 +228,11 @@ def settle(subject: Subject, y: Array, held: Sequence[tuple[str, float]] = ()) -
     AnalysisError
         If no equilibrium is found.
     """
-    statics, y, lam, steps = search(DenseStatics(subject, held), y)
+    statics, y, lam, steps = search_equilibrium(DenseStatics(subject, held), y)
     return Settled(statics.subject, y, lam, steps)
 
 
-def search(statics: S, y: Array) -> tuple[S, Array, Array, int]:
+def search_equilibrium(statics: S, y: Array) -> tuple[S, Array, Array, int]:
     """Return a static problem at an equilibrium, the state there, its multipliers, and the steps taken.
 
     Where forces have no potential, such as a controller's, downhill may lead nowhere: Newton's method alone follows.
@@ -246,31 +246,31 @@ def search(statics: S, y: Array) -> tuple[S, Array, Array, int]:
     """
     if any(force.flexures for force in statics.mechanism.forces):
         with suppress(AnalysisError):
-            return _loaded(statics, y)
+            return _search_by_load_steps(statics, y)
     try:
-        return _search(statics, y, NEAR)
+        return _search_from(statics, y, NEAR)
     except AnalysisError as error:
         try:
-            return _search(statics, y, np.inf)
+            return _search_from(statics, y, np.inf)
         except AnalysisError:
             raise error from None
 
 
-def _search(statics: S, y: Array, near: float) -> tuple[S, Array, Array, int]:
+def _search_from(statics: S, y: Array, near: float) -> tuple[S, Array, Array, int]:
     """Return the same; steps of Newton's method up to `near` are taken, else those downhill."""
-    statics, y, steps = _closed(statics, y)
-    nothing = statics.whole(None)
+    statics, y, steps = _close_nearly(statics, y)
+    nothing = statics.all_multipliers(None)
     force, gaps = statics.forces(y, nothing)
     _, rows, stiffness = statics.derivatives(y, nothing)
-    even = level(stiffness)
-    solve = solver(even, rows)
+    even = unit_stiffness(stiffness)
+    solve = solver_with_rows(even, rows)
     if solve is None:
         raise AnalysisError("the rows cannot be distinguished: some depend on others near the start")
     work = solve(-force, np.zeros(len(gaps)))[1]
     before = y, work
     error, best, shift, first, size = np.inf, np.inf, 0.0, 0.0, np.zeros(len(force))
     for step in range(steps, MOST_STEPS):
-        lam = statics.whole(work)
+        lam = statics.all_multipliers(work)
         force, gaps = statics.forces(y, lam)
         motion, rows, stiffness = statics.derivatives(y, lam)
         first = first or largest_magnitude(stiffness) or 1.0
@@ -282,28 +282,30 @@ def _search(statics: S, y: Array, near: float) -> tuple[S, Array, Array, int]:
         if good and (error >= 0.5 * best or error <= EXACT):
             # a step that balances no more may lead anywhere
             y, work = before if error > best else (y, work)
-            return statics, y, statics.whole(work), step
+            return statics, y, statics.all_multipliers(work), step
         if error < best:
             before, best = (y, work), error
-        way = _newton(statics, motion, solver(stiffness, rows), (force, gaps), near)
+        way = _newton_step(statics, motion, solver_with_rows(stiffness, rows), (force, gaps), near)
         if way is None and good:
             return statics, y, lam, step
         if way is None:
-            way, shift = _down(statics, (y, work), (motion, even, rows, stiffness), (force, gaps), shift or first)
-        y, work = statics.moved(y, motion @ way[0]), work + way[1]
-        statics = statics.wound(y)
+            way, shift = _downhill_step(
+                statics, (y, work), (motion, even, rows, stiffness), (force, gaps), shift or first
+            )
+        y, work = statics.move_state(y, motion @ way[0]), work + way[1]
+        statics = statics.wind_angles(y)
     raise AnalysisError(
         f"no equilibrium was found from this start: after {MOST_STEPS} steps {error:.3g} of the forces is not "
         "balanced; another start may lead to one"
     )
 
 
-def _loaded(statics: S, y: Array) -> tuple[S, Array, Array, int]:
+def _search_by_load_steps(statics: S, y: Array) -> tuple[S, Array, Array, int]:
     """Return the same by load steps: what is not balanced at first is taken away part by part, by Newton's method."""
-    statics, y, steps = _closed(statics, y)
-    force, gaps = statics.forces(y, statics.whole(None))
-    _, rows, stiffness = statics.derivatives(y, statics.whole(None))
-    solve = solver(level(stiffness), rows)
+    statics, y, steps = _close_nearly(statics, y)
+    force, gaps = statics.forces(y, statics.all_multipliers(None))
+    _, rows, stiffness = statics.derivatives(y, statics.all_multipliers(None))
+    solve = solver_with_rows(unit_stiffness(stiffness), rows)
     if solve is None:
         raise AnalysisError("the rows cannot be told apart: some depend on others near the start")
     work = solve(-force, np.zeros(len(gaps)))[1]
@@ -313,15 +315,15 @@ def _loaded(statics: S, y: Array) -> tuple[S, Array, Array, int]:
         now, state, before, within = statics, (y, work), np.inf, False
         for _ in range(CORRECTIONS):
             steps += 1
-            force, gaps = now.forces(state[0], now.whole(state[1]))
-            motion, rows, stiffness = now.derivatives(state[0], now.whole(state[1]))
-            solve = solver(stiffness, rows)
+            force, gaps = now.forces(state[0], now.all_multipliers(state[1]))
+            motion, rows, stiffness = now.derivatives(state[0], now.all_multipliers(state[1]))
+            solve = solver_with_rows(stiffness, rows)
             change, more = (np.full(1, np.inf), work) if solve is None else solve((1.0 - share) * first - force, -gaps)
-            long = _length(now, motion, change) if np.all(np.isfinite(change)) else np.inf
+            long = _length_of_step(now, motion, change) if np.all(np.isfinite(change)) else np.inf
             if not long <= REACH:
                 break
-            state = now.moved(state[0], motion @ change), state[1] + more
-            now = now.wound(state[0])
+            state = now.move_state(state[0], motion @ change), state[1] + more
+            now = now.wind_angles(state[0])
             within = long < (FOLLOWED if share < 1.0 else RESTING) or 0.5 * before <= long < ROUNDED
             if within:
                 break
@@ -331,50 +333,50 @@ def _loaded(statics: S, y: Array) -> tuple[S, Array, Array, int]:
             continue
         reached, part, statics, (y, work) = share, 2.0 * part, now, state
         if reached == 1.0:
-            return statics, y, statics.whole(work), steps
+            return statics, y, statics.all_multipliers(work), steps
     raise AnalysisError("no equilibrium was found from this start by load steps")
 
 
-def _closed(statics: S, y: Array) -> tuple[S, Array, int]:
+def _close_nearly(statics: S, y: Array) -> tuple[S, Array, int]:
     """Return a position that is nearly closed, and the steps taken: each the shortest one.
 
     Where rows depend on each other, as those of links in one line, everything is moved a little.
     """
-    lam, rng = statics.whole(None), np.random.default_rng(0)
+    lam, rng = statics.all_multipliers(None), np.random.default_rng(0)
     for step in range(MOST_STEPS):
         force, gaps = statics.forces(y, lam)
         motion, rows, stiffness = statics.derivatives(y, lam)
-        solve = solver(level(stiffness), rows)
+        solve = solver_with_rows(unit_stiffness(stiffness), rows)
         if solve is not None and np.linalg.norm(gaps) <= OPENED:
             return statics, y, step
         change = np.full(len(force), np.inf) if solve is None else solve(np.zeros(len(force)), -gaps)[0]
-        long = _length(statics, motion, change)
+        long = _length_of_step(statics, motion, change)
         if not long < SINGULAR:
             change, long = ASTRAY * rng.standard_normal(len(force)), 1.0
-        y = statics.moved(y, motion @ (min(1.0, REACH / max(long, 1e-300)) * change))
-        statics = statics.wound(y)
+        y = statics.move_state(y, motion @ (min(1.0, REACH / max(long, 1e-300)) * change))
+        statics = statics.wind_angles(y)
     raise AnalysisError("no equilibrium was found from this start: it cannot be closed; another start may do")
 
 
-def _length(statics: DenseStatics | Sparse, motion: Any, change: Array) -> float:
+def _length_of_step(statics: DenseStatics | Sparse, motion: Any, change: Array) -> float:
     if not np.all(np.isfinite(change)):
         return np.inf
     return float((np.abs(motion @ change) / statics.lengths).max(initial=0.0))
 
 
-def _newton(
+def _newton_step(
     statics: DenseStatics | Sparse, motion: object, solve: Solver | None, right: tuple[Array, Array], near: float
 ) -> tuple[Array, Array] | None:
     """Return the step of Newton's method, or as much of it as a step may be long, where it is shorter than `near`."""
     if solve is None:
         return None
     change, more = solve(-right[0], -right[1])
-    long = _length(statics, motion, change)
+    long = _length_of_step(statics, motion, change)
     part = min(1.0, REACH / max(long, 1e-300))
     return (part * change, part * more) if long < near else None
 
 
-def _down(
+def _downhill_step(
     statics: DenseStatics | Sparse,
     at: tuple[Array, Array],
     matrices: tuple[Any, ...],
@@ -384,13 +386,15 @@ def _down(
     """Return a step downhill that is short enough, and the s that the next one is to be tried with."""
     (y, work), (motion, even, rows, stiffness), (force, gaps) = at, matrices, right
     for _ in range(MOST_TRIALS):
-        solve = solver(stiffness + shift * even, rows)
+        solve = solver_with_rows(stiffness + shift * even, rows)
         if solve is not None:
             change, more = solve(-force, -gaps)
-            long = _length(statics, motion, change)
+            long = _length_of_step(statics, motion, change)
             steep = float(change @ ((stiffness + shift * even) @ change)) if long <= REACH else 0.0
             if steep > 0.0:
-                then, opened = statics.forces(statics.moved(y, motion @ change), statics.whole(work + more))
+                then, opened = statics.forces(
+                    statics.move_state(y, motion @ change), statics.all_multipliers(work + more)
+                )
                 ahead = float(change @ then) <= 0.5 * steep
                 if ahead and np.linalg.norm(opened) <= max(OPENED, float(np.linalg.norm(gaps))):
                     return (change, more), shift * min(1.0, max(SLOWER, 0.7 * long / REACH) ** 2)

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.rest.settle import TOLERANCE
-from symgen.analyses.state.algebra import ROUNDED, null_space_split, rank
-from symgen.analyses.state.reduced import StateQuantity, StateTangent, quantities_of, tangent
+from symgen.analyses.state.algebra import ROUNDED, null_space_split, numerical_rank
+from symgen.analyses.state.reduced import StateQuantity, StateTangent, places_of_quantities, tangent_system
 from symgen.analyses.state.subject import RATE, Subject
 from symgen.base.errors import AnalysisError, InputError
 from symgen.base.ir.program import COUNTERS
@@ -57,21 +57,21 @@ def at_rest(subject: Subject, x: StateTangent) -> bool:
     massive = heavy > 0.0  # what has no mass follows
     quick = carried[massive] / heavy[massive]
     # at a singular position, forces along directions that rows leave free balance only to the accuracy of a search
-    rounding = TOLERANCE if subject.lost(rows) > 0 else ROUNDED
+    rounding = TOLERANCE if subject.lost_rank(rows) > 0 else ROUNDED
     limit = STILL * quick + rounding * quick.max(initial=0.0)
     v, a = np.abs(x.speeds / spans)[massive], np.abs(x.a / spans)[massive]
     return bool(np.all(a <= limit) and np.all(v**2 <= STILL * limit))
 
 
-def pace(x: StateTangent) -> float:
+def pace_of_motion(x: StateTangent) -> float:
     """Return by how many lengths of the mechanism, or radians, a motion goes on in a second, or would from rest."""
     v, a = (np.abs(z / x.subject.spans).max(initial=0.0) for z in (x.speeds, x.a))
     return float(max(v, np.sqrt(a)))
 
 
-def extents(x: StateTangent, quantities: Sequence[StateQuantity]) -> Array:
+def extents_of_quantities(x: StateTangent, quantities: Sequence[StateQuantity]) -> Array:
     """Return by how much quantities change where everything moves by a length, or a radian, or as fast as it does."""
-    going = np.append(np.repeat([1.0, pace(x)], [x.positions, x.velocities]), x.subject.extents(x.y))
+    going = np.append(np.repeat([1.0, pace_of_motion(x)], [x.positions, x.velocities]), x.subject.extents(x.y))
     sizes = np.array([np.abs(q.changes[: x.size] * going).max(initial=0.0) for q in quantities])
     return np.where(sizes > 0.0, sizes, 1.0)
 
@@ -79,7 +79,7 @@ def extents(x: StateTangent, quantities: Sequence[StateQuantity]) -> Array:
 def is_steady(x: StateTangent, name: str) -> bool:
     """Whether a quantity does not change in a motion."""
     quantity = x.quantity(name)
-    return bool(abs(quantity.rate) <= STILL * pace(x) * extents(x, [quantity])[0])
+    return bool(abs(quantity.rate) <= STILL * pace_of_motion(x) * extents_of_quantities(x, [quantity])[0])
 
 
 def named_states(
@@ -110,17 +110,17 @@ def named_states(
     if states:
         requested = tuple(dict.fromkeys(states))
         # a determining set needs no more rates, also with Euler parameters, whose rates have no names
-        names = requested if _rank(x, requested) == x.size else _with_rates(subject, states)
-        if _rank(x, names) < len(names):
+        names = requested if _rank_of_states(x, requested) == x.size else _add_rates(subject, states)
+        if _rank_of_states(x, names) < len(names):
             raise InputError("states", "states that do not depend on each other", ", ".join(names))
     elif resting or instantaneous:
-        names = _determining(subject, x)
+        names = _determining_states(subject, x)
     else:
-        soon = _later(subject, x)
+        soon = _follow_briefly(subject, x)
         names = _steady_quantities(subject, x, soon)
-        speeds = x.changes_of(names)[:, x.positions : x.positions + x.velocities]
-        if rank(speeds) < x.velocities:  # some of them changes
-            _check_steady(subject, x, _determining(subject, x), where)
+        speeds = x.changes_of_quantities(names)[:, x.positions : x.positions + x.velocities]
+        if numerical_rank(speeds) < x.velocities:  # some of them changes
+            _check_steady(subject, x, _determining_states(subject, x), where)
             expected = "a steady motion, or states that are named"
             raise InputError(where, expected, "one in which not all velocities stay as they are")
     if not instantaneous:
@@ -128,13 +128,13 @@ def named_states(
     return names
 
 
-def _rank(x: StateTangent, names: Sequence[str]) -> int:
+def _rank_of_states(x: StateTangent, names: Sequence[str]) -> int:
     """Return the number of independent states among some."""
-    rows = x.changes_of(names)[:, : x.size] * x.sizes / x.sizes_of(names)[:, np.newaxis]
-    return rank(rows, 1e-9 * np.abs(rows).max(initial=1e-300))
+    rows = x.changes_of_quantities(names)[:, : x.size] * x.sizes / x.sizes_of_quantities(names)[:, np.newaxis]
+    return numerical_rank(rows, 1e-9 * np.abs(rows).max(initial=1e-300))
 
 
-def _rate_of(subject: Subject, name: str) -> str | None:
+def _name_of_rate(subject: Subject, name: str) -> str | None:
     """Return the name of the rate of a coordinate, None where it has no name or the quantity is a velocity."""
     info = subject.compiled.info
     names = [q.name for q in info.coordinates]
@@ -149,15 +149,15 @@ def _of_second_order(subject: Subject, name: str) -> bool:
     return name not in states and subject.form.functions.get(name, (0, 0))[1] == 3
 
 
-def _with_rates(subject: Subject, names: Sequence[str]) -> tuple[str, ...]:
-    """Return states with the rates of coordinates among them that are not named themselves behind them.
+def _add_rates(subject: Subject, names: Sequence[str]) -> tuple[str, ...]:
+    """Return states, then the rates of those coordinates among them whose rates are not named.
 
     Raises
     ------
     InputError
         If a name is not valid.
     """
-    quantities = quantities_of(subject)
+    quantities = places_of_quantities(subject)
     own = {q.name for q in subject.compiled.info.coordinates}
     # those of bodies have names of their own where a tree carries these; Euler parameters have none
     speeds = {
@@ -168,7 +168,7 @@ def _with_rates(subject: Subject, names: Sequence[str]) -> tuple[str, ...]:
     states = list(dict.fromkeys(names))
     for name in tuple(states):
         if name in own or _of_second_order(subject, name):
-            rate, other = _rate_of(subject, name), name + RATE
+            rate, other = _name_of_rate(subject, name), name + RATE
             if rate is None:
                 expected = "a state whose rate has a name: a coordinate of a body or joint, or an output"
                 raise InputError(f"state '{name}'", expected, "one of several that turn a body together")
@@ -177,7 +177,7 @@ def _with_rates(subject: Subject, names: Sequence[str]) -> tuple[str, ...]:
     return tuple(states)
 
 
-def _determining(subject: Subject, x: StateTangent) -> tuple[str, ...]:
+def _determining_states(subject: Subject, x: StateTangent) -> tuple[str, ...]:
     """Return names of states that determine all others, coordinates before velocities."""
     info, functions = subject.compiled.info, subject.form.functions
     weights: dict[str, float] = {}
@@ -187,28 +187,28 @@ def _determining(subject: Subject, x: StateTangent) -> tuple[str, ...]:
     states = tuple(x.name for x in subject.mechanism.states)
     outputs = {*(o.name for o in subject.mechanism.outputs), *states}
     weights |= {n: 0.9 / subject.length if unit == "m" else 0.9 for n, unit in joints.items() if n not in outputs}
-    positions = _independent(x, weights, x.positions, slice(0, x.positions))
-    rates = [_rate_of(subject, name) for name in positions]
+    positions = _independent_states(x, weights, x.positions, slice(0, x.positions))
+    rates = [_name_of_rate(subject, name) for name in positions]
     if x.positions == x.velocities and None not in rates:
         return (*positions, *(r for r in rates if r is not None), *states)
     speeds = {v.name: 1.0 / subject.length if v.unit == "m/s" else 1.0 for v in info.velocities}
     speeds |= {name + RATE: weight for name, weight in weights.items() if name in joints}
     columns = slice(x.positions, x.positions + x.velocities)
-    return (*positions, *_independent(x, speeds, x.velocities, columns), *states)
+    return (*positions, *_independent_states(x, speeds, x.velocities, columns), *states)
 
 
-def _independent(x: StateTangent, weights: dict[str, float], count: int, columns: slice) -> list[str]:
+def _independent_states(x: StateTangent, weights: dict[str, float], count: int, columns: slice) -> list[str]:
     from scipy import linalg
 
     if not count:
         return []
     names = list(weights)
-    rows = x.changes_of(names)[:, columns] * np.array(list(weights.values()))[:, np.newaxis]
+    rows = x.changes_of_quantities(names)[:, columns] * np.array(list(weights.values()))[:, np.newaxis]
     order = linalg.qr(rows.T, mode="r", pivoting=True)[1]
     return [names[i] for i in sorted(order[:count])]
 
 
-def system(x: StateTangent, names: Sequence[str]) -> tuple[Array, Array, Array, float]:
+def system_of_states(x: StateTangent, names: Sequence[str]) -> tuple[Array, Array, Array, float]:
     """Return A and B of named states, what of their rates depends on something else, and that something's size.
 
     Returns
@@ -220,8 +220,8 @@ def system(x: StateTangent, names: Sequence[str]) -> tuple[Array, Array, Array, 
     size : float
         Scale of `rest`.
     """
-    n, sizes = x.size, x.sizes_of(names)[:, np.newaxis]
-    states, rates = x.changes_of(names) / sizes, x.changes_of(names, rates=True) / sizes
+    n, sizes = x.size, x.sizes_of_quantities(names)[:, np.newaxis]
+    states, rates = x.changes_of_quantities(names) / sizes, x.changes_of_quantities(names, rates=True) / sizes
     alike = x.sizes  # of s and u, as `sizes` of states: digits are lost by neither
     a = np.linalg.lstsq((states[:, :n] * alike).T, (rates[:, :n] * alike).T, rcond=1e-11)[0].T
     rest = (rates[:, :n] - a @ states[:, :n]) * alike
@@ -236,16 +236,16 @@ def _steady_quantities(subject: Subject, x: StateTangent, soon: StateTangent) ->
     What is at an end of its swing does not change at the state either, so that `soon` counts as well.
     """
     turning = {q.name for i, q in enumerate(subject.compiled.info.coordinates) if i in subject.spun}
-    names = [n for n in quantities_of(subject) if n not in turning and is_steady(x, n) and is_steady(soon, n)]
+    names = [n for n in places_of_quantities(subject) if n not in turning and is_steady(x, n) and is_steady(soon, n)]
     while names:
-        _, _, rest, size = system(x, names)
+        _, _, rest, size = system_of_states(x, names)
         follows = np.abs(rest).max(axis=1, initial=0.0) <= CLOSED * size
         if follows.all():
             break
         names = [name for name, one in zip(names, follows, strict=True) if one]
     independent, basis = list[str](), np.zeros((0, x.size))
     for name in names:
-        row = x.quantity(name).changes[: x.size] * x.sizes / x.sizes_of([name])
+        row = x.quantity(name).changes[: x.size] * x.sizes / x.sizes_of_quantities([name])
         left = row - basis.T @ (basis @ row)
         size = float(np.linalg.norm(row))
         if size > 1e-12 and float(np.linalg.norm(left)) > 1e-7 * size:
@@ -265,30 +265,34 @@ def _check_steady(
         If it is not steady, with the state that changes, or with what is missing among the states.
     """
     resting, quantities = at_rest(subject, x), [x.quantity(name) for name in names]
-    large = extents(x, quantities)
+    large = extents_of_quantities(x, quantities)
     rates = np.abs([q.rate for q in quantities]) / large
-    if not resting and rates.max(initial=0.0) > STILL * pace(x):
+    if not resting and rates.max(initial=0.0) > STILL * pace_of_motion(x):
         worst = quantities[int(rates.argmax())]
         expected = "a state of rest, or of a motion in which no state changes"
         hint = "ask for an equilibrium, or name the states that stay as they are"
         raise InputError(where, expected, f"one where '{worst.name}' changes at a rate of {worst.rate:.4g}", hint)
-    a, _, rest, size = system(x, names)
+    a, _, rest, size = system_of_states(x, names)
     rests = np.abs(rest).max(axis=1, initial=0.0)
     if rests.max(initial=0.0) > CLOSED * size:
         row = rest[int(rests.argmax())]
 
-        def share(name: str) -> float:
+        def share_of_quantity(name: str) -> float:
             own = x.quantity(name).changes[: x.size] * x.sizes
             return float(abs(own @ row) / (np.linalg.norm(own) or 1.0))
 
-        also = max((name for name in quantities_of(subject) if name not in names), key=share, default="")
+        also = max(
+            (name for name in places_of_quantities(subject) if name not in names), key=share_of_quantity, default=""
+        )
         got = f"'{names[int(rests.argmax())]}', whose rate depends on others"
         raise InputError(where, "states whose rates follow from them", got, f"'{also}' is one of them")
     then, alike = x, large / large[:, np.newaxis]
     for k in range(0 if resting else 2):
-        then = soon if k == 0 and soon is not None else _later(subject, then)
-        t, b = then.t, system(then, names)[0]
-        if not np.abs((b - a) * alike).max(initial=0.0) <= LATER * (pace(x) + np.abs(a * alike).max(initial=0.0)):
+        then = soon if k == 0 and soon is not None else _follow_briefly(subject, then)
+        t, b = then.t, system_of_states(then, names)[0]
+        if not np.abs((b - a) * alike).max(initial=0.0) <= LATER * (
+            pace_of_motion(x) + np.abs(a * alike).max(initial=0.0)
+        ):
             expected = "a steady motion, along which no state changes"
             raise InputError(where, expected, f"one whose linear system differs at t = {t:.4g} s")
         for before, extent in zip(quantities, large, strict=True):
@@ -296,8 +300,8 @@ def _check_steady(
                 raise InputError(where, "a steady motion", f"one in which '{before.name}' changes until t = {t:.4g} s")
 
 
-def _later(subject: Subject, x: StateTangent) -> StateTangent:
-    """Follow the motion for a little by steps, project it behind them, and return how everything changes there."""
+def _follow_briefly(subject: Subject, x: StateTangent) -> StateTangent:
+    """Follow the motion for a few steps, project the state after each, and return how everything changes there."""
     from scipy.integrate import solve_ivp
 
     nq, size, y, w = subject.nq, subject.nq + subject.nv, x.y.copy(), subject.w.copy()
@@ -306,26 +310,26 @@ def _later(subject: Subject, x: StateTangent) -> StateTangent:
     active = ~subject.redundant
     rates, iw, whole = rate_function(subject.compiled), np.zeros(len(COUNTERS), dtype=np.int64), np.zeros_like(y)
 
-    def slope(t: float, z: Array) -> Array:
+    def slope_of_states(t: float, z: Array) -> Array:
         y[followed] = z
         rates(float(t), y, subject.p, w, iw, whole)
         return np.asarray(whole[followed])
 
     fastest = np.abs(np.linalg.eigvals(x.matrix)).max(initial=0.0)
-    speed = max(pace(x), APART * fastest / FARTHEST)
+    speed = max(pace_of_motion(x), APART * fastest / FARTHEST)
     end = x.t + APART / speed
     large: Any = np.concatenate(
         [subject.lengths, speed * subject.spans, subject.extents(x.y)]
     )  # SciPy's types lack arrays of tolerances
-    run = solve_ivp(slope, (x.t, end), x.y[followed], "Radau", rtol=1e-8, atol=1e-10 * large)
+    run = solve_ivp(slope_of_states, (x.t, end), x.y[followed], "Radau", rtol=1e-8, atol=1e-10 * large)
     if not run.success:
         raise AnalysisError(f"the motion cannot be followed beyond t = {run.t[-1]:.4g} s: {run.message}")
     y[followed] = run.y[:, -1]
-    y = subject.moved(y, np.zeros(nq))
+    y = subject.move_state(y, np.zeros(nq))
     for _ in range(4):
-        e = subject.evaluated(y, t=end)
+        e = subject.evaluate(y, t=end)
         inverse = null_space_split(subject.rows(e) * active[:, None])[1]
-        y = subject.moved(y, -e.by("motion", "v") @ (inverse @ (e.value("positions") * active)))
-    e = subject.evaluated(y, t=end)
+        y = subject.move_state(y, -e.by("motion", "v") @ (inverse @ (e.value("positions") * active)))
+    e = subject.evaluate(y, t=end)
     y[nq:size] -= null_space_split(subject.rows(e) * active[:, None])[1] @ (e.value("velocities") * active)
-    return tangent(subject, y, end)
+    return tangent_system(subject, y, end)

@@ -80,7 +80,7 @@ def coordinate_differences(info: ModelInfo, a: Array, b: Array) -> Array:
     return gaps
 
 
-def symmetric(a: Array) -> Array:
+def symmetric_part(a: Array) -> Array:
     """Return the symmetric part of a matrix."""
     return 0.5 * (a + a.T)
 
@@ -113,8 +113,8 @@ def squares_along(mass: Any, stiffness: Any, directions: Array) -> tuple[Array, 
         If masses are not definite.
     """
     along = directions.T @ (stiffness @ directions)
-    squares, vectors = _graded(mass, stiffness, directions)
-    sizes = summed(stiffness, directions @ vectors)
+    squares, vectors = _squares_and_shapes(mass, stiffness, directions)
+    sizes = sum_of_parts(stiffness, directions @ vectors)
     restored = np.abs(squares)
     least = len(squares) * ZERO * np.abs(along).max(initial=0.0) * np.sum(vectors**2, axis=0)
     rounding = np.maximum(ROUNDED * sizes, least)
@@ -123,7 +123,7 @@ def squares_along(mass: Any, stiffness: Any, directions: Array) -> tuple[Array, 
     return np.where((restored <= ROUNDED * sizes) | (sizes <= least), 0.0, squares), vectors, even
 
 
-def _graded(mass: Any, stiffness: Any, directions: Array) -> tuple[Array, Array]:
+def _squares_and_shapes(mass: Any, stiffness: Any, directions: Array) -> tuple[Array, Array]:
     """Return squares of frequencies along directions in increasing order, and their shapes in terms of these.
 
     Each eigenvalue has an error that is a part of the largest one. Those far below it are computed again along their
@@ -131,25 +131,25 @@ def _graded(mass: Any, stiffness: Any, directions: Array) -> tuple[Array, Array]
     """
     from scipy import linalg
 
-    squares, vectors = linalg.eigh(*(symmetric(directions.T @ (a @ directions)) for a in (stiffness, mass)))
+    squares, vectors = linalg.eigh(*(symmetric_part(directions.T @ (a @ directions)) for a in (stiffness, mass)))
     low = np.abs(squares) < LOW * np.abs(squares).max(initial=0.0)
     if low.any():
-        squares[low], within = _graded(mass, stiffness, directions @ vectors[:, low])
+        squares[low], within = _squares_and_shapes(mass, stiffness, directions @ vectors[:, low])
         vectors[:, low] = vectors[:, low] @ within
     return squares, vectors
 
 
-def summed(matrix: Any, shapes: Array) -> Array:
+def sum_of_parts(matrix: Any, shapes: Array) -> Array:
     """Return the sum of the sizes of all parts of x^T A x for each column x."""
     return np.asarray(np.sum(np.abs(shapes) * (abs(matrix) @ np.abs(shapes)), axis=0))
 
 
-def eigenvalues_of(a: Array, sizes: Array | None = None) -> tuple[Complex, Complex]:
+def eigenvalues_with_zeros(a: Array, sizes: Array | None = None) -> tuple[Complex, Complex]:
     """Return eigenvalues and eigenvectors, with exact zeros where the rank says so.
 
     A cyclic coordinate or a body that is free to go gives two zeros and one vector, which rounding parts into a pair of
-    the square root of its own size. How many zeros there are is a decision of rank: the dimension of what the matrix
-    maps to zero, then that of what it maps there, and so on. In double numbers that is a frequency below 1e-14 n of the
+    the square root of its own size. The ranks of the matrix and of its powers decide
+    how many zeros there are. In double numbers that is a frequency below 1e-14 n of the
     largest one where each shape's size is its own, or else its square below that part of the largest square: beside
     vibrations of 1e6 rad/s, a swing of less than 0.1 or 0.2 rad/s counts as none.
 
@@ -177,19 +177,19 @@ def eigenvalues_of(a: Array, sizes: Array | None = None) -> tuple[Complex, Compl
     return values, np.asarray(vectors * sizes[:, np.newaxis], dtype=np.complex128)
 
 
-def ranking(values: Array | Complex) -> NDArray[np.int64]:
+def rank_order(values: Array | Complex) -> NDArray[np.int64]:
     """Return the order by decreasing real, then decreasing imaginary part; values apart by rounding count as equal."""
     numbers = np.asarray(values, dtype=np.complex128)
     grain = 1e-12 * np.abs(numbers).max(initial=0.0) or 1.0
     return np.asarray(np.lexsort((-numbers.imag, -np.round(numbers.real / grain))), dtype=np.int64)
 
 
-def in_order(values: Array | Complex) -> Complex:
-    """Return eigenvalues by `ranking`."""
-    return (np.asarray(values, dtype=np.complex128) + 0.0)[ranking(values)]
+def sort_eigenvalues(values: Array | Complex) -> Complex:
+    """Return eigenvalues by `rank_order`."""
+    return (np.asarray(values, dtype=np.complex128) + 0.0)[rank_order(values)]
 
 
-def rank(matrix: Array, least: float | None = None) -> int:
+def numerical_rank(matrix: Array, least: float | None = None) -> int:
     """Return the number of singular values above a limit, NumPy's by default; 0 of an empty matrix in every NumPy."""
     return int(np.linalg.matrix_rank(matrix, tol=least)) if matrix.size else 0
 
@@ -199,7 +199,7 @@ def largest_magnitude(matrix: Any) -> float:
     return float(abs(matrix).max()) if matrix.shape[0] else 0.0
 
 
-def level(stiffness: Any) -> Any:
+def unit_stiffness(stiffness: Any) -> Any:
     """Return the identity, dense or sparse as a stiffness: turns, and displacements over the mechanism's length.
 
     Not masses: light turns would be cheap, and short links fold like a fan rather than bend.
@@ -210,7 +210,7 @@ def level(stiffness: Any) -> Any:
     return eye(n, format="csc") if issparse(stiffness) else np.eye(n)
 
 
-def solver(stiffness: Any, rows: Any) -> Solver | None:
+def solver_with_rows(stiffness: Any, rows: Any) -> Solver | None:
     """Return the solver for the dense or sparse matrix of directions and rows.
 
     None where it is singular or not finite. Of dense ones it is the pseudo-inverse; a step is infinite where none
@@ -234,7 +234,7 @@ def solver(stiffness: Any, rows: Any) -> Solver | None:
             return None
         inverse = np.linalg.pinv(matrix, rcond=RANK).dot
 
-    def solve(force: Array, gaps: Array) -> tuple[Array, Array]:
+    def solve_refined(force: Array, gaps: Array) -> tuple[Array, Array]:
         right = np.concatenate([force / scale, gaps])
         solution = inverse(right)
         solution += inverse(right - matrix @ solution)
@@ -242,7 +242,7 @@ def solver(stiffness: Any, rows: Any) -> Solver | None:
             solution[:] = np.inf
         return solution[:n], solution[n:] * scale
 
-    return solve
+    return solve_refined
 
 
 def json_form(value: object) -> Any:

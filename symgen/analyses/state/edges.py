@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.facts.kinks import changing
+from symgen.describe.facts.kinks import switching_formulas
 from symgen.run.compiling.side import compile_side
 
 if TYPE_CHECKING:
-    from symgen.analyses.state.sparse import Sparse
+    from symgen.analyses.state.sparse_statics import Sparse
     from symgen.analyses.state.subject import Subject
     from symgen.describe.mechanism import Force, Joint, Output
 
@@ -29,7 +29,9 @@ STEPS = (1e-5, 1e-7)
 BENT, JUMPING, GRAIN = 1 / 200, 1 / 20, 1e-12
 
 
-def edges(subject: Subject | Sparse, y: Array, a: Array | None = None, outputs: Sequence[str] = ()) -> tuple[str, ...]:
+def sentence_on_edges(
+    subject: Subject | Sparse, y: Array, a: Array | None = None, outputs: Sequence[str] = ()
+) -> tuple[str, ...]:
     """Name formulas that have no derivative at a state in one sentence, in none where all have one.
 
     Parameters
@@ -47,7 +49,7 @@ def edges(subject: Subject | Sparse, y: Array, a: Array | None = None, outputs: 
     parts: list[tuple[str, Joint | Force | Output]] = [("joint", x) for x in mechanism.joints]
     parts += [("force", x) for x in mechanism.forces]
     parts += [("output", x) for x in mechanism.outputs if x.name in outputs]
-    formulas = [(f"{kind} '{part.name}'", e) for kind, part in parts for e in changing(part)]
+    formulas = [(f"{kind} '{part.name}'", e) for kind, part in parts for e in switching_formulas(part)]
     if not formulas:
         return ()
     side = compile_side(mechanism, subject.compiled, "edges", "Formulas that compare something", formulas)
@@ -56,14 +58,14 @@ def edges(subject: Subject | Sparse, y: Array, a: Array | None = None, outputs: 
     # no two change by the same part of their spans, so that their differences change as well
     along = np.split(np.linspace(1.0, 0.5, 3 * nv + len(inputs)), [nv, 2 * nv, 3 * nv])
 
-    def values(step: float) -> Array:
-        there, p, rates = subject.moved(y, motion @ (step * along[0])), subject.p.copy(), np.zeros_like(y)
+    def values_beside(step: float) -> Array:
+        there, p, rates = subject.move_state(y, motion @ (step * along[0])), subject.p.copy(), np.zeros_like(y)
         there[nq : nq + nv] += step * subject.spans * along[1]
         rates[nq : nq + nv] = step * subject.spans * along[2] + (0.0 if a is None else a)
         p[[names.index(name) for name in inputs]] += step * along[3]
         return side(subject.t, there, p, subject.w.copy(), rates)
 
-    here, far, near = values(0.0), *((values(step), values(-step)) for step in STEPS)
+    here, far, near = values_beside(0.0), *((values_beside(step), values_beside(-step)) for step in STEPS)
     rounding = GRAIN * (np.abs(here) + np.abs(far[0] - here) / STEPS[0])
     left, across = ([np.abs(x + sign * z - (1.0 + sign) * here) for x, z in (far, near)] for sign in (1.0, -1.0))
     counts = (left[1] > np.maximum(BENT * left[0], rounding)) | (across[1] > np.maximum(JUMPING * across[0], rounding))

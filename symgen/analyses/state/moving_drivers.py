@@ -37,14 +37,14 @@ def moving_drivers(mechanism: Mechanism, compiled: CompiledModel, p: Array, t: f
     t : float
         Time [s].
     """
-    formulas = {name: e for name, e in _values(mechanism) if "t" in names_in(e)}
+    formulas = {name: e for name, e in _driver_formulas(mechanism) if "t" in names_in(e)}
     names = (q.name for q in compiled.info.parameters)
     in_time = InTime(mechanism, dict(zip(names, map(float, p), strict=False)))
-    moving = (name for name, e in formulas.items() if _moves(in_time, e, t, mechanism.defaults.until))
+    moving = (name for name, e in formulas.items() if _has_rate(in_time, e, t, mechanism.defaults.until))
     return {name: to_text(formulas[name]) for name in moving}
 
 
-def _values(mechanism: Mechanism) -> Iterator[tuple[str, Expr]]:
+def _driver_formulas(mechanism: Mechanism) -> Iterator[tuple[str, Expr]]:
     """Yield drivers with their formulas: rows, and coordinates of a tree that they prescribe."""
     for joint in mechanism.joints:
         if joint.kind == "driver":
@@ -53,7 +53,7 @@ def _values(mechanism: Mechanism) -> Iterator[tuple[str, Expr]]:
         yield from ((x.driver, x.value) for x in mechanism.topology.prescribed)
 
 
-def _moves(in_time: InTime, e: Expr, t: float, until: float) -> bool:
+def _has_rate(in_time: InTime, e: Expr, t: float, until: float) -> bool:
     """Return whether the rate of a formula is not 0; False where it is undefined."""
     h = _NEAR * until
     rate = (in_time.at(e, t + h) - in_time.at(e, t - h)) / (2.0 * h)

@@ -1,6 +1,6 @@
 """One-sided rows in analyses: those that are in force at the start are rows, others are left out.
 
-What comes out holds where rows in force push and gaps of others are not negative: `fault` is the check.
+What comes out holds where rows in force push and gaps of others are not negative: `fault_of_mode` is the check.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from symgen.base.errors import AnalysisError, InputError
 from symgen.base.vocabulary.measures import FormulaMeasure, Holonomic
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.bounds.modes import unit_of_effort
-from symgen.describe.joints.rows import tied
+from symgen.describe.bounds.bounded_modes import unit_of_effort
+from symgen.describe.joints.rows import tied_bodies
 from symgen.describe.mechanism import Joint
 from symgen.run.compiling.side import compile_side
 from symgen.run.layout import abi
@@ -36,7 +36,7 @@ Array = NDArray[np.float64]
 NO_FORCE = 1e-9
 
 
-def in_force(
+def rows_in_force_at(
     mechanism: Mechanism, compiled: CompiledModel, start: Start, bounded: Sequence[BoundedRow]
 ) -> tuple[BoundedRow, ...]:
     """Return the one-sided rows whose gap is 0 at a state, and stays so.
@@ -58,13 +58,13 @@ def in_force(
     if not bounded:
         return ()
     w = start.w
-    side = compile_side(mechanism, compiled, "gaps", "Gaps and their rates", _gaps(bounded), rates=1)
+    side = compile_side(mechanism, compiled, "gaps", "Gaps and their rates", _gaps_by_name(bounded), rates=1)
     closed = list[BoundedRow]()
     gaps, rates = side(start.t, start.y, start.p, w.copy(), np.zeros_like(start.y)).reshape(2, -1)
     for row, gap, rate in zip(bounded, gaps, rates, strict=True):
-        size = _scale(row, w, abi.LENGTH)
+        size = _scale_of_gap(row, w, abi.LENGTH)
         # a state at rest has speeds of rounding alone, which are no scale
-        nothing, still = TOUCHING * size, STILL * max(_scale(row, w, abi.SPEED), LEAST_SPEED * size)
+        nothing, still = TOUCHING * size, STILL * max(_scale_of_gap(row, w, abi.SPEED), LEAST_SPEED * size)
         if not gap >= -nothing:
             raise InputError(row.where, "a gap of at least 0", f"{gap:.6g}", f"a start within all {row.family.noun}")
         if gap <= nothing and rate < -still:
@@ -74,26 +74,26 @@ def in_force(
     return tuple(closed)
 
 
-def _gaps(bounded: Sequence[BoundedRow]) -> list[tuple[str, Expr]]:
+def _gaps_by_name(bounded: Sequence[BoundedRow]) -> list[tuple[str, Expr]]:
     """Return gaps by name; of a gap that a formula describes the formula, as its text selects the kept code."""
     return [(row.name, row.measure.of if isinstance(row.measure, FormulaMeasure) else row.place[1]) for row in bounded]
 
 
-def _scale(row: BoundedRow, w: Array, place: int) -> float:
+def _scale_of_gap(row: BoundedRow, w: Array, place: int) -> float:
     """Return the mechanism's scale of lengths or speeds in the unit of a gap."""
     return float(w[place] / (w[abi.LENGTH] or 1.0) if row.unit == "rad" else w[place]) or 1.0
 
 
-def with_rows(mechanism: Mechanism, bounded: Sequence[BoundedRow]) -> Mechanism:
+def rows_as_joints(mechanism: Mechanism, bounded: Sequence[BoundedRow]) -> Mechanism:
     """Return a mechanism in which one-sided rows are joints with the row that is in force at times."""
     # formulas, which a tree does not take for coordinates that are prescribed: the force is that of a row
     rows = [(each.name, Holonomic(each.held.label, FormulaMeasure(each.place[1]), unit=each.unit)) for each in bounded]
     return replaced(
-        mechanism, joints=(*mechanism.joints, *(Joint(name, "rows", tied(row), (row,)) for name, row in rows))
+        mechanism, joints=(*mechanism.joints, *(Joint(name, "rows", tied_bodies(row), (row,)) for name, row in rows))
     )
 
 
-def mode_of(shut: Sequence[BoundedRow], opened: Sequence[BoundedRow]) -> tuple[str, ...]:
+def mode_in_words(shut: Sequence[BoundedRow], opened: Sequence[BoundedRow]) -> tuple[str, ...]:
     """Say which one-sided rows are in force in one sentence for each family of them."""
     sentences = list[str]()
     for family in dict.fromkeys(row.family for row in (*shut, *opened)):
@@ -104,7 +104,7 @@ def mode_of(shut: Sequence[BoundedRow], opened: Sequence[BoundedRow]) -> tuple[s
     return tuple(sentences)
 
 
-def fault(subject: Subject, y: Array, lam: Array) -> str:
+def fault_of_mode(subject: Subject, y: Array, lam: Array) -> str:
     """Return the sentence on the first one-sided row that cannot be in its mode at a state; empty where all can.
 
     Parameters
@@ -124,10 +124,10 @@ def fault(subject: Subject, y: Array, lam: Array) -> str:
                 f"(force {-lam[at]:.6g} {unit_of_effort(row)}): start with it {words.off}"
             )
     if subject.opened:
-        side = compile_side(subject.mechanism, subject.compiled, "gaps", "Gaps", _gaps(subject.opened))
+        side = compile_side(subject.mechanism, subject.compiled, "gaps", "Gaps", _gaps_by_name(subject.opened))
         gaps = side(subject.t, y, subject.p, subject.w.copy(), np.zeros_like(y))
         for row, gap in zip(subject.opened, gaps, strict=True):
-            if not gap >= -TOUCHING * _scale(row, subject.w, abi.LENGTH):
+            if not gap >= -TOUCHING * _scale_of_gap(row, subject.w, abi.LENGTH):
                 words, gap_there = row.family, f"its gap is {gap:.6g} {row.unit}"
                 return (
                     f"the {words.one} {row.name}, {words.off} at the start, is passed there ({gap_there}): "
@@ -144,5 +144,5 @@ def refuse_fault(subject: Subject, y: Array, lam: Array) -> None:
     AnalysisError
         With the first such row.
     """
-    if sentence := fault(subject, y, lam):
+    if sentence := fault_of_mode(subject, y, lam):
         raise AnalysisError(sentence)

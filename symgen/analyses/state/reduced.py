@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.state.subject import RATE, Subject
-from symgen.base.errors import AnalysisError, InputError, nearest
+from symgen.base.errors import AnalysisError, InputError, suggest
 from symgen.run.compiling.linearised import LinearisedState
 
 Array = NDArray[np.float64]
@@ -73,7 +73,7 @@ class StateTangent:
         return self.positions + self.velocities + self.subject.states
 
     @property
-    def z(self) -> Array:
+    def own_state_changes(self) -> Array:
         """Changes of the states of the file's own."""
         return np.eye(self.subject.states, self.q.shape[1], self.positions + self.velocities)
 
@@ -105,7 +105,7 @@ class StateTangent:
         """Scales of s, u and z, shape (size,)."""
         return np.append(np.repeat([1.0, self.rate], [self.positions, self.velocities]), self.subject.extents(self.y))
 
-    def sizes_of(self, names: Sequence[str]) -> Array:
+    def sizes_of_quantities(self, names: Sequence[str]) -> Array:
         """Return the large sizes of quantities: the mechanism's length or 1 rad, times `rate` for rates."""
         subject = self.subject
         units = {q.name: q.unit for q in (*subject.compiled.info.coordinates, *subject.compiled.info.velocities)}
@@ -124,12 +124,12 @@ class StateTangent:
 
     def function(self, place: int) -> tuple[float, Array]:
         """Return the value of a quantity of the state, and its changes."""
-        by = {"q": self.q, "v": self.v, "a": self.rates, "z": self.z, "lam": self.multipliers}
+        by = {"q": self.q, "v": self.v, "a": self.rates, "z": self.own_state_changes, "lam": self.multipliers}
         changes = np.sum([self.base.by("functions", space)[place] @ x for space, x in by.items()], axis=0)
         changes[self.size :] += self.base.by("functions", "p")[place][self.subject.places]
         return float(self.base.value("functions")[place]), changes
 
-    def changes_of(self, names: Sequence[str], rates: bool = False) -> Array:
+    def changes_of_quantities(self, names: Sequence[str], rates: bool = False) -> Array:
         """Return the changes of quantities of the state, or of their rates; shape (names, size + inputs)."""
         quantities = [self.quantity(name) for name in names]
         changes = [q.rate_changes if rates else q.changes for q in quantities]
@@ -143,10 +143,10 @@ class StateTangent:
         InputError
             If the name does not exist; names the nearest one.
         """
-        quantities = quantities_of(self.subject)
+        quantities = places_of_quantities(self.subject)
         if name not in quantities:
             expected = f"a coordinate, velocity or output of the state of {self.subject.mechanism.name}"
-            raise InputError(f"state '{name}'", expected, "none of that name", nearest(name, quantities))
+            raise InputError(f"state '{name}'", expected, "none of that name", suggest(name, quantities))
         space, at = quantities[name]
         e, y, nq = self.base, self.y, self.subject.nq
         if space == "q":
@@ -168,10 +168,10 @@ class StateQuantity:
     rate_changes: Array
 
 
-def quantities_of(subject: Subject) -> Mapping[str, tuple[str, int]]:
+def places_of_quantities(subject: Subject) -> Mapping[str, tuple[str, int]]:
     """Return the positions, by name, of the quantities of the state whose rates are computed.
 
-    Coordinates and velocities of the state, coordinates of joints and outputs with ``.rate`` behind the name of their
+    Coordinates and velocities of the state, coordinates of joints and outputs with ``.rate`` after the name of their
     rates.
     """
     info = subject.compiled.info
@@ -191,18 +191,18 @@ def descriptor_accelerations(e: LinearisedState, basis: Array, inverse: Array) -
     a = -inverse @ gap
     heavy = basis.T @ mass @ basis
     if len(heavy):
-        a = a - basis @ _solved(heavy, basis.T @ (force + mass @ a))
+        a = a - basis @ _solve_heavy(heavy, basis.T @ (force + mass @ a))
     return a, -inverse.T @ (force + mass @ a)
 
 
-def _solved(heavy: Array, right: Array) -> Array:
+def _solve_heavy(heavy: Array, right: Array) -> Array:
     try:
         return np.asarray(np.linalg.solve(heavy, right), dtype=np.float64)
     except np.linalg.LinAlgError:
         raise AnalysisError("nothing determines the accelerations: a body without mass is free to move") from None
 
 
-def tangent(subject: Subject, y: Array, t: float | None = None) -> StateTangent:
+def tangent_system(subject: Subject, y: Array, t: float | None = None) -> StateTangent:
     """Return the linear system near a state that satisfies the constraints.
 
     Parameters
@@ -222,17 +222,17 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> StateTangent:
         If nothing determines the accelerations.
     """
     now = subject.t if t is None else t
-    still = subject.evaluated(y, t=now)
+    still = subject.evaluate(y, t=now)
     d = subject.rows(still)
-    basis, inverse = subject.split(d, subject.loads)
+    basis, inverse = subject.split_freedom(d, subject.loads)
     a, lam = descriptor_accelerations(still, basis, inverse)
-    e = subject.evaluated(y, a, lam, now)
+    e = subject.evaluate(y, a, lam, now)
     places = subject.places
     for group in ("velocities", "positions"):
         if np.any(e.by(group, "p")[:, places[: len(subject.inputs)]]):
             raise InputError("inputs", "inputs of forces and outputs", "one that moves a joint")
     motion, mass = e.by("motion", "v"), e.by("balance", "a")
-    free = subject.split(d[subject.holonomic])[0]
+    free = subject.split_freedom(d[subject.holonomic])[0]
     positions, velocities = free.shape[1], basis.shape[1]
     first = positions + velocities + subject.states
     width = first + len(places)
@@ -242,30 +242,30 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> StateTangent:
         np.eye(subject.states, width, first - subject.states),
     )
 
-    def changes(group: str) -> Array:
+    def changes_of_group(group: str) -> Array:
         total = e.by(group, "q") @ q + e.by(group, "v") @ v + e.by(group, "z") @ z
         total[:, first:] += e.by(group, "p")[:, places]
         return total
 
     q[:, :positions] = motion @ free
-    q[:, first:] = motion @ _shifted(subject, e, d)
-    v -= inverse @ changes("velocities")
+    q[:, first:] = motion @ _closing_shift(subject, e, d)
+    v -= inverse @ changes_of_group("velocities")
     v[:, positions : positions + velocities] += basis
-    force, rates = changes("balance"), -inverse @ changes("accelerations")
+    force, rates = changes_of_group("balance"), -inverse @ changes_of_group("accelerations")
     if velocities:
-        rates = rates - basis @ _solved(basis.T @ mass @ basis, basis.T @ (force + mass @ rates))
+        rates = rates - basis @ _solve_heavy(basis.T @ mass @ basis, basis.T @ (force + mass @ rates))
     multipliers = -inverse.T @ (force + mass @ rates)
-    q_rates = changes("motion")
+    q_rates = changes_of_group("motion")
     back = np.linalg.pinv((motion @ free) / subject.lengths[:, np.newaxis]) / subject.lengths
     along = (basis / subject.spans[:, np.newaxis] ** 2).T  # of orthonormal columns in spans
-    state_rates = np.vstack([back @ q_rates, along @ rates, changes("states")])
+    state_rates = np.vstack([back @ q_rates, along @ rates, changes_of_group("states")])
     return StateTangent(
         *(subject, now, y, a, lam, e, positions, velocities, q, q_rates, v, rates, multipliers),
         *(state_rates, free, basis),
     )
 
 
-def _shifted(subject: Subject, e: LinearisedState, d: Array) -> Array:
+def _closing_shift(subject: Subject, e: LinearisedState, d: Array) -> Array:
     """Return the smallest change of position, in terms of velocities, that keeps joints closed while parameters change.
 
     Raises
@@ -274,7 +274,7 @@ def _shifted(subject: Subject, e: LinearisedState, d: Array) -> Array:
         If a parameter opens joints that depend on each other.
     """
     rows = subject.holonomic
-    opened, inverse = e.by("positions", "p")[:, subject.places][rows], subject.split(d[rows])[1]
+    opened, inverse = e.by("positions", "p")[:, subject.places][rows], subject.split_freedom(d[rows])[1]
     change = -inverse @ opened
     left = opened + d[rows] @ change
     for name, gap, whole in zip(subject.varied, left.T, opened.T, strict=True):

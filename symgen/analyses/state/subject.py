@@ -11,11 +11,11 @@ from msgspec.structs import replace as replaced
 from numpy.typing import NDArray
 
 from symgen.analyses.state.algebra import null_space_split
-from symgen.analyses.state.one_sided import in_force, mode_of, with_rows
-from symgen.base.errors import InputError, nearest
+from symgen.analyses.state.one_sided import mode_in_words, rows_as_joints, rows_in_force_at
+from symgen.base.errors import InputError, suggest
 from symgen.base.settings import Settings
 from symgen.derive.lower.windings import winding_order
-from symgen.describe.bounds.modes import one_sided, without_bounds
+from symgen.describe.bounds.bounded_modes import one_sided_rows, without_bounds
 from symgen.describe.facts.digest import digest
 from symgen.run.compiling.linearised import DescriptorForm, LinearisedState, compile_linearised
 from symgen.run.compiling.side import compile_side
@@ -39,7 +39,7 @@ LARGE = 300
 #: A row below this part of what rows are is the rounding of none, as of a loop that is closed anyway, or of links that
 #: lie in one line.
 NO_ROW = 1e-11
-#: Jumps of inputs are looked for up to so far behind a time, and are at it as near as this, both parts of it.
+#: Jumps of inputs are looked for up to so far after a time, and are at it as near as this, both parts of it.
 BEYOND, HERE = 1e-9, 1e-13
 #: Suffix of the names of rates.
 RATE = ".rate"
@@ -59,17 +59,17 @@ class Yardsticks:
     @property
     def lengths(self) -> Array:
         """Scales of changes of coordinates: the mechanism's length [m], or 1; shape (nq,)."""
-        return self._of(tuple(q.unit for q in self.compiled.info.coordinates), "m")
+        return self._scales_of_units(tuple(q.unit for q in self.compiled.info.coordinates), "m")
 
     @property
     def spans(self) -> Array:
         """A way along each velocity that counts as large: the mechanism's length [m], or 1 rad; shape (nv,)."""
-        return self._of(tuple(v.unit for v in self.compiled.info.velocities), "m/s")
+        return self._scales_of_units(tuple(v.unit for v in self.compiled.info.velocities), "m/s")
 
     @property
     def gaps(self) -> Array:
         """Scales of violations of rows: the mechanism's length [m], or 1 rad; shape (m,)."""
-        return self._of(tuple(row.unit for row in self.compiled.info.rows), "m")
+        return self._scales_of_units(tuple(row.unit for row in self.compiled.info.rows), "m")
 
     @property
     def loads(self) -> Array:
@@ -77,9 +77,9 @@ class Yardsticks:
 
         As in runs, whose multipliers are the smallest ones by the same measure; shape (m,).
         """
-        return self._of(tuple(row.unit for row in self.compiled.info.rows), "rad")
+        return self._scales_of_units(tuple(row.unit for row in self.compiled.info.rows), "rad")
 
-    def moved(self, y: Array, change: Array) -> Array:
+    def move_state(self, y: Array, change: Array) -> Array:
         """Return a state whose coordinates are moved by a change, Euler parameters kept at length 1."""
         state = y.copy()
         state[: self.compiled.info.nq] += change
@@ -87,7 +87,7 @@ class Yardsticks:
             state[first : first + 4] /= np.linalg.norm(state[first : first + 4])
         return state
 
-    def _of(self, units: tuple[str, ...], long: str) -> Array:
+    def _scales_of_units(self, units: tuple[str, ...], long: str) -> Array:
         return np.array([self.length if unit == long else 1.0 for unit in units])
 
 
@@ -106,7 +106,7 @@ class Subject(Yardsticks):
     t : float
         Time [s].
     y : Array
-        The state at the start: q, v, and what stands behind.
+        The state at the start: q, v, and what follows them.
     p, w : Array
         Parameters and scratch.
     closed : bool
@@ -135,7 +135,7 @@ class Subject(Yardsticks):
     @property
     def mode(self) -> tuple[str, ...]:
         """A sentence on the one-sided rows in force; none where there are no such rows."""
-        return mode_of(self.shut, self.opened)
+        return mode_in_words(self.shut, self.opened)
 
     @property
     def varied(self) -> tuple[str, ...]:
@@ -199,7 +199,7 @@ class Subject(Yardsticks):
         info = self.compiled.info
         return (*(q.name for q in info.coordinates), *(v.name for v in info.velocities))
 
-    def evaluated(
+    def evaluate(
         self, y: Array, a: Array | None = None, lam: Array | None = None, t: float | None = None
     ) -> LinearisedState:
         """Evaluate the descriptor form; v' and the multipliers are 0 by default."""
@@ -210,7 +210,7 @@ class Subject(Yardsticks):
 
     def motion(self, y: Array) -> Array:
         """Return N at a state, over lengths of the mechanism and radians; shape (nq, nv)."""
-        return self.evaluated(y).by("motion", "v") * self.spans
+        return self.evaluate(y).by("motion", "v") * self.spans
 
     def rows(self, e: LinearisedState) -> Array:
         """Return D, with zeros for rows that are nothing but rounding; shape (m, nv)."""
@@ -218,13 +218,13 @@ class Subject(Yardsticks):
         d[np.linalg.norm(d * self.spans, axis=1) < NO_ROW * self.gaps] = 0.0
         return d
 
-    def lost(self, d: Array) -> int:
+    def lost_rank(self, d: Array) -> int:
         """Return by how much the rank of D is below its rank at positions nearby: above 0 at a singular position."""
-        return int(self.m - np.count_nonzero(self.redundant) - (self.nv - self.split(d)[0].shape[1]))
+        return int(self.m - np.count_nonzero(self.redundant) - (self.nv - self.split_freedom(d)[0].shape[1]))
 
-    def singular(self, d: Array) -> tuple[str, ...]:
+    def sentence_if_singular(self, d: Array) -> tuple[str, ...]:
         """Return a sentence about a singular position, none elsewhere; none where the start did not close."""
-        lost, near = self.lost(d), self.m - int(np.count_nonzero(self.redundant))
+        lost, near = self.lost_rank(d), self.m - int(np.count_nonzero(self.redundant))
         if lost <= 0 or not self.closed:
             return ()
         return (
@@ -232,7 +232,7 @@ class Subject(Yardsticks):
             "degrees of freedom counted here are not those of the motion",
         )
 
-    def split(self, d: Array, loads: Array | None = None) -> tuple[Array, Array]:
+    def split_freedom(self, d: Array, loads: Array | None = None) -> tuple[Array, Array]:
         """Return a basis of what rows leave free and their pseudo-inverse, lengths of the mechanism and radians alike.
 
         In metres a small mechanism turns without moving, and its moments of inertia are none beside its masses.
@@ -241,7 +241,7 @@ class Subject(Yardsticks):
         basis, inverse, _ = null_space_split(d * spans.T, loads)
         return spans * basis, spans * inverse
 
-    def wound(self, y: Array) -> Subject:
+    def wind_angles(self, y: Array) -> Subject:
         """Return the same with the angles that count turns as they are at a state less than half a turn away."""
         count, model = self.compiled.info.windings, self.compiled.model
         if not count:
@@ -252,13 +252,13 @@ class Subject(Yardsticks):
         w[abi.WINDING : abi.WINDING + count] = there[abi.WINDING : abi.WINDING + count]
         return replace(self, w=w)
 
-    def as_long_as(self, length: float) -> Subject:
+    def with_least_length(self, length: float) -> Subject:
         """Return the same as a mechanism of at least such a length [m]."""
         w = self.w.copy()
         w[abi.LENGTH] = max(self.length, length)
         return replace(self, w=w)
 
-    def turned(self, values: Mapping[str, float]) -> Subject:
+    def turn_to_joint_angles(self, values: Mapping[str, float]) -> Subject:
         """Return the same with the angles that count turns as coordinates of joints are that are known by name."""
         w = self.w.copy()
         names = {m: f"{joint.name}.{label}" for joint in self.mechanism.joints for label, m in joint.coordinates}
@@ -276,7 +276,7 @@ class Subject(Yardsticks):
         return values
 
     def position(self, name: str) -> tuple[str, int]:
-        """Return where a coordinate stands: ``q`` and its index, or ``functions`` and the place of its value.
+        """Return the place of a coordinate: ``q`` and its index, or ``functions`` and the place of its value.
 
         Raises
         ------
@@ -290,23 +290,23 @@ class Subject(Yardsticks):
         if name in functions:
             return "functions", functions[name]
         expected = f"a coordinate of {self.mechanism.name}"
-        raise InputError(f"'{name}'", expected, "none of that name", nearest(name, {*names, *functions}))
+        raise InputError(f"'{name}'", expected, "none of that name", suggest(name, {*names, *functions}))
 
     def unit(self, name: str) -> str:
         """Return the unit of a coordinate."""
         space, at = self.position(name)
         return self.compiled.info.coordinates[at].unit if space == "q" else self.form.units[name]
 
-    def named(self, y: Array) -> dict[str, float]:
+    def coordinates_by_name(self, y: Array) -> dict[str, float]:
         """Return the coordinates by name: of the state, of bodies where a tree carries them, and of joints."""
-        values = self.evaluated(y).value("functions")
+        values = self.evaluate(y).value("functions")
         shown = {f"{b.name}.{c}" for b in self.mechanism.bodies for c in b.coordinates}
         shown |= {f"{joint.name}.{label}" for joint in self.mechanism.joints for label, _ in joint.coordinates}
         own = {q.name: float(x) for q, x in zip(self.compiled.info.coordinates, y, strict=False)}
         return own | {name: float(values[at]) for name, (at, _) in self.form.functions.items() if name in shown}
 
 
-def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ()) -> Subject:
+def make_subject(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ()) -> Subject:
     """Make a mechanism with its start ready to be analysed; of rows with bounds, one-sided ones are as at the start.
 
     Parameters
@@ -323,27 +323,27 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
     InputError
         If a setting is wrong, or a name of `by` is no parameter.
     """
-    settings = _unbounded(mechanism, settings)
-    mechanism, pushing = without_bounds(mechanism), one_sided(mechanism)
-    placed, inputs = inputs_at_start(mechanism, settings), mechanism.inputs
+    settings = _without_bounded_state(mechanism, settings)
+    mechanism, pushing = without_bounds(mechanism), one_sided_rows(mechanism)
+    placed, inputs = put_inputs_at_start(mechanism, settings), mechanism.inputs
     settings = placed.settings
     if settings.shape == "auto":
         looped = mechanism.body_coordinates > LARGE and settings.coordinates == "absolute"
         settings = replace(settings, shape="looped" if looped else "straight")
     run = prepare(placed.mechanism, settings, Purpose.DESCRIBED)
-    shut = in_force(run.mechanism, run.compiled, run.start, pushing)
+    shut = rows_in_force_at(run.mechanism, run.compiled, run.start, pushing)
     if shut:
-        placed = replace(placed, mechanism=with_rows(placed.mechanism, shut))
+        placed = replace(placed, mechanism=rows_as_joints(placed.mechanism, shut))
         run = prepare(placed.mechanism, settings, Purpose.DESCRIBED)
     mechanism, compiled, start, closed = run.mechanism, run.compiled, run.start, run.assembled.closed
     names = [q.name for q in mechanism.parameters]
     for name in by:
         if name not in names:
             expected = f"a parameter of {mechanism.name}"
-            raise InputError(f"by '{name}'", expected, "none of that name", nearest(name, names))
+            raise InputError(f"by '{name}'", expected, "none of that name", suggest(name, names))
     by = tuple(name for name in dict.fromkeys(by) if name not in mechanism.inputs)
     varied = mechanism
-    if placed.driven is not None and mechanism.input_formulas:  # what stands in an input's slot is added to its formula
+    if placed.driven is not None and mechanism.input_formulas:  # the content of an input's slot is added to its formula
         whole = placed.driven.varied
         varied = replaced(mechanism, forces=whole.forces, states=whole.states, outputs=whole.outputs)
     if any(q.formula is not None and q.name in settings.parameters for q in varied.parameters):
@@ -360,7 +360,7 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
     return replace(subject, shut=shut, opened=tuple(row for row in pushing if row not in shut))
 
 
-def _unbounded(mechanism: Mechanism, settings: Settings) -> Settings:
+def _without_bounded_state(mechanism: Mechanism, settings: Settings) -> Settings:
     """Have the state of a run of a mechanism with bounded rows start one without them."""
     if not mechanism.bounded or isinstance(settings.start, Mapping):
         return settings
@@ -370,10 +370,10 @@ def _unbounded(mechanism: Mechanism, settings: Settings) -> Settings:
     return replace(settings, start=replace(last, digest="", windings=(), rank=0, made=None, arrays=None))
 
 
-def inputs_at_start(mechanism: Mechanism, settings: Settings) -> Inputs:
+def put_inputs_at_start(mechanism: Mechanism, settings: Settings) -> Inputs:
     """Put inputs into their places up to the start, which may be the end of a run."""
     if isinstance(settings.start, Mapping) or (begin := settings.start.last_state.t) <= 0.0:
         return put_inputs(mechanism, settings)
-    # a run from here on begins behind what jumps here; smooth data may end here
+    # a run from here on begins after what jumps here; smooth data may end here
     inputs = put_inputs(mechanism, replace(settings, until=begin), behind=BEYOND)
     return replace(inputs, settings=replace(inputs.settings, until=2.0 * begin))  # nothing is run

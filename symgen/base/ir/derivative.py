@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from symgen.base.ir.graph import Graph
 from symgen.base.ir.program import derived_table
-from symgen.base.vocabulary.functions import ELEMENTARY, steepest
+from symgen.base.vocabulary.elementary_functions import ELEMENTARY, nonzero_divisor
 
 Key = tuple[str, int]
 
@@ -36,26 +36,26 @@ def jacobian(graph: Graph, outputs: Sequence[int], inputs: Iterable[Key]) -> lis
     """
     variables = set(inputs)
     derivative: dict[int, Mapping[Key, int]] = {}
-    for node in graph.needed(outputs):
+    for node in graph.required_nodes(outputs):
         op, args, payload = graph.nodes[node]
         if op == "const":
             derivative[node] = {}
         elif op == "input":
             derivative[node] = {payload: graph.one} if payload in variables else {}
         else:
-            derivative[node] = _chain(graph, node, op, args, str(payload), [derivative[a] for a in args])
+            derivative[node] = _apply_chain_rule(graph, node, op, args, str(payload), [derivative[a] for a in args])
     return [dict(derivative[o]) for o in outputs]
 
 
-def _chain(
+def _apply_chain_rule(
     g: Graph, node: int, op: str, args: tuple[int, ...], payload: str, parts: list[Mapping[Key, int]]
 ) -> Mapping[Key, int]:
     if not any(parts):
         return {}
     if op in ("where", "min", "max"):
-        return _chosen(g, op, args, parts)
+        return _differentiate_choice(g, op, args, parts)
     result: dict[Key, int] = {}
-    for factor, part in zip(_partials(g, node, op, args, payload), parts, strict=True):
+    for factor, part in zip(_partial_derivatives(g, node, op, args, payload), parts, strict=True):
         if factor == g.zero:
             continue
         for key, inner in part.items():
@@ -64,7 +64,9 @@ def _chain(
     return {key: n for key, n in result.items() if n != g.zero}
 
 
-def _chosen(g: Graph, op: str, args: tuple[int, ...], parts: list[Mapping[Key, int]]) -> Mapping[Key, int]:
+def _differentiate_choice(
+    g: Graph, op: str, args: tuple[int, ...], parts: list[Mapping[Key, int]]
+) -> Mapping[Key, int]:
     """Return the derivatives of the chosen value of a choice, as the others may not exist there."""
     if op == "where":
         condition, first, second = args[0], parts[1], parts[2]
@@ -75,7 +77,7 @@ def _chosen(g: Graph, op: str, args: tuple[int, ...], parts: list[Mapping[Key, i
     return {key: g.call("where", condition, first.get(key, g.zero), second.get(key, g.zero)) for key in keys}
 
 
-def _partials(g: Graph, node: int, op: str, args: tuple[int, ...], payload: str) -> tuple[int, ...]:
+def _partial_derivatives(g: Graph, node: int, op: str, args: tuple[int, ...], payload: str) -> tuple[int, ...]:
     """Return the derivative of one operation with respect to each of its arguments."""
     one, zero = g.one, g.zero
     a = args[0]
@@ -91,9 +93,9 @@ def _partials(g: Graph, node: int, op: str, args: tuple[int, ...], payload: str)
     if op == "div":
         return g.div(one, b), g.neg(g.div(node, b))
     if op == "pow":
-        return _power(g, node, a, b)
+        return _power_derivatives(g, node, a, b)
     if op == "atan2":
-        square = steepest(g, g.add(g.mul(a, a), g.mul(b, b)), 1e-200)
+        square = nonzero_divisor(g, g.add(g.mul(a, a), g.mul(b, b)), 1e-200)
         return g.div(b, square), g.neg(g.div(a, square))
     if op == "table":
         derived = derived_table(payload)
@@ -105,12 +107,12 @@ def _partials(g: Graph, node: int, op: str, args: tuple[int, ...], payload: str)
     return (zero,) * len(args)  # comparisons, logic, sign and step are piecewise constant
 
 
-def _power(g: Graph, node: int, a: int, b: int) -> tuple[int, int]:
+def _power_derivatives(g: Graph, node: int, a: int, b: int) -> tuple[int, int]:
     """Return the derivatives of a power; at 0 raised to less than 1 they rise without bound."""
     one, exponent = g.one, g.value(b)
     if exponent is not None:
         if 0.0 < exponent < 1.0:
-            return g.div(b, steepest(g, g.power(a, g.constant(1.0 - exponent)))), g.zero
+            return g.div(b, nonzero_divisor(g, g.power(a, g.constant(1.0 - exponent)))), g.zero
         return g.mul(b, g.power(a, g.sub(b, one))), g.zero
-    base = steepest(g, a)
+    base = nonzero_divisor(g, a)
     return g.mul(b, g.power(base, g.sub(b, one))), g.mul(node, g.call("log", base))

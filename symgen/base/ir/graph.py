@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
-from symgen.base.vocabulary.functions import ELEMENTARY
+from symgen.base.vocabulary.elementary_functions import ELEMENTARY
 
 #: Bits of the dependencies of a node.
 TIME, POSITION, VELOCITY, PARAMETER, SCRATCH = 1, 2, 4, 8, 16
@@ -70,11 +70,11 @@ class Graph:
         number = float(value) + 0.0
         if not math.isfinite(number):
             raise OverflowError("a constant that is not finite")
-        return self._node(Operation("const", (), number), 0)
+        return self._store_node(Operation("const", (), number), 0)
 
     def input(self, space: str, index: int) -> int:
         """Return the node of element `index` of ``t``, ``q``, ``v``, ``p``, ``parameter`` or of a scratch section."""
-        return self._node(Operation("input", (), (space, index)), _BITS.get(space, SCRATCH))
+        return self._store_node(Operation("input", (), (space, index)), _BITS.get(space, SCRATCH))
 
     def key(self, node: int) -> tuple[str, int]:
         """Return space and index of `node`, an input."""
@@ -85,7 +85,7 @@ class Graph:
         operation = self.nodes[node]
         return operation.payload if operation.op == "const" and isinstance(operation.payload, float) else None
 
-    def _node(self, operation: Operation, depends: int) -> int:
+    def _store_node(self, operation: Operation, depends: int) -> int:
         index = self._index.get(operation)
         if index is None:
             index = self._index[operation] = len(self.nodes)
@@ -93,11 +93,11 @@ class Graph:
             self.depends.append(depends)
         return index
 
-    def _apply(self, op: str, *args: int, payload: str | None = None) -> int:
+    def _store_operation(self, op: str, *args: int, payload: str | None = None) -> int:
         depends = 0
         for a in args:
             depends |= self.depends[a]
-        return self._node(Operation(op, args, payload), depends)
+        return self._store_node(Operation(op, args, payload), depends)
 
     # -- arithmetic --------------------------------------------------------------------------------------------------
 
@@ -110,7 +110,7 @@ class Graph:
             return operation.args[0]
         if operation.op == "sub":
             return self.sub(operation.args[1], operation.args[0])
-        return self._apply("neg", a)
+        return self._store_operation("neg", a)
 
     def add(self, a: int, b: int) -> int:
         """Return a + b."""
@@ -125,7 +125,7 @@ class Graph:
             return self.sub(a, self.nodes[b].args[0])
         if self.nodes[a].op == "neg":
             return self.sub(b, self.nodes[a].args[0])
-        return self._apply("add", *((a, b) if a <= b else (b, a)))
+        return self._store_operation("add", *((a, b) if a <= b else (b, a)))
 
     def sub(self, a: int, b: int) -> int:
         """Return a - b."""
@@ -142,7 +142,7 @@ class Graph:
             return self.add(a, self.nodes[b].args[0])
         if self.nodes[a].op == "neg" and va is None:
             return self.neg(self.add(self.nodes[a].args[0], b))
-        return self._apply("sub", a, b)
+        return self._store_operation("sub", a, b)
 
     def mul(self, a: int, b: int) -> int:
         """Return a * b."""
@@ -170,7 +170,7 @@ class Graph:
             return self.neg(self.mul(self.nodes[a].args[0], b))
         if self.nodes[b].op == "neg":
             return self.neg(self.mul(a, self.nodes[b].args[0]))
-        return self._apply("mul", a, b)
+        return self._store_operation("mul", a, b)
 
     def div(self, a: int, b: int) -> int:
         """Return a / b; division by a literal becomes multiplication by its reciprocal."""
@@ -187,7 +187,7 @@ class Graph:
             return self.neg(self.div(a, self.nodes[b].args[0]))
         if a == b:
             return self.one
-        return self._apply("div", a, b)
+        return self._store_operation("div", a, b)
 
     def power(self, a: int, b: int) -> int:
         """Return a ** b; small whole and half exponents become products and square roots."""
@@ -206,7 +206,7 @@ class Graph:
         va = self.value(a)
         if va is not None and vb is not None and va > 0.0:
             return self.constant(va**vb)
-        return self._apply("pow", a, b)
+        return self._store_operation("pow", a, b)
 
     def _whole_power(self, a: int, n: int) -> int:
         result, base = self.one, a
@@ -231,14 +231,14 @@ class Graph:
             return args[1] if condition else args[2]
         if function == "held":  # never hoisted: derivatives of numbers that depend on parameters would go with it
             own = self.value(args[0]) is not None
-            return args[0] if own else self._node(Operation(function, args), self.depends[args[0]] | SCRATCH)
+            return args[0] if own else self._store_node(Operation(function, args), self.depends[args[0]] | SCRATCH)
         if function in FUNCTIONS or function in CARRIED:
-            return self._apply(function, *args)
-        return self._apply("table", *args, payload=function.removeprefix("table:"))
+            return self._store_operation(function, *args)
+        return self._store_operation("table", *args, payload=function.removeprefix("table:"))
 
     # -- many at once ------------------------------------------------------------------------------------------------
 
-    def total(self, terms: Iterable[int]) -> int:
+    def sum_of(self, terms: Iterable[int]) -> int:
         """Return the sum of `terms`, added from the left."""
         result = self.zero
         for term in terms:
@@ -247,17 +247,17 @@ class Graph:
 
     def dot(self, a: Sequence[int], b: Sequence[int]) -> int:
         """Return the sum of products of two equally long sequences."""
-        return self.total(self.mul(x, y) for x, y in zip(a, b, strict=True))
+        return self.sum_of(self.mul(x, y) for x, y in zip(a, b, strict=True))
 
-    def inline(self, other: Graph, outputs: Sequence[int], inputs: Mapping[tuple[str, int], int]) -> list[int]:
+    def copy_from(self, other: Graph, outputs: Sequence[int], inputs: Mapping[tuple[str, int], int]) -> list[int]:
         """Copy `outputs` of `other` with their operands into this graph, inputs replaced; return their new nodes."""
-        return self.rebuilt(other, outputs, lambda node: inputs[other.key(node)])
+        return self.rebuild_from(other, outputs, lambda node: inputs[other.key(node)])
 
-    def replaced(self, outputs: Sequence[int], inputs: Mapping[tuple[str, int], int]) -> list[int]:
+    def replace_inputs(self, outputs: Sequence[int], inputs: Mapping[tuple[str, int], int]) -> list[int]:
         """Return `outputs` with some inputs replaced by nodes of this graph."""
-        return self.rebuilt(self, outputs, lambda node: inputs.get(self.key(node), node))
+        return self.rebuild_from(self, outputs, lambda node: inputs.get(self.key(node), node))
 
-    def rebuilt(
+    def rebuild_from(
         self,
         source: Graph,
         outputs: Sequence[int],
@@ -279,25 +279,25 @@ class Graph:
             Whether a node is not built from its operands, so that these are not needed for it; by default only inputs.
         """
         images: dict[int, int] = {}
-        for node in source.needed(outputs, stops):
+        for node in source.required_nodes(outputs, stops):
             op, args, payload = source.nodes[node]
             if op == "input" or (stops is not None and stops(node)):
                 images[node] = image(node)
             elif op == "const":
                 images[node] = self.constant(payload)  # type: ignore[arg-type]  # a constant's payload is a float
             else:
-                images[node] = self.rebuild(op, tuple(images[a] for a in args), payload)
+                images[node] = self.apply(op, tuple(images[a] for a in args), payload)
         return [images[o] for o in outputs]
 
-    def rebuild(self, op: str, args: tuple[int, ...], payload: object = None) -> int:
+    def apply(self, op: str, args: tuple[int, ...], payload: object = None) -> int:
         """Return the operation `op` on `args`, simplified as by its own method."""
         builder = ARITHMETIC.get(op)
         if builder is not None:
             return int(getattr(self, builder)(*args))
         return self.call(f"table:{payload}" if op == "table" else op, *args)
 
-    def needed(self, outputs: Iterable[int], stops: Callable[[int], bool] | None = None) -> list[int]:
-        """Return all nodes that `outputs` depend on, in evaluation order, none behind those that `stops` selects."""
+    def required_nodes(self, outputs: Iterable[int], stops: Callable[[int], bool] | None = None) -> list[int]:
+        """Return all nodes that `outputs` depend on, in evaluation order; it stops at those that `stops` selects."""
         nodes: set[int] = set()
         stack = list(outputs)
         while stack:
@@ -308,20 +308,20 @@ class Graph:
                     stack.extend(self.nodes[node].args)
         return sorted(nodes)
 
-    def keys(self, outputs: Iterable[int]) -> list[tuple[str, int]]:
+    def inputs_of(self, outputs: Iterable[int]) -> list[tuple[str, int]]:
         """Return space and index of all inputs that `outputs` depend on, in evaluation order."""
-        payloads = (self.nodes[n].payload for n in self.needed(outputs))
+        payloads = (self.nodes[n].payload for n in self.required_nodes(outputs))
         return [payload for payload in payloads if isinstance(payload, tuple)]
 
-    def operations(self, outputs: Iterable[int]) -> int:
+    def count_operations(self, outputs: Iterable[int]) -> int:
         """Return the number of arithmetic operations for `outputs`, shared ones counted once."""
-        return sum(1 for n in self.needed(outputs) if self.nodes[n].op not in ("const", "input"))
+        return sum(1 for n in self.required_nodes(outputs) if self.nodes[n].op not in ("const", "input"))
 
-    def tree_operations(self, outputs: Iterable[int]) -> int:
+    def count_tree_operations(self, outputs: Iterable[int]) -> int:
         """Return the number of operations of `outputs` without sharing."""
         outputs = list(outputs)
         cost: dict[int, int] = {}
-        for node in self.needed(outputs):
+        for node in self.required_nodes(outputs):
             op, args, _ = self.nodes[node]
             cost[node] = 0 if op in ("const", "input") else 1 + sum(cost[a] for a in args)
         return sum(cost[o] for o in outputs)

@@ -76,15 +76,15 @@ def cubic_slopes(x: Sequence[float], y: Sequence[float]) -> list[float]:
     x, y : sequence of float
         Four points or more.
     """
-    h, d = _parts(x, y)
+    h, d = _chord_lengths_and_slopes(x, y)
     n = len(x)
-    low, diagonal, high, right = _inner_rows(h, d)
+    low, diagonal, high, right = _spline_equations(h, d)
     first, last = x[2] - x[0], x[-1] - x[-3]
     diagonal[0], high[0] = h[1], first
     right[0] = ((h[0] + 2.0 * first) * h[1] * d[0] + h[0] ** 2 * d[1]) / first
     diagonal[n - 1], low[n - 1] = h[-2], last
     right[n - 1] = (h[-1] ** 2 * d[-2] + (2.0 * last + h[-1]) * h[-2] * d[-1]) / last
-    return _three_diagonals(low, diagonal, high, right)
+    return _solve_tridiagonal(low, diagonal, high, right)
 
 
 def periodic_slopes(x: Sequence[float], y: Sequence[float]) -> list[float]:
@@ -95,16 +95,16 @@ def periodic_slopes(x: Sequence[float], y: Sequence[float]) -> list[float]:
     x, y : sequence of float
         Four points or more, the last value being the first.
     """
-    h, d = _parts(x, y)
+    h, d = _chord_lengths_and_slopes(x, y)
     h, d = [h[-1], *h], [d[-1], *d]  # the piece before each point
-    low, diagonal, high, right = (row[1:-1] for row in _inner_rows(h, d))
+    low, diagonal, high, right = (row[1:-1] for row in _spline_equations(h, d))
     # the corners of the matrix are a product of vectors (Sherman and Morrison)
     corner, other, shift = low[0], high[-1], -diagonal[0]
     diagonal[0] -= shift
     diagonal[-1] -= corner * other / shift
     vector = [0.0] * len(right)
     vector[0], vector[-1] = shift, other
-    plain, along = (_three_diagonals(low, diagonal, high, b) for b in (right, vector))
+    plain, along = (_solve_tridiagonal(low, diagonal, high, b) for b in (right, vector))
     factor = (plain[0] + corner / shift * plain[-1]) / (1.0 + along[0] + corner / shift * along[-1])
     slopes = [a - factor * b for a, b in zip(plain, along, strict=True)]
     return [*slopes, slopes[0]]
@@ -120,20 +120,20 @@ def pchip_slopes(x: Sequence[float], y: Sequence[float], periodic: bool = False)
     periodic : bool
         Whether the function continues from its end to its beginning.
     """
-    h, d = _parts(x, y)
+    h, d = _chord_lengths_and_slopes(x, y)
     if len(x) == 2 and not periodic:
         return [d[0], d[0]]
-    inner = [_between(h[i - 1], h[i], d[i - 1], d[i]) for i in range(1, len(h))]
+    inner = [_slope_between_chords(h[i - 1], h[i], d[i - 1], d[i]) for i in range(1, len(h))]
     if periodic:
-        ends = (_between(h[-1], h[0], d[-1], d[0]),) * 2
+        ends = (_slope_between_chords(h[-1], h[0], d[-1], d[0]),) * 2
     else:
-        ends = _at_end(h[0], h[1], d[0], d[1]), _at_end(h[-1], h[-2], d[-1], d[-2])
+        ends = _slope_at_end(h[0], h[1], d[0], d[1]), _slope_at_end(h[-1], h[-2], d[-1], d[-2])
     return [ends[0], *inner, ends[1]]
 
 
 def cubic_pieces(x: Sequence[float], y: Sequence[float], slopes: Sequence[float]) -> tuple[Piece, ...]:
     """Return the pieces with given slopes at the points; beyond the ends they are straight."""
-    h, d = _parts(x, y)
+    h, d = _chord_lengths_and_slopes(x, y)
     pieces = [(y[0], slopes[0], 0.0, 0.0)]
     for i in range(len(h)):
         third = (slopes[i] + slopes[i + 1] - 2.0 * d[i]) / h[i] ** 2
@@ -141,13 +141,15 @@ def cubic_pieces(x: Sequence[float], y: Sequence[float], slopes: Sequence[float]
     return (*pieces, (y[-1], slopes[-1], 0.0, 0.0))
 
 
-def _parts(x: Sequence[float], y: Sequence[float]) -> tuple[list[float], list[float]]:
+def _chord_lengths_and_slopes(x: Sequence[float], y: Sequence[float]) -> tuple[list[float], list[float]]:
     """Return lengths and slopes of the straight lines between points."""
     h = [b - a for a, b in pairwise(x)]
     return h, [(b - a) / length for (a, b), length in zip(pairwise(y), h, strict=True)]
 
 
-def _inner_rows(h: Sequence[float], d: Sequence[float]) -> tuple[list[float], list[float], list[float], list[float]]:
+def _spline_equations(
+    h: Sequence[float], d: Sequence[float]
+) -> tuple[list[float], list[float], list[float], list[float]]:
     """Return the equations of continuous second derivatives at the inner points: three diagonals and the right side."""
     inner = range(1, len(h))
     low = [0.0, *(h[i] for i in inner), 0.0]
@@ -157,7 +159,7 @@ def _inner_rows(h: Sequence[float], d: Sequence[float]) -> tuple[list[float], li
     return low, diagonal, high, right
 
 
-def _three_diagonals(
+def _solve_tridiagonal(
     low: Sequence[float], diagonal: Sequence[float], high: Sequence[float], right: Sequence[float]
 ) -> list[float]:
     """Return the solution of a system whose matrix has three diagonals."""
@@ -172,7 +174,7 @@ def _three_diagonals(
     return solution
 
 
-def _between(h0: float, h1: float, d0: float, d1: float) -> float:
+def _slope_between_chords(h0: float, h1: float, d0: float, d1: float) -> float:
     """Return the slope between two lines: 0 at a peak, else a weighted harmonic mean."""
     if d0 == 0.0 or d1 == 0.0 or (d0 > 0.0) != (d1 > 0.0):
         return 0.0
@@ -180,7 +182,7 @@ def _between(h0: float, h1: float, d0: float, d1: float) -> float:
     return (w0 + w1) / (w0 / d0 + w1 / d1)
 
 
-def _at_end(h0: float, h1: float, d0: float, d1: float) -> float:
+def _slope_at_end(h0: float, h1: float, d0: float, d1: float) -> float:
     """Return the slope at an end: of the parabola through three points, within the limit that keeps the range."""
     slope = ((2.0 * h0 + h1) * d0 - h0 * d1) / (h0 + h1)
     if slope * d0 <= 0.0:

@@ -36,7 +36,7 @@ class NormalForms:
         if node not in self._simpler:
             polynomial, result = self._polynomial(node), node
             if polynomial is not None:
-                written = self._written(polynomial)
+                written = self._write_polynomial(polynomial)
                 if self._cost(written) < self._cost(node):
                     result = written
             self._simpler[node] = self._simpler[result] = result
@@ -45,29 +45,31 @@ class NormalForms:
     def _is_coefficient(self, node: int) -> bool:
         return self.graph.depends[node] in (0, PARAMETER)
 
-    def _is_turning(self, node: int) -> bool:
+    def _is_sine_or_cosine(self, node: int) -> bool:
         return self.graph.nodes[node].op in ("sin", "cos")
 
     def _cost(self, node: int) -> int:
         """Return the operations of a node, without sines and what depends on no state."""
         leaves = {
-            n for n in self.graph.needed([node], self._is_leaf) if self._is_leaf(n) or self.graph.nodes[n].op == "input"
+            n
+            for n in self.graph.required_nodes([node], self._is_leaf)
+            if self._is_leaf(n) or self.graph.nodes[n].op == "input"
         }
-        return len(self.graph.needed([node], self._is_leaf)) - len(leaves)
+        return len(self.graph.required_nodes([node], self._is_leaf)) - len(leaves)
 
     def _is_leaf(self, node: int) -> bool:
-        return self._is_coefficient(node) or self._is_turning(node)
+        return self._is_coefficient(node) or self._is_sine_or_cosine(node)
 
     # -- from nodes ----------------------------------------------------------------------------------------------------
 
     def _polynomial(self, node: int) -> Polynomial | None:
         """Return the polynomial of a node, None where it is too long."""
-        for n in self.graph.needed([node], lambda n: n in self._polynomials or self._is_coefficient(n)):
+        for n in self.graph.required_nodes([node], lambda n: n in self._polynomials or self._is_coefficient(n)):
             if n not in self._polynomials:
-                self._polynomials[n] = self._of_operation(n)
+                self._polynomials[n] = self._polynomial_of_operation(n)
         return self._polynomials[node]
 
-    def _of_operation(self, node: int) -> Polynomial | None:
+    def _polynomial_of_operation(self, node: int) -> Polynomial | None:
         g = self.graph
         if node == g.zero:
             return {}
@@ -85,23 +87,23 @@ class NormalForms:
         second = parts[1]
         assert second is not None
         if op == "mul":
-            return self._product(first, second)
+            return self._multiply_polynomials(first, second)
         signed = second.items() if op == "add" else ((m, g.neg(c)) for m, c in second.items())
-        return self._sum(first, signed)
+        return self._add_polynomials(first, signed)
 
     def _holds_position(self, node: int) -> bool:
         """Whether a coordinate, or a number that a run sets, is in a node outside of sines."""
         g = self.graph
-        for n in g.needed([node], lambda n: n in self._whole):
+        for n in g.required_nodes([node], lambda n: n in self._whole):
             if n not in self._whole:
                 op, args, payload = g.nodes[n]
                 if op == "input":
                     self._whole[n] = isinstance(payload, tuple) and payload[0] in ("q", "status", "parameter")
                 else:
-                    self._whole[n] = not self._is_turning(n) and any(self._whole[a] for a in args)
+                    self._whole[n] = not self._is_sine_or_cosine(n) and any(self._whole[a] for a in args)
         return self._whole[node]
 
-    def _sum(self, first: Polynomial, terms: Iterable[tuple[Monomial, int]]) -> Polynomial | None:
+    def _add_polynomials(self, first: Polynomial, terms: Iterable[tuple[Monomial, int]]) -> Polynomial | None:
         result = dict(first)
         for monomial, coefficient in terms:
             total = self.graph.add(result.get(monomial, self.graph.zero), coefficient)
@@ -111,22 +113,24 @@ class NormalForms:
                 result[monomial] = total
         return result if len(result) <= MOST_TERMS else None
 
-    def _product(self, first: Polynomial, second: Polynomial) -> Polynomial | None:
+    def _multiply_polynomials(self, first: Polynomial, second: Polynomial) -> Polynomial | None:
         if len(first) * len(second) > _MOST_PRODUCTS:
             return None
         g, terms = self.graph, list[tuple[Monomial, int]]()
         for a, x in first.items():
             for b, y in second.items():
                 coefficient = g.mul(x, y)
-                terms += ((m, coefficient if sign > 0 else g.neg(coefficient)) for m, sign in self._monomials(a, b))
-        return self._sum({}, terms)
+                terms += (
+                    (m, coefficient if sign > 0 else g.neg(coefficient)) for m, sign in self._multiply_monomials(a, b)
+                )
+        return self._add_polynomials({}, terms)
 
-    def _monomials(self, a: Monomial, b: Monomial) -> list[tuple[Monomial, int]]:
+    def _multiply_monomials(self, a: Monomial, b: Monomial) -> list[tuple[Monomial, int]]:
         """Return the product of two monomials as monomials with signs, squares of sines replaced."""
         powers = dict(a)
         for node, power in b:
             powers[node] = powers.get(node, 0) + power
-        self._cancel(powers)
+        self._cancel_reciprocals(powers)
         done: list[tuple[Monomial, int]] = []
         waiting = [(powers, 1)]
         while waiting:
@@ -142,7 +146,7 @@ class NormalForms:
             waiting += [(rest | {cosine: rest.get(cosine, 0) + 2}, -sign), (rest, sign)]
         return done
 
-    def _cancel(self, powers: dict[int, int]) -> None:
+    def _cancel_reciprocals(self, powers: dict[int, int]) -> None:
         """Take numbers and their reciprocals out of a product in pairs."""
         for node in list(powers):
             op, args, _ = self.graph.nodes[node]
@@ -155,14 +159,14 @@ class NormalForms:
 
     # -- to nodes ------------------------------------------------------------------------------------------------------
 
-    def _written(self, polynomial: Polynomial) -> int:
+    def _write_polynomial(self, polynomial: Polynomial) -> int:
         """Return the node of a polynomial, written with common factors: equal sums of sines are formed once."""
         g = self.graph
         sums: dict[tuple[int, Monomial], dict[Monomial, int]] = {}
         for monomial, coefficient in polynomial.items():
-            turning = tuple(x for x in monomial if self._is_turning(x[0]))
-            others = tuple(x for x in monomial if not self._is_turning(x[0]))
-            sign, size = self._signed(coefficient)
+            turning = tuple(x for x in monomial if self._is_sine_or_cosine(x[0]))
+            others = tuple(x for x in monomial if not self._is_sine_or_cosine(x[0]))
+            sign, size = self._sign_and_size(coefficient)
             sums.setdefault((size, others), {})[turning] = sign
         factors: dict[tuple[tuple[Monomial, int], ...], list[tuple[int, int, Monomial]]] = {}
         for (size, others), terms in sums.items():
@@ -196,7 +200,7 @@ class NormalForms:
                 product = g.mul(product, node)
         return product
 
-    def _signed(self, coefficient: int) -> tuple[int, int]:
+    def _sign_and_size(self, coefficient: int) -> tuple[int, int]:
         """Return sign and size of a coefficient; of two opposite differences one has the sign -1."""
         g = self.graph
         value, (op, args, _) = g.value(coefficient), g.nodes[coefficient]

@@ -132,7 +132,7 @@ class OutputSlot:
 DERIVATIVES = ("value", "slope", "second", "third")
 
 
-def of_table(payload: object) -> tuple[str, str]:
+def table_of_payload(payload: object) -> tuple[str, str]:
     """Return the name in the payload of a table's operation, and its item of `DERIVATIVES`."""
     name = str(payload).rstrip("'")
     return name.removeprefix(SMOOTH), DERIVATIVES[len(str(payload)) - len(name)]
@@ -144,7 +144,7 @@ def derived_table(payload: object) -> str | None:
     The slope of straight lines is constant between points, and so is the third derivative of cubic pieces.
     """
     last = DERIVATIVES[-1] if str(payload).startswith(SMOOTH) else "slope"
-    return None if of_table(payload)[1] == last else f"{payload}'"
+    return None if table_of_payload(payload)[1] == last else f"{payload}'"
 
 
 @dataclass(frozen=True)
@@ -185,23 +185,23 @@ class Block:
     @cached_property
     def needed(self) -> list[int]:
         """All nodes that these depend on, in evaluation order."""
-        return self.graph.needed(self.nodes)
+        return self.graph.required_nodes(self.nodes)
 
     @property
     def tables(self) -> tuple[tuple[str, str], ...]:
         """Tables that are read, by name, with their items of `DERIVATIVES`."""
         operations = (self.graph.nodes[n] for n in self.needed)
-        return tuple(dict.fromkeys(of_table(o.payload) for o in operations if o.op == "table"))
+        return tuple(dict.fromkeys(table_of_payload(o.payload) for o in operations if o.op == "table"))
 
     @cached_property
     def operations(self) -> int:
         """Operations with common subexpressions computed once."""
-        return self.graph.operations(self.nodes)
+        return self.graph.count_operations(self.nodes)
 
     @property
     def tree_operations(self) -> int:
         """Operations without sharing."""
-        return self.graph.tree_operations(self.nodes)
+        return self.graph.count_tree_operations(self.nodes)
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from symgen.base.vocabulary.functions import ELEMENTARY
+from symgen.base.vocabulary.elementary_functions import ELEMENTARY
 
 if TYPE_CHECKING:
     from symgen.base.vocabulary.measures import Source
@@ -64,7 +64,7 @@ def table_of(function: str) -> str | None:
     return function.removeprefix("table:").removeprefix(SMOOTH) if function.startswith("table:") else None
 
 
-def _where(condition: float, yes: float, no: float) -> float:
+def _choose_value(condition: float, yes: float, no: float) -> float:
     return yes if condition else no
 
 
@@ -89,7 +89,7 @@ FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
     "and": (2, lambda a, b: float(bool(a) and bool(b))),
     "or": (2, lambda a, b: float(bool(a) or bool(b))),
     "not": (1, lambda a: float(not a)),
-    "where": (3, _where),
+    "where": (3, _choose_value),
     # above 0 where `and`, `or` hold of arguments above 0
     "both": (2, min),
     "either": (2, max),
@@ -100,19 +100,19 @@ BENT = ("abs", "min", "max", "both", "either")
 
 def names_in(expression: Expr) -> Iterator[str]:
     """Yield every name that `expression` refers to, readings included, in order of appearance (with repeats)."""
-    for node in _leaves(expression):
+    for node in _leaf_expressions(expression):
         if not isinstance(node, Number):
             yield node.name
 
 
-def readings(expression: Expr) -> Iterator[Reading]:
+def readings_in(expression: Expr) -> Iterator[Reading]:
     """Yield the readings in `expression`, in order of appearance (with repeats)."""
-    for node in _leaves(expression):
+    for node in _leaf_expressions(expression):
         if isinstance(node, Reading):
             yield node
 
 
-def _leaves(expression: Expr) -> Iterator[Number | Name | Reading]:
+def _leaf_expressions(expression: Expr) -> Iterator[Number | Name | Reading]:
     stack: list[Expr] = [expression]
     while stack:
         node = stack.pop()
@@ -122,16 +122,18 @@ def _leaves(expression: Expr) -> Iterator[Number | Name | Reading]:
             yield node
 
 
-def moving(expression: Expr) -> tuple[Name | Reading, ...]:
+def moving_quantities(expression: Expr) -> tuple[Name | Reading, ...]:
     """Return the coordinates, velocities and readings in `expression`, each once, in order of appearance."""
-    leaves = (e for e in _leaves(expression) if isinstance(e, Reading) or (isinstance(e, Name) and "." in e.name))
+    leaves = (
+        e for e in _leaf_expressions(expression) if isinstance(e, Reading) or (isinstance(e, Name) and "." in e.name)
+    )
     return tuple(dict.fromkeys(leaves))
 
 
-def with_names(expression: Expr, of: Mapping[Name | Reading, str]) -> Expr:
+def rename_quantities(expression: Expr, of: Mapping[Name | Reading, str]) -> Expr:
     """Return `expression` with other names in place of some names and readings."""
     if isinstance(expression, Call):
-        return Call(expression.function, tuple(with_names(a, of) for a in expression.arguments))
+        return Call(expression.function, tuple(rename_quantities(a, of) for a in expression.arguments))
     return Name(of[expression]) if isinstance(expression, Name | Reading) and expression in of else expression
 
 
@@ -181,7 +183,7 @@ def product(*factors: Expr) -> Expr:
     return result
 
 
-def dot(a: Sequence[Expr], b: Sequence[Expr]) -> Expr:
+def scalar_product_of(a: Sequence[Expr], b: Sequence[Expr]) -> Expr:
     """Return the scalar product of two vectors."""
     return sum_of_terms(*map(product, a, b))
 

@@ -27,7 +27,7 @@ class LinearisedInfo(Info, frozen=True):
     sizes : tuple of (str, int)
         Groups of values in their order, and their lengths.
     functions : tuple of (str, str, int)
-        Coordinates of joints and outputs of the file, whose values stand behind the groups, order by order: name, unit,
+        Coordinates of joints and outputs of the file, whose values follow the groups, order by order: name, unit,
         and the number of value, rate and second rate. A quantity of positions has all three, one of velocities
         two, as the rate of v' is not known; one of accelerations or multipliers its value alone.
     pattern : tuple of (int, int, int)
@@ -54,9 +54,9 @@ class LawInfo(Info, frozen=True, kw_only=True):
     parameters : tuple of (name, default)
         Of the method.
     parameter_offset : int
-        Where these stand in p: behind the numbers that the law itself hoists.
+        Their places in p: after the numbers that the law itself hoists.
     hoisted : int
-        Numbers behind the parameters, for corrections and descriptor forms.
+        Numbers after the parameters, for corrections and descriptor forms.
     position_correction, velocity_correction, energy_correction : bool
         Corrections after each accepted step.
     nw : int

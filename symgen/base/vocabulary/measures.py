@@ -33,15 +33,15 @@ class Direction(msgspec.Struct, frozen=True):
     vector: tuple[Expr, ...]
 
 
-def parts(value: object) -> Iterator[Any]:
+def nested_parts(value: object) -> Iterator[Any]:
     """Yield a value of the vocabulary and everything inside it."""
     yield value
     if isinstance(value, msgspec.Struct):
         for field in value.__struct_fields__:
-            yield from parts(getattr(value, field))
+            yield from nested_parts(getattr(value, field))
     elif isinstance(value, tuple):
         for item in value:
-            yield from parts(item)
+            yield from nested_parts(item)
 
 
 def axes(body: str, dimension: int) -> tuple[Direction, ...]:

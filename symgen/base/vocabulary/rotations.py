@@ -22,7 +22,7 @@ def composed_rotation(a: EulerParameters, b: EulerParameters) -> EulerParameters
     )
 
 
-def matrix(e: EulerParameters) -> Matrix:
+def rotation_matrix_of(e: EulerParameters) -> Matrix:
     """Return the rotation matrix of Euler parameters of length 1, numbers or arrays of them."""
     a, b, c, d = e
     return (

@@ -12,19 +12,19 @@ import numpy as np
 
 from symgen.api import Model
 from symgen.base.errors import AssemblyError, InputError, SymgenError
-from symgen.base.settings import Settings, is_set
+from symgen.base.settings import Settings, differs_from_default
 from symgen.cli._editor.joints import joint_equations
-from symgen.cli._editor.made import made
-from symgen.describe.facts.lifted import lifted, numbers_of_file
-from symgen.describe.files.changes import changed_text, wide_units
-from symgen.describe.files.handles import handles, numbers_of_parameters
+from symgen.cli._editor.made import make_file_for_browser
+from symgen.describe.facts.lifted import lift_numbers, numbers_of_file
+from symgen.describe.files.handles import movable_points, spans_of_parameters
 from symgen.describe.files.load import LARGEST_FILE, parse_toml
 from symgen.describe.files.origins import Source, origin_of
 from symgen.describe.files.places import Path as Place
-from symgen.describe.files.places import outline
-from symgen.describe.files.problems import Problem, problems
-from symgen.describe.files.renaming import removed, renamed_text
-from symgen.describe.files.snippets import Spot, snippet
+from symgen.describe.files.places import outline_of_document
+from symgen.describe.files.problems import Problem, problems_of_text
+from symgen.describe.files.renaming import remove_from_text, rename_in_text
+from symgen.describe.files.snippets import Spot, snippet_changes
+from symgen.describe.files.text_changes import apply_changes, utf16_places
 from symgen.describe.files.validate import validate
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
@@ -50,26 +50,26 @@ class Drafts:
     """
 
     def __init__(self, path: Path) -> None:
-        self.path, self.source = path, Source.of(path)
+        self.path, self.source = path, Source.of_file(path)
         self._running, self._results = threading.Lock(), dict[str, tuple[str, Result]]()
         self._asked: dict[str, int] = {}
         self._last: tuple[str, tuple[dict[str, Any], Mechanism]] | None = None
 
-    def check(self, text: str) -> dict[str, Any]:
+    def check_text(self, text: str) -> dict[str, Any]:
         """Return the errors of a text, each at its line, or the drawing of its start and what may be moved in it."""
         self._refuse_large(text)
         try:
-            raw, mechanism = self._read(text)
+            raw, mechanism = self._read_text(text)
         except InputError:
-            wrong = problems(text, self.source)
-            return {"errors": [_error(problem) for problem in wrong[:MOST_ERRORS]], "count": len(wrong)}
-        parts = outline(text)
+            wrong = problems_of_text(text, self.source)
+            return {"errors": [_error_entry(problem) for problem in wrong[:MOST_ERRORS]], "count": len(wrong)}
+        parts = outline_of_document(text)
         values = parameter_values(mechanism)
         described = Model(mechanism).initial_state(values)[0]
         q, open_joints, errors, warnings = described, tuple[str, ...](), list[dict[str, Any]](), tuple[str, ...]()
         freedoms: dict[str, Any] = {}
         try:
-            run = prepare(*_for_closing(mechanism), Purpose.STATE)
+            run = prepare(*_closing_part(mechanism), Purpose.STATE)
             start = run.start
             q, warnings = start.y[: len(described)], start.warnings
             count = run.compiled.info.nv - start.rank
@@ -77,7 +77,7 @@ class Drafts:
         except AssemblyError as error:
             q = np.array(error.q) if error.q else described
             open_joints = error.joints
-            line = next((parts_line(text, parts.mentions, ("joints", name)) for name in open_joints), 1)
+            line = next((line_of_path(text, parts.mentions, ("joints", name)) for name in open_joints), 1)
             errors = [{"line": line, "text": str(error)}]
         except SymgenError as error:  # a start that a formula leaves undefined
             errors = [{"line": 1, "text": str(error)}]
@@ -85,9 +85,9 @@ class Drafts:
         moved = bool(warnings) or bool(open_joints)
         ghost = Recording(mechanism, values, np.zeros(1), np.atleast_2d(described)) if moved else None
         data = page_data(recording, second=ghost, open_joints=open_joints, note="; ".join(warnings))
-        wide = wide_units(text)
-        movable = handles(mechanism, raw, parts.values, text, [float(x) for x in q])
-        numbers = numbers_of_parameters(raw, parts.values, text)
+        wide = utf16_places(text)
+        movable = movable_points(mechanism, raw, parts.values, text, [float(x) for x in q])
+        numbers = spans_of_parameters(raw, parts.values, text)
         return {
             "errors": errors,
             "count": len(errors),
@@ -96,13 +96,13 @@ class Drafts:
             "joints": [joint.name for joint in mechanism.joints],
             "bounded": {row.name: [row.family.off, row.family.in_force] for row in mechanism.bounded if row.one_sided},
             "handles": [
-                {**handle._asdict(), "followers": [_in_page(follower, wide) for follower in handle.followers]}
+                {**handle._asdict(), "followers": [_follower_in_page(follower, wide) for follower in handle.followers]}
                 for handle in movable
             ],
-            "numbers": {name: _span(span, wide) for name, span in numbers.items()},
+            "numbers": {name: _span_in_page(span, wide) for name, span in numbers.items()},
         }
 
-    def motion(self, text: str, tab: str, asked: int) -> dict[str, Any]:
+    def run_motion(self, text: str, tab: str, asked: int) -> dict[str, Any]:
         """Return the motion of a text, or that a later one was asked for.
 
         Parameters
@@ -124,9 +124,9 @@ class Drafts:
                 if self._asked[tab] != asked:
                     raise KeyboardInterrupt
 
-            mechanism = self._read(text)[1]
-            settings = _shaped(mechanism)
-            own = mechanism if is_set(settings, "shape") else _with_numbers_as_parameters(mechanism)
+            mechanism = self._read_text(text)[1]
+            settings = _settings_in_loops(mechanism)
+            own = mechanism if differs_from_default(settings, "shape") else _numbers_as_parameters(mechanism)
             result = Model(own).simulate(settings, progress=still_wanted)
             if self._asked[tab] != asked:
                 return {"superseded": True}
@@ -136,55 +136,57 @@ class Drafts:
             self._results = {tab: (text, result)}
             return {"data": view_data(result, live=False)[0], **facts}
 
-    def live(self, text: str, tab: str) -> dict[str, Any]:
+    def live_page_data(self, text: str, tab: str) -> dict[str, Any]:
         """Return the data and the script of a page that works out other motions of the last motion's text."""
         with self._running:
             before, result = self._results.get(tab, ("", None))
             if result is None or before != text:
                 return {"superseded": True}
-            mechanism = self._read(text)[1]
-            if not is_set(_shaped(mechanism), "shape") and not mechanism.bounded:
+            mechanism = self._read_text(text)[1]
+            if not differs_from_default(_settings_in_loops(mechanism), "shape") and not mechanism.bounded:
                 # sliders are for the parameters of the file alone; with bounded rows there are none
                 result = Model(mechanism).simulate()
             data, script = view_data(result)
             return {"data": data, "script": script}
 
-    def joint(self, text: str, name: str) -> dict[str, Any]:
+    def equations_of_joint(self, text: str, name: str) -> dict[str, Any]:
         """Return the equations of a joint of a text."""
         self._refuse_large(text)
-        return joint_equations(self._read(text)[1], name)
+        return joint_equations(self._read_text(text)[1], name)
 
-    def make(self, text: str, kind: str) -> dict[str, Any]:
+    def make_file(self, text: str, kind: str) -> dict[str, Any]:
         """Return a file that a command would write for a text."""
         self._refuse_large(text)
-        raw, mechanism = self._read(text)
+        raw, mechanism = self._read_text(text)
         with self._running:
-            return made(kind, raw, mechanism, self.path)
+            return make_file_for_browser(kind, raw, mechanism, self.path)
 
-    def add(self, text: str, part: str, spots: Sequence[Spot]) -> dict[str, Any]:
+    def add_part(self, text: str, part: str, spots: Sequence[Spot]) -> dict[str, Any]:
         """Return a text with a part added at spots, and the path of what was added."""
         self._refuse_large(text)
         raw = parse_toml(text, self.source)
-        added, path = snippet(part, spots, raw, outline(text), text, self._angle(text, spots))
-        return {"text": changed_text(text, added), "path": path}
+        added, path = snippet_changes(
+            part, spots, raw, outline_of_document(text), text, self._angle_of_spot(text, spots)
+        )
+        return {"text": apply_changes(text, added), "path": path}
 
-    def rename(self, text: str, path: str, name: str) -> dict[str, Any]:
+    def rename_part(self, text: str, path: str, name: str) -> dict[str, Any]:
         """Return a text with another name of a part, wherever it is named."""
         self._refuse_large(text)
-        return {"text": renamed_text(text, path, name, self.source)}
+        return {"text": rename_in_text(text, path, name, self.source)}
 
-    def remove(self, text: str, path: str) -> dict[str, Any]:
+    def remove_part(self, text: str, path: str) -> dict[str, Any]:
         """Return a text without a part, and without what needs it."""
         self._refuse_large(text)
-        return {"text": removed(text, path, self.source)}
+        return {"text": remove_from_text(text, path, self.source)}
 
-    def _angle(self, text: str, spots: Iterable[Spot]) -> float:
+    def _angle_of_spot(self, text: str, spots: Iterable[Spot]) -> float:
         """Return the angle at the start of the joint that holds a spot, or of its body; 0 where there is none."""
         spot = next(iter(spots), None)
         if spot is None or not spot.body:
             return 0.0
-        mechanism = self._read(text)[1]
-        start = prepare(*_for_closing(mechanism), Purpose.STATE).start
+        mechanism = self._read_text(text)[1]
+        start = prepare(*_closing_part(mechanism), Purpose.STATE).start
         angles, at = {"ground": 0.0}, 0
         for body in mechanism.bodies:
             if len(body.coordinates) == 3:
@@ -193,7 +195,7 @@ class Drafts:
         bodies = next((j.bodies for j in mechanism.joints if j.name == spot.joint), ("ground", spot.body))
         return angles.get(bodies[-1], 0.0) - angles.get(bodies[0], 0.0)
 
-    def _read(self, text: str) -> tuple[dict[str, Any], Mechanism]:
+    def _read_text(self, text: str) -> tuple[dict[str, Any], Mechanism]:
         """Return the tables and the mechanism of a text; the last text is read once."""
         last = self._last
         if last is None or last[0] != text:
@@ -206,21 +208,21 @@ class Drafts:
             raise InputError(self.source, f"a text of at most {LARGEST_FILE} bytes", "a larger one")
 
 
-def parts_line(text: str, mentions: Iterable[Any], path: tuple[str, ...]) -> int:
+def line_of_path(text: str, mentions: Iterable[Any], path: tuple[str, ...]) -> int:
     """Return the line of the first key of a path, 1 where there is none."""
     start = next((mention.start for mention in mentions if mention.path == path), 0)
     return text.count("\n", 0, start) + 1
 
 
-def _for_closing(mechanism: Mechanism) -> tuple[Mechanism, Settings]:
+def _closing_part(mechanism: Mechanism) -> tuple[Mechanism, Settings]:
     """Return the parts of a mechanism that close it, without forces, in a shape that needs no compiling."""
     bare = msgspec.structs.replace(
         mechanism, forces=(), outputs=(), events=(), states=(), rotors=(), bounded=(), switchable=()
     )
-    return bare, _shaped(bare)
+    return bare, _settings_in_loops(bare)
 
 
-def _shaped(mechanism: Mechanism) -> Settings:
+def _settings_in_loops(mechanism: Mechanism) -> Settings:
     """Return settings of runs that begin at once: loops over tables that all mechanisms share, where these can be."""
     try:
         refuse_loops(mechanism)
@@ -229,7 +231,7 @@ def _shaped(mechanism: Mechanism) -> Settings:
     return Settings(shape="looped")
 
 
-def _with_numbers_as_parameters(mechanism: Mechanism) -> Mechanism:
+def _numbers_as_parameters(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism whose code stays what it is while a hand changes numbers of the file.
 
     Zeros stay: code is shorter with them.
@@ -237,14 +239,14 @@ def _with_numbers_as_parameters(mechanism: Mechanism) -> Mechanism:
     origin = origin_of(mechanism)
     if origin is None:
         return mechanism
-    names = [name for name in map(_changeable, numbers_of_file(origin.raw)) if name]
+    names = [name for name in map(_name_of_changeable, numbers_of_file(origin.raw)) if name]
     try:
-        return lifted("edit", mechanism, names).mechanism
+        return lift_numbers("edit", mechanism, names).mechanism
     except InputError:  # a place that takes numbers alone
         return mechanism
 
 
-def _changeable(number: tuple[str, Place, float]) -> str:
+def _name_of_changeable(number: tuple[str, Place, float]) -> str:
     """Return the name of a number that emitted code has and a hand changes; empty for others."""
     name, path, value = number
     if value == 0.0:
@@ -257,15 +259,15 @@ def _changeable(number: tuple[str, Place, float]) -> str:
     return name if key in {**keys, "forces": forces}.get(str(path[0]), ()) else ""
 
 
-def _error(problem: Problem) -> dict[str, Any]:
+def _error_entry(problem: Problem) -> dict[str, Any]:
     return {"line": problem.line, "text": str(problem)}
 
 
-def _span(span: tuple[int, int], wide: list[int] | None) -> tuple[int, int]:
+def _span_in_page(span: tuple[int, int], wide: list[int] | None) -> tuple[int, int]:
     """Return characters as pages count them."""
     return span if wide is None else (wide[span[0]], wide[span[1]])
 
 
-def _in_page(follower: Any, wide: list[int] | None) -> dict[str, Any]:
-    start, end = _span((follower.start, follower.end), wide)
+def _follower_in_page(follower: Any, wide: list[int] | None) -> dict[str, Any]:
+    start, end = _span_in_page((follower.start, follower.end), wide)
     return {**follower._asdict(), "start": start, "end": end}

@@ -5,10 +5,10 @@ from __future__ import annotations
 from html import escape
 from typing import Any
 
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 from symgen.derive.formulate.formulate import formulate
 from symgen.describe.mechanism import Mechanism
-from symgen.result.reading.html import equation, equations, vector_equation
+from symgen.result.reading.html import equation_html, equations_html, vector_equation
 from symgen.result.reading.page import check_size
 from symgen.result.reading.row_words import row_words
 from symgen.result.reading.sheet import Sheet
@@ -25,11 +25,11 @@ def joint_equations(mechanism: Mechanism, name: str) -> dict[str, Any]:
     joint = next((each for each in mechanism.joints if each.name == name), None)
     if joint is None:
         names = [each.name for each in mechanism.joints]
-        raise InputError("joint", "the name of a joint", quoted(name), nearest(name, names))
+        raise InputError("joint", "the name of a joint", quote(name), suggest(name, names))
     check_size(mechanism)
     derived = formulate(mechanism)
     sheet, words = Sheet(mechanism, derived), row_words(mechanism)
-    rows = sheet.of(name)
+    rows = sheet.rows_of_joint(name)
     phi, gamma = ({line.key: line for line in lines} for lines in (sheet.phi(rows), sheet.gamma(rows)))
     parts = []
     for row in rows:
@@ -37,8 +37,8 @@ def joint_equations(mechanism: Mechanism, name: str) -> dict[str, Any]:
         parts.append(f"<p><b>{escape(row.name)}</b>: {escape(held.words)}</p>")
         if held.vectors and mechanism.space == "spatial":
             parts.append(f'<p class="vectors">{vector_equation(held.vectors)}</p>')
-        parts += [equation(phi[row.name], " = 0")] if row.name in phi else []
-        parts.append(equation(gamma[row.name]))
-    parts.append(equations(sheet.jacobian(name)))
+        parts += [equation_html(phi[row.name], " = 0")] if row.name in phi else []
+        parts.append(equation_html(gamma[row.name]))
+    parts.append(equations_html(sheet.jacobian(name)))
     between = " and ".join(dict.fromkeys(joint.bodies))
     return {"title": f"{name}: {joint.kind} between {between}", "markup": "\n".join(parts)}

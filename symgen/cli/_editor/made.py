@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from symgen.api import Model
-from symgen.base.errors import InputError, quoted
-from symgen.describe.files.script import script
+from symgen.base.errors import InputError, quote
+from symgen.describe.files.script import script_of_mechanism
 from symgen.describe.mechanism import Mechanism
-from symgen.study.report.machine import machine
+from symgen.study.report.machine_report import machine_report
 from symgen.study.report.write import write
 
 #: Kind -> ending of the file and its type.
@@ -24,7 +24,7 @@ KINDS = {
 }
 
 
-def made(kind: str, raw: Mapping[str, Any], mechanism: Mechanism, file: Path) -> dict[str, Any]:
+def make_file_for_browser(kind: str, raw: Mapping[str, Any], mechanism: Mechanism, file: Path) -> dict[str, Any]:
     """Return a file for the browser: its name, type and content in base 64.
 
     Parameters
@@ -44,12 +44,12 @@ def made(kind: str, raw: Mapping[str, Any], mechanism: Mechanism, file: Path) ->
         If the kind is unknown, or the command would refuse the mechanism.
     """
     if kind not in KINDS:
-        raise InputError("make", f"one of {', '.join(KINDS)}", quoted(kind))
+        raise InputError("make", f"one of {', '.join(KINDS)}", quote(kind))
     ending, type_ = KINDS[kind]
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"{file.stem}{ending}"
         if kind == "python":
-            path.write_text(script(raw), encoding="utf-8")
+            path.write_text(script_of_mechanism(raw), encoding="utf-8")
         else:
             _WRITERS[kind](Model(mechanism), path, file.name)
         content = base64.b64encode(path.read_bytes()).decode()
@@ -60,17 +60,17 @@ def made(kind: str, raw: Mapping[str, Any], mechanism: Mechanism, file: Path) ->
         }
 
 
-def _report(model: Model, path: Path, name: str) -> None:
+def _make_report(model: Model, path: Path, name: str) -> None:
     result = model.simulate()
-    write(machine(model, result, f"symgen report {name}", "t"), path)
+    write(machine_report(model, result, f"symgen report {name}", "t"), path)
 
 
-def _page(model: Model, path: Path, _: str) -> None:
+def _make_page(model: Model, path: Path, _: str) -> None:
     model.simulate().view().save(path)
 
 
-def _fmu(model: Model, path: Path, _: str) -> None:
+def _make_fmu(model: Model, path: Path, _: str) -> None:
     model.generate(path, target="fmu")
 
 
-_WRITERS: dict[str, Callable[[Model, Path, str], None]] = {"report": _report, "page": _page, "fmu": _fmu}
+_WRITERS: dict[str, Callable[[Model, Path, str], None]] = {"report": _make_report, "page": _make_page, "fmu": _make_fmu}

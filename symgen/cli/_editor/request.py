@@ -32,7 +32,7 @@ class EditorRequest(msgspec.Struct, frozen=True):
     Attributes
     ----------
     text : str
-        The text of the file, as it stands in the page.
+        The text of the file, as the page has it.
     digest, force : str, bool
         Of the file when it was read, and whether changes of others are written over.
     tab, asked : str, int

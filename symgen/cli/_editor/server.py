@@ -1,7 +1,7 @@
 """The server of the editor: this computer's browser alone, one secret address, one file.
 
-Everything that a page sends is JSON behind the secret; nothing in it names a file. A request of another page has
-another `Origin`, or a `Host` that is not this address, and is refused before it is read.
+Everything that a page sends is JSON, after the secret in the address; nothing in it names a file. A request of another
+page has another `Origin`, or a `Host` that is not this address, and is refused before it is read.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ from typing import Any
 import msgspec
 
 from symgen.base.errors import InputError, SymgenError
-from symgen.cli._editor.document import Document
 from symgen.cli._editor.drafts import Drafts
-from symgen.cli._editor.page import editor_page
+from symgen.cli._editor.edited_file import Document
+from symgen.cli._editor.editor_page import editor_page
 from symgen.cli._editor.request import EditorRequest, read_request
 from symgen.describe.files.load import LARGEST_FILE
-from symgen.describe.files.problems import with_line
+from symgen.describe.files.problems import sentence_with_line
 
 HOST = "127.0.0.1"
 #: Bytes of a request at most: a text of the largest size in JSON, where characters may be escaped.
@@ -64,14 +64,14 @@ class Editor(ThreadingHTTPServer):
         self.jobs: dict[str, Job] = {
             "load": lambda _: document.read(),
             "save": lambda asked: document.save(asked.draft, asked.digest, asked.force),
-            "check": lambda asked: drafts.check(asked.draft),
-            "motion": lambda asked: drafts.motion(asked.draft, asked.tab, asked.asked),
-            "live": lambda asked: drafts.live(asked.draft, asked.tab),
-            "joint": lambda asked: drafts.joint(asked.draft, asked.name),
-            "make": lambda asked: drafts.make(asked.draft, asked.kind),
-            "add": lambda asked: drafts.add(asked.draft, asked.part, [place.spot for place in asked.spots]),
-            "rename": lambda asked: drafts.rename(asked.draft, asked.path, asked.name),
-            "remove": lambda asked: drafts.remove(asked.draft, asked.path),
+            "check": lambda asked: drafts.check_text(asked.draft),
+            "motion": lambda asked: drafts.run_motion(asked.draft, asked.tab, asked.asked),
+            "live": lambda asked: drafts.live_page_data(asked.draft, asked.tab),
+            "joint": lambda asked: drafts.equations_of_joint(asked.draft, asked.name),
+            "make": lambda asked: drafts.make_file(asked.draft, asked.kind),
+            "add": lambda asked: drafts.add_part(asked.draft, asked.part, [place.spot for place in asked.spots]),
+            "rename": lambda asked: drafts.rename_part(asked.draft, asked.path, asked.name),
+            "remove": lambda asked: drafts.remove_part(asked.draft, asked.path),
         }
 
     def handle_error(self, request: Any, client_address: Any) -> None:
@@ -107,40 +107,40 @@ class _Handler(BaseHTTPRequestHandler):
 
     def do_GET(self) -> None:
         """Send the page; nothing else is there."""
-        if not self._allowed("GET"):
-            return self._refuse(403)
-        if self._word() != "":
-            return self._refuse(404)
+        if not self._is_allowed("GET"):
+            return self._refuse_request(403)
+        if self._word_after_secret() != "":
+            return self._refuse_request(404)
         nonce = secrets.token_urlsafe(16)
         text, policy = editor_page(self.server.document.path.name, nonce)
-        self._send(200, text, "text/html", {"Content-Security-Policy": policy})
+        self._send_answer(200, text, "text/html", {"Content-Security-Policy": policy})
 
     def do_POST(self) -> None:
         """Do a job of the page."""
-        if not self._allowed("POST"):
-            return self._refuse(403)
-        job = self.server.jobs.get(self._word() or "")
+        if not self._is_allowed("POST"):
+            return self._refuse_request(403)
+        job = self.server.jobs.get(self._word_after_secret() or "")
         if job is None:
-            return self._refuse(404)
+            return self._refuse_request(404)
         if self.headers.get_content_type() != JSON:
-            return self._refuse(415)
+            return self._refuse_request(415)
         length = self.headers.get("Content-Length", "")
         if not length.isdecimal() or "Transfer-Encoding" in self.headers:
-            return self._refuse(411)
+            return self._refuse_request(411)
         if int(length) > LARGEST_REQUEST:
-            return self._refuse(413)
+            return self._refuse_request(413)
         try:
-            answer = self._answer(job, self.rfile.read(int(length)))
+            answer = self._answer_job(job, self.rfile.read(int(length)))
         except msgspec.DecodeError:
-            return self._refuse(400)
-        self._send(200, json.dumps(answer), JSON)
+            return self._refuse_request(400)
+        self._send_answer(200, json.dumps(answer), JSON)
 
-    def _answer(self, job: Job, body: bytes) -> Mapping[str, Any]:
+    def _answer_job(self, job: Job, body: bytes) -> Mapping[str, Any]:
         """Return the answer of a job, or the sentence of its error."""
         try:
             return job(read_request(body))
         except InputError as error:
-            return {"error": with_line(error) if error.file is None else str(error)}
+            return {"error": sentence_with_line(error) if error.file is None else str(error)}
         except SymgenError as error:
             return {"error": str(error)}
         except MemoryError:
@@ -151,7 +151,7 @@ class _Handler(BaseHTTPRequestHandler):
             traceback.print_exc()
             return {"error": "symgen edit met an error of its own, which its terminal shows; the text is as it was"}
 
-    def _allowed(self, method: str) -> bool:
+    def _is_allowed(self, method: str) -> bool:
         """Whether the request comes from the page itself, or from who has its address."""
         origin, site = self.headers.get("Origin"), self.headers.get("Sec-Fetch-Site", "none")
         own = self.headers.get_all("Host") == [self.server.origin.removeprefix("http://")]
@@ -161,16 +161,16 @@ class _Handler(BaseHTTPRequestHandler):
             return own and known and origin == self.server.origin
         return own and known and origin in (None, self.server.origin) and site in ("none", "same-origin")
 
-    def _word(self) -> str | None:
+    def _word_after_secret(self) -> str | None:
         """Return what follows the secret in the address; None for anything with further parts."""
         parts = self.path.split("/")
         return parts[2] if len(parts) == 3 else None
 
-    def _refuse(self, status: int) -> None:
+    def _refuse_request(self, status: int) -> None:
         self.close_connection = True
-        self._send(status, "", "text/plain")
+        self._send_answer(status, "", "text/plain")
 
-    def _send(self, status: int, text: str, kind: str, headers: Mapping[str, str] | None = None) -> None:
+    def _send_answer(self, status: int, text: str, kind: str, headers: Mapping[str, str] | None = None) -> None:
         body = text.encode()
         self.send_response(status)
         for name, value in {**_HEADERS, **(headers or {})}.items():

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TypeVar
 
 from symgen.compile.native.annotations import Array, Integers
-from symgen.compile.native.compiler import interpreted
+from symgen.compile.native.compiler import is_interpreted
 from symgen.compile.native.pieces import piece_of
 
 _Value = TypeVar("_Value")
@@ -26,5 +26,5 @@ def _part(array: _Array, first: int, size: int) -> _Array:
     return array[first : first + size]
 
 
-bare = _bare if interpreted() else piece_of("bare", _bare)
-part = _part if interpreted() else piece_of("part", _part)
+bare = _bare if is_interpreted() else piece_of("bare", _bare)
+part = _part if is_interpreted() else piece_of("part", _part)

@@ -12,7 +12,17 @@ from numpy.typing import NDArray
 
 from symgen.compile.native import types
 from symgen.compile.native.annotations import Record
-from symgen.compile.native.calls import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, slot_values, slots, trampoline
+from symgen.compile.native.calls import (
+    BYTES,
+    COPY,
+    FIRST,
+    FUNCTION,
+    RESULT,
+    SOURCE,
+    slot_types,
+    slot_values,
+    trampoline,
+)
 from symgen.compile.store.jit import MachineFunction, object_file
 
 Array = NDArray[np.float64]
@@ -154,5 +164,5 @@ def direct(function: Any, kind: types.FunctionType, *arguments: Any) -> Callable
 @functools.cache
 def _layout(signature: types.Signature) -> tuple[Callable[[int], Any], list[int]]:
     """Return the trampoline of functions of a signature, and the first slots of their arguments."""
-    sizes = (sum(1 for _ in slots(kind)) for kind in signature.arguments)
+    sizes = (sum(1 for _ in slot_types(kind)) for kind in signature.arguments)
     return trampoline(signature, object_file), list(itertools.accumulate(sizes, initial=FIRST))

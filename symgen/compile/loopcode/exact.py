@@ -12,7 +12,7 @@ from types import FunctionType
 from typing import Any, TypeVar, cast
 
 from symgen.compile.native.annotations import Array
-from symgen.compile.native.compiler import interpreted
+from symgen.compile.native.compiler import is_interpreted
 from symgen.compile.native.pieces import Piece
 from symgen.compile.store.jit import RuntimeFunction
 
@@ -56,7 +56,7 @@ def exact(*, entry: bool = False, once: bool = False) -> Callable[[_Function], _
     once : bool
         Whether it is called about once a run: it is compiled in less time; its bits are the same.
     """
-    if interpreted():
+    if is_interpreted():
         return lambda function: function
 
     def decorate(function: _Function) -> _Function:

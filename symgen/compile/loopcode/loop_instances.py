@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from symgen.compile.native import types
-from symgen.compile.native.compiler import interpreted
+from symgen.compile.native.compiler import is_interpreted
 from symgen.compile.native.pieces import Piece
 from symgen.compile.store.jit import RuntimeFunction, jit
 
@@ -53,7 +53,7 @@ class Meanings(dict[str, Any]):
 
 def part(copy: python.FunctionType, original: object) -> Any:
     """Return a part of a loop, compiled for processors."""
-    return copy if interpreted() else RuntimeFunction(copy, inlined=not hasattr(original, "called"))
+    return copy if is_interpreted() else RuntimeFunction(copy, inlined=not hasattr(original, "called"))
 
 
 def compiled_loop(module: str, name: str, function: Any, signature: Any, once: bool = False, **meanings: Any) -> Any:

@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 
 from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers
-from symgen.compile.native.compiler import interpreted
+from symgen.compile.native.compiler import is_interpreted
 from symgen.compile.native.pieces import piece_of
 from symgen.compile.native.types import NODES
 
@@ -146,7 +146,7 @@ PLAIN: dict[str, Callable[..., Any]] = {
 
 def _nodes(name: str, plain: _Function, result: types.NumberType = types.void) -> _Function:
     """Return one of these functions in the form for the present compiler."""
-    return plain if interpreted() else piece_of(name, plain, result, "symgen.compile.loopcode.node_code")
+    return plain if is_interpreted() else piece_of(name, plain, result, "symgen.compile.loopcode.node_code")
 
 
 place, extrapolate = _nodes("place", _place), _nodes("extrapolate", _extrapolate)

@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 
 from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers
-from symgen.compile.native.compiler import interpreted
+from symgen.compile.native.compiler import is_interpreted
 from symgen.compile.native.pieces import piece_of
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
@@ -116,7 +116,7 @@ _RESULTS = {"weigh": types.float64, "largest": types.float64, "finite": types.bo
 
 def _vector(name: str, plain: _Function) -> _Function:
     """Return one of these functions in the form for the compiler in use."""
-    if interpreted():
+    if is_interpreted():
         return plain
     return piece_of(name, plain, _RESULTS.get(name, types.void), "symgen.compile.loopcode.vector_code")
 

@@ -38,34 +38,34 @@ class Accesses:
     stored: frozenset[Place]
 
 
-def accesses(body: tuple[lang.Statement, ...]) -> Accesses:
+def array_accesses(body: tuple[lang.Statement, ...]) -> Accesses:
     """Return what statements read and store of arrays, which callees have under the same names."""
     read, stored = set[Place](), set[Place]()
 
-    def index(e: lang.Expression) -> int:
+    def known_index(e: lang.Expression) -> int:
         try:
             return whole_index(e, {})
         except Foreign:
             return -1
 
-    def walk(part: object) -> None:
+    def collect_accesses(part: object) -> None:
         if isinstance(part, lang.Store):
-            walk(part.value)
-            stored.add((part.array, index(part.index)))
+            collect_accesses(part.value)
+            stored.add((part.array, known_index(part.index)))
         elif isinstance(part, lang.ArrayElement):
-            place = part.array, index(part.index)
+            place = part.array, known_index(part.index)
             if place not in stored:
                 read.add(place)
         elif isinstance(part, lang.FunctionCall):
             for argument in part.arguments:
-                walk(argument)
-            walk(part.function.body)
+                collect_accesses(argument)
+            collect_accesses(part.function.body)
         elif isinstance(part, tuple):
             for each in part:
-                walk(each)
+                collect_accesses(each)
         elif isinstance(part, lang.Statement | lang.Expression):
             for name in part.__struct_fields__:
-                walk(getattr(part, name))
+                collect_accesses(getattr(part, name))
 
-    walk(body)
+    collect_accesses(body)
     return Accesses(frozenset(read), frozenset(stored))

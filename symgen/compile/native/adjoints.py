@@ -1,7 +1,7 @@
 """Straight functions of `symgen.compile.native.language` as text for LLVM in reverse: adjoints of what they read.
 
 Rules are the ones of `symgen.compile.native.tangents`: there they print directions, here each is noted as a sum of
-factors times earlier directions, and the notes are read backwards. Behind its own arguments a function takes the
+factors times earlier directions, and the notes are read backwards. After its own arguments a function takes the
 adjoint of each array of floats. Where the function stores, the adjoint goes to what was stored and is 0 before; where
 it reads, it is added. Values of the function itself are computed again, and nothing of it is stored.
 """
@@ -16,8 +16,8 @@ from symgen.base.ir.program import FREE_RHS
 from symgen.compile.native import language as lang
 from symgen.compile.native import sines
 from symgen.compile.native.accesses import Place, whole_index
-from symgen.compile.native.llvm import LlvmPrinter, declarations, taken
-from symgen.compile.native.llvm_values import TYPES, literal
+from symgen.compile.native.llvm import LlvmPrinter, declarations, parameter_types
+from symgen.compile.native.llvm_values import TYPES, float_literal
 from symgen.compile.native.read_values import Foreign
 from symgen.compile.native.tangent_rules import Dual
 from symgen.compile.native.tangents import TangentPrinter
@@ -26,7 +26,7 @@ from symgen.compile.native.tangents import TangentPrinter
 Term = tuple[str, Callable[[], str] | None]
 
 
-def _given(text: str) -> Callable[[], str]:
+def _printed_factor(text: str) -> Callable[[], str]:
     """Return a factor whose line is there already."""
     return lambda: text
 
@@ -53,19 +53,19 @@ def adjoint_module(function: lang.Function, name: str, ends: str, together: bool
     names: dict[object, str] = {}
     apart = list[lang.Function]()
 
-    def slope(f: lang.Function) -> str:
+    def slope_name(f: lang.Function) -> str:
         if ("slope", f.key) not in names:
             names["slope", f.key] = f"{name}.{len(names)}.{f.name}"
             apart.append(f)
         return names["slope", f.key]
 
-    def symbol(f: lang.Function) -> str:
+    def symbol_name(f: lang.Function) -> str:
         return names.setdefault(f.key, f"{name}.{len(names)}")
 
-    parts = [AdjointPrinter(function, symbol, slope, name, ends, together).text()]
-    parts += [TangentPrinter(f, slope, 1, None, together).text() for f in itertools.islice(apart, 0, None)]
+    parts = [AdjointPrinter(function, symbol_name, slope_name, name, ends, together).text()]
+    parts += [TangentPrinter(f, slope_name, 1, None, together).text() for f in itertools.islice(apart, 0, None)]
     used = "\n".join(parts)
-    parts += [sines.definition(n) for n in (sines.width(1), sines.MOST) if sines.sine_name(n) in used]
+    parts += [sines.function_definition(n) for n in (sines.function_width(1), sines.MOST) if sines.sine_name(n) in used]
     return "\n".join([*parts, *declarations(parts), ""])
 
 
@@ -107,17 +107,17 @@ class AdjointPrinter(TangentPrinter):
         LlvmPrinter.take_arguments(self)
         self.inner[f.key] = f
         self.statements(f.body)
-        self.go_back()
-        arguments = [f'{kind} %"{own}"' for p in f.parameters for kind, own in taken(p)]
+        self.print_adjoints()
+        arguments = [f'{kind} %"{own}"' for p in f.parameters for kind, own in parameter_types(p)]
         arguments += [f'ptr %"{p.name}.bar", i64 %"{p.name}.bar.0"' for p in self.arrays()]
         tables = [
             f'@"{self.symbol(each)}.{name}" = private unnamed_addr constant [{len(x)} x double] '
-            f"[{', '.join('double ' + literal(v) for v in x)}]"
+            f"[{', '.join('double ' + float_literal(v) for v in x)}]"
             for each in self.inner.values()
             for name, x in each.tables.items()
         ]
         begin = f'define {TYPES[f.returned]} @"{self.name}"({", ".join(arguments)}) nounwind {{'
-        end = f"  ret {TYPES[f.returned]} {literal(0.0) if f.returned == 'float' else 0}"
+        end = f"  ret {TYPES[f.returned]} {float_literal(0.0) if f.returned == 'float' else 0}"
         return "\n".join([*tables, begin, ".entry:", *self.slots, *self.lines, end, "}"])
 
     def arrays(self) -> Iterator[lang.FunctionParameter]:
@@ -126,20 +126,22 @@ class AdjointPrinter(TangentPrinter):
 
     # -- the function, forwards
 
-    def begin(self, label: str) -> None:
+    def begin_block(self, label: str) -> None:
         """Refuse a second block."""
         raise Foreign("a choice or a loop in a function with an adjoint")
 
-    def keep(self, name: str, directions: str | None) -> None:
+    def assign_directions(self, name: str, directions: str | None) -> None:
         """Refuse a variable that changes."""
         raise Foreign(f"the variable '{name}', which changes, in a function with an adjoint")
 
-    def store(self, statement: lang.Store) -> None:
+    def print_store(self, statement: lang.Store) -> None:
         """Note what is stored."""
         if statement.value.type == "float":
-            self.stored[self.names[statement.array], self.whole(statement.index)] = self.dual(statement.value)
+            self.stored[self.names[statement.array], self.known_index(statement.index)] = self.print_dual(
+                statement.value
+            )
 
-    def dual(self, e: lang.Expression) -> Dual:
+    def print_dual(self, e: lang.Expression) -> Dual:
         """Print a float and return it with the name of its direction."""
         if isinstance(e, lang.Variable):
             if e.name not in self.values:
@@ -148,51 +150,51 @@ class AdjointPrinter(TangentPrinter):
         if isinstance(e, lang.ArrayElement):
             if e.array in self.function.tables:
                 return LlvmPrinter.value(self, e), None
-            place = self.names[e.array], self.whole(e.index)
+            place = self.names[e.array], self.known_index(e.index)
             if place in self.stored:
                 return self.stored[place]
             if place not in self.read:
-                own = self.put(f"getelementptr double, ptr {self.base(e.array)}, i64 {place[1]}")
-                self.read[place] = self.put(f"load double, ptr {own}"), self.summed()
+                own = self.print_instruction(f"getelementptr double, ptr {self.array_address(e.array)}, i64 {place[1]}")
+                self.read[place] = self.print_instruction(f"load double, ptr {own}"), self.note_sum()
             return self.read[place]
         if isinstance(e, lang.FunctionCall) and e.function.name not in CARRIED:
-            return self.called_here(e)
-        return super().dual(e)
+            return self.print_callee(e)
+        return super().print_dual(e)
 
-    def end(self, value: lang.Expression) -> None:
+    def print_end(self, value: lang.Expression) -> None:
         """Keep the result for a caller inside."""
-        self.result = self.dual(value) if value.type == "float" else (self.value(value), None)
+        self.result = self.print_dual(value) if value.type == "float" else (self.value(value), None)
 
     def call(self, e: lang.FunctionCall) -> str:
         """Print the statements of a callee."""
-        return self.called_here(e)[0]
+        return self.print_callee(e)[0]
 
-    def called_here(self, e: lang.FunctionCall) -> Dual:
+    def print_callee(self, e: lang.FunctionCall) -> Dual:
         """Print the statements of a callee, and return its result."""
-        if _branches(e.function):
-            return self.called_apart(e)
+        if _has_branches(e.function):
+            return self.call_by_directions(e)
         f, names, views = e.function, dict[str, str](), dict[str, tuple[str, tuple[str, ...]]]()
         values, tangents = dict[str, str](), dict[str, str | None]()
         for parameter, argument in zip(f.parameters, e.arguments, strict=True):
             if isinstance(argument, str):
                 names[parameter.name], views[parameter.name] = self.names[argument], self.views[argument]
             elif argument.type == "float":
-                values[parameter.name], tangents[parameter.name] = self.dual(argument)
+                values[parameter.name], tangents[parameter.name] = self.print_dual(argument)
             else:
                 values[parameter.name] = self.value(argument)
         outside = self.function, self.names, self.views, self.values, self.tangents, self.sines, self.before
         self.function, self.names, self.views, self.values, self.tangents = f, names, views, values, tangents
-        self.sines, groups = {}, sines.groups(f) if self.together else {}
+        self.sines, groups = {}, sines.groups_of_angles(f) if self.together else {}
         self.before = {id(f.body[i]): calls for i, calls in groups.items()}
         self.inner[f.key], self.result = f, ("0", None)
         self.statements(f.body)
         self.function, self.names, self.views, self.values, self.tangents, self.sines, self.before = outside
         return self.result
 
-    def called_apart(self, e: lang.FunctionCall) -> Dual:
+    def call_by_directions(self, e: lang.FunctionCall) -> Dual:
         """Call a function of numbers that is not straight, as the search in a table, once for each direction."""
-        arguments = [self.dual(a) for a in e.arguments if not isinstance(a, str)]
-        kind, one, terms = f"{{double, {self.kind}}}", f"<double {literal(1.0)}>", list[Term]()
+        arguments = [self.print_dual(a) for a in e.arguments if not isinstance(a, str)]
+        kind, one, terms = f"{{double, {self.kind}}}", f"<double {float_literal(1.0)}>", list[Term]()
         value = ""
         for k, (_, direction) in enumerate(arguments):
             if direction is None and value:
@@ -200,116 +202,118 @@ class AdjointPrinter(TangentPrinter):
             parts = [
                 f"double {x}, {self.kind} {one if i == k else 'zeroinitializer'}" for i, (x, _) in enumerate(arguments)
             ]
-            pair = self.put(f'call {kind} @"{self.slope(e.function)}"({", ".join(parts)}) nounwind')
-            value = self.put(f"extractvalue {kind} {pair}, 0")
-            own = self.put(f"extractvalue {kind} {pair}, 1")
-            partial = self.put(f"extractelement {self.kind} {own}, i64 0")
+            pair = self.print_instruction(f'call {kind} @"{self.slope(e.function)}"({", ".join(parts)}) nounwind')
+            value = self.print_instruction(f"extractvalue {kind} {pair}, 0")
+            own = self.print_instruction(f"extractvalue {kind} {pair}, 1")
+            partial = self.print_instruction(f"extractelement {self.kind} {own}, i64 0")
             if direction is not None:
-                terms.append((direction, _given(partial)))
-        return value, self.summed(*terms) if terms else None
+                terms.append((direction, _printed_factor(partial)))
+        return value, self.note_sum(*terms) if terms else None
 
-    def summed(self, *terms: tuple[str | None, Callable[[], str] | None]) -> str:
+    def note_sum(self, *terms: tuple[str | None, Callable[[], str] | None]) -> str:
         """Note a direction as a sum of terms."""
         name = f"#{len(self.sums)}"
         self.sums.append((name, tuple((own, factor) for own, factor in terms if own is not None)))
         return name
 
-    def sum(self, a: str | None, b: str | None) -> str | None:
+    def add_directions(self, a: str | None, b: str | None) -> str | None:
         """Note the sum of two directions."""
         if a is None or b is None:
             return b if a is None else a
-        return self.summed((a, None), (b, None))
+        return self.note_sum((a, None), (b, None))
 
-    def difference(self, a: str | None, b: str | None) -> str | None:
+    def subtract_directions(self, a: str | None, b: str | None) -> str | None:
         """Note the difference of two directions."""
-        return a if b is None else self.summed((a, None), (b, lambda: literal(-1.0)))
+        return a if b is None else self.note_sum((a, None), (b, lambda: float_literal(-1.0)))
 
-    def times(self, directions: str | None, factor: Callable[[], str]) -> str | None:
+    def scale_directions(self, directions: str | None, factor: Callable[[], str]) -> str | None:
         """Note the product of a direction and a number."""
-        return None if directions is None else self.summed((directions, factor))
+        return None if directions is None else self.note_sum((directions, factor))
 
-    def extreme(self, name: str, a: str, b: str, da: str | None, db: str | None) -> Dual:
+    def differentiate_extreme(self, name: str, a: str, b: str, da: str | None, db: str | None) -> Dual:
         """Print the least or greatest of two values; the direction is the one of the value taken."""
         sign = "olt" if name == "min" else "ogt"
-        return self.either(self.put(f"fcmp{self.flag} {sign} double {b}, {a}"), (b, db), (a, da))
+        return self.print_either(self.print_instruction(f"fcmp{self.flag} {sign} double {b}, {a}"), (b, db), (a, da))
 
-    def choose(self, statement: lang.If) -> bool:
+    def print_branch(self, statement: lang.If) -> bool:
         """Leave out the choice of rates without bounded rows: those with them are the same where all are off."""
         match statement.then, statement.otherwise:
             case (lang.Return(value=lang.FunctionCall(function=lang.Function(name=name))),), () if name == FREE_RHS:
                 return True
-        return super().choose(statement)
+        return super().print_branch(statement)
 
-    def chosen(self, e: lang.Choice) -> Dual:
-        """Print both values and choose one: a second block would have to be taken back as well."""
-        return self.either(self.value(e.test), self.dual(e.chosen), self.dual(e.otherwise))
+    def choose_float(self, e: lang.Choice) -> Dual:
+        """Print both values and choose one; a branch would need an adjoint of its own block."""
+        return self.print_either(self.value(e.test), self.print_dual(e.chosen), self.print_dual(e.otherwise))
 
     def count_through(self, statement: lang.For) -> None:
         """Print all passes through a loop of known length."""
-        for i in range(self.whole(statement.start), self.whole(statement.stop), statement.step):
+        for i in range(self.known_index(statement.start), self.known_index(statement.stop), statement.step):
             self.counters[statement.name], self.values[statement.name] = i, str(i)
             self.statements(statement.body)
         self.counters.pop(statement.name, None)
 
-    def whole(self, e: lang.Expression) -> int:
+    def known_index(self, e: lang.Expression) -> int:
         """Return an index, which has to be known."""
         return whole_index(e, self.counters)
 
-    def either(self, test: str, yes: Dual, no: Dual) -> Dual:
+    def print_either(self, test: str, yes: Dual, no: Dual) -> Dual:
         """Print one of two values by a test."""
-        one, zero = literal(1.0), literal(0.0)
+        one, zero = float_literal(1.0), float_literal(0.0)
         (a, da), (b, db) = yes, no
-        value = self.put(f"select i1 {test}, double {a}, double {b}")
+        value = self.print_instruction(f"select i1 {test}, double {a}, double {b}")
         if da is None and db is None:
             return value, None
-        return value, self.summed(
-            (da, lambda: self.put(f"select i1 {test}, double {one}, double {zero}")),
-            (db, lambda: self.put(f"select i1 {test}, double {zero}, double {one}")),
+        return value, self.note_sum(
+            (da, lambda: self.print_instruction(f"select i1 {test}, double {one}, double {zero}")),
+            (db, lambda: self.print_instruction(f"select i1 {test}, double {zero}, double {one}")),
         )
 
     # -- and backwards
 
-    def go_back(self) -> None:
+    def print_adjoints(self) -> None:
         """Print the adjoints. Each is read and written once, as repeated reads count as one where code is divided."""
         bars = dict[str, str]()
         stored = {place: dual for place, dual in self.stored.items() if place[0] == self.ends}
         kept = {place: dual for place, dual in self.read.items() if place in stored or place not in self.stored}
-        adjoints = {place: self.address(place) for place in stored | kept}
+        adjoints = {place: self.address_of_adjoint(place) for place in stored | kept}
         for place, (_, direction) in stored.items():
             if direction is not None:
-                self.gather(bars, direction, self.put(f"load double, ptr {adjoints[place]}"))
+                self.add_to_adjoint(bars, direction, self.print_instruction(f"load double, ptr {adjoints[place]}"))
         for name, terms in reversed(self.sums):
             if name not in bars:
                 continue
             for own, factor in terms:
-                bar = bars[name] if factor is None else self.product_of(factor(), bars[name])
-                self.gather(bars, own, bar)
+                bar = bars[name] if factor is None else self.print_product(factor(), bars[name])
+                self.add_to_adjoint(bars, own, bar)
         for place, address in adjoints.items():
             own = (kept[place][1] or "") if place in kept else ""
-            bar = bars.get(own, literal(0.0))
+            bar = bars.get(own, float_literal(0.0))
             if place not in stored:
                 if own not in bars:
                     continue
-                before = self.put(f"load double, ptr {address}")
-                bar = self.put(f"fadd{self.flag} double {before}, {bar}")
+                before = self.print_instruction(f"load double, ptr {address}")
+                bar = self.print_instruction(f"fadd{self.flag} double {before}, {bar}")
             self.lines.append(f"  store double {bar}, ptr {address}")
 
-    def address(self, place: Place) -> str:
+    def address_of_adjoint(self, place: Place) -> str:
         """Print the address of an adjoint."""
-        return self.put(f'getelementptr double, ptr %"{place[0]}.bar", i64 {place[1]}')
+        return self.print_instruction(f'getelementptr double, ptr %"{place[0]}.bar", i64 {place[1]}')
 
-    def gather(self, bars: dict[str, str], direction: str, bar: str) -> None:
+    def add_to_adjoint(self, bars: dict[str, str], direction: str, bar: str) -> None:
         """Add to the adjoint of a direction."""
-        bars[direction] = self.put(f"fadd{self.flag} double {bars[direction]}, {bar}") if direction in bars else bar
+        bars[direction] = (
+            self.print_instruction(f"fadd{self.flag} double {bars[direction]}, {bar}") if direction in bars else bar
+        )
 
-    def product_of(self, factor: str, bar: str) -> str:
+    def print_product(self, factor: str, bar: str) -> str:
         """Print the product of a factor and an adjoint."""
-        if factor == literal(-1.0):
-            return self.put(f"fneg double {bar}")
-        return self.put(f"fmul{self.flag} double {factor}, {bar}")
+        if factor == float_literal(-1.0):
+            return self.print_instruction(f"fneg double {bar}")
+        return self.print_instruction(f"fmul{self.flag} double {factor}, {bar}")
 
 
-def _branches(function: lang.Function) -> bool:
+def _has_branches(function: lang.Function) -> bool:
     """Whether a function of numbers alone has a loop or a choice between statements."""
     if function.returned != "float" or any(p.array or p.type != "float" for p in function.parameters):
         return False

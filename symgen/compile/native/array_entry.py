@@ -70,13 +70,13 @@ class EntrySlots(np.ndarray[Any, np.dtype[np.int64]]):
     kept: tuple[Any, ...]
 
 
-def has_entries() -> bool:
+def supports_entries() -> bool:
     """Whether arrays are laid out as the entries read them: CPython with a global lock, 64 bits."""
     plain = sys.implementation.name == "cpython" and object.__basicsize__ == 2 * ctypes.sizeof(ctypes.c_void_p) == 16
     return plain and getattr(sys, "_is_gil_enabled", lambda: True)()
 
 
-def block_of(
+def entry_slots(
     address: int,
     kernel: int,
     sizes: NDArray[np.int64],
@@ -116,8 +116,8 @@ def block_of(
         *(address, kernel, sizes.ctypes.data, len(sizes), scratch.ctypes.data, len(scratch), id(otherwise)),
         *(len(shape), *(*shape, 1, 1)[:2], int(np.prod(shape)), id(np.ndarray), id(views), id(numbers)),
         api[_EMPTY],
-        *(_address(getattr(python, name)) for name in ("PyObject_Vectorcall", "Py_IncRef", "Py_DecRef")),
-        _address(python.PyFloat_FromDouble),
+        *(_address_of(getattr(python, name)) for name in ("PyObject_Vectorcall", "Py_IncRef", "Py_DecRef")),
+        _address_of(python.PyFloat_FromDouble),
         default.ctypes.data,
     ]
     block[FIRST:] = lengths
@@ -136,23 +136,23 @@ def array_entry(block: EntrySlots, inputs: int, object_file: Callable[[str, str]
     object_file : callable
         Returns the object file of a module in LLVM's language with a named function.
     """
-    return _new_builtin(_definition(inputs, object_file), block)
+    return _new_builtin(_builtin_definition(inputs, object_file), block)
 
 
-def many(inputs: int, object_file: Callable[[str, str], bytes]) -> Callable[..., int]:
+def batch_function(inputs: int, object_file: Callable[[str, str], bytes]) -> Callable[..., int]:
     """Return a function that calls a compiled one for many states, without the interpreter's lock.
 
     It takes the addresses of a block of slots and of a working memory for `SCRATCH`, the number of states, the
     addresses of the first result and of a status, and address and step of each argument; it returns the first state at
     which a function returned another number than 0, which is the status then, or -1.
     """
-    return _many(inputs, object_file)
+    return _compile_batch(inputs, object_file)
 
 
 @functools.cache
-def _many(inputs: int, object_file: Callable[[str, str], bytes]) -> Callable[..., int]:
+def _compile_batch(inputs: int, object_file: Callable[[str, str], bytes]) -> Callable[..., int]:
     name = f"symgen.many.{inputs}"
-    address = load_machine_code(object_file(many_text(name, inputs), name), name)
+    address = load_machine_code(object_file(batch_text(name, inputs), name), name)
     kinds = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p]
     return ctypes.CFUNCTYPE(ctypes.c_int64, *kinds, *(ctypes.c_void_p, ctypes.c_int64) * inputs)(address)
 
@@ -166,12 +166,12 @@ def _numpy_table() -> Any:
     return ctypes.cast(address, ctypes.POINTER(ctypes.c_size_t))
 
 
-def _address(function: Any) -> int:
+def _address_of(function: Any) -> int:
     return int(ctypes.cast(function, ctypes.c_void_p).value or 0)
 
 
 @functools.cache
-def _definition(inputs: int, object_file: Callable[[str, str], bytes]) -> _Definition:
+def _builtin_definition(inputs: int, object_file: Callable[[str, str], bytes]) -> _Definition:
     """Return the definition of built-in functions of so many arguments, which lives as long as the process."""
     name = f"symgen.array_entry.{inputs}"
     address = load_machine_code(object_file(entry_text(name, inputs), name), name)
@@ -195,7 +195,7 @@ def entry_text(name: str, inputs: int) -> str:
         "  %number = alloca double",
         f"  %at = getelementptr i8, ptr %self, i64 {_DATA}",
         "  %block = load ptr, ptr %at",
-        *(_slot(slot) for slot in range(FIRST + inputs)),
+        *(_slot_lines(slot) for slot in range(FIRST + inputs)),
         "  %plain = icmp eq ptr %kwnames, null",
         f"  %enough = icmp sge i64 %nargs, {inputs - 1}",
         f"  %few = icmp sle i64 %nargs, {inputs + 1}",
@@ -209,7 +209,7 @@ def entry_text(name: str, inputs: int) -> str:
         if i == inputs - 1:
             lines += [f"  %has{i} = icmp sge i64 %nargs, {inputs}", f"  br i1 %has{i}, label %read{i}, label %result"]
             lines.append(f"read{i}:")
-        lines += _checked(i, f"%s{FIRST + i}", _READ)
+        lines += _check_lines(i, f"%s{FIRST + i}", _READ)
         lines.append(f"  br i1 %ok{i}, label %{after}, label %otherwise")
     last, d = inputs - 1, inputs
     lines += [
@@ -221,7 +221,7 @@ def entry_text(name: str, inputs: int) -> str:
         "take:",
         "  br i1 %scalar, label %otherwise, label %taken",
         "taken:",
-        *_checked(d, f"%s{ROWS}", _WRITE, f"%s{DIMENSIONS}"),
+        *_check_lines(d, f"%s{ROWS}", _WRITE, f"%s{DIMENSIONS}"),
         f"  %two = icmp eq i64 %s{DIMENSIONS}, 2",
         "  %where = select i1 %two, i64 8, i64 0",
         f"  %second = getelementptr i8, ptr %shape{d}, i64 %where",
@@ -253,7 +253,7 @@ def entry_text(name: str, inputs: int) -> str:
         "call:",
         "  %object = phi ptr [ %mine, %own ], [ null, %make ], [ %fresh, %made ]",
         f"  %out = phi ptr [ %data{d}, %own ], [ %number, %make ], [ %room, %made ]",
-        *_called(
+        *_call_lines(
             [(f"%data{i}" if i < last else "%last", f"%s{FIRST + i}") for i in range(inputs)],
             "%out",
             f"%p{SCRATCH}",
@@ -281,14 +281,14 @@ def entry_text(name: str, inputs: int) -> str:
     return "\n".join(lines) + "\n"
 
 
-def many_text(name: str, inputs: int) -> str:
+def batch_text(name: str, inputs: int) -> str:
     """Return the module of a loop over states."""
     arrays = "".join(f", ptr %x{i}, i64 %step{i}" for i in range(inputs))
     body = [f"  %from{i} = getelementptr double, ptr %x{i}, i64 %o{i}" for i in range(inputs)]
     lines = [
         f'define i64 @"{name}"(ptr %block, ptr %scratch, i64 %count, ptr %results, ptr %wrong{arrays}) {{',
         "start:",
-        *(_slot(slot) for slot in range(FIRST + inputs)),
+        *(_slot_lines(slot) for slot in range(FIRST + inputs)),
         "  br label %head",
         "head:",
         "  %k = phi i64 [ 0, %start ], [ %next, %after ]",
@@ -299,7 +299,7 @@ def many_text(name: str, inputs: int) -> str:
         *body,
         f"  %oo = mul i64 %k, %s{LENGTH}",
         "  %out = getelementptr double, ptr %results, i64 %oo",
-        *_called([(f"%from{i}", f"%s{FIRST + i}") for i in range(inputs)], "%out", "%scratch"),
+        *_call_lines([(f"%from{i}", f"%s{FIRST + i}") for i in range(inputs)], "%out", "%scratch"),
         "  %done = icmp eq i64 %status, 0",
         "  br i1 %done, label %after, label %failed",
         "after:",
@@ -315,14 +315,14 @@ def many_text(name: str, inputs: int) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _slot(slot: int) -> str:
+def _slot_lines(slot: int) -> str:
     return (
         f"  %a{slot} = getelementptr i64, ptr %block, i64 {slot}\n"
         f"  %s{slot} = load i64, ptr %a{slot}\n  %p{slot} = inttoptr i64 %s{slot} to ptr"
     )
 
 
-def _checked(i: int, length: str, flags: int, dimensions: str = "1") -> list[str]:
+def _check_lines(i: int, length: str, flags: int, dimensions: str = "1") -> list[str]:
     """Return the lines that read argument `i` and tell whether it is an array as expected."""
     return [
         f"  %place{i} = getelementptr ptr, ptr %args, i64 {i}",
@@ -358,7 +358,7 @@ def _checked(i: int, length: str, flags: int, dimensions: str = "1") -> list[str
     ]
 
 
-def _called(arrays: Sequence[tuple[str, str]], out: str, scratch: str) -> list[str]:
+def _call_lines(arrays: Sequence[tuple[str, str]], out: str, scratch: str) -> list[str]:
     """Return the lines that call the functions; `%status` is 0 where all went well."""
     arguments = ", ".join(f"ptr {data}, i64 {length}" for data, length in arrays)
     return [

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import msgspec
 
 from symgen.compile.native import language as lang
-from symgen.compile.native.folding import Folding, arrays_in, assigned_names, visited
+from symgen.compile.native.folding import Folding, arrays_in, assigned_names, walk_statements
 from symgen.compile.native.read_values import Foreign
 
 _BOUND = "bound"
@@ -97,7 +97,7 @@ class BoundFunctions:
         return {name.removeprefix(MEMORY): room for name, room in self.rooms.items()}
 
 
-def bind(
+def bind_functions(
     entries: Mapping[str, tuple[lang.Function, Mapping[str, Meaning]]], passed: frozenset[object]
 ) -> BoundFunctions:
     """Return functions bound to a model.
@@ -114,25 +114,25 @@ def bind(
     Foreign
         If a length differs between calls, or a function.
     """
-    binder, own = _Binder(passed), _named(entries)
+    binder, own = _Binder(passed), _name_tables(entries)
     while True:
         binder.changed, binder.visited = False, set()
         for name, (function, _) in entries.items():
-            binder.enter(function, dict(own[name]))
+            binder.visit_call(function, dict(own[name]))
         if not binder.changed:
             break
     binder.final = True
-    functions = {name: binder.built(function) for name, (function, _) in entries.items()}
+    functions = {name: binder.bound_function(function) for name, (function, _) in entries.items()}
     functions = {name: msgspec.structs.replace(f, name=name) for name, f in functions.items()}
     with_memory = frozenset((*binder.with_memory, *(f.key for f in functions.values())))
     return BoundFunctions(functions, binder.tables, binder.rooms, with_memory)
 
 
-def _named(entries: Mapping[str, tuple[lang.Function, Mapping[str, Meaning]]]) -> dict[str, dict[str, Meaning]]:
+def _name_tables(entries: Mapping[str, tuple[lang.Function, Mapping[str, Meaning]]]) -> dict[str, dict[str, Meaning]]:
     """Return meanings in which equal tables are one, and others have different names."""
     tables, names = dict[tuple[lang.Scalar, tuple[float, ...]], ConstantTable](), set[str]()
 
-    def named(meaning: Meaning) -> Meaning:
+    def name_of_meaning(meaning: Meaning) -> Meaning:
         if isinstance(meaning, Room):
             return replace(meaning, name=MEMORY + meaning.name)
         if not isinstance(meaning, ConstantTable):
@@ -146,7 +146,7 @@ def _named(entries: Mapping[str, tuple[lang.Function, Mapping[str, Meaning]]]) -
             tables[key] = replace(meaning, name=name)
         return tables[key]
 
-    return {name: {n: named(m) for n, m in meanings.items()} for name, (_, meanings) in entries.items()}
+    return {name: {n: name_of_meaning(m) for n, m in meanings.items()} for name, (_, meanings) in entries.items()}
 
 
 def is_bound(function: lang.Function) -> bool:
@@ -178,7 +178,7 @@ class _Binder:
         self.rooms: dict[str, tuple[lang.Scalar, int]] = {}
         self.with_memory = set[object]()
 
-    def enter(self, function: lang.Function, meanings: dict[str, Meaning]) -> None:
+    def visit_call(self, function: lang.Function, meanings: dict[str, Meaning]) -> None:
         """Note the meanings of the parameters at a call, and visit the function."""
         own = self.meanings.get(function.key)
         if own is None:
@@ -192,7 +192,7 @@ class _Binder:
             self.visited.add(function.key)
             _Specialised(self, function).statements()
 
-    def built(self, function: lang.Function) -> lang.Function:
+    def bound_function(self, function: lang.Function) -> lang.Function:
         """Return a function bound to the meanings that its parameters have at all calls."""
         if function.key in self.passed:
             return function
@@ -216,16 +216,16 @@ class _Specialised(Folding):
 
     def statements(self) -> tuple[lang.Statement, ...]:
         """Return the statements of the function."""
-        return self.body(self.own.body)
+        return self.fold_body(self.own.body)
 
     def function(self) -> lang.Function:
         """Return the function with those parameters that are still passed."""
-        body = self.without_unused(self.statements())
+        body = self.drop_unused(self.statements())
         parameters = tuple(
             p for p in self.own.parameters if isinstance(self.meanings[p.name], Elements) or not self.meanings[p.name]
         )
-        names = {x.name for x in visited(body) if isinstance(x, lang.Variable | lang.Assign | lang.For)}
-        calls = (x.function for x in visited(body) if isinstance(x, lang.FunctionCall))
+        names = {x.name for x in walk_statements(body) if isinstance(x, lang.Variable | lang.Assign | lang.For)}
+        calls = (x.function for x in walk_statements(body) if isinstance(x, lang.FunctionCall))
         called, binder = {f.key: f for f in calls}, self.binder
         bound = msgspec.structs.replace(
             self.own,
@@ -248,13 +248,13 @@ class _Specialised(Folding):
 
     # -- arrays
 
-    def meaning(self, array: str) -> Meaning:
+    def meaning_of_array(self, array: str) -> Meaning:
         """Return the meaning of an array."""
         return self.views[array] if array in self.views else self.meanings.get(array, Elements())
 
     def array(self, name: str) -> str:
         """Return the name of an array: its own, or the name of memory or of a table."""
-        meaning = self.meaning(name)
+        meaning = self.meaning_of_array(name)
         if isinstance(meaning, ConstantTable | Room):
             _, other = self.used.get(meaning.name, ("", meaning))
             self.used[meaning.name] = self.kinds[name], max(meaning, other, key=lambda each: each.size)
@@ -263,7 +263,7 @@ class _Specialised(Folding):
 
     def element(self, e: lang.ArrayElement) -> lang.Expression:
         """Return an element of an array: a number where a table holds nothing else there."""
-        index, meaning = self.value(e.index), self.meaning(e.array)
+        index, meaning = self.fold_value(e.index), self.meaning_of_array(e.array)
         if isinstance(meaning, ConstantTable):
             values = meaning.values
             if len(set(values)) <= 1:
@@ -274,7 +274,7 @@ class _Specialised(Folding):
 
     def length(self, e: lang.ArrayLength) -> lang.Expression:
         """Return the length of an array."""
-        size = getattr(self.meaning(e.array), "size", None)
+        size = getattr(self.meaning_of_array(e.array), "size", None)
         if size is None or e.axis:
             if self.binder.final:
                 raise Foreign(f"the length of '{e.array}' in '{self.own.name}', which differs between calls")
@@ -283,11 +283,11 @@ class _Specialised(Folding):
 
     def view(self, s: lang.ArrayView) -> list[lang.Statement]:
         """Return the statement that names elements of an array from one on."""
-        first, size = self.value(s.first), self.value(s.size) if s.size is not None else None
+        first, size = self.fold_value(s.first), self.fold_value(s.size) if s.size is not None else None
         self.kinds[s.name] = self.kinds[s.array]
         length = int(size.value) if isinstance(size, lang.Constant) else None
         whole = isinstance(first, lang.Constant) and first.value == 0
-        meaning = self.meaning(s.array)
+        meaning = self.meaning_of_array(s.array)
         if whole and length is not None and isinstance(meaning, Room):
             self.views[s.name] = replace(meaning, size=length)
             return []
@@ -311,7 +311,7 @@ class _Specialised(Folding):
             if not isinstance(own, lang.Function):
                 raise Foreign(f"a function by its address in '{self.own.name}'")
             callee = own
-        values = [a if isinstance(a, str) else self.value(a) for a in e.arguments]
+        values = [a if isinstance(a, str) else self.fold_value(a) for a in e.arguments]
         if callee.key in self.binder.passed:
             arguments = tuple(self.array(a) if isinstance(a, str) else a for a in values)
             return lang.FunctionCall(callee.returned, callee, arguments)
@@ -319,13 +319,13 @@ class _Specialised(Folding):
         meanings = dict[str, Meaning]()
         for p, a in zip(callee.parameters, values, strict=True):
             if isinstance(a, str):
-                meanings[p.name] = self.meaning(a) if p.array else self.meanings[a]
+                meanings[p.name] = self.meaning_of_array(a) if p.array else self.meanings[a]
             else:
                 meanings[p.name] = a if isinstance(a, lang.Constant) and p.name not in assigned else None
         if not self.binder.final:
-            self.binder.enter(callee, meanings)
+            self.binder.visit_call(callee, meanings)
             return lang.FunctionCall(e.type, callee, tuple(values))
-        bound = self.binder.built(callee)
+        bound = self.binder.bound_function(callee)
         left = {p.name for p in bound.parameters}
         taken = tuple(
             self.array(a) if isinstance(a, str) else a

@@ -43,13 +43,13 @@ class Instruction(NamedTuple):
     names: tuple[str, ...]
 
     @classmethod
-    def of(cls, text: str) -> Instruction:
+    def parse_line(cls, text: str) -> Instruction:
         """Parse a line of a function."""
         names = tuple(_NAME.findall(text))
         defined = _DEFINED.match(text)
         return cls(text, names[0], defined[1], names[1:]) if defined else cls(text, "", "", names)
 
-    def renamed(self, new: Callable[[str], str]) -> Instruction:
+    def rename_operands(self, new: Callable[[str], str]) -> Instruction:
         """Return the line with other names of operands."""
         names = tuple(map(new, self.names))
         if names == self.names:
@@ -58,12 +58,12 @@ class Instruction(NamedTuple):
         instead = iter(names)
         return Instruction(head + equals + _NAME.sub(lambda match: next(instead), rest), self.own, self.does, names)
 
-    def called(self, name: str) -> Instruction:
+    def rename_result(self, name: str) -> Instruction:
         """Return the line with another name of its result."""
         return Instruction(f"  {name} = {self.text.partition(' = ')[2]}", name, self.does, self.names)
 
 
-def split(module: str, symbol: str, longest: int) -> str | None:
+def split_into_blocks(module: str, symbol: str, longest: int) -> str | None:
     """Return a module with a function in blocks, None if it needs no blocks or is not straight.
 
     Parameters
@@ -98,9 +98,9 @@ def _without_repetitions(body: list[str]) -> list[Instruction]:
     first: dict[str, str] = {}  # operation -> its name
     instead: dict[str, str] = {}
     for text in body:
-        line = Instruction.of(text)
+        line = Instruction.parse_line(text)
         if instead and not instead.keys().isdisjoint(line.names):
-            line = line.renamed(lambda name: instead.get(name, name))
+            line = line.rename_operands(lambda name: instead.get(name, name))
         if line.does in _PURE:
             operation = line.text.partition(" = ")[2]
             if line.does in _COMMUTATIVE:
@@ -131,52 +131,52 @@ class _Blocks:
         uses = Counter(name for line in lines for name in line.names)
         stored = False
         for line in lines:
-            if line.own and self._waits(line, uses[line.own] == 1, stored):
+            if line.own and self._is_printed_at_use(line, uses[line.own] == 1, stored):
                 self.held[line.own] = line
                 continue
             if not stored and (line.text.startswith("  store ") or (" call " in line.text and not self._is_pure(line))):
                 stored = True
                 self._read_all()
-            self._put(line)
+            self._print_after_operands(line)
             if self.length >= self.longest and line is not lines[-1]:  # the last line leaves the function
-                self._end()
+                self._end_block()
         if self.block:
-            self.lines += [Instruction.of(".never:"), Instruction.of("  unreachable")]
+            self.lines += [Instruction.parse_line(".never:"), Instruction.parse_line("  unreachable")]
 
     @staticmethod
     def _is_pure(line: Instruction) -> bool:
         return "@llvm." in line.text or "double @" in line.text or "@symgen.sines" in line.text
 
-    def _waits(self, line: Instruction, once: bool, stored: bool) -> bool:
+    def _is_printed_at_use(self, line: Instruction, once: bool, stored: bool) -> bool:
         """Whether an instruction is printed at its use."""
         if line.does in ("fmul", "fneg"):
             return once
         return not stored and (line.does == "load" or (line.does == "getelementptr" and line.own in self.reads))
 
-    def _put(self, line: Instruction) -> None:
+    def _print_after_operands(self, line: Instruction) -> None:
         """Print an instruction after its operands."""
         if not self.held.keys().isdisjoint(line.names):
-            line = line.renamed(lambda name: self._name(name) if name in self.held else name)
+            line = line.rename_operands(lambda name: self._name_in_block(name) if name in self.held else name)
         self.lines.append(line)
         self.length += 1
 
-    def _name(self, name: str) -> str:
+    def _name_in_block(self, name: str) -> str:
         """Return the name that a waiting instruction has in this block, printed if it was not."""
         if name not in self.here:
             self.here[name] = new = f"%.b{self.block}.{name[1:]}" if '"' not in name else f'%".b{self.block}.{name[2:]}'
-            self._put(self.held[name].called(new))
+            self._print_after_operands(self.held[name].rename_result(new))
         return self.here[name]
 
     def _read_all(self) -> None:
         """Print all reads, before the first store."""
-        self.loaded = {name: self._name(name) for name, line in self.held.items() if line.does == "load"}
+        self.loaded = {name: self._name_in_block(name) for name, line in self.held.items() if line.does == "load"}
 
-    def _end(self) -> None:
+    def _end_block(self) -> None:
         """End the block."""
         self.block += 1
         self.length = 0
         self.here = dict(self.loaded)
         self.lines += [
-            Instruction.of(f"  {_END.format(next=f'.block{self.block}')}"),
-            Instruction.of(f".block{self.block}:"),
+            Instruction.parse_line(f"  {_END.format(next=f'.block{self.block}')}"),
+            Instruction.parse_line(f".block{self.block}:"),
         ]

@@ -7,8 +7,8 @@ from typing import ClassVar
 
 from symgen.compile.native import language as lang
 from symgen.compile.native.c99 import OF_INTEGERS, CPrinter
-from symgen.compile.native.c99_words import RESERVED, broken_line, with_helpers
-from symgen.compile.native.printing import ordered
+from symgen.compile.native.c99_words import RESERVED, add_helpers, break_line
+from symgen.compile.native.printing import order_functions
 
 #: Types of functions with the arguments of machine code.
 _WIDE = {"float": "real", "int": "long long", "bool": "int"}
@@ -20,10 +20,10 @@ def c_loops(functions: Mapping[str, lang.Function]) -> str:
     An array is the address of its elements and its lengths, another function its address, integers have 64 bits. The
     functions of the mapping have external linkage, so that machine code may call them, and they may call machine code.
     """
-    order, names = ordered(functions, RESERVED)
+    order, names = order_functions(functions, RESERVED)
     outside = {function.key for function in functions.values()}
     texts = [_LoopPrinter(function, names, external=function.key in outside).text() for function in order]
-    return with_helpers(texts, _WIDE["int"])
+    return add_helpers(texts, _WIDE["int"])
 
 
 class _LoopPrinter(CPrinter):
@@ -49,19 +49,19 @@ class _LoopPrinter(CPrinter):
         f, own = self.function, self.names[self.function.key]
         body, every = self.lines(f.body), f.variables.keys()
         head = f"{self.types[f.returned]} {own}({', '.join(map(self._parameter, f.parameters))}) {{"
-        lines = [*self.tables(), head if self.external else f"static {head}", *self._locals(every), *self.views]
-        return "\n".join(map(broken_line, [*lines, *body, "}"]))
+        lines = [*self.tables(), head if self.external else f"static {head}", *self._declare_locals(every), *self.views]
+        return "\n".join(map(break_line, [*lines, *body, "}"]))
 
-    def handed(self, array: str) -> list[str]:
+    def array_arguments(self, array: str) -> list[str]:
         """Return the arguments of a call for an array: its address and its lengths."""
         _, rank = self.arrays[array]
-        return [self.word(array), *(self.length(array, axis) for axis in range(rank))]
+        return [self.variable_text(array), *(self.length_text(array, axis) for axis in range(rank))]
 
     def _parameter(self, parameter: lang.FunctionParameter) -> str:
         if parameter.address:
-            return f"void *{self.word(parameter.name)}"
+            return f"void *{self.variable_text(parameter.name)}"
         kind = self.types[parameter.type]
         if not parameter.array:
-            return f"{kind} {self.word(parameter.name)}"
-        address, *lengths = self.handed(parameter.name)
+            return f"{kind} {self.variable_text(parameter.name)}"
+        address, *lengths = self.array_arguments(parameter.name)
         return ", ".join([f"{kind} *{address}", *(f"{self.types['int']} {n}" for n in lengths)])

@@ -53,7 +53,7 @@ RESERVED = frozenset((*_KEYWORDS.split(), *_LIBRARY.split(), *HELPERS, *_OWN))
 _WIDTH = 120
 
 
-def with_helpers(texts: Sequence[str], integer: str = "int") -> str:
+def add_helpers(texts: Sequence[str], integer: str = "int") -> str:
     """Return functions after the helpers that they call."""
     text = "\n\n".join(texts)
     used = (helper for name, helper in HELPERS.items() if re.search(rf"\b{name}\(", text))
@@ -61,7 +61,7 @@ def with_helpers(texts: Sequence[str], integer: str = "int") -> str:
     return "\n\n".join([*helpers, text])
 
 
-def broken_line(line: str) -> str:
+def break_line(line: str) -> str:
     """Return a line of C as lines of allowed length, broken at spaces."""
     lines = []
     while len(line) > _WIDTH and (at := line.rfind(" ", 0, _WIDTH)) > 0:
@@ -84,7 +84,7 @@ def c_limit(value: float) -> str:
     return f"FINE({value!r}, {_LEAST})" if value < _LEAST else c_number(value)
 
 
-def macros(single: str) -> str:
+def macro_definitions(single: str) -> str:
     """Return the macros of printed text; for 32 bits where the macro `single` is defined."""
     lines = [[f"#define {head} {values[k]}" for head, *values in _MACROS] for k in range(2)]
     return "\n".join([f"#ifdef {single}", *lines[0], "#else", *lines[1], "#endif"])

@@ -28,11 +28,11 @@ _DTYPES = {types.float64: np.dtype(np.float64), types.int64: np.dtype(np.int64),
 _NUMBERS = {dtype: number for number, dtype in _DTYPES.items()}
 
 
-def slots(kind: types.Kind) -> Iterator[str]:
+def slot_types(kind: types.Kind) -> Iterator[str]:
     """Yield LLVM's types of the slots of an argument."""
     if isinstance(kind, types.RecordType):
         for part in kind:
-            yield from slots(part)
+            yield from slot_types(part)
     elif isinstance(kind, types.FunctionType):
         yield "ptr"
     elif isinstance(kind, types.ArrayType):
@@ -67,7 +67,7 @@ def slot_values(kind: types.Kind, value: Any) -> Iterator[int | float]:
         yield int(value)
 
 
-def kind_of(value: object) -> types.Kind:
+def argument_type(value: object) -> types.Kind:
     """Return the type of an argument.
 
     Raises
@@ -84,23 +84,23 @@ def kind_of(value: object) -> types.Kind:
     if isinstance(value, int | np.integer):
         return types.int64
     if isinstance(value, tuple):
-        return types.RecordType(tuple(map(kind_of, value)), type(value))
+        return types.RecordType(tuple(map(argument_type, value)), type(value))
     raise TypeError(f"compiled functions take numbers, arrays and records of these, no {type(value).__name__}")
 
 
-def caller(address: int, signature: types.Signature) -> Callable[..., Any]:
+def lockless_caller(address: int, signature: types.Signature) -> Callable[..., Any]:
     """Return a Python function that calls a compiled one without the interpreter's lock."""
     expected = signature.arguments
-    kinds = [_C[slot] for kind in expected for slot in slots(kind)]
+    kinds = [_C[slot] for kind in expected for slot in slot_types(kind)]
     returned = None if signature.result is types.void else _C[_SLOTS[signature.result]]
     function = ctypes.CFUNCTYPE(returned, *kinds)(address)
 
-    def call(*arguments: object) -> Any:
+    def call_function(*arguments: object) -> Any:
         if len(arguments) != len(expected):
             raise TypeError(f"expected {len(expected)} arguments, got {len(arguments)}")
         return function(*[x for kind, value in zip(expected, arguments, strict=True) for x in slot_values(kind, value)])
 
-    return call
+    return call_function
 
 
 def trampoline(signature: types.Signature, object_file: Callable[[str, str], bytes]) -> Callable[[int], Any]:
@@ -113,7 +113,7 @@ def trampoline(signature: types.Signature, object_file: Callable[[str, str], byt
     object_file : callable
         Returns the object file of a module in LLVM's language with a named function.
     """
-    kinds = tuple(slot for kind in signature.arguments for slot in slots(kind))
+    kinds = tuple(slot for kind in signature.arguments for slot in slot_types(kind))
     return _trampoline(_SLOTS[signature.result], kinds, object_file)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import os
 
-from symgen.base.errors import InputError, nearest
+from symgen.base.errors import InputError, suggest
 
 #: Environment variable: "source", the default, for machine code from the source by symgen's own route; "explain" for
 #: the same with a line on standard error for each function that is compiled; "libm" for the same with sines of the C
@@ -14,7 +14,7 @@ COMPILER = "SYMGEN_COMPILER"
 _COMPILERS = ("source", "explain", "libm")
 
 
-def compiler() -> str:
+def selected_compiler() -> str:
     """Return the route to machine code that the environment selects.
 
     Raises
@@ -24,11 +24,11 @@ def compiler() -> str:
     """
     name = os.environ.get(COMPILER) or _COMPILERS[0]
     if name not in _COMPILERS:
-        raise InputError(COMPILER, "one of " + ", ".join(_COMPILERS), f"'{name}'", nearest(name, _COMPILERS))
+        raise InputError(COMPILER, "one of " + ", ".join(_COMPILERS), f"'{name}'", suggest(name, _COMPILERS))
     return name
 
 
 @functools.cache
-def interpreted() -> bool:
+def is_interpreted() -> bool:
     """Whether nothing is compiled: ``NUMBA_DISABLE_JIT=1``, read once a process as Numba does."""
     return os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")

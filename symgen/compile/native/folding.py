@@ -30,7 +30,7 @@ _COMPARISONS: dict[str, Callable[[Any, Any], Any]] = {
 _CALLS = lang.FunctionCall, lang.Invoke, lang.Insert
 
 
-def visited(value: object) -> Iterator[Any]:
+def walk_statements(value: object) -> Iterator[Any]:
     """Yield statements and expressions in their order, without the bodies of called functions."""
     waiting = [value]
     while waiting:
@@ -44,7 +44,7 @@ def visited(value: object) -> Iterator[Any]:
 
 def is_pure(value: object) -> bool:
     """Whether an expression calls no function."""
-    return not any(isinstance(each, _CALLS) for each in visited(value))
+    return not any(isinstance(each, _CALLS) for each in walk_statements(value))
 
 
 #: Functions that were looked through, by identity: their hash would take as long. They stay alive while they are here.
@@ -57,7 +57,7 @@ def assigned_names(function: lang.Function) -> Counter[str]:
     kept = _ASSIGNED.get(id(function))
     if kept is not None and kept[0] is function:
         return kept[1]
-    found = Counter(s.name for s in visited(function.body) if isinstance(s, lang.Assign | lang.For))
+    found = Counter(s.name for s in walk_statements(function.body) if isinstance(s, lang.Assign | lang.For))
     if len(_ASSIGNED) >= _MOST_KEPT:
         _ASSIGNED.clear()
     _ASSIGNED[id(function)] = function, found
@@ -89,7 +89,7 @@ class Folding:
 
     def element(self, e: lang.ArrayElement) -> lang.Expression:
         """Return an element of an array."""
-        return lang.ArrayElement(e.type, self.array(e.array), self.value(e.index))
+        return lang.ArrayElement(e.type, self.array(e.array), self.fold_value(e.index))
 
     def length(self, e: lang.ArrayLength) -> lang.Expression:
         """Return the length of an array."""
@@ -97,17 +97,17 @@ class Folding:
 
     def view(self, s: lang.ArrayView) -> list[lang.Statement]:
         """Return the statement that names elements of an array from one on."""
-        size = self.value(s.size) if s.size is not None else None
-        return [msgspec.structs.replace(s, array=self.array(s.array), first=self.value(s.first), size=size)]
+        size = self.fold_value(s.size) if s.size is not None else None
+        return [msgspec.structs.replace(s, array=self.array(s.array), first=self.fold_value(s.first), size=size)]
 
     def call(self, e: lang.FunctionCall | lang.Invoke) -> lang.Expression:
         """Return a call."""
-        arguments = tuple(self.array(a) if isinstance(a, str) else self.value(a) for a in e.arguments)
+        arguments = tuple(self.array(a) if isinstance(a, str) else self.fold_value(a) for a in e.arguments)
         return msgspec.structs.replace(e, arguments=arguments)
 
     # -- statements
 
-    def body(self, statements: tuple[lang.Statement, ...]) -> tuple[lang.Statement, ...]:
+    def fold_body(self, statements: tuple[lang.Statement, ...]) -> tuple[lang.Statement, ...]:
         """Return statements up to the first one that ends them."""
         folded = list[lang.Statement]()
         for statement in statements:
@@ -119,60 +119,62 @@ class Folding:
     def statement(self, s: lang.Statement) -> list[lang.Statement]:
         """Return a folded statement: none, one or several."""
         if isinstance(s, lang.Assign):
-            value = self.value(s.value)
+            value = self.fold_value(s.value)
             if isinstance(value, lang.Constant) and s.name in self.fixed:
                 self.constants[s.name] = value
                 return []
             return [lang.Assign(s.name, value)]
         if isinstance(s, lang.Store):
-            return [lang.Store(self.array(s.array), self.value(s.index), self.value(s.value))]
+            return [lang.Store(self.array(s.array), self.fold_value(s.index), self.fold_value(s.value))]
         if isinstance(s, lang.Evaluate):
-            call = self.value(s.call)
+            call = self.fold_value(s.call)
             return [lang.Evaluate(call)] if isinstance(call, _CALLS) else []
         if isinstance(s, lang.Return):
-            return [lang.Return(self.value(s.value))]
+            return [lang.Return(self.fold_value(s.value))]
         if isinstance(s, lang.If):
-            return self.branch(s)
+            return self.fold_branch(s)
         if isinstance(s, lang.While):
-            test = self.value(s.test)
-            return [] if _is(test, False) else [lang.While(test, self.body(s.body))]
+            test = self.fold_value(s.test)
+            return [] if _is_constant(test, False) else [lang.While(test, self.fold_body(s.body))]
         if isinstance(s, lang.For):
-            start, stop = self.value(s.start), self.value(s.stop)
+            start, stop = self.fold_value(s.start), self.fold_value(s.stop)
             if isinstance(start, lang.Constant) and isinstance(stop, lang.Constant):
                 if not range(int(start.value), int(stop.value), s.step):
                     return []
-            body = self.body(s.body)
+            body = self.fold_body(s.body)
             return [lang.For(s.name, start, stop, s.step, body)] if body else []
         if isinstance(s, lang.StatementBlock):
-            body = self.body(s.body)
-            is_left = any(isinstance(x, lang.Leave) and x.how == "block" and x.block == s.number for x in visited(body))
+            body = self.fold_body(s.body)
+            is_left = any(
+                isinstance(x, lang.Leave) and x.how == "block" and x.block == s.number for x in walk_statements(body)
+            )
             return [lang.StatementBlock(s.number, body)] if is_left else list(body)
         if isinstance(s, lang.ArrayView):
             return self.view(s)
         if isinstance(s, lang.Pick):
             chosen, otherwise = self.array(s.chosen), self.array(s.otherwise)
-            return [lang.Pick(s.name, self.value(s.test), chosen, otherwise)]
+            return [lang.Pick(s.name, self.fold_value(s.test), chosen, otherwise)]
         return [s]
 
-    def branch(self, s: lang.If) -> list[lang.Statement]:
+    def fold_branch(self, s: lang.If) -> list[lang.Statement]:
         """Return a folded branch, one of its sides where the test is constant."""
-        test = self.value(s.test)
+        test = self.fold_value(s.test)
         if isinstance(test, lang.Constant):
-            return list(self.body(s.then if test.value else s.otherwise))
-        return branches(test, self.body(s.then), self.body(s.otherwise))
+            return list(self.fold_body(s.then if test.value else s.otherwise))
+        return branch_statement(test, self.fold_body(s.then), self.fold_body(s.otherwise))
 
-    def without_unused(self, body: tuple[lang.Statement, ...]) -> tuple[lang.Statement, ...]:
+    def drop_unused(self, body: tuple[lang.Statement, ...]) -> tuple[lang.Statement, ...]:
         """Return statements without assignments to variables and views that nothing reads."""
         while True:
-            read = _read(body)
-            shorter = _without_names(body, read)
+            read = _names_read(body)
+            shorter = _drop_names(body, read)
             if shorter == body:
                 return body
             body = shorter
 
     # -- values
 
-    def value(self, e: lang.Expression) -> Any:
+    def fold_value(self, e: lang.Expression) -> Any:
         """Return an expression, a constant where it has no other value."""
         if isinstance(e, lang.Variable):
             return self.constants.get(e.name, e)
@@ -183,24 +185,24 @@ class Folding:
         if isinstance(e, lang.FunctionCall | lang.Invoke):
             return self.call(e)
         if isinstance(e, lang.Logic):
-            first = self.value(e.first)
+            first = self.fold_value(e.first)
             if isinstance(first, lang.Constant) and bool(first.value) is (e.name == "or"):
                 return first  # the second is not evaluated
-            return _logic(e.name, first, self.value(e.second), lambda a, b: lang.Logic(e.name, a, b))
+            return _fold_logic(e.name, first, self.fold_value(e.second), lambda a, b: lang.Logic(e.name, a, b))
         if isinstance(e, lang.Choice):
-            test = self.value(e.test)
+            test = self.fold_value(e.test)
             if isinstance(test, lang.Constant):
-                return self.value(e.chosen if test.value else e.otherwise)
-            chosen, otherwise = self.value(e.chosen), self.value(e.otherwise)
+                return self.fold_value(e.chosen if test.value else e.otherwise)
+            chosen, otherwise = self.fold_value(e.chosen), self.fold_value(e.otherwise)
             if chosen == otherwise and is_pure(test):
                 return chosen
             return lang.Choice(e.type, test, chosen, otherwise)
         if isinstance(e, lang.ScalarOperation):
-            return _operation(e, tuple(map(self.value, e.arguments)))
+            return _fold_operation(e, tuple(map(self.fold_value, e.arguments)))
         return e
 
 
-def branches(
+def branch_statement(
     test: lang.Expression, then: tuple[lang.Statement, ...], otherwise: tuple[lang.Statement, ...]
 ) -> list[lang.Statement]:
     """Return the statement of a branch, its test negated where one side is empty, and none where both are."""
@@ -211,11 +213,11 @@ def branches(
     return [lang.If(test, then, otherwise)]
 
 
-def _is(e: lang.Expression, value: bool) -> bool:
+def _is_constant(e: lang.Expression, value: bool) -> bool:
     return isinstance(e, lang.Constant) and bool(e.value) is value
 
 
-def _logic(name: str, first: object, second: object, make: Callable[[Any, Any], Any]) -> Any:
+def _fold_logic(name: str, first: object, second: object, make: Callable[[Any, Any], Any]) -> Any:
     """Return ``and`` or ``or`` of two values."""
     decisive = name == "or"
     for one, other in ((first, second), (second, first)):
@@ -227,11 +229,11 @@ def _logic(name: str, first: object, second: object, make: Callable[[Any, Any], 
     return make(first, second)
 
 
-def _operation(e: lang.ScalarOperation, values: tuple[Any, ...]) -> Any:
+def _fold_operation(e: lang.ScalarOperation, values: tuple[Any, ...]) -> Any:
     """Return an operation on values; sums of floats stay, so that their rounding does."""
     operation = lang.ScalarOperation(e.type, e.name, values)
     if e.name in ("and", "or") and e.type == "bool":
-        return _logic(e.name, values[0], values[1], lambda a, b: operation)
+        return _fold_logic(e.name, values[0], values[1], lambda a, b: operation)
     if not all(isinstance(v, lang.Constant) for v in values):
         return operation
     numbers = [v.value for v in values]
@@ -250,20 +252,20 @@ def _operation(e: lang.ScalarOperation, values: tuple[Any, ...]) -> Any:
     return operation
 
 
-def _read(body: tuple[lang.Statement, ...]) -> set[str]:
+def _names_read(body: tuple[lang.Statement, ...]) -> set[str]:
     """Return the names of variables that statements read, and of arrays that they read or change."""
-    values = list(visited(body))
+    values = list(walk_statements(body))
     reads = Counter(value.name for value in values if isinstance(value, lang.Variable))
     for s in values:  # a variable that its own assignments alone read is not read
         if isinstance(s, lang.Assign) and is_pure(s.value):
-            reads[s.name] -= sum(isinstance(v, lang.Variable) and v.name == s.name for v in visited(s.value))
+            reads[s.name] -= sum(isinstance(v, lang.Variable) and v.name == s.name for v in walk_statements(s.value))
     return arrays_in(body) | {name for name, count in reads.items() if count > 0}
 
 
 def arrays_in(body: tuple[lang.Statement, ...]) -> set[str]:
     """Return the names of arrays that statements read or change, and of functions that they hand on."""
     names = set[str]()
-    for value in visited(body):
+    for value in walk_statements(body):
         if isinstance(value, lang.ArrayElement | lang.Store | lang.ArrayView | lang.ArrayLength):
             names.add(value.array)
         elif isinstance(value, lang.Pick):
@@ -273,7 +275,7 @@ def arrays_in(body: tuple[lang.Statement, ...]) -> set[str]:
     return names
 
 
-def _without_names(body: tuple[lang.Statement, ...], read: set[str]) -> tuple[lang.Statement, ...]:
+def _drop_names(body: tuple[lang.Statement, ...], read: set[str]) -> tuple[lang.Statement, ...]:
     """Return the statements without those that only name what is not read."""
     shorter = list[lang.Statement]()
     for s in body:
@@ -286,14 +288,14 @@ def _without_names(body: tuple[lang.Statement, ...], read: set[str]) -> tuple[la
         if isinstance(s, lang.ArrayView | lang.Pick) and s.name not in read:
             continue
         if isinstance(s, lang.If):
-            shorter += branches(s.test, _without_names(s.then, read), _without_names(s.otherwise, read))
+            shorter += branch_statement(s.test, _drop_names(s.then, read), _drop_names(s.otherwise, read))
             continue
         if isinstance(s, lang.For):
-            inner = _without_names(s.body, read)
+            inner = _drop_names(s.body, read)
             if not inner:
                 continue
             s = msgspec.structs.replace(s, body=inner, name=s.name if s.name in read else "")
         elif isinstance(s, lang.While | lang.StatementBlock):
-            s = msgspec.structs.replace(s, body=_without_names(s.body, read))
+            s = msgspec.structs.replace(s, body=_drop_names(s.body, read))
         shorter.append(s)
     return tuple(shorter)

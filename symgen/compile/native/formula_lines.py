@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from symgen.base.errors import SymgenError
+from symgen.base.vocabulary.elementary_functions import ELEMENTARY
 from symgen.base.vocabulary.expressions import Expr, Name, Number, Reading
-from symgen.base.vocabulary.functions import ELEMENTARY
 
 _NAMES = re.compile(r"\ba\d+\b")
 _FORMS = {
@@ -66,8 +66,8 @@ C = Dialect(
 )
 
 
-def _operator(function: str, turned: bool = False) -> Callable[[LineValue, object], LineValue]:
-    return lambda self, other: self._with(function, *((other, self) if turned else (self, other)))
+def _define_operator(function: str, turned: bool = False) -> Callable[[LineValue, object], LineValue]:
+    return lambda self, other: self._apply(function, *((other, self) if turned else (self, other)))
 
 
 @dataclass(frozen=True)
@@ -77,18 +77,18 @@ class LineValue:
     writer: FormulaLines = field(repr=False)
     text: str
 
-    def _with(self, function: str, *operands: object) -> LineValue:
-        return self.writer.let(function, *operands)
+    def _apply(self, function: str, *operands: object) -> LineValue:
+        return self.writer.write_line(function, *operands)
 
     def __add__(self, other: object) -> LineValue:
-        return self if self.writer.is_zero(other) else self._with("add", self, other)
+        return self if self.writer.is_zero(other) else self._apply("add", self, other)
 
     def __radd__(self, other: object) -> LineValue:
-        return self if self.writer.is_zero(other) else self._with("add", other, self)
+        return self if self.writer.is_zero(other) else self._apply("add", other, self)
 
-    __sub__, __rsub__ = _operator("sub"), _operator("sub", turned=True)
-    __mul__, __rmul__ = _operator("mul"), _operator("mul", turned=True)
-    __truediv__, __rtruediv__ = _operator("div"), _operator("div", turned=True)
+    __sub__, __rsub__ = _define_operator("sub"), _define_operator("sub", turned=True)
+    __mul__, __rmul__ = _define_operator("mul"), _define_operator("mul", turned=True)
+    __truediv__, __rtruediv__ = _define_operator("div"), _define_operator("div", turned=True)
 
 
 class FormulaLines:
@@ -113,15 +113,15 @@ class FormulaLines:
             return LineValue(self, self.places[expression.name])
         if isinstance(expression, Reading):
             raise NotInLines(f"{where}: a reading")
-        return self.apply(expression.function, *(self.value(a, where) for a in expression.arguments))
+        return self.apply_function(expression.function, *(self.value(a, where) for a in expression.arguments))
 
-    def apply(self, function: str, *arguments: Any) -> Any:
+    def apply_function(self, function: str, *arguments: Any) -> Any:
         """Return a function of formulas."""
-        return self.let(function, *arguments)
+        return self.write_line(function, *arguments)
 
-    def above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Any:
+    def check_above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Any:
         """Return `x`; a value not above the limit makes the start not finite."""
-        return self._line(f"{self.result(x)} > {self.result(limit)} ? {self.result(x)} : {self.dialect.undefined}")
+        return self._add_line(f"{self.result(x)} > {self.result(limit)} ? {self.result(x)} : {self.dialect.undefined}")
 
     def result(self, value: Any) -> str:
         """Return the text of a value."""
@@ -139,18 +139,18 @@ class FormulaLines:
                 lines.append(self.lines[k])
         return lines[::-1]
 
-    def let(self, function: str, *operands: object) -> LineValue:
+    def write_line(self, function: str, *operands: object) -> LineValue:
         """Write a line with a function of values; return its value."""
         form = _FORMS.get(function) or self.dialect.forms.get(function)
         if form is None:
             raise NotInLines(f"the function {function}")
-        return self._line(form.format(*map(self.result, operands)))
+        return self._add_line(form.format(*map(self.result, operands)))
 
     def is_zero(self, value: object) -> bool:
         """Whether a value is the number 0."""
         return not isinstance(value, LineValue) and float(value) == 0.0  # type: ignore[arg-type]  # numbers else
 
-    def _line(self, text: str) -> LineValue:
+    def _add_line(self, text: str) -> LineValue:
         name = f"a{len(self.lines)}"
         self.lines.append(self.dialect.declaration.format(name, text))
         return LineValue(self, name)

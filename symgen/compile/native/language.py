@@ -12,7 +12,7 @@ from typing import Literal
 
 import msgspec
 
-from symgen.base.vocabulary.functions import ELEMENTARY
+from symgen.base.vocabulary.elementary_functions import ELEMENTARY
 
 Scalar = Literal["float", "int", "bool", "unsigned"]
 

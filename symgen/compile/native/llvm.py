@@ -10,7 +10,14 @@ from collections.abc import Callable, Iterable
 
 from symgen.compile.native import language as lang
 from symgen.compile.native import sines
-from symgen.compile.native.llvm_values import INTRINSICS, TYPES, ValuePrinter, function_name, literal, slot
+from symgen.compile.native.llvm_values import (
+    INTRINSICS,
+    TYPES,
+    ValuePrinter,
+    float_literal,
+    function_name,
+    variable_slot,
+)
 
 #: The argument for the number of runs, in functions for several runs at once.
 COUNT_OF_LANES = "lanes"
@@ -46,15 +53,17 @@ def llvm_module(
     together : bool
         Whether sines and cosines of several angles are taken together (`symgen.compile.native.sines`).
     """
-    functions, declared = reached(function, inlined)
+    functions, declared = functions_of_module(function, inlined)
     texts = []
     for f in functions:
         linkage = "" if f is function else "internal " if is_copied(f) else "available_externally "
         texts.append(LlvmPrinter(f, symbol, linkage, together).text())
     texts.extend(
-        sines.definition(n) for n in (sines.width(1), sines.MOST) if any(sines.sine_name(n) in text for text in texts)
+        sines.function_definition(n)
+        for n in (sines.function_width(1), sines.MOST)
+        if any(sines.sine_name(n) in text for text in texts)
     )
-    texts.extend(f"declare {head(f, symbol(f), named=False)}" for f in declared)
+    texts.extend(f"declare {function_head(f, symbol(f), named=False)}" for f in declared)
     return "\n".join([*texts, *declarations(texts), ""])
 
 
@@ -90,7 +99,7 @@ def loop_module(function: lang.Function, symbol: str) -> str:
     return "\n".join([*texts, *declared, *declarations(texts), *_METADATA, ""])
 
 
-def reached(
+def functions_of_module(
     function: lang.Function, inlined: Callable[[lang.Function], bool]
 ) -> tuple[list[lang.Function], list[lang.Function]]:
     """Return functions whose bodies belong in a module, and functions of which it needs only the symbol."""
@@ -125,13 +134,13 @@ def declarations(texts: Iterable[str]) -> list[str]:
     return lines
 
 
-def head(function: lang.Function, name: str, named: bool = True) -> str:
+def function_head(function: lang.Function, name: str, named: bool = True) -> str:
     """Return result, name and parameters."""
-    parts = [f'{kind} %"{own}"' if named else kind for p in function.parameters for kind, own in taken(p)]
+    parts = [f'{kind} %"{own}"' if named else kind for p in function.parameters for kind, own in parameter_types(p)]
     return f'{TYPES[function.returned]} @"{name}"({", ".join(parts)}) nounwind'
 
 
-def taken(parameter: lang.FunctionParameter) -> list[tuple[str, str]]:
+def parameter_types(parameter: lang.FunctionParameter) -> list[tuple[str, str]]:
     """Return LLVM's types of a parameter, and its names."""
     if parameter.address:
         return [("ptr", parameter.name)]
@@ -149,7 +158,7 @@ class LlvmPrinter(ValuePrinter):
         super().__init__(function, symbol)
         self.linkage = linkage
         self.as_written = False  # loops are not unrolled
-        groups = sines.groups(function) if together else {}
+        groups = sines.groups_of_angles(function) if together else {}
         self.before = {id(function.body[i]): calls for i, calls in groups.items()}
         self.leaving: list[tuple[str, str]] = []  # labels after `continue` and `break`, innermost last
         self.blocks: dict[int, str] = {}  # labels after blocks
@@ -159,16 +168,16 @@ class LlvmPrinter(ValuePrinter):
         f = self.function
         for name, kind in f.variables.items():
             if name not in f.fixed:
-                self.slots.append(f"  {slot(name)} = alloca {TYPES[kind]}")
+                self.slots.append(f"  {variable_slot(name)} = alloca {TYPES[kind]}")
         self.take_arguments()
         self.statements(f.body)
         tables = [
             f'@"{self.symbol(f)}.{name}" = private unnamed_addr constant [{len(x)} x double] '
-            f"[{', '.join('double ' + literal(v) for v in x)}]"
+            f"[{', '.join('double ' + float_literal(v) for v in x)}]"
             for name, x in f.tables.items()
         ]
         copied = " alwaysinline" * (f.inlined and bool(self.linkage))
-        begin = f"define {self.linkage}{self.head()}{copied}{WIDEST * self.for_lanes()} {{"
+        begin = f"define {self.linkage}{self.head_of_function()}{copied}{WIDEST * self.for_lanes()} {{"
         return "\n".join([*tables, begin, ".entry:", *self.slots, *self.lines, "}"])
 
     def for_lanes(self) -> bool:
@@ -176,18 +185,18 @@ class LlvmPrinter(ValuePrinter):
         names = (*self.function.variables, *(p.name for p in self.function.parameters))
         return COUNT_OF_LANES in names
 
-    def head(self) -> str:
+    def head_of_function(self) -> str:
         """Return result, name and parameters."""
-        return head(self.function, self.symbol(self.function))
+        return function_head(self.function, self.symbol(self.function))
 
     def take_arguments(self) -> None:
         """Name the arguments."""
         for p in self.function.parameters:
             if p.array:
-                own, *lengths = (f'%"{name}"' for _, name in taken(p))
+                own, *lengths = (f'%"{name}"' for _, name in parameter_types(p))
                 self.views[p.name] = own, tuple(lengths)
             elif p.name in self.function.variables:
-                self.lines.append(f'  store {TYPES[p.type]} %"{p.name}", ptr {slot(p.name)}')
+                self.lines.append(f'  store {TYPES[p.type]} %"{p.name}", ptr {variable_slot(p.name)}')
             elif not p.address:
                 self.values[p.name] = f'%"{p.name}"'
 
@@ -201,22 +210,22 @@ class LlvmPrinter(ValuePrinter):
             if isinstance(statement, lang.Assign):
                 self.set_variable(statement)
             elif isinstance(statement, lang.Store):
-                self.store(statement)
+                self.print_store(statement)
             elif isinstance(statement, lang.Evaluate):
                 self.value(statement.call)
             elif isinstance(statement, lang.If):
-                if not self.choose(statement):
+                if not self.print_branch(statement):
                     return False
             elif isinstance(statement, lang.While):
-                self.repeat(statement)
+                self.print_loop(statement)
             elif isinstance(statement, lang.For):
                 self.count_through(statement)
             elif isinstance(statement, lang.ArrayView):
-                self.view(statement)
+                self.name_view(statement)
             elif isinstance(statement, lang.StatementBlock):
-                self.block(statement)
+                self.print_block(statement)
             elif isinstance(statement, lang.Pick):
-                self.pick(statement)
+                self.name_either_array(statement)
             elif isinstance(statement, lang.Leave):
                 in_block = statement.how == "block"
                 label = self.blocks[statement.block] if in_block else self.leaving[-1][statement.how == "break"]
@@ -224,84 +233,84 @@ class LlvmPrinter(ValuePrinter):
                 return False
             else:
                 assert isinstance(statement, lang.Return), "all kinds of statements are known"
-                self.end(statement.value)
+                self.print_end(statement.value)
                 return False
         return True
 
     def set_variable(self, statement: lang.Assign) -> None:
         """Print an assignment to a variable."""
-        self.assign(statement.name, self.value(statement.value))
+        self.assign_value(statement.name, self.value(statement.value))
 
-    def store(self, statement: lang.Store) -> None:
+    def print_store(self, statement: lang.Store) -> None:
         """Print an assignment to an element of an array."""
         value = self.value(statement.value)
-        place = self.place(statement.array, statement.index)
+        place = self.element_address(statement.array, statement.index)
         self.lines.append(f"  store {TYPES[statement.value.type]} {value}, ptr {place}")
 
-    def end(self, value: lang.Expression) -> None:
+    def print_end(self, value: lang.Expression) -> None:
         """Print the end of the function."""
         self.lines.append(f"  ret {TYPES[value.type]} {self.value(value)}")
 
-    def view(self, statement: lang.ArrayView) -> None:
+    def name_view(self, statement: lang.ArrayView) -> None:
         """Name a part of an array."""
-        data, first = self.base(statement.array), self.value(statement.first)
+        data, first = self.array_address(statement.array), self.value(statement.first)
         if statement.size is None:
             lengths = self.views[statement.array][1][statement.indices :]
         else:
             rest = self.views[statement.array][1][1:] if statement.array in self.views else ()
             lengths = (self.value(statement.size), *rest)
-        self.views[statement.name] = self.put(f"getelementptr double, ptr {data}, i64 {first}"), lengths
+        self.views[statement.name] = self.print_instruction(f"getelementptr double, ptr {data}, i64 {first}"), lengths
         if statement.type == "unsigned":
             self.small.add(statement.name)
 
-    def block(self, statement: lang.StatementBlock) -> None:
+    def print_block(self, statement: lang.StatementBlock) -> None:
         """Print statements that may be left before their end."""
-        (end,) = self.labels("end")
+        (end,) = self.new_labels("end")
         self.blocks[statement.number] = end
         if self.statements(statement.body):
             self.jump(end)
-        self.begin(end)
+        self.begin_block(end)
 
-    def pick(self, statement: lang.Pick) -> None:
+    def name_either_array(self, statement: lang.Pick) -> None:
         """Name one of two arrays."""
         test, (a, m), (b, n) = self.value(statement.test), self.views[statement.chosen], self.views[statement.otherwise]
-        data = self.put(f"select i1 {test}, ptr {a}, ptr {b}")
-        self.views[statement.name] = data, (self.put(f"select i1 {test}, i64 {m[0]}, i64 {n[0]}"),)
+        data = self.print_instruction(f"select i1 {test}, ptr {a}, ptr {b}")
+        self.views[statement.name] = data, (self.print_instruction(f"select i1 {test}, i64 {m[0]}, i64 {n[0]}"),)
 
-    def assign(self, name: str, value: str) -> None:
+    def assign_value(self, name: str, value: str) -> None:
         """Set a variable to a printed value."""
         if name in self.function.fixed:
             self.values[name] = value
         else:
-            self.lines.append(f"  store {TYPES[self.function.variables[name]]} {value}, ptr {slot(name)}")
+            self.lines.append(f"  store {TYPES[self.function.variables[name]]} {value}, ptr {variable_slot(name)}")
 
-    def choose(self, statement: lang.If) -> bool:
+    def print_branch(self, statement: lang.If) -> bool:
         """Print a choice between statements."""
-        yes, no, end = self.labels("then", "else", "end")
+        yes, no, end = self.new_labels("then", "else", "end")
         self.branch(self.value(statement.test), yes, no if statement.otherwise else end)
         reached = not statement.otherwise
         for label, statements in ((yes, statement.then), (no, statement.otherwise)):
             if statements:
-                self.begin(label)
+                self.begin_block(label)
                 if self.statements(statements):
                     reached = True
                     self.jump(end)
         if reached:
-            self.begin(end)
+            self.begin_block(end)
         return reached
 
-    def repeat(self, statement: lang.While) -> None:
+    def print_loop(self, statement: lang.While) -> None:
         """Print a loop with a test."""
-        test, body, end = self.labels("test", "body", "end")
+        test, body, end = self.new_labels("test", "body", "end")
         self.jump(test)
-        self.begin(test)
+        self.begin_block(test)
         self.branch(self.value(statement.test), body, end)
-        self.begin(body)
+        self.begin_block(body)
         self.leaving.append((test, end))
         if self.statements(statement.body):
             self.jump_back(test)
         self.leaving.pop()
-        self.begin(end)
+        self.begin_block(end)
 
     def jump_back(self, label: str) -> None:
         """End the body of a loop."""
@@ -311,23 +320,27 @@ class LlvmPrinter(ValuePrinter):
 
     def count_through(self, statement: lang.For) -> None:
         """Print a loop over a range with its own counter, as the body may assign the variable."""
-        test, body, step, end = self.labels("test", "body", "step", "end")
+        test, body, step, end = self.new_labels("test", "body", "step", "end")
         counter = f"%.counter{self.count}"
         self.slots.append(f"  {counter} = alloca i64")
         start, stop = self.value(statement.start), self.value(statement.stop)
         self.lines.append(f"  store i64 {start}, ptr {counter}")
         self.jump(test)
-        self.begin(test)
-        now = self.put(f"load i64, ptr {counter}")
-        self.branch(self.put(f"icmp {'slt' if statement.step > 0 else 'sgt'} i64 {now}, {stop}"), body, end)
-        self.begin(body)
-        self.assign(statement.name, now)
+        self.begin_block(test)
+        now = self.print_instruction(f"load i64, ptr {counter}")
+        self.branch(
+            self.print_instruction(f"icmp {'slt' if statement.step > 0 else 'sgt'} i64 {now}, {stop}"), body, end
+        )
+        self.begin_block(body)
+        self.assign_value(statement.name, now)
         self.leaving.append((step, end))
         if self.statements(statement.body):
             self.jump(step)
         self.leaving.pop()
-        self.begin(step)
-        now = self.put(f"load i64, ptr {counter}")
-        self.lines.append(f"  store i64 {self.put(f'add nsw i64 {now}, {statement.step}')}, ptr {counter}")
+        self.begin_block(step)
+        now = self.print_instruction(f"load i64, ptr {counter}")
+        self.lines.append(
+            f"  store i64 {self.print_instruction(f'add nsw i64 {now}, {statement.step}')}, ptr {counter}"
+        )
         self.jump_back(test)
-        self.begin(end)
+        self.begin_block(end)

@@ -10,7 +10,7 @@ import ast
 import types as python
 
 from symgen.compile.native import language as lang
-from symgen.compile.native.loop_values import EXPRESSIONS, Array, Record, Value, is_number, leaves
+from symgen.compile.native.loop_values import EXPRESSIONS, Array, Record, Value, is_number, leaves_of_value
 from symgen.compile.native.read import Reader
 from symgen.compile.native.read_values import Foreign, number_value
 
@@ -42,16 +42,16 @@ class LoopValues(Reader):
         self.pending: list[lang.Statement] = []
         self.count = 0
 
-    def named(self, value: Value, node: ast.AST) -> Value:
+    def name_number(self, value: Value, node: ast.AST) -> Value:
         """Return a value that later statements do not change: a number gets a name."""
         if not isinstance(value, EXPRESSIONS) or isinstance(value, lang.Constant):
             return value
-        name = self.fresh("")
-        self.give(name, value.type, node)
+        name = self.fresh_name("")
+        self.note_type(name, value.type, node)
         self.pending.append(lang.Assign(name, value))
         return lang.Variable(value.type, name)
 
-    def fresh(self, name: str) -> str:
+    def fresh_name(self, name: str) -> str:
         """Return a name that is no Python name."""
         self.count += 1
         return f"{name}..{self.count}"
@@ -67,14 +67,14 @@ class LoopValues(Reader):
     def value(self, node: ast.expr) -> Value:
         """Return the value of an expression: a number, a record, an array or a function."""
         if isinstance(node, ast.Tuple):
-            return Record(tuple(self.named(v, node) for v in self.several(node.elts)))
+            return Record(tuple(self.name_number(v, node) for v in self.values_in_order(node.elts)))
         if isinstance(node, ast.Name) and node.id in self.bound:
             return self.bound[node.id]
         if isinstance(node, ast.IfExp):
             return self.choice(node)
         return super().expression(node)
 
-    def several(self, nodes: list[ast.expr]) -> list[Value]:
+    def values_in_order(self, nodes: list[ast.expr]) -> list[Value]:
         """Return values in their order: statements of a later one do not change an earlier one."""
         values: list[Value] = []
         for node in nodes:
@@ -84,14 +84,14 @@ class LoopValues(Reader):
                 isinstance(v, EXPRESSIONS) and not isinstance(v, lang.Constant) for v in values
             ):
                 behind, self.pending = self.pending[before:], self.pending[:before]
-                values = [self.named(v, node) for v in values]
+                values = [self.name_number(v, node) for v in values]
                 self.pending += behind
             values.append(value)
         return values
 
     def numbers_of(self, nodes: list[ast.expr]) -> list[lang.Expression]:
         """Return values that are numbers."""
-        values = self.several(nodes)
+        values = self.values_in_order(nodes)
         if not all(is_number(v) for v in values):
             raise Foreign("something that is no number", nodes[0])
         return values
@@ -114,27 +114,27 @@ class LoopValues(Reader):
     def element(self, node: ast.Subscript) -> Value:
         """Return an element of an array or of a tuple."""
         if isinstance(node.value, ast.Attribute | ast.Name):
-            owner = self.owner(node.value)
+            owner = self.array_of_element(node.value)
             if isinstance(owner, Record):
                 index = self.expression(node.slice)
                 if isinstance(index, lang.Constant) and 0 <= int(index.value) < len(owner.values):
                     return owner.values[int(index.value)]
                 raise Foreign("an index", node)
             if isinstance(owner, Array) and isinstance(node.slice, ast.Slice):
-                return self.one(owner, node.slice)
-            if isinstance(owner, Array) and (count := _indices(node)) < owner.rank:
-                return self.behind(owner, node, count)
+                return self.one_row(owner, node.slice)
+            if isinstance(owner, Array) and (count := _index_count(node)) < owner.rank:
+                return self.subarray(owner, node, count)
         return super().element(node)
 
-    def behind(self, array: Array, node: ast.Subscript, count: int) -> Array:
+    def subarray(self, array: Array, node: ast.Subscript, count: int) -> Array:
         """Return the subarray at some indices, an array of fewer dimensions."""
         nodes = list(node.slice.elts) if isinstance(node.slice, ast.Tuple) else [node.slice]
         indices = [*self.numbers_of(nodes), *(lang.Constant("int", 0),) * (array.rank - count)]
-        name = self.array(array.type, array.rank - count)
-        self.pending.append(lang.ArrayView(name, array.name, self.at(array, indices, node), None, count))
+        name = self.new_array(array.type, array.rank - count)
+        self.pending.append(lang.ArrayView(name, array.name, self.place_at(array, indices, node), None, count))
         return Array(name, array.type, array.rank - count)
 
-    def at(self, array: Array, indices: list[lang.Expression], node: ast.AST) -> lang.Expression:
+    def place_at(self, array: Array, indices: list[lang.Expression], node: ast.AST) -> lang.Expression:
         """Return the place of an element."""
         if len(indices) != array.rank or any(
             i.type != "int" or (isinstance(i, lang.Constant) and i.value < 0) for i in indices
@@ -146,7 +146,7 @@ class LoopValues(Reader):
             at = lang.ScalarOperation("int", "add", (row, index))
         return at
 
-    def one(self, array: Array, part: ast.Slice) -> Array:
+    def one_row(self, array: Array, part: ast.Slice) -> Array:
         """Return one row of an array, ``[k : k + 1]``, as an array of the same dimensions."""
         if part.lower is None or part.step is not None or part.upper is None:
             raise Foreign("a part of an array", part)
@@ -154,13 +154,13 @@ class LoopValues(Reader):
         if ast.dump(part.upper) != ast.dump(behind):
             raise Foreign("a part of an array", part)
         (at,) = self.numbers_of([part.lower])
-        name = self.array(array.type, array.rank)
+        name = self.new_array(array.type, array.rank)
         for axis in range(1, array.rank):
             at = lang.ScalarOperation("int", "mul", (at, lang.ArrayLength(array.name, axis)))
         self.pending.append(lang.ArrayView(name, array.name, at, lang.Constant("int", 1)))
         return Array(name, array.type, array.rank)
 
-    def owner(self, node: ast.expr) -> Value:
+    def array_of_element(self, node: ast.expr) -> Value:
         """Return the array of an element; None for a table of the module."""
         if isinstance(node, ast.Name) and node.id not in self.bound:
             return None
@@ -168,13 +168,13 @@ class LoopValues(Reader):
 
     def place(self, node: ast.Subscript) -> tuple[str, lang.Expression]:
         """Return array and index of an element."""
-        owner = self.owner(node.value)
+        owner = self.array_of_element(node.value)
         if owner is None:
             return super().place(node)
         if not isinstance(owner, Array):
             raise Foreign("an element of something else than an array", node)
         nodes = list(node.slice.elts) if isinstance(node.slice, ast.Tuple) else [node.slice]
-        return owner.name, self.at(owner, self.numbers_of(nodes), node)
+        return owner.name, self.place_at(owner, self.numbers_of(nodes), node)
 
     def unary(self, node: ast.UnaryOp) -> lang.Expression:
         """Return an operation on one value."""
@@ -192,9 +192,9 @@ class LoopValues(Reader):
             if isinstance(node.op, ast.FloorDiv | ast.Mod):
                 name = "quotient" if isinstance(node.op, ast.FloorDiv) else "rest"
                 return lang.ScalarOperation("int", name, (left, right))
-        sign = self.sign(node)
+        sign = self.operation_name(node)
         if sign == "pow" and left.type == "int" and isinstance(right, lang.Constant) and right.value == 2:
-            left = self.named(left, node)
+            left = self.name_number(left, node)
             return lang.ScalarOperation("int", "mul", (left, left))
         return self.arithmetic(sign, left, right, node)
 
@@ -202,10 +202,10 @@ class LoopValues(Reader):
         """Return one comparison or several in a row."""
         values = self.numbers_of([node.left, *node.comparators])
         if len(values) > 2:
-            values = [self.named(v, node) for v in values]  # none is computed twice
+            values = [self.name_number(v, node) for v in values]  # none is computed twice
         tests: lang.Expression | None = None
         for sign, left, right in zip(node.ops, values, values[1:], strict=False):
-            test = self.compared(sign, left, right, node)
+            test = self.compare_values(sign, left, right, node)
             tests = test if tests is None else lang.Logic("and", tests, test)
         assert tests is not None, "a comparison compares"
         return tests
@@ -221,15 +221,15 @@ class LoopValues(Reader):
                 raise Foreign("'and' or 'or' of numbers", node)
             if tests and len(self.pending) > before:
                 behind, self.pending = self.pending[before:], self.pending[:before]
-                name = self.fresh("decided")
+                name = self.fresh_name("decided")
                 self.depth += 1
-                self.give(name, "bool", node)
+                self.note_type(name, "bool", node)
                 self.depth -= 1
-                test = self.joined(tests, deciding)
+                test = self.join_booleans(tests, deciding)
                 if not deciding:
-                    chosen = lang.If(test, (*behind, lang.Assign(name, value)), (_given(name, False),))
+                    chosen = lang.If(test, (*behind, lang.Assign(name, value)), (_assign_truth(name, False),))
                 else:
-                    chosen = lang.If(test, (_given(name, True),), (*behind, lang.Assign(name, value)))
+                    chosen = lang.If(test, (_assign_truth(name, True),), (*behind, lang.Assign(name, value)))
                 self.pending.append(chosen)
                 tests = [lang.Variable("bool", name)]
                 continue
@@ -241,9 +241,9 @@ class LoopValues(Reader):
             tests.append(value)
         if not tests:
             return lang.Constant("bool", not deciding)
-        return self.joined(tests, deciding)
+        return self.join_booleans(tests, deciding)
 
-    def joined(self, values: list[lang.Expression], deciding: bool) -> lang.Expression:
+    def join_booleans(self, values: list[lang.Expression], deciding: bool) -> lang.Expression:
         """Return ``and`` of booleans that False decides, or ``or`` of those that True does."""
         *first, last = values
         for earlier in reversed(first):
@@ -264,28 +264,28 @@ class LoopValues(Reader):
         self.depth, self.pending = self.depth - 1, outer
         chosen, otherwise = values
         if any(statements) or isinstance(chosen, Record):
-            return self.decided(test, values, statements, node)
+            return self.choose_with_statements(test, values, statements, node)
         if isinstance(chosen, Array) and isinstance(otherwise, Array) and chosen.type == otherwise.type:
-            name = self.array(chosen.type)
+            name = self.new_array(chosen.type)
             self.pending.append(lang.Pick(name, test, chosen.name, otherwise.name))
             return Array(name, chosen.type)
         if not isinstance(chosen, EXPRESSIONS) or not isinstance(otherwise, EXPRESSIONS):
             raise Foreign("a choice between things that are no numbers", node)
-        return self.chosen(test, chosen, otherwise, node)
+        return self.choose_value(test, chosen, otherwise, node)
 
-    def decided(
+    def choose_with_statements(
         self, test: lang.Expression, values: list[Value], statements: list[list[lang.Statement]], node: ast.AST
     ) -> Value:
         """Return one of two values that need statements, or are records of numbers."""
-        first, second = (list(leaves(value)) for value in values)
+        first, second = (list(leaves_of_value(value)) for value in values)
         if len(first) != len(second) or any(
             not is_number(a) or not is_number(b) or a.type != b.type for a, b in zip(first, second, strict=True)
         ):
             raise Foreign("a choice between things that are no numbers", node)
-        names = [self.fresh("chosen") for _ in first]
+        names = [self.fresh_name("chosen") for _ in first]
         for name, value in zip(names, first, strict=True):
             self.depth += 1
-            self.give(name, value.type, node)
+            self.note_type(name, value.type, node)
             self.depth -= 1
         then, otherwise = (
             (*before, *(lang.Assign(name, v) for name, v in zip(names, branch, strict=True)))
@@ -295,16 +295,16 @@ class LoopValues(Reader):
         variables = tuple(lang.Variable(value.type, name) for name, value in zip(names, first, strict=True))
         return Record(variables) if isinstance(values[0], Record) else variables[0]
 
-    def array(self, kind: lang.Scalar, rank: int = 1) -> str:
+    def new_array(self, kind: lang.Scalar, rank: int = 1) -> str:
         """Return the name of a new array."""
-        name = self.fresh("array")
+        name = self.fresh_name("array")
         self.arrays[name] = kind
         return name
 
 
-def _given(name: str, value: bool) -> lang.Statement:
+def _assign_truth(name: str, value: bool) -> lang.Statement:
     return lang.Assign(name, lang.Constant("bool", value))
 
 
-def _indices(node: ast.Subscript) -> int:
+def _index_count(node: ast.Subscript) -> int:
     return len(node.slice.elts) if isinstance(node.slice, ast.Tuple) else 1

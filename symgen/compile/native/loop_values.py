@@ -56,7 +56,7 @@ Value = Any
 NOTHING = Record(())
 
 
-def laid_out(name: str, kind: object) -> tuple[Value, list[lang.FunctionParameter]]:
+def argument_value(name: str, kind: object) -> tuple[Value, list[lang.FunctionParameter]]:
     """Return the value of an argument, and its parameters.
 
     Parameters
@@ -80,28 +80,28 @@ def laid_out(name: str, kind: object) -> tuple[Value, list[lang.FunctionParamete
         return array, [lang.FunctionParameter(name, array.type, True, kind.ndim)]
     if isinstance(kind, types.RecordType):
         names = kind.fields or tuple(str(i) for i in range(len(kind)))
-        parts = [laid_out(f"{name}.{field}", part) for field, part in zip(names, kind, strict=True)]
+        parts = [argument_value(f"{name}.{field}", part) for field, part in zip(names, kind, strict=True)]
         return Record(tuple(v for v, _ in parts), kind.fields), [p for _, ps in parts for p in ps]
     raise Foreign(f"an argument of type {kind}")
 
 
-def leaves(value: Value) -> Iterator[Value]:
+def leaves_of_value(value: Value) -> Iterator[Value]:
     """Yield numbers, arrays and functions of a value in their order."""
     if isinstance(value, Record):
         for part in value.values:
-            yield from leaves(part)
+            yield from leaves_of_value(part)
     else:
         yield value
 
 
-def handed_on(kinds: Sequence[Any], values: Sequence[Value]) -> tuple[lang.Expression | str, ...]:
+def pass_values(kinds: Sequence[Any], values: Sequence[Value]) -> tuple[lang.Expression | str, ...]:
     """Return the passed form of values of some types."""
     if len(kinds) != len(values):
         raise Foreign("a function with other arguments")
-    return tuple(x for kind, value in zip(kinds, values, strict=True) for x in handed(kind, value))
+    return tuple(x for kind, value in zip(kinds, values, strict=True) for x in pass_value(kind, value))
 
 
-def handed(kind: object, value: Value) -> Iterator[lang.Expression | str]:
+def pass_value(kind: object, value: Value) -> Iterator[lang.Expression | str]:
     """Yield the passed form of a value of a type: numbers, and names of arrays and functions.
 
     Raises
@@ -111,7 +111,7 @@ def handed(kind: object, value: Value) -> Iterator[lang.Expression | str]:
     """
     if isinstance(value, Record) and isinstance(kind, types.RecordType) and len(kind) == len(value.values):
         for part, item in zip(kind, value.values, strict=True):
-            yield from handed(part, item)
+            yield from pass_value(part, item)
     elif isinstance(value, Array) and isinstance(kind, types.ArrayType):
         if SCALARS.get(kind.dtype) != value.type or kind.ndim != value.rank:
             raise Foreign("an array of another kind")
@@ -124,10 +124,10 @@ def handed(kind: object, value: Value) -> Iterator[lang.Expression | str]:
         raise Foreign(f"an argument that is no {kind}")
 
 
-def renamed(name: str, value: Value) -> tuple[Value, list[lang.FunctionParameter]]:
+def value_in_callee(name: str, value: Value) -> tuple[Value, list[lang.FunctionParameter]]:
     """Return a value in the callee that takes it, and its parameters."""
     if isinstance(value, Record):
-        parts = [renamed(f"{name}.{i}", part) for i, part in enumerate(value.values)]
+        parts = [value_in_callee(f"{name}.{i}", part) for i, part in enumerate(value.values)]
         return Record(tuple(v for v, _ in parts), value.fields), [p for _, ps in parts for p in ps]
     if isinstance(value, Array):
         return Array(name, value.type, value.rank), [lang.FunctionParameter(name, value.type, True, value.rank)]

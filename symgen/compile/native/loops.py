@@ -28,15 +28,15 @@ from symgen.compile.native.loop_values import (
     Array,
     Record,
     Value,
-    handed_on,
+    argument_value,
     is_number,
-    laid_out,
-    leaves,
-    renamed,
+    leaves_of_value,
+    pass_values,
+    value_in_callee,
 )
-from symgen.compile.native.pieces import Piece, inserted
-from symgen.compile.native.read import Renamed, body_of, returns, tree_of
-from symgen.compile.native.read_values import Foreign, as_type, truth_of
+from symgen.compile.native.pieces import Piece, piece_text
+from symgen.compile.native.read import Renamed, always_returns, statements_without_docstring, tree_of_function
+from symgen.compile.native.read_values import Foreign, as_type, truth_value_of
 
 #: Makes the compiled function of the plain form of a piece; None: pieces are inserted in LLVM's language.
 Pieces = Callable[[Piece], Any] | None
@@ -65,7 +65,7 @@ def read_loop(
         If it is outside the language.
     """
     names = function.py_func.__code__.co_varnames
-    pairs = [laid_out(name, kind) for name, kind in zip(names, arguments, strict=False)]
+    pairs = [argument_value(name, kind) for name, kind in zip(names, arguments, strict=False)]
     parameters = tuple(p for _, ps in pairs for p in ps)
     return LoopReader(function, tuple(v for v, _ in pairs), parameters, {}, pieces, apart).function()
 
@@ -103,7 +103,7 @@ class LoopReader(LoopValues):
         pieces: Pieces = None,
         apart: bool = False,
     ) -> None:
-        tree = tree_of(function)
+        tree = tree_of_function(function)
         names = [x.arg for x in tree.args.args]
         if len(names) != len(arguments):
             raise Foreign("arguments other than plain ones", tree)
@@ -115,8 +115,8 @@ class LoopReader(LoopValues):
 
     def function(self) -> lang.Function:
         """Return the function."""
-        statements = self.statements(body_of(self.tree))
-        if not returns(statements):  # no result: an unused 0
+        statements = self.statements(statements_without_docstring(self.tree))
+        if not always_returns(statements):  # no result: an unused 0
             self.returned.add("int")
             statements = (*statements, lang.Return(lang.Constant("int", 0)))
         if len(self.returned) != 1:
@@ -139,11 +139,11 @@ class LoopReader(LoopValues):
             test = self.truth(node.test)
             if isinstance(test, lang.Constant):
                 return list(self.statements(node.body if test.value else node.orelse))
-            return [lang.If(test, self.inner(node.body), self.inner(node.orelse))]
+            return [lang.If(test, self.read_inner(node.body), self.read_inner(node.orelse))]
         if isinstance(node, ast.While) and not node.orelse:
             return [self.repeat(node)]
         if isinstance(node, ast.For) and isinstance(node.iter, ast.Tuple):
-            return self.unrolled(node)
+            return self.unroll(node)
         if isinstance(node, ast.AnnAssign) and node.value is not None:
             return self.assignment(ast.copy_location(ast.Assign([node.target], node.value), node))
         if isinstance(node, ast.Expr):
@@ -158,19 +158,19 @@ class LoopReader(LoopValues):
         test = self.truth(node.test)
         self.depth -= 1
         before, self.pending = self.pending, outer
-        body = self.inner(node.body, loop=True)
+        body = self.read_inner(node.body, loop=True)
         if not before:
             return lang.While(test, body)
         leave = lang.If(lang.ScalarOperation("bool", "not", (test,)), (lang.Leave("break"),), ())
         return lang.While(lang.Constant("bool", True), (*before, leave, *body))
 
-    def unrolled(self, node: ast.For) -> list[lang.Statement]:
+    def unroll(self, node: ast.For) -> list[lang.Statement]:
         """Return the statements for each of some values."""
         if node.orelse or any(isinstance(x, ast.Break | ast.Continue) for s in node.body for x in ast.walk(s)):
             raise Foreign("the end of a loop over a tuple", node)
         statements: list[lang.Statement] = []
         for value in self.value(node.iter).values:
-            statements += [*self.stored(node.target, value), *self.inner(node.body)]
+            statements += [*self.assign_value(node.target, value), *self.read_inner(node.body)]
         return statements
 
     def end(self, node: ast.Return) -> list[lang.Statement]:
@@ -183,7 +183,7 @@ class LoopReader(LoopValues):
         if node.value is not None:
             value = self.value(node.value)
             if is_number(value):
-                self.give(copied.result, value.type, node)
+                self.note_type(copied.result, value.type, node)
                 statements.append(lang.Assign(copied.result, value))
             else:
                 if copied.result in self.bound or self.depth:
@@ -195,16 +195,16 @@ class LoopReader(LoopValues):
         """Return the statements of an assignment; all values are computed before the first one is stored."""
         value = self.value(node.value)
         if len(node.targets) > 1:
-            value = self.named(value, node)
-        return [s for target in node.targets for s in self.stored(target, value)]
+            value = self.name_number(value, node)
+        return [s for target in node.targets for s in self.assign_value(target, value)]
 
-    def stored(self, target: ast.expr, value: Value) -> list[lang.Statement]:
+    def assign_value(self, target: ast.expr, value: Value) -> list[lang.Statement]:
         """Return the assignment of a value to a name or an element, or of several to several."""
         if isinstance(target, ast.Tuple):
             values = list(value.values) if isinstance(value, Record) else []
             if len(values) != len(target.elts):
                 raise Foreign("an assignment of unequal lengths", target)
-            return [s for t, v in zip(target.elts, values, strict=True) for s in self.stored(t, v)]
+            return [s for t, v in zip(target.elts, values, strict=True) for s in self.assign_value(t, v)]
         if isinstance(value, EXPRESSIONS):
             if isinstance(target, ast.Name) and target.id in self.bound:
                 raise Foreign(f"variable '{target.id}' has two types", target)
@@ -222,34 +222,38 @@ class LoopReader(LoopValues):
         """Return the result of a function."""
         if node.keywords:
             raise Foreign("arguments by name", node)
-        if isinstance(node.func, ast.Attribute) and self.of_math(node.func):
+        if isinstance(node.func, ast.Attribute) and self.is_of_math(node.func):
             if node.func.attr not in ("isfinite", "isnan"):
                 return super().call(node)
             (number,) = self.numbers_of(node.args)
-            number = self.named(as_type("float", number), node)
+            number = self.name_number(as_type("float", number), node)
             if node.func.attr == "isnan":
                 return lang.ScalarOperation("bool", "ne", (number, number))
             size = lang.ScalarOperation("float", "abs", (number,))
             return lang.ScalarOperation("bool", "lt", (size, lang.Constant("float", math.inf)))
-        builtin = self.builtin(node.func)
+        builtin = self.builtin_name(node.func)
         if builtin == "round" and len(node.args) == 1:
             (value,) = self.numbers_of(node.args)
             if value.type == "float":
                 return lang.ScalarOperation("int", "round", (value,))
         if builtin == "bool" and len(node.args) == 1:
-            return truth_of(self.expression(node.args[0]))
+            return truth_value_of(self.expression(node.args[0]))
         if builtin is not None:
             return self.call_builtin(builtin, self.numbers_of(node.args), node)
         arguments = [x for a in node.args for x in self.argument(a)]
-        called = self.member(node.func) if isinstance(node.func, ast.Attribute) else self.meant(node.func)
+        called = (
+            self.function_of_member(node.func)
+            if isinstance(node.func, ast.Attribute)
+            else self.called_meaning(node.func)
+        )
         if isinstance(called, Address):
-            return self.invoke(called, arguments, node)
+            return self.read_call_by_address(called, arguments, node)
         if isinstance(called, Piece):
-            return self.insert(called, arguments, node)
+            return self.read_piece(called, arguments, node)
         if isinstance(called, type) and issubclass(called, tuple) and hasattr(called, "_fields"):
             if len(called._fields) != len(arguments):
                 raise Foreign("a record with other fields", node)
-            return Record(tuple(self.named(v, node) for v in arguments), called._fields)
+            return Record(tuple(self.name_number(v, node) for v in arguments), called._fields)
         called = getattr(called, "compiled", called)  # also of interpreted functions
         plain = getattr(called, "py_func", None)
         if not isinstance(plain, python.FunctionType):
@@ -257,10 +261,10 @@ class LoopReader(LoopValues):
         if called.inlined and not (self.apart and _gives_numbers(called)):
             if called.contracted != self.source.contracted:
                 raise Foreign(f"the function '{called.__name__}', whose sums are others", node)
-            return self.copy(called, arguments, node)
+            return self.copy_part(called, arguments, node)
         return self.call_part(called, arguments, node)
 
-    def member(self, node: ast.Attribute) -> Any:
+    def function_of_member(self, node: ast.Attribute) -> Any:
         """Return a function in a record or in a module."""
         if isinstance(node.value, ast.Name) and node.value.id not in self.bound:
             module = self.globals.get(node.value.id)
@@ -268,7 +272,7 @@ class LoopReader(LoopValues):
                 return getattr(module, node.attr, None)
         return self.value(node)
 
-    def meant(self, node: ast.expr) -> Any:
+    def called_meaning(self, node: ast.expr) -> Any:
         """Return the meaning of a called name."""
         if not isinstance(node, ast.Name):
             raise Foreign("a call", node)
@@ -277,27 +281,27 @@ class LoopReader(LoopValues):
     def argument(self, node: ast.expr) -> list[Value]:
         """Return one argument of a call, or the elements of a tuple."""
         if not isinstance(node, ast.Starred):
-            return self.several([node])
+            return self.values_in_order([node])
         value = self.value(node.value)
         if not isinstance(value, Record):
             raise Foreign("arguments that are no tuple", node)
         return list(value.values)
 
-    def invoke(self, called: Address, arguments: list[Value], node: ast.Call) -> lang.Expression:
+    def read_call_by_address(self, called: Address, arguments: list[Value], node: ast.Call) -> lang.Expression:
         """Return the result of a function by its address."""
         result = SCALARS.get(called.signature.result)
         if result is None:
             raise Foreign("a function with other results", node)
-        return lang.Invoke(result, called.name, handed_on(called.signature.arguments, arguments))
+        return lang.Invoke(result, called.name, pass_values(called.signature.arguments, arguments))
 
-    def insert(self, called: Piece, arguments: list[Value], node: ast.Call) -> Value:
+    def read_piece(self, called: Piece, arguments: list[Value], node: ast.Call) -> Value:
         """Return the result of a function in LLVM's language, or of its plain form."""
         if called.name == "bare" and len(arguments) == 1:
             return arguments[0]  # no reference counting here
         if called.name == "part" and len(arguments) == 3 and isinstance(arguments[0], Array):
             source, first, size = arguments
-            view = self.array(source.type)
-            size = self.named(size, node)
+            view = self.new_array(source.type)
+            size = self.name_number(size, node)
             self.pending.append(lang.ArrayView(view, source.name, first, size))
             return Array(view, source.type)
         if self.plain_piece is not None:
@@ -310,37 +314,39 @@ class LoopReader(LoopValues):
                 kinds.append(NUMBERS[value.type])
             else:
                 raise Foreign("an argument of another kind", node)
-        symbol, text = inserted(called, tuple(kinds))
+        symbol, text = piece_text(called, tuple(kinds))
         nothing = called.result is types.void
-        return lang.Insert(SCALARS.get(called.result, "int"), symbol, text, handed_on(kinds, arguments), nothing)
+        return lang.Insert(SCALARS.get(called.result, "int"), symbol, text, pass_values(kinds, arguments), nothing)
 
     def call_part(self, called: Any, arguments: list[Value], node: ast.Call) -> lang.Expression:
         """Return the result of a called part."""
-        tree = tree_of(called)
+        tree = tree_of_function(called)
         if len(tree.args.args) != len(arguments):
             raise Foreign(f"the function '{called.__name__}'", node)
-        pairs = [renamed(x.arg, v) for x, v in zip(tree.args.args, arguments, strict=True)]
+        pairs = [value_in_callee(x.arg, v) for x, v in zip(tree.args.args, arguments, strict=True)]
         inside, parameters = tuple(v for v, _ in pairs), tuple(p for _, ps in pairs for p in ps)
         key = (called, parameters)
         if key not in self.shared:
             reader = LoopReader(called, inside, parameters, self.shared, self.plain_piece, self.apart)
             self.shared[key] = reader.function()
         function = self.called[called, parameters] = self.shared[key]  # type: ignore[index]  # its identity
-        leaf_arguments = (v.name if isinstance(v, Array | Address) else v for v in leaves(Record(tuple(arguments))))
+        leaf_arguments = (
+            v.name if isinstance(v, Array | Address) else v for v in leaves_of_value(Record(tuple(arguments)))
+        )
         return lang.FunctionCall(function.returned, function, tuple(leaf_arguments))
 
-    def copy(self, called: Any, arguments: list[Value], node: ast.Call) -> Value:
+    def copy_part(self, called: Any, arguments: list[Value], node: ast.Call) -> Value:
         """Return the result of a part whose code is copied to its call."""
-        tree = tree_of(called)
+        tree = tree_of_function(called)
         if len(tree.args.args) != len(arguments) or len(self.copies) > 20:
             raise Foreign(f"the function '{called.__name__}'", node)
-        names = {name: self.fresh(name) for name in called.py_func.__code__.co_varnames}  # in an order that stays
-        body = [Renamed(names).visit(statement) for statement in body_of(tree)]
+        names = {name: self.fresh_name(name) for name in called.py_func.__code__.co_varnames}  # in an order that stays
+        body = [Renamed(names).visit(statement) for statement in statements_without_docstring(tree)]
         assigned = {x.id for s in body for x in ast.walk(s) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)}
         for x, value in zip(tree.args.args, arguments, strict=True):
             name = names[x.arg]
             if isinstance(value, EXPRESSIONS) and (name in assigned or not isinstance(value, lang.Constant)):
-                self.give(name, value.type, node)
+                self.note_type(name, value.type, node)
                 self.pending.append(lang.Assign(name, value))
             else:
                 self.bound[name] = value
@@ -348,7 +354,7 @@ class LoopReader(LoopValues):
         self.globals, self.locals = called.py_func.__globals__, frozenset(names.values())
         single = _ends_once(body)
         self.count += 1
-        copied = _Copied(self.count, self.fresh("result"))
+        copied = _Copied(self.count, self.fresh_name("result"))
         self.depth = self.loops = 0
         self.copies.append(copied)
         statements = self.statements(body)
@@ -369,7 +375,9 @@ def _gives_numbers(function: Any) -> bool:
     plain = function.py_func
     if hasattr(plain, "viewing"):
         return False
-    results = [x.value for x in ast.walk(tree_of(function)) if isinstance(x, ast.Return) and x.value is not None]
+    results = [
+        x.value for x in ast.walk(tree_of_function(function)) if isinstance(x, ast.Return) and x.value is not None
+    ]
     names = [x.func.id for x in results if isinstance(x, ast.Call) and isinstance(x.func, ast.Name)]
     made = (plain.__globals__.get(name) for name in names)
     records = any(isinstance(x, type) and hasattr(x, "_fields") for x in made)

@@ -29,7 +29,7 @@ lock = threading.RLock()
 
 
 @functools.cache
-def _host() -> tuple[str, str, str]:
+def _host_processor() -> tuple[str, str, str]:
     """Return triple, name and features of the processor; Numba's environment variables may name another one."""
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
@@ -41,21 +41,21 @@ def _host() -> tuple[str, str, str]:
 @functools.cache
 def vector_width() -> int:
     """Return the number of floating-point numbers in a vector of this processor."""
-    _, name, features = _host()
+    _, name, features = _host_processor()
     wide = {"+avx512f": 8, "+avx": 4}
     named = {"haswell": 4, "broadwell": 4, "znver1": 4, "znver2": 4, "znver3": 4}  # if features are missing
     return next((n for feature, n in wide.items() if feature in features.split(",")), named.get(name, 2))
 
 
 @functools.cache
-def processor() -> str:
+def processor_features() -> str:
     """Return the features of this processor that affect machine code."""
-    return repr(_host())
+    return repr(_host_processor())
 
 
-def _machine(level: int) -> Any:
+def _target_machine(level: int) -> Any:
     """Return the compiler of machine code, with the passes of a level of optimisation."""
-    triple, name, features = _host()
+    triple, name, features = _host_processor()
     # addresses are those of this process: code for x86 need not be relocated
     relocation = "static" if triple.startswith(("x86", "i386", "i686")) else "default"
     options = {"cpu": name, "features": features, "reloc": relocation, "codemodel": "jitdefault", "jit": True}
@@ -64,16 +64,16 @@ def _machine(level: int) -> Any:
 
 @functools.cache
 def _best_machine() -> Any:
-    return _machine(3)
+    return _target_machine(3)
 
 
 @functools.cache
-def _engine() -> Any:
+def _execution_engine() -> Any:
     """Return the holder of machine code in memory."""
-    return llvm.create_mcjit_compiler(llvm.parse_assembly(""), _machine(3))
+    return llvm.create_mcjit_compiler(llvm.parse_assembly(""), _target_machine(3))
 
 
-def compiled(text: str, symbol: str, once: bool = False) -> bytes:
+def compile_module(text: str, symbol: str, once: bool = False) -> bytes:
     """Return the object file of a module in LLVM's language.
 
     Parameters
@@ -85,35 +85,35 @@ def compiled(text: str, symbol: str, once: bool = False) -> bytes:
     once : bool
         Whether the function is called about once, so that passes would take longer than they save.
     """
-    from symgen.compile.native.blocks import split
+    from symgen.compile.native.blocks import split_into_blocks
 
     if once:
-        return bytes(_machine(0).emit_object(_parsed(text)))
-    module = optimised(text)
+        return bytes(_target_machine(0).emit_object(_parse_module(text)))
+    module = optimise_module(text)
     machine = _best_machine()
-    divided = split(str(module), symbol, LARGEST_BLOCK)
+    divided = split_into_blocks(str(module), symbol, LARGEST_BLOCK)
     if divided is not None:
         module = llvm.parse_assembly(divided)
-        machine = _machine(1)  # without the passes whose time grows with the square of a block's length
+        machine = _target_machine(1)  # without the passes whose time grows with the square of a block's length
     return bytes(machine.emit_object(module))
 
 
-def _parsed(text: str) -> Any:
+def _parse_module(text: str) -> Any:
     """Return a module for this processor, before all passes."""
     if sines.sine_name(sines.MOST) in text:
         text = re.sub(r"(?m)^(define .*)\{$", rf"\1{_NARROW} {{", text)
     module = llvm.parse_assembly(text)
-    module.triple, module.data_layout = _host()[0], str(_best_machine().target_data)
+    module.triple, module.data_layout = _host_processor()[0], str(_best_machine().target_data)
     return module
 
 
-def optimised(text: str) -> Any:
+def optimise_module(text: str) -> Any:
     """Return a module after the passes of the highest level.
 
     For straight code a few of these give the result of all: instructions in their plainest form, operands in
     the order that decides which product a sum is contracted with.
     """
-    module = _parsed(text)
+    module = _parse_module(text)
     options = llvm.create_pipeline_tuning_options(speed_level=3)
     options.loop_vectorization = options.loop_unrolling = True
     options.slp_vectorization = False
@@ -139,7 +139,7 @@ def load_machine_code(code: bytes, symbol: str) -> int:
 
     Its callees must be in memory before: LLVM ends the process where a symbol is missing.
     """
-    engine = _engine()
+    engine = _execution_engine()
     engine.add_object_file(llvm.ObjectFileRef.from_data(code))
     engine.finalize_object()
     return int(engine.get_function_address(symbol))

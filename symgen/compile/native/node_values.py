@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from symgen.compile.native import language as lang
 from symgen.compile.native import sines
-from symgen.compile.native.llvm_values import COMPARED, FLOATS, INTS, TYPES, ValuePrinter, literal
+from symgen.compile.native.llvm_values import COMPARED, FLOATS, INTS, TYPES, ValuePrinter, float_literal
 from symgen.compile.native.read_values import Foreign
 from symgen.compile.native.types import NODES
 
@@ -48,10 +48,10 @@ class NodeValuePrinter(ValuePrinter):
         self.stored: dict[tuple[str, int], tuple[str, bool]] = {}  # elements written so far: value, whether a vector
         self.calls: dict[object, lang.Function] = {}  # called functions
 
-    def at(self, index: lang.Expression) -> int:
+    def index_text(self, index: lang.Expression) -> int:
         """Return an index: a number, or a sum of numbers."""
         if isinstance(index, lang.ScalarOperation) and index.name == "add":
-            return sum(self.at(part) for part in index.arguments)
+            return sum(self.index_text(part) for part in index.arguments)
         if not isinstance(index, lang.Constant):
             raise Foreign("an index that is computed")
         return int(index.value)
@@ -78,11 +78,11 @@ class NodeValuePrinter(ValuePrinter):
         if isinstance(e, lang.ArrayElement):
             if e.array in self.function.tables:
                 return self.is_vector(e.index)
-            if e.array in WRITTEN and (e.array, self.at(e.index)) not in self.stored:
+            if e.array in WRITTEN and (e.array, self.index_text(e.index)) not in self.stored:
                 raise Foreign("a rate that is not written yet")
             if e.array not in (*OWN, *SHARED, *WRITTEN):
                 raise Foreign(f"an element of '{e.array}' in straight code")
-            return e.array in OWN or self.stored.get((e.array, self.at(e.index)), ("", False))[1]
+            return e.array in OWN or self.stored.get((e.array, self.index_text(e.index)), ("", False))[1]
         if isinstance(e, lang.ScalarOperation | lang.FunctionCall | lang.Invoke):
             return any([self.is_vector(a) for a in e.arguments])
         if isinstance(e, lang.Logic):
@@ -91,45 +91,51 @@ class NodeValuePrinter(ValuePrinter):
             return any([self.is_vector(a) for a in (e.test, e.chosen, e.otherwise)])
         return False
 
-    def plain(self, e: lang.Expression) -> str:
+    def value_or_vector(self, e: lang.Expression) -> str:
         """Print an expression and return its value, a vector where it has one value per node."""
-        return self.wide(e) if self.is_vector(e) else self.value(e)
+        return self.values_at_nodes(e) if self.is_vector(e) else self.value(e)
 
     def value(self, e: lang.Expression) -> str:
         """Print an expression that is the same at all nodes."""
-        if isinstance(e, lang.ArrayElement) and (e.array, self.at(e.index)) in self.stored:
-            return self.stored[e.array, self.at(e.index)][0]
+        if isinstance(e, lang.ArrayElement) and (e.array, self.index_text(e.index)) in self.stored:
+            return self.stored[e.array, self.index_text(e.index)][0]
         return super().value(e)
 
-    def wide(self, e: lang.Expression) -> str:
+    def values_at_nodes(self, e: lang.Expression) -> str:
         """Print an expression and return its values at the nodes."""
         if not self.is_vector(e):
-            return self.spread(self.value(e), e.type)
+            return self.spread_number(self.value(e), e.type)
         if isinstance(e, lang.Variable):
             return self.values[e.name]
         if isinstance(e, lang.ArrayElement):
-            index = self.at(e.index)
+            index = self.index_text(e.index)
             if (e.array, index) in self.stored:
                 return self.stored[e.array, index][0]
-            place = self.place(e.array, lang.Constant("int", NODES * index))
-            return self.put(f"load {wide_type('float')}, ptr {place}, align 8")
+            place = self.element_address(e.array, lang.Constant("int", NODES * index))
+            return self.print_instruction(f"load {wide_type('float')}, ptr {place}, align 8")
         if isinstance(e, lang.ScalarOperation):
-            return self.at_nodes(e)
+            return self.operate_at_nodes(e)
         if isinstance(e, lang.Logic):
-            return self.put(f"{e.name} {wide_type('bool')} {self.wide(e.first)}, {self.wide(e.second)}")
+            return self.print_instruction(
+                f"{e.name} {wide_type('bool')} {self.values_at_nodes(e.first)}, {self.values_at_nodes(e.second)}"
+            )
         if isinstance(e, lang.Choice):
-            test, chosen, otherwise = self.wide(e.test), self.wide(e.chosen), self.wide(e.otherwise)
-            return self.chosen(test, chosen, otherwise, e.type)
+            test, chosen, otherwise = (
+                self.values_at_nodes(e.test),
+                self.values_at_nodes(e.chosen),
+                self.values_at_nodes(e.otherwise),
+            )
+            return self.choose_at_nodes(test, chosen, otherwise, e.type)
         if isinstance(e, lang.FunctionCall):
-            return self.node_by_node(e.type, e.arguments, lambda values: self.called_at(e, values))
+            return self.node_by_node(e.type, e.arguments, lambda values: self.call_with_values(e, values))
         raise Foreign(f"a {type(e).__name__} in straight code")
 
-    def spread(self, value: str, kind: lang.Scalar) -> str:
+    def spread_number(self, value: str, kind: lang.Scalar) -> str:
         """Return a vector of equal numbers."""
         if (value, kind) not in self.equal:
             if value.startswith("%"):
-                one = self.put(f"insertelement {wide_type(kind)} poison, {TYPES[kind]} {value}, i32 0")
-                vector = self.put(
+                one = self.print_instruction(f"insertelement {wide_type(kind)} poison, {TYPES[kind]} {value}, i32 0")
+                vector = self.print_instruction(
                     f"shufflevector {wide_type(kind)} {one}, {wide_type(kind)} poison, <{NODES} x i32> zeroinitializer"
                 )
             else:
@@ -138,79 +144,91 @@ class NodeValuePrinter(ValuePrinter):
             self.equal[value, kind] = vector
         return self.equal[value, kind]
 
-    def at_nodes(self, e: lang.ScalarOperation) -> str:
+    def operate_at_nodes(self, e: lang.ScalarOperation) -> str:
         """Print an operation on vectors."""
         name, first = e.name, e.arguments[0].type
         if name in sines.NAMES:
-            return self.sine(name, e.arguments[0])
+            return self.print_sine(name, e.arguments[0])
         if name == "pow" and isinstance(e.arguments[1], lang.Constant) and e.arguments[1].type == "int":
-            return self.power(self.wide(e.arguments[0]), int(e.arguments[1].value))
+            return self.power(self.values_at_nodes(e.arguments[0]), int(e.arguments[1].value))
         if name in (*_VECTORS, "neg", "not", "min", "max", *FLOATS, *INTS, *COMPARED["float"], *_CONVERTED):
-            values = [self.wide(a) for a in e.arguments]
-            return self.operated(e.type, name, first, values)
+            values = [self.values_at_nodes(a) for a in e.arguments]
+            return self.print_operation(e.type, name, first, values)
         return self.node_by_node(
             e.type, e.arguments, lambda values: self.function_of_math(name.removeprefix("math."), values)
         )
 
-    def operated(self, kind: lang.Scalar, name: str, first: lang.Scalar, values: list[str]) -> str:
+    def print_operation(self, kind: lang.Scalar, name: str, first: lang.Scalar, values: list[str]) -> str:
         """Print an operation on printed arguments of type `first`."""
         flag = self.flag if first == "float" else ""
         if name in COMPARED["float"]:
             compare = "fcmp" if first == "float" else "icmp"
-            return self.put(f"{compare}{flag} {COMPARED[first][name]} {wide_type(first)} {', '.join(values)}")
+            return self.print_instruction(
+                f"{compare}{flag} {COMPARED[first][name]} {wide_type(first)} {', '.join(values)}"
+            )
         if name in ("min", "max"):
             sign = COMPARED[kind]["lt" if name == "min" else "gt"]
             compare = f"fcmp{flag}" if kind == "float" else "icmp"
-            test = self.put(f"{compare} {sign} {wide_type(kind)} {values[1]}, {values[0]}")
-            return self.chosen(test, values[1], values[0], kind)
+            test = self.print_instruction(f"{compare} {sign} {wide_type(kind)} {values[1]}, {values[0]}")
+            return self.choose_at_nodes(test, values[1], values[0], kind)
         if kind == "float" and name in FLOATS:
-            return self.put(f"{FLOATS[name]}{flag} {wide_type('float')} {values[0]}, {values[1]}")
+            return self.print_instruction(f"{FLOATS[name]}{flag} {wide_type('float')} {values[0]}, {values[1]}")
         if name in INTS:
-            return self.put(f"{INTS[name]} {wide_type(kind)} {values[0]}, {values[1]}")
+            return self.print_instruction(f"{INTS[name]} {wide_type(kind)} {values[0]}, {values[1]}")
         if name == "neg":
-            zero = self.spread(literal(-0.0) if kind == "float" else "0", kind)
-            return self.put(f"{'fsub' + flag if kind == 'float' else 'sub'} {wide_type(kind)} {zero}, {values[0]}")
+            zero = self.spread_number(float_literal(-0.0) if kind == "float" else "0", kind)
+            return self.print_instruction(
+                f"{'fsub' + flag if kind == 'float' else 'sub'} {wide_type(kind)} {zero}, {values[0]}"
+            )
         if name == "not":
-            return self.put(f"xor {wide_type('bool')} {values[0]}, {self.spread('1', 'bool')}")
+            return self.print_instruction(f"xor {wide_type('bool')} {values[0]}, {self.spread_number('1', 'bool')}")
         if name in _CONVERTED:
             if name == "bool":
-                zero = self.spread(literal(0.0) if first == "float" else "0", first)
-                return self.operated("bool", "ne", first, [values[0], zero])
-            return self.put(f"{_CONVERTED[name][first]} {wide_type(first)} {values[0]} to {wide_type(kind)}")
+                zero = self.spread_number(float_literal(0.0) if first == "float" else "0", first)
+                return self.print_operation("bool", "ne", first, [values[0], zero])
+            return self.print_instruction(
+                f"{_CONVERTED[name][first]} {wide_type(first)} {values[0]} to {wide_type(kind)}"
+            )
         if kind == "int" and name == "abs":
-            below = self.operated("bool", "lt", "int", [values[0], self.spread("0", "int")])
-            return self.chosen(below, self.operated("int", "neg", "int", values), values[0], "int")
-        value = self.of_vectors(_VECTORS[name], wide_type("float"), *((v, "float") for v in values))
-        return self.put(f"fptosi {wide_type('float')} {value} to {wide_type('int')}") if kind == "int" else value
+            below = self.print_operation("bool", "lt", "int", [values[0], self.spread_number("0", "int")])
+            return self.choose_at_nodes(below, self.print_operation("int", "neg", "int", values), values[0], "int")
+        value = self.call_intrinsic(_VECTORS[name], wide_type("float"), *((v, "float") for v in values))
+        return (
+            self.print_instruction(f"fptosi {wide_type('float')} {value} to {wide_type('int')}")
+            if kind == "int"
+            else value
+        )
 
-    def chosen(self, test: str, one: str, other: str, kind: lang.Scalar) -> str:
+    def choose_at_nodes(self, test: str, one: str, other: str, kind: lang.Scalar) -> str:
         """Print a choice between two values at each node."""
-        return self.put(f"select {wide_type('bool')} {test}, {wide_type(kind)} {one}, {wide_type(kind)} {other}")
+        return self.print_instruction(
+            f"select {wide_type('bool')} {test}, {wide_type(kind)} {one}, {wide_type(kind)} {other}"
+        )
 
-    def of_vectors(self, name: str, returned: str, *values: tuple[str, lang.Scalar]) -> str:
+    def call_intrinsic(self, name: str, returned: str, *values: tuple[str, lang.Scalar]) -> str:
         """Print a call of an intrinsic function on vectors."""
         full = f"@llvm.{name}.v{NODES}{'i1' if values[0][1] == 'bool' else 'f64'}"
         self.declared.add(f"declare {returned} {full}({', '.join(wide_type(k) for _, k in values)})")
-        return self.put(f"call {returned} {full}({', '.join(f'{wide_type(k)} {v}' for v, k in values)})")
+        return self.print_instruction(f"call {returned} {full}({', '.join(f'{wide_type(k)} {v}' for v, k in values)})")
 
     def power(self, base: str, exponent: int) -> str:
         """Print a power as products, by squaring, in the order of one node."""
-        result = self.spread(literal(1.0), "float")
+        result = self.spread_number(float_literal(1.0), "float")
         while exponent:
             if exponent & 1:
-                result = self.operated("float", "mul", "float", [result, base])
+                result = self.print_operation("float", "mul", "float", [result, base])
             exponent >>= 1
-            base = self.operated("float", "mul", "float", [base, base])
+            base = self.print_operation("float", "mul", "float", [base, base])
         return result
 
-    def sine(self, name: str, angle: lang.Expression) -> str:
+    def print_sine(self, name: str, angle: lang.Expression) -> str:
         """Print the sine or cosine of an angle; both are kept."""
         if (name, angle) not in self.sines:
-            value = self.wide(angle)
-            size = self.of_vectors("fabs", wide_type("float"), (value, "float"))
-            limit = self.spread(literal(sines.FAR), "float")
-            far = self.put(f"fcmp uge {wide_type('float')} {size}, {limit}")
-            self.far = self.put(f"or {wide_type('bool')} {self.far}, {far}") if self.far else far
+            value = self.values_at_nodes(angle)
+            size = self.call_intrinsic("fabs", wide_type("float"), (value, "float"))
+            limit = self.spread_number(float_literal(sines.FAR), "float")
+            far = self.print_instruction(f"fcmp uge {wide_type('float')} {size}, {limit}")
+            self.far = self.print_instruction(f"or {wide_type('bool')} {self.far}, {far}") if self.far else far
             for own, result in zip(sines.NAMES, self.sine_and_cosine(value), strict=True):
                 self.sines[own, angle] = result
         return self.sines[name, angle]
@@ -222,38 +240,45 @@ class NodeValuePrinter(ValuePrinter):
         """
 
         def number(value: float) -> str:
-            return self.spread(literal(value), "float")
+            return self.spread_number(float_literal(value), "float")
 
-        def op(name: str, a: str, b: str) -> str:
-            return self.operated("float", name, "float", [a, b])
+        def float_operation(name: str, a: str, b: str) -> str:
+            return self.print_operation("float", name, "float", [a, b])
 
-        def added(a: str, b: str, c: str) -> str:
-            return op("add", op("mul", a, b), c)
+        def multiply_add(a: str, b: str, c: str) -> str:
+            return float_operation("add", float_operation("mul", a, b), c)
 
         def polynomial(c: tuple[float, ...]) -> str:
-            pairs = [added(number(c[k + 1]), z, number(c[k])) for k in (0, 2, 4)]
-            return added(added(pairs[2], square, pairs[1]), square, pairs[0])
+            pairs = [multiply_add(number(c[k + 1]), z, number(c[k])) for k in (0, 2, 4)]
+            return multiply_add(multiply_add(pairs[2], square, pairs[1]), square, pairs[0])
 
         whole, wide = wide_type("int"), wide_type("float")
-        shifted = added(x, number(sines.TWO_OVER_PI), number(sines.ROUND))
-        turns, r = self.put(f"fsub {wide} {shifted}, {number(sines.ROUND)}"), x
+        shifted = multiply_add(x, number(sines.TWO_OVER_PI), number(sines.ROUND))
+        turns, r = self.print_instruction(f"fsub {wide} {shifted}, {number(sines.ROUND)}"), x
         for part in sines.HALF_PI:
-            r = op("sub", r, op("mul", turns, number(part)))
-        z = op("mul", r, r)
-        square = op("mul", z, z)
-        sine = added(op("mul", r, z), polynomial(sines.SINE), r)
-        cosine = added(square, polynomial(sines.COSINE), added(z, number(-0.5), number(1.0)))
-        quarter = self.put(f"bitcast {wide} {shifted} to {whole}")
-        odd = self.put(f"trunc {whole} {quarter} to {wide_type('bool')}")
+            r = float_operation("sub", r, float_operation("mul", turns, number(part)))
+        z = float_operation("mul", r, r)
+        square = float_operation("mul", z, z)
+        sine = multiply_add(float_operation("mul", r, z), polynomial(sines.SINE), r)
+        cosine = multiply_add(square, polynomial(sines.COSINE), multiply_add(z, number(-0.5), number(1.0)))
+        quarter = self.print_instruction(f"bitcast {wide} {shifted} to {whole}")
+        odd = self.print_instruction(f"trunc {whole} {quarter} to {wide_type('bool')}")
 
         def turned(value: str, quarter: str) -> str:
-            two, places = self.spread("2", "int"), self.spread("62", "int")
-            sign = self.put(f"shl {whole} {self.put(f'and {whole} {quarter}, {two}')}, {places}")
-            bits = self.put(f"xor {whole} {self.put(f'bitcast {wide} {value} to {whole}')}, {sign}")
-            return self.put(f"bitcast {whole} {bits} to {wide}")
+            two, places = self.spread_number("2", "int"), self.spread_number("62", "int")
+            sign = self.print_instruction(
+                f"shl {whole} {self.print_instruction(f'and {whole} {quarter}, {two}')}, {places}"
+            )
+            bits = self.print_instruction(
+                f"xor {whole} {self.print_instruction(f'bitcast {wide} {value} to {whole}')}, {sign}"
+            )
+            return self.print_instruction(f"bitcast {whole} {bits} to {wide}")
 
-        following = self.operated("int", "add", "int", [quarter, self.spread("1", "int")])
-        first, second = self.chosen(odd, cosine, sine, "float"), self.chosen(odd, sine, cosine, "float")
+        following = self.print_operation("int", "add", "int", [quarter, self.spread_number("1", "int")])
+        first, second = (
+            self.choose_at_nodes(odd, cosine, sine, "float"),
+            self.choose_at_nodes(odd, sine, cosine, "float"),
+        )
         return turned(first, quarter), turned(second, following)
 
     def node_by_node(
@@ -261,19 +286,21 @@ class NodeValuePrinter(ValuePrinter):
     ) -> str:
         """Print a function call for each node."""
         numbers = [a for a in arguments if not isinstance(a, str)]
-        vectors, result = [(self.wide(a), a.type) for a in numbers], "poison"
+        vectors, result = [(self.values_at_nodes(a), a.type) for a in numbers], "poison"
         for node in range(NODES):
-            values = [self.put(f"extractelement {wide_type(k)} {v}, i32 {node}") for v, k in vectors]
-            result = self.put(f"insertelement {wide_type(kind)} {result}, {TYPES[kind]} {call(values)}, i32 {node}")
+            values = [self.print_instruction(f"extractelement {wide_type(k)} {v}, i32 {node}") for v, k in vectors]
+            result = self.print_instruction(
+                f"insertelement {wide_type(kind)} {result}, {TYPES[kind]} {call(values)}, i32 {node}"
+            )
         return result
 
-    def called_at(self, e: lang.FunctionCall, values: list[str]) -> str:
+    def call_with_values(self, e: lang.FunctionCall, values: list[str]) -> str:
         """Print the call of another emitted function with printed numbers."""
         self.calls[e.function.key] = e.function
         left = iter(values)
         parts = [
             part
             for a in e.arguments
-            for part in (self.handed(a) if isinstance(a, str) else [f"{TYPES[a.type]} {next(left)}"])
+            for part in (self.call_argument(a) if isinstance(a, str) else [f"{TYPES[a.type]} {next(left)}"])
         ]
-        return self.put(f'call {TYPES[e.type]} @"{self.symbol(e.function)}"({", ".join(parts)}) nounwind')
+        return self.print_instruction(f'call {TYPES[e.type]} @"{self.symbol(e.function)}"({", ".join(parts)}) nounwind')

@@ -49,7 +49,7 @@ def piece_of(name: str, plain: _Function, result: types.NumberType = types.void,
 
 
 @functools.cache
-def inserted(piece: Piece, kinds: tuple[types.NumberType | types.ArrayType, ...]) -> tuple[str, str]:
+def piece_text(piece: Piece, kinds: tuple[types.NumberType | types.ArrayType, ...]) -> tuple[str, str]:
     """Return name and text in LLVM's language of a piece on numbers and arrays of some types, these as addresses."""
     from llvmlite import ir
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from symgen.base.vocabulary.functions import steepest
-from symgen.compile.native.llvm_values import literal
+from symgen.base.vocabulary.elementary_functions import nonzero_divisor
+from symgen.compile.native.llvm_values import float_literal
 
 if TYPE_CHECKING:
     from symgen.compile.native.tangent_rules import TangentRules
@@ -14,34 +14,34 @@ if TYPE_CHECKING:
 class PrintedNumbers:
     """Prints operations on numbers, under the names that slopes of elementary functions use on a graph."""
 
-    one = literal(1.0)
+    one = float_literal(1.0)
 
     def __init__(self, printer: TangentRules) -> None:
         self.printer = printer
 
     def constant(self, value: float) -> str:
         """Return a number."""
-        return literal(value)
+        return float_literal(value)
 
     def add(self, a: str, b: str) -> str:
         """Print a sum."""
-        return self._put("fadd", a, b)
+        return self._print_operation("fadd", a, b)
 
     def sub(self, a: str, b: str) -> str:
         """Print a difference."""
-        return self._put("fsub", a, b)
+        return self._print_operation("fsub", a, b)
 
     def mul(self, a: str, b: str) -> str:
         """Print a product."""
-        return self._put("fmul", a, b)
+        return self._print_operation("fmul", a, b)
 
     def div(self, a: str, b: str) -> str:
         """Print a quotient."""
-        return self._put("fdiv", a, b)
+        return self._print_operation("fdiv", a, b)
 
     def neg(self, a: str) -> str:
         """Print the opposite."""
-        return self._put("fsub", literal(-0.0), a)
+        return self._print_operation("fsub", float_literal(-0.0), a)
 
     def call(self, name: str, *values: str) -> str:
         """Print a function; once in a block."""
@@ -50,11 +50,11 @@ class PrintedNumbers:
             self.printer.printed[key] = self.printer.function_of_math(name, list(values))
         return self.printer.printed[key]
 
-    def _put(self, name: str, a: str, b: str) -> str:
-        return self.printer.put(f"{name}{self.printer.flag} double {a}, {b}")
+    def _print_operation(self, name: str, a: str, b: str) -> str:
+        return self.printer.print_instruction(f"{name}{self.printer.flag} double {a}, {b}")
 
 
-def steepest_text(g: object, a: str, part: float = 1e-100) -> str:
-    """Return the divisor of a slope that is unbounded at the end of a function's range, see `steepest`."""
+def nonzero_divisor_text(g: object, a: str, part: float = 1e-100) -> str:
+    """Return the divisor of a slope that is unbounded at the end of a function's range, see `nonzero_divisor`."""
     own: Any = a
-    return str(steepest(g, own, part))
+    return str(nonzero_divisor(g, own, part))

@@ -14,10 +14,10 @@ from symgen.compile.native import language as lang
 from symgen.compile.native.read_tables import TableValues
 from symgen.compile.native.read_values import Foreign, Kind, as_type
 
-__all__ = ["Foreign", "Kind", "read"]
+__all__ = ["Foreign", "Kind", "read_function"]
 
 
-def read(function: Any, kinds: tuple[Kind, ...], reading: tuple[object, ...] = ()) -> lang.Function:
+def read_function(function: Any, kinds: tuple[Kind, ...], reading: tuple[object, ...] = ()) -> lang.Function:
     """Return a function with the types that follow from its arguments.
 
     Parameters
@@ -34,7 +34,7 @@ def read(function: Any, kinds: tuple[Kind, ...], reading: tuple[object, ...] = (
     Foreign
         If it is outside the language.
     """
-    tree = tree_of(function)
+    tree = tree_of_function(function)
     if function in reading:
         raise Foreign(f"the function '{function.__name__}' calls itself", tree)
     a = tree.args
@@ -46,7 +46,7 @@ def read(function: Any, kinds: tuple[Kind, ...], reading: tuple[object, ...] = (
     return Reader(function, tree, parameters, (*reading, function)).function()
 
 
-def tree_of(function: Any) -> ast.FunctionDef:
+def tree_of_function(function: Any) -> ast.FunctionDef:
     """Return the syntax tree of a function.
 
     Raises
@@ -60,7 +60,7 @@ def tree_of(function: Any) -> ast.FunctionDef:
     return tree
 
 
-def body_of(tree: ast.FunctionDef) -> list[ast.stmt]:
+def statements_without_docstring(tree: ast.FunctionDef) -> list[ast.stmt]:
     """Return the statements of a function without its docstring."""
     first = tree.body[0]
     return tree.body[1:] if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) else tree.body
@@ -84,16 +84,16 @@ class Reader(TableValues):
 
     def read(self, called: Any, kinds: tuple[Kind, ...]) -> lang.Function:
         """Return a function that this one calls."""
-        return read(called, kinds, self.reading)
+        return read_function(called, kinds, self.reading)
 
     def function(self) -> lang.Function:
         """Return the function."""
-        statements = self.statements(body_of(self.tree))
+        statements = self.statements(statements_without_docstring(self.tree))
         if not self.returned and any(p.type == "unsigned" for p in self.parameters):
             # looped code calls functions without a result: an unused 0
             self.returned.add("int")
             statements = (*statements, lang.Return(lang.Constant("int", 0)))
-        if not returns(statements) or len(self.returned) != 1:
+        if not always_returns(statements) or len(self.returned) != 1:
             raise Foreign("paths that return nothing, or different types", self.tree)
         if "bool" in self.returned:
             raise Foreign("a boolean result", self.tree)
@@ -123,7 +123,7 @@ class Reader(TableValues):
             statements.extend(self.statement(node))
         return tuple(statements)
 
-    def inner(self, nodes: list[ast.stmt], loop: bool = False) -> tuple[lang.Statement, ...]:
+    def read_inner(self, nodes: list[ast.stmt], loop: bool = False) -> tuple[lang.Statement, ...]:
         """Return the translation of the statements of a branch or of a loop."""
         self.depth += 1
         self.loops += loop
@@ -137,10 +137,12 @@ class Reader(TableValues):
         if isinstance(node, ast.Assign):
             return self.assignment(node)
         if isinstance(node, ast.AugAssign):
-            self.note_sign(node.target, ast.BinOp(_loaded(node.target), node.op, node.value))
-            before = self.expression(_loaded(node.target))
+            self.note_sign(node.target, ast.BinOp(_as_expression(node.target), node.op, node.value))
+            before = self.expression(_as_expression(node.target))
             return [
-                self.store(node.target, self.arithmetic(self.sign(node), before, self.expression(node.value), node))
+                self.store(
+                    node.target, self.arithmetic(self.operation_name(node), before, self.expression(node.value), node)
+                )
             ]
         if isinstance(node, ast.Return):
             if node.value is None:
@@ -149,10 +151,10 @@ class Reader(TableValues):
             self.returned.add(value.type)
             return [lang.Return(value)]
         if isinstance(node, ast.If):
-            return [lang.If(self.truth(node.test), self.inner(node.body), self.inner(node.orelse))]
+            return [lang.If(self.truth(node.test), self.read_inner(node.body), self.read_inner(node.orelse))]
         if isinstance(node, ast.While) and not node.orelse:
             test = self.truth(node.test)
-            return [lang.While(test, self.inner(node.body, loop=True))]
+            return [lang.While(test, self.read_inner(node.body, loop=True))]
         if isinstance(node, ast.For) and not node.orelse:
             return [self.loop(node)]
         if isinstance(node, ast.Break | ast.Continue) and self.loops:
@@ -176,17 +178,17 @@ class Reader(TableValues):
             if all(isinstance(v, lang.Constant) for v in values):
                 return [self.store(t, v) for t, v in zip(targets, values, strict=True)]
             for i, value in enumerate(values):
-                values[i] = self.named_as(f"{len(self.variables)}.{i}", value, statements, node)
+                values[i] = self.name_value(f"{len(self.variables)}.{i}", value, statements, node)
             return statements + [self.store(t, v) for t, v in zip(targets, values, strict=True)]
-        view = self.view(node) or self.pieces(node)
+        view = self.name_view(node) or self.read_several_results(node)
         if view:
             return view
         value = self.expression(node.value)
         if len(node.targets) > 1 and not isinstance(value, lang.Constant):
-            value = self.named_as(f"{len(self.variables)}.0", value, statements, node)
+            value = self.name_value(f"{len(self.variables)}.0", value, statements, node)
         return statements + [self.store(target, value) for target in node.targets]
 
-    def pieces(self, node: ast.Assign) -> list[lang.Statement]:
+    def read_several_results(self, node: ast.Assign) -> list[lang.Statement]:
         """Return the assignments of the values of a function that returns several; empty for any other assignment.
 
         The function's statements replace the call, under names that are no Python names.
@@ -194,11 +196,11 @@ class Reader(TableValues):
         target, call = node.targets[0], node.value
         if not isinstance(target, ast.Tuple) or not isinstance(call, ast.Call):
             return []
-        called = self.of_module(call.func)
-        tree = tree_of(called) if is_inlined(called) else None
+        called = self.meaning_in_module(call.func)
+        tree = tree_of_function(called) if is_inlined(called) else None
         if tree is None or len(node.targets) > 1 or call.keywords or len(call.args) != len(tree.args.args):
             raise Foreign("several values of a call", node)
-        *body, last = body_of(tree)
+        *body, last = statements_without_docstring(tree)
         own = {x.arg for x in tree.args.args} | {
             n.id for s in body for n in ast.walk(s) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
         }
@@ -219,18 +221,18 @@ class Reader(TableValues):
         steps.append(ast.Assign([target], inside.visit(last.value)))
         return list(self.statements([ast.fix_missing_locations(ast.copy_location(s, node)) for s in steps]))
 
-    def named_as(
+    def name_value(
         self, name: str, value: lang.Expression, before: list[lang.Statement], node: ast.AST
     ) -> lang.Expression:
         """Return a value under a name that is no Python name, so that later statements do not change it."""
-        self.give(name, value.type, node)
+        self.note_type(name, value.type, node)
         before.append(lang.Assign(name, value))
         return lang.Variable(value.type, name)
 
     def store(self, target: ast.expr, value: lang.Expression) -> lang.Statement:
         """Return the assignment of a value to a name or an element."""
         if isinstance(target, ast.Name):
-            self.give(target.id, value.type, target)
+            self.note_type(target.id, value.type, target)
             return lang.Assign(target.id, value)
         if isinstance(target, ast.Subscript):
             array, index = self.place(target)
@@ -242,7 +244,7 @@ class Reader(TableValues):
             return lang.Store(array, index, as_type(kind, value))
         raise Foreign("a target of an assignment", target)
 
-    def give(self, name: str, kind: lang.Scalar, node: ast.AST) -> None:
+    def note_type(self, name: str, kind: lang.Scalar, node: ast.AST) -> None:
         """Note the type of a value assigned to a variable."""
         if name in self.arrays or self.numbers.get(name, kind) != kind or self.variables.get(name, kind) != kind:
             raise Foreign(f"variable '{name}' has two types", node)
@@ -254,7 +256,7 @@ class Reader(TableValues):
         """Return a loop over a range."""
         call = node.iter
         if not (
-            isinstance(node.target, ast.Name) and isinstance(call, ast.Call) and self.builtin(call.func) == "range"
+            isinstance(node.target, ast.Name) and isinstance(call, ast.Call) and self.builtin_name(call.func) == "range"
         ):
             raise Foreign("a loop over something else than a range", node)
         bounds = [self.expression(x) for x in call.args]
@@ -270,9 +272,9 @@ class Reader(TableValues):
         if not isinstance(step, lang.Constant) or step.value == 0:
             raise Foreign("a range whose step is no constant", node)
         self.depth += 1
-        self.give(node.target.id, "int", node)
+        self.note_type(node.target.id, "int", node)
         self.depth -= 1
-        return lang.For(node.target.id, start, stop, int(step.value), self.inner(node.body, loop=True))
+        return lang.For(node.target.id, start, stop, int(step.value), self.read_inner(node.body, loop=True))
 
 
 class Renamed(ast.NodeTransformer):
@@ -291,7 +293,7 @@ def is_inlined(function: Any) -> bool:
     return bool(getattr(function, "inlined", False))
 
 
-def _loaded(target: ast.expr) -> ast.expr:
+def _as_expression(target: ast.expr) -> ast.expr:
     """Return the target of an assignment as an expression to read."""
     if isinstance(target, ast.Name):
         return ast.copy_location(ast.Name(target.id, ast.Load()), target)
@@ -300,11 +302,11 @@ def _loaded(target: ast.expr) -> ast.expr:
     raise Foreign("a target of an assignment", target)
 
 
-def returns(statements: tuple[lang.Statement, ...]) -> bool:
+def always_returns(statements: tuple[lang.Statement, ...]) -> bool:
     """Whether every path through statements ends with a return."""
     if not statements:
         return False
     last = statements[-1]
     return isinstance(last, lang.Return) or (
-        isinstance(last, lang.If) and returns(last.then) and returns(last.otherwise)
+        isinstance(last, lang.If) and always_returns(last.then) and always_returns(last.otherwise)
     )

@@ -46,34 +46,34 @@ class TableValues(ValueReader):
         self.unsigned: dict[str, bool] = {}
 
     @abstractmethod
-    def give(self, name: str, kind: lang.Scalar, node: ast.AST) -> None:
+    def note_type(self, name: str, kind: lang.Scalar, node: ast.AST) -> None:
         """Note the type of a value assigned to a variable."""
 
     def name(self, node: ast.Name) -> Any:
         """Return a variable, an argument, or a number of the module."""
-        return _integer(super().name(node))
+        return _as_integer(super().name(node))
 
     def element(self, node: ast.Subscript) -> Any:
         """Return an element of an array."""
-        return _integer(super().element(node))
+        return _as_integer(super().element(node))
 
-    def sign(self, node: ast.BinOp | ast.AugAssign) -> str:
+    def operation_name(self, node: ast.BinOp | ast.AugAssign) -> str:
         """Return the name of an operation."""
         values = (node.left, node.right) if isinstance(node, ast.BinOp) else (node.target, node.value)
         if not isinstance(node.op, ast.Add | ast.Mult) and all(self.is_unsigned(x) for x in values):
             raise Foreign("an operation without sign", node)
-        return super().sign(node)
+        return super().operation_name(node)
 
     def call(self, node: ast.Call) -> Any:
         """Return the result of a function."""
-        called = self.of_module(node.func)
+        called = self.meaning_in_module(node.func)
         if called is np.int64 or called is np.uint32:
             if len(node.args) != 1 or node.keywords:
                 raise Foreign("an integer of other than one value", node)
             value = as_type("int", self.expression(node.args[0]))
             return value if called is np.int64 else lang.ScalarOperation("int", "low", (value,))
         if isinstance(called, Written) and not node.keywords:
-            return self.piece(called, node)
+            return self.call_piece(called, node)
         if any(self.is_unsigned(x) for x in node.args):
             raise Foreign("an argument without sign", node)
         return super().call(node)
@@ -88,7 +88,7 @@ class TableValues(ValueReader):
             return self.is_unsigned(node.left) and self.is_unsigned(node.right)
         if isinstance(node, ast.IfExp):
             return self.is_unsigned(node.body) or self.is_unsigned(node.orelse)
-        return isinstance(node, ast.Call) and self.of_module(node.func) is np.uint32
+        return isinstance(node, ast.Call) and self.meaning_in_module(node.func) is np.uint32
 
     def note_signs(self, node: ast.Assign) -> None:
         """Note whether integers that get names are unsigned in Numba."""
@@ -106,15 +106,15 @@ class TableValues(ValueReader):
             if self.unsigned.setdefault(target.id, unsigned) != unsigned:
                 raise Foreign(f"variable '{target.id}' has two types", target)
 
-    def of_module(self, node: ast.expr) -> Any:
+    def meaning_in_module(self, node: ast.expr) -> Any:
         """Return the meaning of a name of the module or of NumPy; None for all else."""
         if isinstance(node, ast.Name):
             return None if node.id in self.locals else self.globals.get(node.id)
-        if isinstance(node, ast.Attribute) and self.of_module(node.value) is np:
+        if isinstance(node, ast.Attribute) and self.meaning_in_module(node.value) is np:
             return getattr(np, node.attr, None)
         return None
 
-    def piece(self, called: Written, node: ast.Call) -> lang.Expression:
+    def call_piece(self, called: Written, node: ast.Call) -> lang.Expression:
         """Return the result of a function in LLVM's language."""
         if called.name == "_compiled_bits" and len(node.args) == 1:
             return lang.ScalarOperation("int", "bits", (as_type("float", self.expression(node.args[0])),))
@@ -123,10 +123,10 @@ class TableValues(ValueReader):
         signature, _ = called.define(None, *(None for _ in node.args))
         if len(signature.arguments) != len(node.args) or signature.result is not types.int64:
             raise Foreign("a function with other arguments or results", node)
-        address, *others = (self.handed(kind, x) for kind, x in zip(signature.arguments, node.args, strict=True))
+        address, *others = (self.passed_form(kind, x) for kind, x in zip(signature.arguments, node.args, strict=True))
         return lang.Invoke("int", address, tuple(others))
 
-    def handed(self, kind: object, node: ast.expr) -> lang.Expression | str:
+    def passed_form(self, kind: object, node: ast.expr) -> lang.Expression | str:
         """Return the passed form of an argument of a function called by its address."""
         if not isinstance(kind, types.ArrayType):
             return as_type(_ELEMENTS[kind], self.expression(node))
@@ -134,10 +134,13 @@ class TableValues(ValueReader):
             raise Foreign("an array of another kind", node)
         return node.id
 
-    def view(self, node: ast.Assign) -> list[lang.Statement]:
+    def name_view(self, node: ast.Assign) -> list[lang.Statement]:
         """Return the statements that name an array of tables; empty for any other assignment."""
         value = node.value
-        if not isinstance(value, ast.Call) or getattr(self.of_module(value.func), "name", "") != "_compiled_tables":
+        if (
+            not isinstance(value, ast.Call)
+            or getattr(self.meaning_in_module(value.func), "name", "") != "_compiled_tables"
+        ):
             return []
         names = [x.id for x in (*node.targets, *value.args) if isinstance(x, ast.Name)]
         if self.depth or len(names) != 2 or len(node.targets) != 1 or self.arrays.get(names[1]) != "float":
@@ -147,7 +150,7 @@ class TableValues(ValueReader):
             raise Foreign(f"variable '{name}' has two types", node)
         self.arrays[name] = "unsigned"
         count, start = lang.ArrayLength(owner), f"{name}.start"  # no Python name
-        self.give(start, "int", node)
+        self.note_type(start, "int", node)
         last = lang.ArrayElement("float", owner, lang.ScalarOperation("int", "sub", (count, lang.Constant("int", 1))))
         first = lang.Variable("int", start)
         size = lang.ScalarOperation(
@@ -159,6 +162,6 @@ class TableValues(ValueReader):
         ]
 
 
-def _integer(value: Any) -> Any:
+def _as_integer(value: Any) -> Any:
     """Return a number of a table as an integer, anything else unchanged."""
     return as_type("int", value) if getattr(value, "type", None) == "unsigned" else value

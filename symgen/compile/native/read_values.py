@@ -87,7 +87,7 @@ class ValueReader(ABC):
 
     def attribute(self, node: ast.Attribute) -> lang.Expression:
         """Return a constant of ``math``."""
-        if self.of_math(node) and node.attr in ("inf", "pi", "nan", "e", "tau"):
+        if self.is_of_math(node) and node.attr in ("inf", "pi", "nan", "e", "tau"):
             return lang.Constant("float", getattr(math, node.attr))
         raise Foreign("an attribute", node)
 
@@ -102,7 +102,7 @@ class ValueReader(ABC):
             raise Foreign("an element of an expression", node)
         name, index = node.value.id, self.expression(node.slice)
         if name not in self.arrays:
-            self.tables[name] = _table(self.globals.get(name), node)
+            self.tables[name] = _constant_array(self.globals.get(name), node)
         if index.type != "int" or (isinstance(index, lang.Constant) and index.value < 0):
             raise Foreign("an index", node)
         return name, index
@@ -111,7 +111,7 @@ class ValueReader(ABC):
         """Return an operation on one value."""
         value = self.expression(node.operand)
         if isinstance(node.op, ast.Not):
-            return lang.ScalarOperation("bool", "not", (truth_of(value),))
+            return lang.ScalarOperation("bool", "not", (truth_value_of(value),))
         if isinstance(node.op, ast.UAdd) and value.type != "bool":
             return value
         if isinstance(node.op, ast.USub) and value.type != "bool":
@@ -122,10 +122,10 @@ class ValueReader(ABC):
 
     def binary(self, node: ast.BinOp) -> lang.Expression:
         """Return an operation on two values."""
-        sign = self.sign(node)
+        sign = self.operation_name(node)
         return self.arithmetic(sign, self.expression(node.left), self.expression(node.right), node)
 
-    def sign(self, node: ast.BinOp | ast.AugAssign) -> str:
+    def operation_name(self, node: ast.BinOp | ast.AugAssign) -> str:
         """Return the name of an operation."""
         sign = _ARITHMETIC.get(type(node.op))
         if sign is None:
@@ -139,7 +139,7 @@ class ValueReader(ABC):
                 return lang.ScalarOperation(left.type, sign, (left, right))
             raise Foreign("an operation on bits", node)
         if sign == "pow":
-            return _power(left, right, node)
+            return _read_power(left, right, node)
         kind: lang.Scalar = "float" if "float" in (left.type, right.type) or sign == "div" else "int"
         if sign in ("floordiv", "mod") and (kind != "int" or not isinstance(right, lang.Constant) or right.value <= 0):
             raise Foreign("a division with rest", node)
@@ -149,14 +149,16 @@ class ValueReader(ABC):
         """Return a comparison of two values."""
         if len(node.ops) > 1:
             raise Foreign("a comparison", node)
-        return self.compared(node.ops[0], self.expression(node.left), self.expression(node.comparators[0]), node)
+        return self.compare_values(node.ops[0], self.expression(node.left), self.expression(node.comparators[0]), node)
 
-    def compared(self, op: ast.cmpop, left: lang.Expression, right: lang.Expression, node: ast.AST) -> lang.Expression:
+    def compare_values(
+        self, op: ast.cmpop, left: lang.Expression, right: lang.Expression, node: ast.AST
+    ) -> lang.Expression:
         """Return a comparison of two values in one type."""
         sign = _COMPARISONS.get(type(op))
         if sign is None:
             raise Foreign("a comparison", node)
-        kind = _common(left, right)
+        kind = _common_type(left, right)
         return lang.ScalarOperation("bool", sign, (as_type(kind, left), as_type(kind, right)))
 
     def logic(self, node: ast.BoolOp) -> lang.Expression:
@@ -171,31 +173,31 @@ class ValueReader(ABC):
     def choice(self, node: ast.IfExp) -> lang.Expression:
         """Return one of two values."""
         test, chosen, otherwise = self.truth(node.test), self.expression(node.body), self.expression(node.orelse)
-        return self.chosen(test, chosen, otherwise, node)
+        return self.choose_value(test, chosen, otherwise, node)
 
-    def chosen(
+    def choose_value(
         self, test: lang.Expression, chosen: lang.Expression, otherwise: lang.Expression, node: ast.AST
     ) -> lang.Expression:
         """Return one of two values in one type."""
         if chosen.type != otherwise.type and "bool" in (chosen.type, otherwise.type):
             raise Foreign("a choice between a boolean and a number", node)
-        kind = _common(chosen, otherwise)
+        kind = _common_type(chosen, otherwise)
         return lang.Choice(kind, test, as_type(kind, chosen), as_type(kind, otherwise))
 
     def truth(self, node: ast.expr) -> lang.Expression:
         """Return the truth value of an expression."""
-        return truth_of(self.expression(node))
+        return truth_value_of(self.expression(node))
 
     def call(self, node: ast.Call) -> lang.Expression:
         """Return the result of a function."""
         if node.keywords:
             raise Foreign("arguments by name", node)
-        builtin = self.builtin(node.func)
+        builtin = self.builtin_name(node.func)
         if builtin == "len" and len(node.args) == 1:
             return self.length(node.args[0])
         if builtin is not None:
             return self.call_builtin(builtin, [self.expression(x) for x in node.args], node)
-        if isinstance(node.func, ast.Attribute) and self.of_math(node.func):
+        if isinstance(node.func, ast.Attribute) and self.is_of_math(node.func):
             name = node.func.attr
             if lang.FUNCTIONS.get(name) != len(node.args):
                 raise Foreign(f"the function 'math.{name}'", node)
@@ -222,7 +224,7 @@ class ValueReader(ABC):
         if name in ("min", "max") and len(values) > 1:
             first = values[0]
             for value in values[1:]:
-                kind = _common(first, value)
+                kind = _common_type(first, value)
                 if kind == "bool":
                     raise Foreign("the least of booleans", node)
                 first = lang.ScalarOperation(kind, name, (as_type(kind, first), as_type(kind, value)))
@@ -241,13 +243,13 @@ class ValueReader(ABC):
             raise Foreign("the length of something else than an argument", node)
         return lang.ArrayLength(node.id)
 
-    def builtin(self, node: ast.expr) -> str | None:
+    def builtin_name(self, node: ast.expr) -> str | None:
         """Return the name of a built-in function, None for anything else."""
         if isinstance(node, ast.Name) and node.id not in self.globals and hasattr(builtins, node.id):
             return None if node.id in self.variables or node.id in self.numbers else node.id
         return None
 
-    def of_math(self, node: ast.Attribute) -> bool:
+    def is_of_math(self, node: ast.Attribute) -> bool:
         """Whether an expression is an attribute of the module ``math``."""
         return isinstance(node.value, ast.Name) and self.globals.get(node.value.id) is math
 
@@ -276,7 +278,7 @@ def number_value(value: object, node: ast.AST) -> lang.Constant:
     raise Foreign(f"a value of type '{type(value).__name__}'", node)
 
 
-def _table(value: object, node: ast.AST) -> tuple[float, ...]:
+def _constant_array(value: object, node: ast.AST) -> tuple[float, ...]:
     """Return the numbers of a constant array."""
     dtype = str(getattr(value, "dtype", ""))
     if dtype != "float64" or getattr(value, "ndim", 0) != 1:
@@ -284,7 +286,7 @@ def _table(value: object, node: ast.AST) -> tuple[float, ...]:
     return tuple(cast("Any", value).tolist())
 
 
-def _power(base: lang.Expression, exponent: lang.Expression, node: ast.AST) -> lang.Expression:
+def _read_power(base: lang.Expression, exponent: lang.Expression, node: ast.AST) -> lang.Expression:
     """Return a power: of a float by a literal integer, or by a float."""
     if isinstance(exponent, lang.Constant) and exponent.type == "int":
         if base.type == "float" and 0 <= exponent.value <= _LARGEST_EXPONENT:  # negative powers of 0 raise exceptions
@@ -294,7 +296,7 @@ def _power(base: lang.Expression, exponent: lang.Expression, node: ast.AST) -> l
     raise Foreign("a power", node)
 
 
-def _common(left: lang.Expression, right: lang.Expression) -> lang.Scalar:
+def _common_type(left: lang.Expression, right: lang.Expression) -> lang.Scalar:
     """Return the type that holds values of both."""
     return left.type if _RANK[left.type] >= _RANK[right.type] else right.type
 
@@ -308,6 +310,6 @@ def as_type(kind: lang.Scalar, value: lang.Expression) -> lang.Expression:
     return lang.ScalarOperation(kind, kind, (value,))
 
 
-def truth_of(value: lang.Expression) -> lang.Expression:
+def truth_value_of(value: lang.Expression) -> lang.Expression:
     """Return the truth value of a value."""
     return value if value.type == "bool" else lang.ScalarOperation("bool", "bool", (value,))

@@ -36,7 +36,7 @@ COSINE = (
 )
 
 
-def groups(function: lang.Function) -> dict[int, list[tuple[lang.Expression, ...]]]:
+def groups_of_angles(function: lang.Function) -> dict[int, list[tuple[lang.Expression, ...]]]:
     """Return the groups of angles with a common call.
 
     Parameters
@@ -49,15 +49,15 @@ def groups(function: lang.Function) -> dict[int, list[tuple[lang.Expression, ...
     dict of int to list of tuple of Expression
         Angles of each call, by the index of the statement before which they are computed and used.
     """
-    straight = _straight(function)
+    straight = _straight_statements(function)
     since: dict[str, int] = {p.name: 0 for p in function.parameters if not p.array and p.name not in function.variables}
     uses: dict[lang.Expression, int] = {}  # first statement that uses it
     for i, statement in enumerate(straight):
-        for angle in filter(is_simple, _angles(_value(statement))):
+        for angle in filter(is_simple, _angles_in_order(_expressions_of_statement(statement))):
             uses.setdefault(angle, i)
         if isinstance(statement, lang.Assign) and statement.name in function.fixed:
             since[statement.name] = i + 1
-    ready = {angle: at for angle in uses if (at := _ready(angle, since)) is not None}
+    ready = {angle: at for angle in uses if (at := _index_when_ready(angle, since)) is not None}
     calls: dict[int, list[tuple[lang.Expression, ...]]] = {}
     waiting = sorted(ready, key=uses.__getitem__)
     while waiting:
@@ -70,7 +70,7 @@ def groups(function: lang.Function) -> dict[int, list[tuple[lang.Expression, ...
     return calls
 
 
-def _straight(function: lang.Function) -> list[lang.Statement]:
+def _straight_statements(function: lang.Function) -> list[lang.Statement]:
     """Return the statements before the first that is not straight."""
     statements: list[lang.Statement] = []
     for statement in function.body:
@@ -80,7 +80,7 @@ def _straight(function: lang.Function) -> list[lang.Statement]:
     return statements
 
 
-def _value(statement: lang.Statement) -> lang.Expression:
+def _expressions_of_statement(statement: lang.Statement) -> lang.Expression:
     """Return the expressions of a straight statement."""
     if isinstance(statement, lang.Assign | lang.Store):
         return statement.value
@@ -88,11 +88,11 @@ def _value(statement: lang.Statement) -> lang.Expression:
     return statement.call
 
 
-def _angles(e: lang.Expression | str) -> Iterator[lang.Expression]:
+def _angles_in_order(e: lang.Expression | str) -> Iterator[lang.Expression]:
     """Yield the arguments of sines and cosines that are always evaluated, innermost first."""
     if isinstance(e, lang.ScalarOperation | lang.FunctionCall):
         for argument in e.arguments:
-            yield from _angles(argument)
+            yield from _angles_in_order(argument)
         if isinstance(e, lang.ScalarOperation) and e.name in NAMES:
             yield e.arguments[0]
 
@@ -104,23 +104,23 @@ def is_simple(e: lang.Expression) -> bool:
     return isinstance(e, lang.Constant | lang.Variable)
 
 
-def _ready(e: lang.Expression, since: dict[str, int]) -> int | None:
+def _index_when_ready(e: lang.Expression, since: dict[str, int]) -> int | None:
     """Return the index of the statement before which a simple value is computed, None if a variable of it changes."""
     if isinstance(e, lang.Constant):
         return 0
     if isinstance(e, lang.Variable):
         return since.get(e.name)
     assert isinstance(e, lang.ScalarOperation), "a simple value"
-    parts = [_ready(argument, since) for argument in e.arguments]
+    parts = [_index_when_ready(argument, since) for argument in e.arguments]
     return None if None in parts else max(part for part in parts if part is not None)
 
 
-def width(count: int) -> int:
+def function_width(count: int) -> int:
     """Return the number of angles that the function for `count` of them takes."""
     return 4 if count <= 4 else MOST
 
 
-def kind(n: int) -> str:
+def result_type(n: int) -> str:
     """Return the result type of the function for `n` angles: sines and cosines."""
     return f"{{<{n} x double>, <{n} x double>}}"
 
@@ -130,7 +130,7 @@ def sine_name(n: int) -> str:
     return f"@symgen.sines{n}"
 
 
-def definition(n: int) -> str:
+def function_definition(n: int) -> str:
     """Return the text of the function for `n` angles; its only jump is a ``switch``, see `machine.py`."""
     return _Writer(n).text()
 
@@ -143,7 +143,7 @@ class _Writer:
         self.float, self.whole, self.bit = (f"<{n} x {kind}>" for kind in ("double", "i64", "i1"))
         self.lines: list[str] = []
 
-    def put(self, text: str) -> str:
+    def write_instruction(self, text: str) -> str:
         """Write an instruction and return its value."""
         self.count += 1
         self.lines.append(f"  %.{self.count} = {text}")
@@ -160,15 +160,15 @@ class _Writer:
 
     def add(self, a: str, b: str) -> str:
         """Write a sum."""
-        return self.put(f"fadd {self.float} {a}, {b}")
+        return self.write_instruction(f"fadd {self.float} {a}, {b}")
 
     def sub(self, a: str, b: str) -> str:
         """Write a difference."""
-        return self.put(f"fsub {self.float} {a}, {b}")
+        return self.write_instruction(f"fsub {self.float} {a}, {b}")
 
     def mul(self, a: str, b: str) -> str:
         """Write a product."""
-        return self.put(f"fmul {self.float} {a}, {b}")
+        return self.write_instruction(f"fmul {self.float} {a}, {b}")
 
     def polynomial(self, coefficients: tuple[float, ...], x: str) -> str:
         """Write a polynomial by Horner's rule."""
@@ -177,27 +177,27 @@ class _Writer:
             value = self.add(self.mul(value, x), self.number(coefficient))
         return value
 
-    def bits(self, value: str) -> str:
+    def write_bits(self, value: str) -> str:
         """Write the bits of numbers as integers."""
-        return self.put(f"bitcast {self.float} {value} to {self.whole}")
+        return self.write_instruction(f"bitcast {self.float} {value} to {self.whole}")
 
-    def logic(self, operation: str, a: str, b: str) -> str:
+    def write_logic(self, operation: str, a: str, b: str) -> str:
         """Write an operation on integers."""
-        return self.put(f"{operation} {self.whole} {a}, {b}")
+        return self.write_instruction(f"{operation} {self.whole} {a}, {b}")
 
-    def turned(self, value: str, quarter: str) -> str:
+    def change_sign_by_quarters(self, value: str, quarter: str) -> str:
         """Write numbers with the sign changed where a number of quarter turns is 2 or 3 modulo 4."""
-        sign = self.logic("shl", self.logic("and", quarter, self.integer(2)), self.integer(62))
-        changed = self.logic("xor", self.bits(value), sign)
-        return self.put(f"bitcast {self.whole} {changed} to {self.float}")
+        sign = self.write_logic("shl", self.write_logic("and", quarter, self.integer(2)), self.integer(62))
+        changed = self.write_logic("xor", self.write_bits(value), sign)
+        return self.write_instruction(f"bitcast {self.whole} {changed} to {self.float}")
 
-    def returned(self, sines: str, cosines: str) -> None:
+    def write_end(self, sines: str, cosines: str) -> None:
         """Write the end."""
-        pair = self.put(f"insertvalue {kind(self.n)} undef, {self.float} {sines}, 0")
-        pair = self.put(f"insertvalue {kind(self.n)} {pair}, {self.float} {cosines}, 1")
-        self.lines.append(f"  ret {kind(self.n)} {pair}")
+        pair = self.write_instruction(f"insertvalue {result_type(self.n)} undef, {self.float} {sines}, 0")
+        pair = self.write_instruction(f"insertvalue {result_type(self.n)} {pair}, {self.float} {cosines}, 1")
+        self.lines.append(f"  ret {result_type(self.n)} {pair}")
 
-    def near(self) -> None:
+    def write_near_angles(self) -> None:
         """Write the code for angles that are not far."""
         shifted = self.add(self.mul("%x", self.number(TWO_OVER_PI)), self.number(ROUND))
         turns = self.sub(shifted, self.number(ROUND))
@@ -218,34 +218,42 @@ class _Writer:
         near = self.sub(self.number(1.0), half)
         c = self.add(self.sub(self.sub(self.number(1.0), near), half), self.sub(c, self.mul(z, rest)))
         cosine = self.add(near, c)
-        quarter = self.bits(shifted)
-        odd = self.put(f"trunc {self.whole} {quarter} to {self.bit}")
+        quarter = self.write_bits(shifted)
+        odd = self.write_instruction(f"trunc {self.whole} {quarter} to {self.bit}")
         pair = (f"{self.float} {value}" for value in (sine, cosine))
         sine, cosine = pair
-        chosen = self.put(f"select {self.bit} {odd}, {cosine}, {sine}")
-        other = self.put(f"select {self.bit} {odd}, {sine}, {cosine}")
-        self.returned(self.turned(chosen, quarter), self.turned(other, self.logic("add", quarter, self.integer(1))))
+        chosen = self.write_instruction(f"select {self.bit} {odd}, {cosine}, {sine}")
+        other = self.write_instruction(f"select {self.bit} {odd}, {sine}, {cosine}")
+        self.write_end(
+            self.change_sign_by_quarters(chosen, quarter),
+            self.change_sign_by_quarters(other, self.write_logic("add", quarter, self.integer(1))),
+        )
 
-    def far(self) -> None:
+    def write_far_angle(self) -> None:
         """Write the code for an angle that is far or no number."""
         vectors = {"sin": "undef", "cos": "undef"}
         for i in range(self.n):
-            angle = self.put(f"extractelement {self.float} %x, i32 {i}")
+            angle = self.write_instruction(f"extractelement {self.float} %x, i32 {i}")
             for each in vectors:
-                value = self.put(f"call double @llvm.{each}.f64(double {angle})")
-                vectors[each] = self.put(f"insertelement {self.float} {vectors[each]}, double {value}, i32 {i}")
-        self.returned(vectors["sin"], vectors["cos"])
+                value = self.write_instruction(f"call double @llvm.{each}.f64(double {angle})")
+                vectors[each] = self.write_instruction(
+                    f"insertelement {self.float} {vectors[each]}, double {value}, i32 {i}"
+                )
+        self.write_end(vectors["sin"], vectors["cos"])
 
     def text(self) -> str:
         """Return the function."""
-        head = f"define internal {kind(self.n)} {sine_name(self.n)}({self.float} %x) noinline nounwind memory(none) {{"
-        size = self.put(f"call {self.float} @llvm.fabs.v{self.n}f64({self.float} %x)")
-        moderate = self.put(f"fcmp olt {self.float} {size}, {self.number(FAR)}")
-        every = self.put(f"call i1 @llvm.vector.reduce.and.v{self.n}i1({self.bit} {moderate})")
+        head = (
+            f"define internal {result_type(self.n)} {sine_name(self.n)}({self.float} %x) noinline nounwind "
+            f"memory(none) {{"
+        )
+        size = self.write_instruction(f"call {self.float} @llvm.fabs.v{self.n}f64({self.float} %x)")
+        moderate = self.write_instruction(f"fcmp olt {self.float} {size}, {self.number(FAR)}")
+        every = self.write_instruction(f"call i1 @llvm.vector.reduce.and.v{self.n}i1({self.bit} {moderate})")
         self.lines += [f"  switch i1 {every}, label %.far [i1 true, label %.near]", ".near:"]
-        self.near()
+        self.write_near_angles()
         self.lines.append(".far:")
-        self.far()
+        self.write_far_angle()
         declared = (
             f"declare {self.float} @llvm.fabs.v{self.n}f64({self.float})",
             f"declare i1 @llvm.vector.reduce.and.v{self.n}i1({self.bit})",

@@ -9,11 +9,11 @@ from __future__ import annotations
 import msgspec
 
 from symgen.compile.native import language as lang
-from symgen.compile.native.accesses import accesses
+from symgen.compile.native.accesses import array_accesses
 from symgen.compile.native.read_values import Foreign
 
 
-def straightened(function: lang.Function, rounds: int) -> tuple[lang.Function, str]:
+def with_fixed_passes(function: lang.Function, rounds: int) -> tuple[lang.Function, str]:
     """Return a function with a number of passes, and the array that it is for.
 
     Parameters
@@ -29,20 +29,20 @@ def straightened(function: lang.Function, rounds: int) -> tuple[lang.Function, s
         If it is of another form.
     """
     if any(p.name == "ydot" for p in function.parameters):
-        return iteration(function, rounds), "ydot"
-    return correction(function, rounds), "y"
+        return iterated_rates(function, rounds), "ydot"
+    return straight_correction(function, rounds), "y"
 
 
-def iterates(function: lang.Function) -> bool:
+def has_early_end(function: lang.Function) -> bool:
     """Whether a function has a loop that ends before all its passes."""
-    return any(isinstance(x, lang.For) and any(map(_leaves, x.body)) for x in function.body)
+    return any(isinstance(x, lang.For) and any(map(_leaves_loop, x.body)) for x in function.body)
 
 
-def _leaves(statement: lang.Statement) -> bool:
+def _leaves_loop(statement: lang.Statement) -> bool:
     return isinstance(statement, lang.If) and any(isinstance(x, lang.Leave) for x in statement.then)
 
 
-def iteration(rates: lang.Function, rounds: int) -> lang.Function:
+def iterated_rates(rates: lang.Function, rounds: int) -> lang.Function:
     """Return rates of the state after a number of iterations, as a straight function.
 
     Parameters
@@ -50,7 +50,7 @@ def iteration(rates: lang.Function, rounds: int) -> lang.Function:
     rates : Function
         Functions that it calls, with a loop among them that ends where a test is true.
     rounds : int
-        Number of iterations; where they have converged, further ones change no more than digits behind the last.
+        Number of iterations; where they have converged, further ones change nothing but digits beyond the last.
 
     Raises
     ------
@@ -60,20 +60,22 @@ def iteration(rates: lang.Function, rounds: int) -> lang.Function:
     kept = list[lang.Statement]()
     for statement in rates.body:
         if isinstance(statement, lang.For):
-            kept += [each for x in statement.body if _stores(x, "w") for each in _acting(x)] * rounds
+            kept += [
+                each for x in statement.body if _stores_in_arrays(x, "w") for each in _statement_without_result(x)
+            ] * rounds
         elif isinstance(statement, lang.Return):
             kept.append(statement)
-        elif _stores(statement, "w", "ydot"):
-            kept += _acting(statement)
+        elif _stores_in_arrays(statement, "w", "ydot"):
+            kept += _statement_without_result(statement)
     return msgspec.structs.replace(rates, body=tuple(kept))
 
 
-def _stores(statement: lang.Statement, *arrays: str) -> bool:
+def _stores_in_arrays(statement: lang.Statement, *arrays: str) -> bool:
     """Whether a statement stores in some arrays."""
-    return any(array in arrays for array, _ in accesses((statement,)).stored)
+    return any(array in arrays for array, _ in array_accesses((statement,)).stored)
 
 
-def correction(accept: lang.Function, rounds: int) -> lang.Function:
+def straight_correction(accept: lang.Function, rounds: int) -> lang.Function:
     """Return what ``accept`` does to a state in a number of rounds, as a straight function.
 
     Parameters
@@ -90,19 +92,19 @@ def correction(accept: lang.Function, rounds: int) -> lang.Function:
     """
     kept, behind = list[lang.Statement](), False
     for statement in accept.body:
-        if not _stores(statement, "y", "w"):
+        if not _stores_in_arrays(statement, "y", "w"):
             continue
-        if behind and _stores(statement, "y"):
+        if behind and _stores_in_arrays(statement, "y"):
             raise Foreign("a correction behind another one")
         if isinstance(statement, lang.For) and not behind:
-            kept += [*_pass(statement.body, False) * rounds, *_pass(statement.body, True)]
+            kept += [*_pass_of_correction(statement.body, False) * rounds, *_pass_of_correction(statement.body, True)]
             behind = True
         elif not behind:
-            kept += _acting(statement)
+            kept += _statement_without_result(statement)
     return msgspec.structs.replace(accept, body=tuple(kept))
 
 
-def _acting(statement: lang.Statement) -> list[lang.Statement]:
+def _statement_without_result(statement: lang.Statement) -> list[lang.Statement]:
     """Return a statement that stores floats, without its result."""
     if isinstance(statement, lang.Assign) and isinstance(statement.value, lang.FunctionCall):
         return [lang.Evaluate(statement.value)]
@@ -111,7 +113,7 @@ def _acting(statement: lang.Statement) -> list[lang.Statement]:
     raise Foreign("a correction that depends on the state")
 
 
-def _pass(body: tuple[lang.Statement, ...], last: bool) -> list[lang.Statement]:
+def _pass_of_correction(body: tuple[lang.Statement, ...], last: bool) -> list[lang.Statement]:
     """Return the statements of a pass through the rounds of a correction that store floats."""
     kept, tests = list[lang.Statement](), set[str]()
     for statement in body:
@@ -122,9 +124,9 @@ def _pass(body: tuple[lang.Statement, ...], last: bool) -> list[lang.Statement]:
             for each in statement.then if last else statement.otherwise:
                 if isinstance(each, lang.Leave):
                     return kept
-                kept += _acting(each)
-        elif _stores(statement, "y", "w"):
-            kept += _acting(statement)
+                kept += _statement_without_result(each)
+        elif _stores_in_arrays(statement, "y", "w"):
+            kept += _statement_without_result(statement)
     if last or len(tests) > 1:
         raise Foreign("a correction without a last pass")
     return kept

@@ -1,7 +1,7 @@
 """Functions of emitted modules, compiled from their text.
 
 An emitted module is one that Numba could compile: it imports ``njit``, and looped code some of Numba's internals. Here
-`imported` replaces these imports, so that a run loads no Numba; with ``NUMBA_DISABLE_JIT=1`` the functions
+`import_library` replaces these imports, so that a run loads no Numba; with ``NUMBA_DISABLE_JIT=1`` the functions
 remain Python functions.
 """
 
@@ -15,10 +15,17 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast
 
 from symgen.compile.native import types
-from symgen.compile.native.compiler import compiler, interpreted
+from symgen.compile.native.compiler import is_interpreted, selected_compiler
 from symgen.compile.native.read_tables import Written
-from symgen.compile.store.identity import combined_digest, content
-from symgen.compile.store.jit import Arguments, CacheEntry, MachineFunction, argument_types, arguments_of, syntax_tree
+from symgen.compile.store.identity import combined_digest, file_content
+from symgen.compile.store.jit import (
+    Arguments,
+    CacheEntry,
+    MachineFunction,
+    argument_types,
+    numba_arguments,
+    syntax_tree,
+)
 from symgen.compile.store.sources import source_stamp
 
 if TYPE_CHECKING:
@@ -48,7 +55,7 @@ class EmittedFunction(MachineFunction):
 
     def tree(self) -> ast.FunctionDef | None:
         """Return the syntax tree of the function, None where its source is not available."""
-        return syntax_tree(_lines(self.origin.content), self.py_func)
+        return syntax_tree(_read_lines(self.origin.content), self.py_func)
 
     def read(self, arguments: Arguments) -> Function:
         """Return the function in the language of `symgen.compile.native`.
@@ -58,27 +65,27 @@ class EmittedFunction(MachineFunction):
         Foreign
             If it is outside the language.
         """
-        from symgen.compile.native.read import read
+        from symgen.compile.native.read import read_function
 
-        return read(self, argument_types(arguments))
+        return read_function(self, argument_types(arguments))
 
     def identity(self) -> str:
         """Return the sources and options that machine code depends on."""
         stamp, text = self.origin
         if stamp is None:
             stamp = combined_digest(text, source_stamp(self.py_func))
-        return f"{self.__name__}\n{stamp}\n{_together()}"
+        return f"{self.__name__}\n{stamp}\n{_has_common_sines()}"
 
     def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source."""
         from symgen.compile.native.llvm import llvm_module
 
         function = self.read(arguments)
-        return _compiled(self, function, llvm_module(function, _symbol, _is_short, _together()), symbol)
+        return _compile_emitted(self, function, llvm_module(function, _symbol, _is_short, _has_common_sines()), symbol)
 
 
 class NodesFunction(EmittedFunction):
-    """A right-hand side at the nodes of a step, by `symgen.compile.native.nodes` from one at a single node.
+    """A right-hand side at the nodes of a step, by `symgen.compile.native.node_functions` from one at a single node.
 
     Parameters
     ----------
@@ -99,11 +106,11 @@ class NodesFunction(EmittedFunction):
 
     def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source."""
-        from symgen.compile.native.nodes import node_module
+        from symgen.compile.native.node_functions import node_module
 
         number, array, whole = types.float64, types.float64[::1], types.int64[::1]
         function = self.read((number, array, array, array, whole, array))
-        return _compiled(self, function, node_module(function, symbol, _symbol, _is_short), symbol)
+        return _compile_emitted(self, function, node_module(function, symbol, _symbol, _is_short), symbol)
 
 
 class TangentFunction(EmittedFunction):
@@ -116,7 +123,7 @@ class TangentFunction(EmittedFunction):
     lanes : int
         Number of directions.
     places : mapping of str to int
-        First element of the directions behind each array.
+        First element of the directions after each array.
     """
 
     def __init__(self, function: EmittedFunction, lanes: int, places: Mapping[str, int]) -> None:
@@ -134,30 +141,30 @@ class TangentFunction(EmittedFunction):
 
     def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source; short callees are in it."""
-        from symgen.compile.native.llvm import is_copied, reached
-        from symgen.compile.native.machine import compiled
+        from symgen.compile.native.llvm import functions_of_module, is_copied
+        from symgen.compile.native.machine import compile_module
         from symgen.compile.native.tangents import tangent_module
 
         function, called = self.read(arguments), dict[str, Any]()
         names = {id(value): name for name, value in self.py_func.__globals__.items()}
 
         def apart(f: Function) -> str:
-            if is_copied(f) or all(map(_is_short, reached(f, lambda _: True)[0])):
+            if is_copied(f) or all(map(_is_short, functions_of_module(f, lambda _: True)[0])):
                 return ""
             name = names[id(f.source)]
-            called[name] = _kinds(f)
-            return self.callee(name).symbol(arguments_of(called[name]))
+            called[name] = _parameter_kinds(f)
+            return self.callee(name).symbol(numba_arguments(called[name]))
 
-        text = tangent_module(function, symbol, self.lanes, self.places, _together(), apart)
-        return CacheEntry(function.returned, tuple(called.items()), compiled(text, symbol))
+        text = tangent_module(function, symbol, self.lanes, self.places, _has_common_sines(), apart)
+        return CacheEntry(function.returned, tuple(called.items()), compile_module(text, symbol))
 
     def callee(self, name: str) -> TangentFunction:
         """Return a callee with directions."""
-        return directed(self.py_func.__globals__[name], self.lanes, tuple(sorted(self.places.items())))
+        return with_directions(self.py_func.__globals__[name], self.lanes, tuple(sorted(self.places.items())))
 
 
 @functools.lru_cache(maxsize=256)
-def directed(function: EmittedFunction, lanes: int, places: tuple[tuple[str, int], ...]) -> TangentFunction:
+def with_directions(function: EmittedFunction, lanes: int, places: tuple[tuple[str, int], ...]) -> TangentFunction:
     """Return the form of a function with directions, the same one for all callers; see `TangentFunction`."""
     return TangentFunction(function, lanes, dict(places))
 
@@ -187,13 +194,15 @@ class AdjointFunction(EmittedFunction):
     def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source."""
         from symgen.compile.native.adjoints import adjoint_module
-        from symgen.compile.native.machine import compiled
-        from symgen.compile.native.straightening import straightened
+        from symgen.compile.native.machine import compile_module
+        from symgen.compile.native.straightening import with_fixed_passes
 
         function, ends = self.read(arguments[: self.py_func.__code__.co_argcount]), "ydot"
         if self.rounds is not None:
-            function, ends = straightened(function, self.rounds)
-        return CacheEntry(function.returned, (), compiled(adjoint_module(function, symbol, ends, _together()), symbol))
+            function, ends = with_fixed_passes(function, self.rounds)
+        return CacheEntry(
+            function.returned, (), compile_module(adjoint_module(function, symbol, ends, _has_common_sines()), symbol)
+        )
 
 
 def plain(function: _Function) -> _Function:
@@ -210,14 +219,14 @@ def plain(function: _Function) -> _Function:
     EmittedFunction
         The plain function where nothing is compiled.
     """
-    if interpreted():
+    if is_interpreted():
         return function
     compiled: Any = EmittedFunction(function)
-    compiled.origin = CodeOrigin(None, content(function.__code__.co_filename))  # an import makes no digests
+    compiled.origin = CodeOrigin(None, file_content(function.__code__.co_filename))  # an import makes no digests
     return cast("_Function", compiled)
 
 
-def imported(name: str, *arguments: Any) -> Any:
+def import_library(name: str, *arguments: Any) -> Any:
     """Import for emitted modules; this module's decorators replace Numba's."""
     names = arguments[2] if len(arguments) > 2 else ()
     if name.partition(".")[0] != "numba" or "cuda" in names:
@@ -225,49 +234,51 @@ def imported(name: str, *arguments: Any) -> Any:
     return _INSTEAD
 
 
-def _njit(**options: object) -> Any:
+def _decorate_emitted(**options: object) -> Any:
     """Decorate a function of an emitted module."""
-    return lambda function: function if interpreted() else EmittedFunction(function, options.get("inline") == "always")
+    return lambda function: (
+        function if is_interpreted() else EmittedFunction(function, options.get("inline") == "always")
+    )
 
 
 #: Names that emitted modules import from Numba and its packages.
 _INSTEAD = SimpleNamespace(
-    njit=_njit,
+    njit=_decorate_emitted,
     types=types,
-    config=SimpleNamespace(DISABLE_JIT=interpreted()),
+    config=SimpleNamespace(DISABLE_JIT=is_interpreted()),
     intrinsic=lambda define: Written(define.__name__, define),
     cgutils=None,
     populate_array=None,
 )
 
 
-def _together() -> bool:
+def _has_common_sines() -> bool:
     """Whether sines and cosines of several angles have a common call."""
-    return compiler() != "libm"
+    return selected_compiler() != "libm"
 
 
-def _compiled(own: EmittedFunction, function: Function, text: str, symbol: str) -> CacheEntry:
+def _compile_emitted(own: EmittedFunction, function: Function, text: str, symbol: str) -> CacheEntry:
     """Return the machine code of a module, and the callees of its function."""
     from symgen.compile.native.llvm import is_copied
-    from symgen.compile.native.machine import compiled
+    from symgen.compile.native.machine import compile_module
 
     apart = [f for f in function.called if not is_copied(f)]
     names = {id(value): name for name, value in own.py_func.__globals__.items()}
-    called = tuple((names[id(f.source)], _kinds(f)) for f in apart)
-    return CacheEntry(function.returned, called, compiled(text, symbol))
+    called = tuple((names[id(f.source)], _parameter_kinds(f)) for f in apart)
+    return CacheEntry(function.returned, called, compile_module(text, symbol))
 
 
-def _source(function: Function) -> EmittedFunction:
+def _emitted_source(function: Function) -> EmittedFunction:
     assert isinstance(function.source, EmittedFunction), "functions are read from emitted ones"
     return function.source
 
 
-def _kinds(function: Function) -> tuple[Kind, ...]:
+def _parameter_kinds(function: Function) -> tuple[Kind, ...]:
     return tuple((p.type, p.array) for p in function.parameters)
 
 
 def _symbol(function: Function) -> str:
-    return _source(function).symbol(arguments_of(_kinds(function)))
+    return _emitted_source(function).symbol(numba_arguments(_parameter_kinds(function)))
 
 
 def _is_short(function: Function) -> bool:
@@ -278,6 +289,6 @@ def _is_short(function: Function) -> bool:
 
 
 @functools.lru_cache(maxsize=4)
-def _lines(content: bytes) -> tuple[str, ...]:
+def _read_lines(content: bytes) -> tuple[str, ...]:
     """Return the lines of a file."""
     return tuple(content.decode().split("\n"))

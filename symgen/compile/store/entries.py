@@ -18,7 +18,13 @@ from typing import Any
 from symgen.base.errors import SymgenError
 from symgen.compile.store import private, upkeep
 from symgen.compile.store.identity import combined_digest
-from symgen.compile.store.paths import ENVIRONMENT_VARIABLE, abandon, cache_location, cache_root, private_folder
+from symgen.compile.store.paths import (
+    ENVIRONMENT_VARIABLE,
+    cache_location,
+    cache_root,
+    private_folder,
+    replace_by_temporary,
+)
 
 _STEM = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
 #: Modules by their stems: source and description; and descriptions alone.
@@ -26,7 +32,7 @@ Modules = Mapping[str, tuple[str, Mapping[str, Any]]]
 Described = dict[str, dict[str, Any]]
 
 
-def cached(place: str, name: str, key: str, make: Callable[[], bytes]) -> bytes:
+def get_or_make_data(place: str, name: str, key: str, make: Callable[[], bytes]) -> bytes:
     """Return data determined by a key, from the cache or made anew and kept there.
 
     Parameters
@@ -67,10 +73,10 @@ def folder_name(name: str, digest: str, number: int) -> str:
     number : int
         Number of the emitted format.
     """
-    return _checked(f"{name}_{digest[:16]}_{number}")
+    return _check_folder(f"{name}_{digest[:16]}_{number}")
 
 
-def _checked(folder: str) -> str:
+def _check_folder(folder: str) -> str:
     if upkeep.MODEL_FOLDER.fullmatch(folder) is None:
         raise ValueError(f"'{folder}' is not a folder name of the form '<name>_<digest16>_<format>'")
     return folder
@@ -94,7 +100,7 @@ class Entries:
         """
         if _STEM.fullmatch(stem) is None:
             raise ValueError(f"'{stem}' is not the name of a module")
-        return self.root / upkeep.MODELS / _checked(folder) / f"{stem}.py"
+        return self.root / upkeep.MODELS / _check_folder(folder) / f"{stem}.py"
 
     def get(self, folder: str, stem: str) -> dict[str, Any] | None:
         """Return the description of an entry, None if it is not complete, and note its use.
@@ -103,7 +109,7 @@ class Entries:
         and be about to describe it, and a Python file without description does not count anyway.
         """
         path = self.path(folder, stem)
-        text = private.read_entry(path.with_suffix(".json"), _key(path, private.read_own(path)))
+        text = private.read_entry(path.with_suffix(".json"), _entry_key(path, private.read_own(path)))
         metadata: dict[str, Any] | None = None if text is None else json.loads(text)
         return metadata
 
@@ -132,7 +138,7 @@ class Entries:
         try:
             self._write(path, content, text)
         except OSError as error:
-            self.root = abandon(self.root, _unwritable(self.root, error))
+            self.root = replace_by_temporary(self.root, _unwritable_sentence(self.root, error))
             try:
                 new = self.path(folder, stem)
                 for file in sorted(path.parent.glob("[!.]*")):
@@ -140,23 +146,23 @@ class Entries:
                         private.write_own(new.with_name(file.name), old)
                 self._write(new, content, text)
             except OSError as again:
-                reason = _unwritable(self.root, again)
+                reason = _unwritable_sentence(self.root, again)
                 raise SymgenError(f"{reason}; set {ENVIRONMENT_VARIABLE} to another folder") from again
 
     def _write(self, path: Path, content: bytes, text: bytes) -> None:
         private_folder(self.root)
         private.write_own(path, content)
-        size = private.write_entry(path.with_suffix(".json"), _key(path, content), text)
+        size = private.write_entry(path.with_suffix(".json"), _entry_key(path, content), text)
         upkeep.note_written(self.root, len(content) + size)
 
     @contextmanager
-    def building(self, folder: str) -> Iterator[None]:
+    def lock_folder(self, folder: str) -> Iterator[None]:
         """Lock a model's folder while its modules are made; a second process waits here.
 
         Call `get` again inside: the first process may have made the entry. Where files cannot be locked, no process
         waits; both then do the work and write the same. Not to be nested for one folder.
         """
-        name = _checked(folder)
+        name = _check_folder(folder)
         try:
             lock = upkeep.folder_lock(self.root, name)
             lock.acquire(poll_interval=0.02)
@@ -207,14 +213,16 @@ class Entries:
             The modules.
         """
         stems = tuple(stems)
-        described = self._whole(folder, stems)
+        described = self._complete_descriptions(folder, stems)
         if len(described) == len(stems):
             yield described
         else:
-            with self.building(folder):
-                yield self._whole(folder, stems)  # another process may have made them while this one waited
+            with self.lock_folder(folder):
+                yield self._complete_descriptions(
+                    folder, stems
+                )  # another process may have made them while this one waited
 
-    def _whole(self, folder: str, stems: Iterable[str]) -> Described:
+    def _complete_descriptions(self, folder: str, stems: Iterable[str]) -> Described:
         """Return the descriptions of those modules that exist with all their own modules."""
         described = {stem: metadata for stem in stems if (metadata := self.get(folder, stem)) is not None}
         return {
@@ -224,10 +232,10 @@ class Entries:
         }
 
 
-def _key(path: Path, content: bytes | None) -> str:
+def _entry_key(path: Path, content: bytes | None) -> str:
     """Return the key of the description of a module with some content at its place."""
     return combined_digest(path.parent.name, path.stem, content or b"")
 
 
-def _unwritable(root: Path, error: OSError) -> str:
+def _unwritable_sentence(root: Path, error: OSError) -> str:
     return f"the cache folder '{root}' cannot be written ({error.strerror or error})"

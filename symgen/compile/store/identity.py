@@ -22,7 +22,7 @@ def combined_digest(*parts: str | bytes) -> str:
     return result.hexdigest()
 
 
-def content(path: str) -> bytes:
+def file_content(path: str) -> bytes:
     """Return the content of a source file, or of a cell of a notebook, which is no file; empty if missing."""
     try:
         return Path(path).read_bytes()
@@ -33,4 +33,4 @@ def content(path: str) -> bytes:
 @functools.cache
 def file_digest(path: str) -> str:
     """Return the digest of a file's content at the first request, at the latest when it was loaded."""
-    return combined_digest(content(path))
+    return combined_digest(file_content(path))

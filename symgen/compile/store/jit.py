@@ -19,14 +19,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard, TypeVar, cast
 import llvmlite
 
 from symgen.base.errors import InputError
-from symgen.base.memory import uncollected
+from symgen.base.memory import without_garbage_collection
 from symgen.compile.native import types
 from symgen.compile.native.annotations import signature_from
-from symgen.compile.native.calls import caller, kind_of
-from symgen.compile.native.compiler import compiler, interpreted
-from symgen.compile.native.machine import load_machine_code, lock, processor
-from symgen.compile.store.entries import cached, plain_name
-from symgen.compile.store.identity import combined_digest, content, file_digest
+from symgen.compile.native.calls import argument_type, lockless_caller
+from symgen.compile.native.compiler import is_interpreted, selected_compiler
+from symgen.compile.native.machine import load_machine_code, lock, processor_features
+from symgen.compile.store.entries import get_or_make_data, plain_name
+from symgen.compile.store.identity import combined_digest, file_content, file_digest
 from symgen.compile.store.sources import COMPILER, reached_digest, source_stamp
 from symgen.compile.store.stats import CompilationClock
 from symgen.compile.store.upkeep import NATIVE
@@ -114,7 +114,7 @@ class MachineFunction(ABC):
         if arguments not in self._codes:
             with lock:
                 if arguments not in self._codes:
-                    self._codes[arguments] = self._loaded(arguments)
+                    self._codes[arguments] = self._load_code(arguments)
         return self._codes[arguments]
 
     def address(self, signature: types.Signature) -> int:
@@ -124,19 +124,27 @@ class MachineFunction(ABC):
     def caller(self, arguments: Arguments) -> Callable[..., Any]:
         """Return a function that calls the machine code with arguments of some types."""
         if arguments not in self._callers:
-            self._callers[arguments] = caller(*self.code(arguments))
+            self._callers[arguments] = lockless_caller(*self.code(arguments))
         return self._callers[arguments]
 
     def __call__(self, *arguments: object) -> Any:
         """Call the machine code for the types of the arguments."""
-        return self.caller(tuple(map(kind_of, arguments)))(*arguments)
+        return self.caller(tuple(map(argument_type, arguments)))(*arguments)
 
     def __reduce__(self) -> str:
         return str(self.__qualname__)  # pickled by name, as functions are: another process compiles or loads its own
 
     def key(self, arguments: Arguments) -> str:
         """Return the key of the machine code for arguments of some types, with all that it depends on."""
-        return "\n".join((self.identity(), repr(arguments), processor(), _environment(), reached_digest(*COMPILER)))
+        return "\n".join(
+            (
+                self.identity(),
+                repr(arguments),
+                processor_features(),
+                _digest_of_environment(),
+                reached_digest(*COMPILER),
+            )
+        )
 
     def symbol(self, arguments: Arguments) -> str:
         """Return the name in machine code, with a digest of all that the machine code depends on."""
@@ -147,35 +155,35 @@ class MachineFunction(ABC):
         return f"_ZN6symgen{len(name)}{name}E"  # as of a function in a namespace
 
     def callee(self, name: str) -> MachineFunction:
-        """Return the function in memory behind the name of a callee."""
+        """Return the function in memory that the name of a callee means."""
         function: MachineFunction = self.py_func.__globals__[name]
         return function
 
-    def _loaded(self, arguments: Arguments) -> MachineCode:
+    def _load_code(self, arguments: Arguments) -> MachineCode:
         """Put machine code into memory, from the cache or made anew, after its callees."""
         key = self.key(arguments)
         symbol = self._symbol(key)
         with CompilationClock() as clock:
             clock.loaded = True
 
-            def make() -> bytes:
+            def make_code() -> bytes:
                 clock.loaded = False
-                return marshal.dumps(tuple(self._compiled(arguments, symbol)))
+                return marshal.dumps(tuple(self._compile(arguments, symbol)))
 
             place = f"{NATIVE}/{plain_name(self.__module__, 100)}"
-            entry = CacheEntry(*marshal.loads(cached(place, self.__qualname__, key, make)))
+            entry = CacheEntry(*marshal.loads(get_or_make_data(place, self.__qualname__, key, make_code)))
             for name, kinds in entry.called:
-                self.callee(name).code(arguments_of(kinds))
+                self.callee(name).code(numba_arguments(kinds))
             address = load_machine_code(entry.code, symbol)
-        if not clock.loaded and compiler() == "explain":
+        if not clock.loaded and selected_compiler() == "explain":
             print(f"{self.__module__}.{self.__name__} compiled in {clock.seconds:.3f} s", file=sys.stderr)
         return MachineCode(address, types.Signature(_NUMBERS[entry.returned], arguments))
 
-    def _compiled(self, arguments: Arguments, symbol: str) -> CacheEntry:
+    def _compile(self, arguments: Arguments, symbol: str) -> CacheEntry:
         from symgen.compile.native.read import Foreign
 
         try:
-            with uncollected():
+            with without_garbage_collection():
                 return self.compiled_entry(arguments, symbol)
         except Foreign as foreign:
             own = f"the function '{self.__module__}.{self.__name__}'"
@@ -232,12 +240,14 @@ class RuntimeFunction(MachineFunction):
 
     def tree(self) -> ast.FunctionDef | None:
         """Return the syntax tree of the function, None where its source is not available."""
-        return syntax_tree(_lines(self.py_func.__code__.co_filename), self.py_func)
+        return syntax_tree(_read_lines(self.py_func.__code__.co_filename), self.py_func)
 
     def identity(self) -> str:
         """Return the sources and options that machine code depends on."""
         function = self.py_func
-        meanings = (f"{name} {_meaning(function.__globals__.get(name))}" for name in function.__code__.co_names)
+        meanings = (
+            f"{name} {_identity_of_global(function.__globals__.get(name))}" for name in function.__code__.co_names
+        )
         options = f"{self.contracted} {self._once} {self.unrolled}"
         return "\n".join((f"{self.__module__}.{self.__qualname__}", options, *meanings, source_stamp(function)))
 
@@ -245,10 +255,10 @@ class RuntimeFunction(MachineFunction):
         """Return machine code, made from the source."""
         from symgen.compile.native.llvm import loop_module
         from symgen.compile.native.loops import read_loop
-        from symgen.compile.native.machine import compiled
+        from symgen.compile.native.machine import compile_module
 
         function = read_loop(self, arguments)
-        code = compiled(loop_module(function, symbol), symbol, once=self._once)
+        code = compile_module(loop_module(function, symbol), symbol, once=self._once)
         return CacheEntry(function.returned, (), code)
 
 
@@ -291,15 +301,15 @@ def jit(
     4.0
     """
 
-    def decorate(function: _Function) -> _Function:
-        if interpreted():
+    def decorate_function(function: _Function) -> _Function:
+        if is_interpreted():
             return function
         compiled: Any = RuntimeFunction(
             function, contracted=contracted, signature=signature, entry=entry, once=once, unrolled=unrolled
         )
         return cast("_Function", compiled)
 
-    return decorate
+    return decorate_function
 
 
 def object_file(text: str, symbol: str) -> bytes:
@@ -312,14 +322,14 @@ def object_file(text: str, symbol: str) -> bytes:
     symbol : str
         Its function.
     """
-    from symgen.compile.native.machine import compiled
+    from symgen.compile.native.machine import compile_module
 
-    key = "\n".join((text, processor(), _environment()))
+    key = "\n".join((text, processor_features(), _digest_of_environment()))
     place = f"{NATIVE}/{plain_name(symbol.rpartition('.')[0], 100)}"
-    return cached(place, symbol, key, lambda: compiled(text, symbol))
+    return get_or_make_data(place, symbol, key, lambda: compile_module(text, symbol))
 
 
-def arguments_of(kinds: tuple[Kind, ...]) -> Arguments:
+def numba_arguments(kinds: tuple[Kind, ...]) -> Arguments:
     """Return the types of compiled functions for types of arguments in the language of emitted functions."""
     numbers = {**_NUMBERS, "unsigned": types.uint32}
     return tuple(types.ArrayType(numbers[kind], 1) if array else numbers[kind] for kind, array in kinds)
@@ -346,12 +356,12 @@ def _is_flat(kind: types.Kind) -> TypeGuard[types.ArrayType]:
 
 
 @functools.cache
-def _environment() -> str:
+def _digest_of_environment() -> str:
     """Return all dependencies of machine code outside a function, apart from the processor."""
     return "\n".join((_FORMAT, llvmlite.__version__))
 
 
-def _meaning(value: object) -> str:
+def _identity_of_global(value: object) -> str:
     """Return the meaning of a global name: the identity of a function, or the number."""
     function = getattr(value, "py_func", value)
     if hasattr(function, "__qualname__"):
@@ -381,7 +391,7 @@ def syntax_tree(lines: Sequence[str], function: Any) -> ast.FunctionDef | None:
 
 
 @functools.lru_cache(maxsize=64)
-def _lines(file: str) -> tuple[str, ...]:
+def _read_lines(file: str) -> tuple[str, ...]:
     """Return the lines of a file, none of one that has been edited since it was loaded."""
-    text = content(file)
+    text = file_content(file)
     return tuple(text.decode().split("\n")) if combined_digest(text) == file_digest(file) else ()

@@ -55,17 +55,17 @@ def cache_location() -> CacheLocation:
     CacheLocation
         The same object for every call, until ``SYMGEN_CACHE_DIR`` changes.
     """
-    key = _key()
+    key = _location_key()
     if key not in _locations:
-        _locations[key] = _locate(key[1])
+        _locations[key] = _find_location(key[1])
     return _locations[key]
 
 
-def _key() -> tuple[int, str | None]:
+def _location_key() -> tuple[int, str | None]:
     return os.getpid(), os.environ.get(ENVIRONMENT_VARIABLE) or None
 
 
-def abandon(root: Path, reason: str) -> Path:
+def replace_by_temporary(root: Path, reason: str) -> Path:
     """Return a temporary folder that replaces an unusable cache folder from now on.
 
     Parameters
@@ -80,8 +80,8 @@ def abandon(root: Path, reason: str) -> Path:
     SymgenError
         If no temporary folder can be made either.
     """
-    location = _temporary(reason)
-    key = _key()
+    location = _temporary_location(reason)
+    key = _location_key()
     if key in _locations and _locations[key].path == root:
         _locations[key] = location
     return location.path
@@ -92,7 +92,7 @@ def cache_root() -> Path:
     return cache_location().path
 
 
-def is_ours(status: os.stat_result, *, private: bool = False) -> bool:
+def is_private_to_user(status: os.stat_result, *, private: bool = False) -> bool:
     """Return whether a file or folder belongs to the user and nobody else can change it.
 
     Parameters
@@ -129,11 +129,11 @@ def private_folder(path: Path) -> bool:
     for _ in range(_ATTEMPTS):
         try:
             status = os.lstat(path)
-            return stat.S_ISDIR(status.st_mode) and is_ours(status, private=True)
+            return stat.S_ISDIR(status.st_mode) and is_private_to_user(status, private=True)
         except OSError:
             pass
         try:
-            _make(path)
+            _make_private_folder(path)
         except FileNotFoundError:  # another process cleared the cache and removed the new parent
             continue
         except OSError:
@@ -141,7 +141,7 @@ def private_folder(path: Path) -> bool:
     return False
 
 
-def _locate(wish: str | None) -> CacheLocation:
+def _find_location(wish: str | None) -> CacheLocation:
     try:
         if wish is None:
             import platformdirs
@@ -149,22 +149,22 @@ def _locate(wish: str | None) -> CacheLocation:
             path = Path(platformdirs.user_cache_path("symgen", appauthor=False))
         else:
             path = Path(wish).expanduser().absolute()
-        reason = _refusal(path)
+        reason = _reason_against(path)
     except (OSError, RuntimeError) as error:  # no home folder at all is a RuntimeError
-        return _temporary(f"the cache folder cannot be used: {error}")
-    return CacheLocation(path, persistent=True) if not reason else _temporary(reason)
+        return _temporary_location(f"the cache folder cannot be used: {error}")
+    return CacheLocation(path, persistent=True) if not reason else _temporary_location(reason)
 
 
-def _refusal(path: Path) -> str:
+def _reason_against(path: Path) -> str:
     """Make `path` if it is missing; return the reason against its use, or nothing."""
     try:
         if not path.exists():
-            _make(path)
+            _make_private_folder(path)
             (path / _TAG_NAME).write_text(_TAG_TEXT, encoding="utf-8")
         status = path.stat()
         if not stat.S_ISDIR(status.st_mode):
             return f"the cache folder '{path}' is not a folder"
-        if not is_ours(status):
+        if not is_private_to_user(status):
             return f"the cache folder '{path}' belongs to, or can be changed by, somebody else"
         # Access rights are wrong on read-only file systems and for the superuser, so write a file.
         tempfile.TemporaryFile(dir=path).close()
@@ -173,23 +173,23 @@ def _refusal(path: Path) -> str:
     return ""
 
 
-def _make(path: Path) -> None:
+def _make_private_folder(path: Path) -> None:
     """Make a folder and its parents, each for the user only (`Path.mkdir` gives the mode to the last one alone)."""
     if not path.parent.is_dir():
-        _make(path.parent)
+        _make_private_folder(path.parent)
     path.mkdir(mode=0o700, exist_ok=True)
 
 
-def _temporary(reason: str) -> CacheLocation:
+def _temporary_location(reason: str) -> CacheLocation:
     try:
         path = Path(tempfile.mkdtemp(prefix="symgen-"))
     except OSError as error:
         why = f"{reason}, and no temporary folder can be made ({error.strerror or error})"
         raise SymgenError(f"{why}; set {ENVIRONMENT_VARIABLE} to a folder that can be written") from None
-    atexit.register(_remove, path, os.getpid())
+    atexit.register(_remove_temporary, path, os.getpid())
     return CacheLocation(path, persistent=False, reason=reason)
 
 
-def _remove(path: Path, process: int) -> None:
+def _remove_temporary(path: Path, process: int) -> None:
     if os.getpid() == process:
         shutil.rmtree(path, ignore_errors=True)

@@ -13,7 +13,7 @@ import os
 import stat
 from pathlib import Path
 
-from symgen.compile.store.paths import is_ours, private_folder
+from symgen.compile.store.paths import is_private_to_user, private_folder
 
 SUFFIX = ".bin"
 TEMPORARY = ".tmp-"
@@ -47,10 +47,10 @@ def read_entry(path: Path, key: str) -> bytes | None:
     if content is None:
         return None
     head, data = content[:_HEAD], content[_HEAD:]
-    if head != _head(key, data):
-        remove(path)
+    if head != _entry_head(key, data):
+        remove_file(path)
         return None
-    touch(path)
+    note_use(path)
     return data
 
 
@@ -74,7 +74,7 @@ def read_own(path: Path) -> bytes | None:
         with open(descriptor, "rb") as file:
             # Check the opened file, not the name, which may refer to another file by now.
             status = os.fstat(descriptor)
-            return file.read() if stat.S_ISREG(status.st_mode) and is_ours(status) else None
+            return file.read() if stat.S_ISREG(status.st_mode) and is_private_to_user(status) else None
     except OSError:
         return None
 
@@ -96,7 +96,7 @@ def write_entry(path: Path, key: str, data: bytes) -> int:
     OSError
         As for `write_own`.
     """
-    write_own(path, _head(key, data) + data)
+    write_own(path, _entry_head(key, data) + data)
     return _HEAD + len(data)
 
 
@@ -126,7 +126,7 @@ def write_own(path: Path, content: bytes) -> None:
                     file.write(content)
                 os.replace(sibling, path)
             except BaseException:
-                remove(sibling)
+                remove_file(sibling)
                 raise
             return
         except FileNotFoundError:  # another process cleared the cache meanwhile
@@ -134,7 +134,7 @@ def write_own(path: Path, content: bytes) -> None:
                 raise
 
 
-def remove(path: Path) -> bool:
+def remove_file(path: Path) -> bool:
     """Remove a file; False if it could not be removed or did not exist."""
     try:
         path.unlink()
@@ -143,7 +143,7 @@ def remove(path: Path) -> bool:
     return True
 
 
-def touch(path: Path) -> None:
+def note_use(path: Path) -> None:
     """Note the use of a file, for the removal of the least recently used files."""
     try:
         os.utime(path)
@@ -151,7 +151,7 @@ def touch(path: Path) -> None:
         pass
 
 
-def _head(key: str, data: bytes) -> bytes:
+def _entry_head(key: str, data: bytes) -> bytes:
     digest = hashlib.sha256(key.encode())
     digest.update(b"\0")
     digest.update(data)

@@ -18,8 +18,8 @@ import types
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from symgen.compile.store.entries import cached
-from symgen.compile.store.identity import combined_digest, content, file_digest
+from symgen.compile.store.entries import get_or_make_data
+from symgen.compile.store.identity import combined_digest, file_content, file_digest
 from symgen.compile.store.upkeep import TABLES
 
 #: Makers of what the cache keeps: of emitted code, of loops, and of machine code. What they import counts as well.
@@ -75,15 +75,15 @@ def source_stamp(function: object) -> str:
     str
         Hexadecimal digest.
     """
-    return _stamp_of(frozenset(inspect.getfile(each) for each in _called(function, {})))
+    return _digest_of_sources(frozenset(inspect.getfile(each) for each in _called_functions(function, {})))
 
 
 @functools.cache
-def _stamp_of(files: frozenset[str]) -> str:
+def _digest_of_sources(files: frozenset[str]) -> str:
     known = source_table()
     own = {name for file in files if (name := os.path.relpath(file, _PACKAGE).replace(os.sep, "/")) in known}
     others = [file for file in files if not file.startswith(_PACKAGE + os.sep)]
-    imports = {name for file in others for name in imported_names(content(file)) if name in known}
+    imports = {name for file in others for name in imported_names(file_content(file)) if name in known}
     # Contents without names: the same sources in another place give the same machine code.
     return combined_digest(*sorted(map(file_digest, others)), reached_digest(*LOOPS, *sorted(own | imports)))
 
@@ -104,9 +104,9 @@ def reached_sources(known: Table, roots: Iterable[str]) -> set[str]:
 @functools.cache
 def source_table() -> Table:
     """Return the digest and the imports of every source, read at the first request of the process."""
-    files = dict(files_of(_PACKAGE))
+    files = dict(files_of_package(_PACKAGE))
     if not files:  # symgen is in an archive, which is one source
-        return {"archive": (file_digest(_archive()), ())}
+        return {"archive": (file_digest(_archive_path()), ())}
     states, latest = list[str](), 0.0
     for name, path in files.items():
         state = os.stat(path)
@@ -115,7 +115,7 @@ def source_table() -> Table:
     if time.time() - latest < _RECENT:
         return read_sources(files)
     key = "\n".join((_PACKAGE, sys.version, *states))
-    found: Table = marshal.loads(cached(TABLES, "sources", key, lambda: marshal.dumps(read_sources(files))))
+    found: Table = marshal.loads(get_or_make_data(TABLES, "sources", key, lambda: marshal.dumps(read_sources(files))))
     return found
 
 
@@ -129,7 +129,7 @@ def read_sources(files: Mapping[str, str]) -> dict[str, tuple[str, tuple[str, ..
     """
     found = dict[str, tuple[str, tuple[str, ...]]]()
     for name, path in files.items():
-        text = content(path)
+        text = file_content(path)
         found[name] = combined_digest(text), tuple(sorted({n for n in imported_names(text) if n in files} - {name}))
     return found
 
@@ -144,15 +144,15 @@ def imported_names(text: bytes) -> Iterator[str]:
             yield from (f"{path}.py", f"{path}/__init__.py") if path else ("__init__.py",)
 
 
-def files_of(package: str) -> Iterator[tuple[str, str]]:
+def files_of_package(package: str) -> Iterator[tuple[str, str]]:
     """Yield names and paths of the sources of a package and of its templates, in a fixed order."""
-    yield from _below(package, "")
+    yield from _sources_below(package, "")
     beside = os.path.join(os.path.dirname(package), "templates")
     if not os.path.isdir(os.path.join(package, "templates")) and os.path.isdir(beside):
-        yield from _below(beside, "templates/")
+        yield from _sources_below(beside, "templates/")
 
 
-def _below(folder: str, prefix: str) -> Iterator[tuple[str, str]]:
+def _sources_below(folder: str, prefix: str) -> Iterator[tuple[str, str]]:
     """Yield names and paths of the sources below a folder; twice as fast as ``rglob``."""
     if not os.path.isdir(folder):
         return
@@ -161,29 +161,33 @@ def _below(folder: str, prefix: str) -> Iterator[tuple[str, str]]:
             if entry.name.endswith(_ENDINGS):
                 yield prefix + entry.name, entry.path
             elif entry.name != "__pycache__" and entry.is_dir():
-                yield from _below(entry.path, f"{prefix}{entry.name}/")
+                yield from _sources_below(entry.path, f"{prefix}{entry.name}/")
 
 
-def _archive() -> str:
+def _archive_path() -> str:
     place = _PACKAGE
     while not os.path.exists(place):
         place = os.path.dirname(place)
     return place
 
 
-def _called(function: Any, functions: dict[int, Any]) -> Iterable[Any]:
+def _called_functions(function: Any, functions: dict[int, Any]) -> Iterable[Any]:
     """Return a function and, recursively, the compiled functions that it names, directly or in a module."""
     functions[id(function)] = function
     for name in function.__code__.co_names:
         value = function.__globals__.get(name)
-        values = vars(value).values() if isinstance(value, types.ModuleType) and _near(value, function) else (value,)
+        values = (
+            vars(value).values()
+            if isinstance(value, types.ModuleType) and _functions_near(value, function)
+            else (value,)
+        )
         for each in values:
             called = getattr(each, "py_func", None)
             if isinstance(called, types.FunctionType) and id(called) not in functions:
-                _called(called, functions)
+                _called_functions(called, functions)
     return functions.values()
 
 
-def _near(module: types.ModuleType, function: object) -> bool:
+def _functions_near(module: types.ModuleType, function: object) -> bool:
     """Whether a module belongs to the function's package; versions in the key cover installed packages."""
     return module.__name__.partition(".")[0] == str(function.__module__).partition(".")[0]

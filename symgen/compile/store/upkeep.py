@@ -68,16 +68,16 @@ class _Item(NamedTuple):
     bytes: int
 
 
-def info(root: Path) -> CacheInfo:
+def cache_info(root: Path) -> CacheInfo:
     """Return the size and the numbers of entries of a cache folder."""
-    models = [item for folder in _model_folders(root) for item in _items(folder)]
-    compiled = {folder: list(_items(folder)) for folder in _compiled_folders(root)}
+    models = [item for folder in _model_folders(root) for item in _items_by_use(folder)]
+    compiled = {folder: list(_items_by_use(folder)) for folder in _compiled_folders(root)}
     native = sum(len(items) for folder, items in compiled.items() if NATIVE in (folder.name, folder.parent.name))
     size = sum(item.bytes for items in (models, *compiled.values()) for item in items)
     return CacheInfo(len(models), native, size)
 
 
-def clear(root: Path) -> None:
+def clear_cache(root: Path) -> None:
     """Remove all files of symgen, except the folders of models that another process is making now.
 
     The cache folder and the locks, which are empty files, stay: two processes must not hold a lock of the same name on
@@ -90,35 +90,35 @@ def clear(root: Path) -> None:
         except (OSError, NotImplementedError):  # Timeout is an OSError: another process is at work there
             continue
         try:
-            _reduce([folder], 0, 0.0)
+            _reduce_to_size([folder], 0, 0.0)
         finally:
             lock.release()
-    _reduce(list(_compiled_folders(root)), 0, 0.0)
+    _reduce_to_size(list(_compiled_folders(root)), 0, 0.0)
     with suppress(OSError):
         os.rmdir(root / MODELS)
-    private.remove(root / LOCKS / _PRUNED)
+    private.remove_file(root / LOCKS / _PRUNED)
 
 
-def prune(root: Path, limit: int) -> None:
+def prune_cache(root: Path, limit: int) -> None:
     """Remove the least recently used entries down to a number of bytes, and remains of killed processes."""
-    _reduce([*_model_folders(root), *_compiled_folders(root)], limit, _ABANDONED)
+    _reduce_to_size([*_model_folders(root), *_compiled_folders(root)], limit, _ABANDONED)
 
 
-def _reduce(folders: list[Path], limit: int, age: float) -> None:
+def _reduce_to_size(folders: list[Path], limit: int, age: float) -> None:
     """Remove entries of folders down to a size, temporary files of an age, and empty folders."""
-    items = sorted(item for folder in folders for item in _items(folder))
+    items = sorted(item for folder in folders for item in _items_by_use(folder))
     excess = sum(item.bytes for item in items) - limit
     for item in items:
         if excess <= 0:
             break
         for path in item.files:
-            private.remove(path)
+            private.remove_file(path)
         excess -= item.bytes
     for folder in folders:
         with suppress(OSError):
-            for path in _listing(folder):
+            for path in _list_folder(folder):
                 if path.name.startswith(private.TEMPORARY) and time.time() - path.lstat().st_mtime >= age:
-                    private.remove(path)
+                    private.remove_file(path)
             os.rmdir(folder)
 
 
@@ -131,7 +131,7 @@ def note_written(root: Path, size: int) -> None:
         if not recent or _written[root] > _SHARE * LIMIT:
             _written[root] = 0
             private.write_own(pruned, b"")
-            prune(root, LIMIT)
+            prune_cache(root, LIMIT)
 
 
 def folder_lock(root: Path, folder: str) -> BaseFileLock:
@@ -141,7 +141,7 @@ def folder_lock(root: Path, folder: str) -> BaseFileLock:
 
 
 def _model_folders(root: Path) -> Iterator[Path]:
-    for folder in _listing(root / MODELS):
+    for folder in _list_folder(root / MODELS):
         if MODEL_FOLDER.fullmatch(folder.name) and private_folder(folder):
             yield folder
 
@@ -149,14 +149,14 @@ def _model_folders(root: Path) -> Iterator[Path]:
 def _compiled_folders(root: Path) -> Iterator[Path]:
     """Yield the folders of machine code, byte code and tables, subfolders before their parents."""
     for name in (NATIVE, BYTECODE, TABLES):
-        yield from (path for path in _listing(root / name) if path.is_dir() and not path.is_symlink())
+        yield from (path for path in _list_folder(root / name) if path.is_dir() and not path.is_symlink())
         yield root / name
 
 
-def _items(folder: Path) -> Iterator[_Item]:
+def _items_by_use(folder: Path) -> Iterator[_Item]:
     """Yield the entries of a folder; the first file of each was touched when it was used."""
     suffixes = (".json", ".py") if MODEL_FOLDER.fullmatch(folder.name) else (private.SUFFIX,)
-    for stem in {path.stem for path in _listing(folder) if path.suffix in suffixes}:
+    for stem in {path.stem for path in _list_folder(folder) if path.suffix in suffixes}:
         files, statuses = tuple(folder / f"{stem}{suffix}" for suffix in suffixes), []
         for path in files:
             with suppress(OSError):
@@ -165,7 +165,7 @@ def _items(folder: Path) -> Iterator[_Item]:
             yield _Item(statuses[0].st_mtime, files, sum(status.st_size for status in statuses))
 
 
-def _listing(folder: Path) -> list[Path]:
+def _list_folder(folder: Path) -> list[Path]:
     """Return the content of a folder that is the user's own; another one counts as empty."""
     try:
         return sorted(folder.iterdir()) if folder.is_dir() and private_folder(folder) else []

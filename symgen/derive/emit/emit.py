@@ -5,26 +5,34 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from symgen.base.errors import InputError, counted
+from symgen.base.errors import InputError, plural
 from symgen.base.ir.interpolation import Interpolation
 from symgen.base.ir.program import DERIVATIVES, FORMAT, SLOPES, SUFFIXES, Block, LawProgram, ModelLayout, ModelProgram
 from symgen.base.vocabulary.infos import LawInfo
+from symgen.derive.emit.law_parts import PartsLayout, law_modules
 from symgen.derive.emit.module import (
     PLATFORMS,
     ModulePiece,
-    capitalised,
+    capitalise,
     function_source,
     module_source,
-    render,
+    render_template,
     templates_digest,
 )
-from symgen.derive.emit.parts import PartsLayout, law_modules
-from symgen.derive.emit.printer import ElementAccess, Names, Printer, of_hoisted, of_model, of_observed, table_name
-from symgen.derive.emit.whole import Places, model_name
+from symgen.derive.emit.printer import (
+    ElementAccess,
+    Names,
+    Printer,
+    formulas_of_hoisted,
+    names_in_model,
+    names_of_observed,
+    table_name,
+)
+from symgen.derive.emit.whole import Places, name_in_model
 from symgen.derive.formulate.equations import Equations
 
 if TYPE_CHECKING:
-    from symgen.derive.lower.side import SideProgram
+    from symgen.derive.lower.side_program import SideProgram
 
 #: Most numbers of tables in the 64 KiB of a CUDA device's constant memory, with room left for others.
 MOST_CONSTANTS = 8000
@@ -55,11 +63,11 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu",
     header = [
         version_line(program.digest),
         f"{layout.nq} coordinates, {layout.nv} velocities, {layout.m} constraint rows, {layout.parameters} parameters,",
-        _elimination(program),
+        _line_on_elimination(program),
         "",
         "Functions take the time t, the state y = (q, v, work), parameters p, scratch w and integers iw.",
         "",
-        *_symbols(equations, {"`prepare`": (layout.parameters, layout.parameters + program.hoisted)}),
+        *_symbol_lines(equations, {"`prepare`": (layout.parameters, layout.parameters + program.hoisted)}),
         "",
         *Places(layout.sections).header,
         "",
@@ -69,7 +77,7 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu",
     ]
     codes = [
         *table_codes(program.tables, target),
-        *straight(program.blocks, layout, equations, target, of_model(equations, program.jacobian)),
+        *straight_functions(program.blocks, layout, equations, target, names_in_model(equations, program.jacobian)),
     ]
     platform = PLATFORMS[target]
     title = f"Model `{program.name}`: what every method of it shares{platform.words}."
@@ -78,13 +86,13 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu",
     return module_source(title, header, codes, {}, {}, platform.numba)
 
 
-def _elimination(program: ModelProgram) -> str:
+def _line_on_elimination(program: ModelProgram) -> str:
     """Return the line on the elimination of rows."""
-    closed = f"; {counted(len(program.plan.loops), 'loop')} in closed form" if program.plan.loops else ""
+    closed = f"; {plural(len(program.plan.loops), 'loop')} in closed form" if program.plan.loops else ""
     if not program.plan.fixed:
         return f"{program.fill} fill-ins in the factor of D D^T{closed}"
     divisions = sum(len(each.rows) > 1 for each in program.plan.fixed)
-    how = "without a division" if not divisions else f"with {counted(divisions, 'division')}"
+    how = "without a division" if not divisions else f"with {plural(divisions, 'division')}"
     rows = f"{len(program.plan.rows)} of {program.layout.m} rows"
     return f"{rows} eliminated {how}, together with velocities that they fix{closed}"
 
@@ -104,14 +112,14 @@ def emit_law(
     """
     blocks, info, platform = program.blocks, program.info, PLATFORMS[target]
     own = {name: info.parameter_offset + i for i, (name, _) in enumerate(info.parameters)}
-    names = of_model(equations, model.jacobian) | {("p", at): name for name, at in own.items()}
-    printed = straight(blocks, program.layout, equations, target, names)
+    names = names_in_model(equations, model.jacobian) | {("p", at): name for name, at in own.items()}
+    printed = straight_functions(blocks, program.layout, equations, target, names)
     layout = LiteralLayout(program, "y" if equations.spins else "", platform.decorator)
     model_stem, sections = f"model{SUFFIXES[target]}", program.layout.sections
     defined = *(block.name for block in model.blocks), *table_names(model.tables)
     places, header = Places(sections, own), law_header(info, summary, reference, version_line(model.digest))
     if whole:
-        header += [*_guide(program, model, equations), "", *places.header]
+        header += [*_header_for_readers(program, model, equations), "", *places.header]
     return law_modules(
         program,
         layout,
@@ -119,7 +127,7 @@ def emit_law(
         any(b.flag is not None for b in blocks),
         f"for model `{model.name}`{platform.words}",
         version_line(model.digest),
-        {name: (model_stem, name) for name in defined} | {model_name("geometry"): (model_stem, "geometry")},
+        {name: (model_stem, name) for name in defined} | {name_in_model("geometry"): (model_stem, "geometry")},
         f"Method `{info.method}` for model `{model.name}`{platform.words}.",
         header,
         info.key,
@@ -141,13 +149,13 @@ and `accept` corrects and measures the state at the end of each step.
 _IMPLICIT = "Implicit integrators solve `residual` = 0 for k = (q', v', multipliers); `tangent` is its derivatives.\n"
 
 
-def _guide(program: LawProgram, model: ModelProgram, equations: Equations) -> list[str]:
+def _header_for_readers(program: LawProgram, model: ModelProgram, equations: Equations) -> list[str]:
     """Return the header of a law for readers: notation, use, and the meaning of elements of y and p."""
     info, first = program.info, model.layout.parameters
     own, behind = first + model.hoisted, info.parameter_offset + len(info.parameters)
     computed = {"the model's `prepare`": (first, own), "`prepare`": (own, info.parameter_offset)}
     computed["`prepare` too"] = behind, behind + info.hoisted
-    return [*(_USE + _IMPLICIT * bool(info.level)).split("\n"), *_symbols(equations, computed)]
+    return [*(_USE + _IMPLICIT * bool(info.level)).split("\n"), *_symbol_lines(equations, computed)]
 
 
 def version_line(digest: str) -> str:
@@ -159,7 +167,7 @@ def law_header(info: LawInfo, summary: str, reference: str, source: str, place: 
     """Return the lines of a law's docstring; `source` names the origin, `place` locates the method's parameters."""
     parameters = enumerate(info.parameters, info.parameter_offset)
     return [
-        *(f"{capitalised(summary)}.", reference, source),
+        *(f"{capitalise(summary)}.", reference, source),
         *(f"option {option} = {value}" for option, value in sorted(info.options.items())),
         *(f"{place.format(i)} {name} (default {default})" for i, (name, default) in parameters),
     ]
@@ -177,7 +185,7 @@ class LiteralLayout(PartsLayout):
         """Return a size."""
         return self.program.degrees if name == "degrees" else int(getattr(self.program.layout, name))
 
-    def at(self, name: str) -> str:
+    def constant_of_section(self, name: str) -> str:
         """Return the constant of the beginning of a section."""
         self.sections.add(name)
         return name.upper()
@@ -190,7 +198,7 @@ class LiteralLayout(PartsLayout):
         """Return the method's parameter at a place as an element of p."""
         return self.element(self.program.info.parameter_offset + place)
 
-    def finished(self) -> tuple[list[str], set[str], set[str]]:
+    def own_lines_and_sections(self) -> tuple[list[str], set[str], set[str]]:
         """Return no lines before a function's own, and the sections in use."""
         sections, self.sections = self.sections, set()
         return [], set(), sections
@@ -212,9 +220,9 @@ def table_codes(tables: Sequence[Interpolation], target: str = "cpu", slopes: bo
         values: dict[str, Any] = {"table": table, "cuda": target == "cuda", "decorator": PLATFORMS[target].decorator}
         if curve.pieces:
             table |= {what: table_name(curve.name, what) for what in DERIVATIVES[2:]} | {"period": curve.period}
-            text = render("curves/pieces.j2", values).strip("\n")
+            text = render_template("curves/pieces.j2", values).strip("\n")
         else:
-            text = render("parts/table.j2", values | {"slope": slopes}).strip("\n")
+            text = render_template("parts/table.j2", values | {"slope": slopes}).strip("\n")
         also = tuple(table_name(curve.name, what) for what in (*DERIVATIVES[1:], "x", "y"))
         libraries = frozenset(("numpy", "math") if curve.period else ("numpy",))
         codes.append(ModulePiece(table["value"], text, libraries=libraries, also=also))
@@ -228,7 +236,7 @@ def array_text(values: Sequence[float]) -> str:
     return f'np.array("{" ".join(map(repr, values))}".split(), dtype=float)'
 
 
-def straight(
+def straight_functions(
     blocks: Sequence[Block],
     layout: ModelLayout,
     equations: Equations | SideProgram,
@@ -240,10 +248,10 @@ def straight(
     names |= {("v", i): f"{v.name} [{v.unit}]" for i, v in enumerate(equations.velocities)}
     names |= {("p", i): f"{p.name} [{p.unit}]" for i, p in enumerate(equations.parameters)}
     names = (further or {}) | names
-    names |= of_hoisted(blocks, ElementAccess(layout, names))
+    names |= formulas_of_hoisted(blocks, ElementAccess(layout, names))
     observed: Names = {}
     if isinstance(equations, Equations):
-        observed = of_observed(equations)
+        observed = names_of_observed(equations)
         names |= {("z", i): f"{x.name} [{x.unit}]" for i, x in enumerate(equations.states, 1)}
     codes = []
     for block in blocks:
@@ -260,7 +268,7 @@ def straight(
     return codes
 
 
-def _symbols(equations: Equations, computed: Mapping[str, tuple[int, int]]) -> list[str]:
+def _symbol_lines(equations: Equations, computed: Mapping[str, tuple[int, int]]) -> list[str]:
     """Return a line with element, name and unit for each index, and one on numbers kept in p."""
     nq = equations.nq
     table = [(f"y[{i}]", q.name, q.unit) for i, q in enumerate(equations.coordinates)]
@@ -275,13 +283,13 @@ def _symbols(equations: Equations, computed: Mapping[str, tuple[int, int]]) -> l
 
 def emit_side(program: SideProgram) -> str:
     """Return the source of a module with one function, straight code for either shape of the model."""
-    codes, header = _printed(program, "out[{}]")
+    codes, header = _print_functions(program, "out[{}]")
     return module_source(f"{program.blocks[0].purpose}, for model `{program.mechanism}`.", header, codes, {}, {})
 
 
-def _printed(program: SideProgram, place: str, first: int = 0) -> tuple[list[ModulePiece], list[str]]:
+def _print_functions(program: SideProgram, place: str, first: int = 0) -> tuple[list[ModulePiece], list[str]]:
     """Return the functions, and lines with the meaning of each place, from the `first` on."""
-    codes = [*table_codes(program.tables), *straight(program.blocks, program.layout, program)]
+    codes = [*table_codes(program.tables), *straight_functions(program.blocks, program.layout, program)]
     formulas = [f"{place.format(i)} {formula}" for i, formula in enumerate(program.formulas, first)]
     return codes, [f"format {FORMAT}, templates {templates_digest()}", "", *formulas]
 
@@ -302,13 +310,13 @@ def emit_integrals(program: SideProgram, law: Mapping[str, str], power: int) -> 
     Parameters
     ----------
     program : SideProgram
-        From `symgen.derive.lower.side.lower_integrands`.
+        From `symgen.derive.lower.side_program.lower_integrands`.
     law : mapping of str to str
         Functions of the law, each with the stem of the module in the same folder that it is imported from.
     power : int
         Index in ``w`` where a residual leaves the rate of the work.
     """
-    codes, header = _printed(program, "z[{}]' =", 1)
+    codes, header = _print_functions(program, "z[{}]' =", 1)
     exports = [name for name in law if name not in _FOLLOWED]
     origins = {name: (law[name], name) for name in exports}
     for name, (arguments, more) in _FOLLOWED.items():

@@ -22,31 +22,34 @@ def emit_kernel(kernel: KernelProgram, generator: str) -> str:
     frames = f"{len(info.frames)} frame" + ("" if len(info.frames) == 1 else "s")
     numbers = f"{info.constants} constants, {info.hoisted} numbers computed once a run"
     about = f"A {info.kind} of kind {kernel.label} over {frames}, {numbers}."
-    return _module(kernel, InstanceAccess(info), about, generator)
+    return _kernel_module(kernel, InstanceAccess(info), about, generator)
 
 
 def emit_form(form: FormProgram, kernel: KernelInfo, generator: str, shifted: bool = False) -> str:
     """Return the source of the kernel of an element's part of a descriptor form; `shifted`: see `FormAccess`."""
     about = f"What a {kernel.kind} of kind {form.label} adds to a descriptor form."
-    return _module(form, FormAccess(kernel, shifted=shifted), about, generator, slopes=True)
+    return _kernel_module(form, FormAccess(kernel, shifted=shifted), about, generator, slopes=True)
 
 
-def _module(
+def _kernel_module(
     kernel: KernelProgram | FormProgram, access: InstanceAccess, about: str, generator: str, slopes: bool = False
 ) -> str:
-    stride = len(access.places())
-    codes = [*table_codes(kernel.tables, slopes=slopes), *(_function(b, access, stride) for b in kernel.blocks)]
+    stride = len(access.table_reads())
+    codes = [
+        *table_codes(kernel.tables, slopes=slopes),
+        *(_loop_over_instances(b, access, stride) for b in kernel.blocks),
+    ]
     stands = f"Functions go through all instances, whose table begins at `at`: how many, then {stride} numbers each."
     header = [f"format {FORMAT}, generator {generator}", about, stands]
     origins = {name.upper(): ("machine", name.upper()) for name in HEAD}
     return module_source(f"Kernel `{kernel.stem}` of the looped shape.", header, codes, origins, {})
 
 
-def _function(block: Block, access: InstanceAccess, stride: int) -> ModulePiece:
+def _loop_over_instances(block: Block, access: InstanceAccess, stride: int) -> ModulePiece:
     """Return a block as a loop over instances."""
     access.used.clear()
     lines = Printer(block, access).lines()
-    places = [(name, number) for name, number in access.places() if name in access.used]
+    places = [(name, number) for name, number in access.table_reads() if name in access.used]
     heads = [n for n in HEAD if n in access.used or (n == "records" and any(name[0] == "f" for name, _ in places))]
     sums = [name for name in _SUMS if any(t.space == name for t, _ in block.outputs)]
     changed = [] if lines.flag is None else ["changed"]
@@ -116,7 +119,7 @@ class InstanceAccess(Access):
             return f"state_{index - 1}", self.element("y", f"own{index - 1}")
         return f"{space}_{index}", self.element(*_READ[space], plus=index)
 
-    def operator(self, target: OutputSlot) -> str:
+    def sign_of_output(self, target: OutputSlot) -> str:
         """Return the sign between an output and its value."""
         return "+=" if target.space in (*_SUMS, "force+") else "="
 
@@ -142,16 +145,16 @@ class InstanceAccess(Access):
             index -= sizes[which]
         raise AssertionError("every velocity belongs to a frame")
 
-    def places(self) -> list[tuple[str, str]]:
+    def table_reads(self) -> list[tuple[str, str]]:
         """Return (local name, expression) of all numbers of an instance's table."""
         frames = range(len(self.info.frames))
         own: dict[str, list[str]] = {"body": ["q", "v"], "joint": ["row", "entry", "coordinate"], "state": []}
         own["bound"] = ["row", "entry", *(f"v{i}" for i in frames)]
         own |= {"rotor": own["bound"][1:], "drag": ["row", "drag"]}
         names = [*(f"f{i}" for i in frames), *own.get(self.info.kind, [f"v{i}" for i in frames])]
-        return self.numbered([*names, *self.beside(), "computed"])
+        return self.number_names([*names, *self.names_of_places(), "computed"])
 
-    def beside(self) -> list[str]:
+    def names_of_places(self) -> list[str]:
         """Return the names of the places of counted turns, of states and of modes."""
         turns = [f"u{i}" for i in range(self.info.windings)]
         return [
@@ -160,7 +163,7 @@ class InstanceAccess(Access):
             *["modes"] * (self.info.kind in ("bound", "drag")),
         ]
 
-    def numbered(self, names: list[str]) -> list[tuple[str, str]]:
+    def number_names(self, names: list[str]) -> list[tuple[str, str]]:
         """Return the numbers of a table, constants last; records and coordinates are counted from 0."""
         result = []
         for i, name in enumerate([*names, *(f"c{i}" for i in range(self.info.constants))]):
@@ -177,7 +180,7 @@ class FormAccess(InstanceAccess):
     Attributes
     ----------
     shifted : bool
-        Whether equations of states of the file stand between the others and the rows for projections.
+        Whether equations of states of the file are between the others and the rows for projections.
     """
 
     shifted: bool = False
@@ -194,7 +197,7 @@ class FormAccess(InstanceAccess):
             return f"{space}{index}", self.unknown("w", ("stage",), space.removeprefix("k_"), index)
         return super().read(space, index)
 
-    def operator(self, target: OutputSlot) -> str:
+    def sign_of_output(self, target: OutputSlot) -> str:
         """Return the sign between an output and its value."""
         return "=" if target.space == "entry" else "+="
 
@@ -220,7 +223,9 @@ class FormAccess(InstanceAccess):
         self.used.update("m" if further else ())
         return self.element(array, *first, *start, "row", plus=index)
 
-    def places(self) -> list[tuple[str, str]]:
+    def table_reads(self) -> list[tuple[str, str]]:
         """Return (local name, expression) of all numbers of an instance's table."""
         names = [f"{letter}{i}" for letter in "fqv" for i in range(len(self.info.frames))]
-        return self.numbered([*names, "row", "entry", *self.beside(), *["equation"] * (self.info.kind == "state")])
+        return self.number_names(
+            [*names, "row", "entry", *self.names_of_places(), *["equation"] * (self.info.kind == "state")]
+        )

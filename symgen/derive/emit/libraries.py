@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 from symgen.base.errors import InputError
 from symgen.base.escapes import comment_text
-from symgen.base.vocabulary.functions import ELEMENTARY
-from symgen.derive.emit.functions import VectorAccess
+from symgen.base.vocabulary.elementary_functions import ELEMENTARY
+from symgen.derive.emit.function_modules import VectorAccess
 from symgen.derive.emit.printer import Printer
-from symgen.derive.lower.functions import FunctionProgram
+from symgen.derive.lower.function_programs import FunctionProgram
 
 #: Names of the arguments in the modules.
 ARGUMENTS = {"q": "q", "v": "v", "a": "a", "e": "effort", "p": "p"}
@@ -83,7 +83,7 @@ class LibraryAccess(VectorAccess):
         return name, text.replace("e[", "effort[", 1) if space == "e" else text
 
 
-def library_function(where: str, program: FunctionProgram, parameters: int, name: str, syntax: Syntax) -> str:
+def function_text(where: str, program: FunctionProgram, parameters: int, name: str, syntax: Syntax) -> str:
     """Return the text of a function that returns its elements.
 
     Parameters

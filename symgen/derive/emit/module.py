@@ -76,7 +76,7 @@ class ModulePiece:
 
 
 @lru_cache(maxsize=1)
-def _environment() -> jinja2.Environment:
+def _jinja_environment() -> jinja2.Environment:
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(templates_folder()),
         undefined=jinja2.StrictUndefined,
@@ -97,7 +97,7 @@ def python_number(value: float) -> str:
     return min(repr(value), short, key=len)
 
 
-def render(template: str, values: Mapping[str, Any]) -> str:
+def render_template(template: str, values: Mapping[str, Any]) -> str:
     """Render a template.
 
     Raises
@@ -105,7 +105,7 @@ def render(template: str, values: Mapping[str, Any]) -> str:
     jinja2.UndefinedError
         If a value of the template is missing.
     """
-    return _environment().get_template(template).render(values)
+    return _jinja_environment().get_template(template).render(values)
 
 
 @lru_cache(maxsize=1)
@@ -131,7 +131,7 @@ def function_source(
     sections: Iterable[str] = (),
 ) -> ModulePiece:
     """Return a function; its purpose may come from anywhere, and `calls` may name libraries and their functions."""
-    first, *more = [comment_text(line) for line in capitalised(purpose).split("\n")]
+    first, *more = [comment_text(line) for line in capitalise(purpose).split("\n")]
     document = [f'"""{first}', *more, '"""'] if more else [f'"""{first}"""']
     lines = [f"    {line}" if line else "" for line in (*document, *body)]
     text = "\n".join([decorator, f"def {name}({arguments}):", *lines])
@@ -140,12 +140,12 @@ def function_source(
     return ModulePiece(name, text, emitted, frozenset(sections), libraries)
 
 
-def capitalised(text: str) -> str:
+def capitalise(text: str) -> str:
     """Return a text with a capital first letter, unless it begins with a symbol such as v'."""
     return text[0].upper() + text[1:] if text[:2].isalpha() else text
 
 
-def _listed(names: Sequence[str]) -> str:
+def _import_list(names: Sequence[str]) -> str:
     """Return names for an import, in brackets where they take more than a line."""
     text = ", ".join(names)
     return text if len(text) < 100 else f"(\n{fill(text, 110, initial_indent='    ', subsequent_indent='    ')},\n)"
@@ -196,9 +196,9 @@ def module_source(
         "header": [comment_text(line) for line in header],
         "libraries": libraries,
         "numba": numba if codes else "",
-        "imports": {stem: _listed(names) for stem, names in sorted(imports.items())},
+        "imports": {stem: _import_list(names) for stem, names in sorted(imports.items())},
         "constants": [(name.upper(), *offset) for name, offset in offsets.items() if name in sections],
         "codes": codes,
         "exports": sorted(exports),
     }
-    return render("parts/module.j2", values)
+    return render_template("parts/module.j2", values)

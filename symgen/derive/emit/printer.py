@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 from symgen.base.escapes import comment_text
 from symgen.base.ir.graph import CARRIED
-from symgen.base.ir.program import STATUS, Block, JacobianEntry, ModelLayout, OutputSlot, of_table
-from symgen.base.vocabulary.functions import ELEMENTARY
+from symgen.base.ir.program import STATUS, Block, JacobianEntry, ModelLayout, OutputSlot, table_of_payload
+from symgen.base.vocabulary.elementary_functions import ELEMENTARY
 
 if TYPE_CHECKING:
     from symgen.derive.formulate.equations import Equations
@@ -52,11 +52,11 @@ class Access(ABC):
     def write(self, target: OutputSlot) -> str:
         """Return the left-hand side of an output."""
 
-    def operator(self, target: OutputSlot) -> str:
+    def sign_of_output(self, target: OutputSlot) -> str:
         """Return the sign between an output and its value."""
         return "="
 
-    def note(self, space: str, index: int) -> str:
+    def name_in_model(self, space: str, index: int) -> str:
         """Return the name of an element in the model, empty where it has none."""
         return ""
 
@@ -94,14 +94,14 @@ class ElementAccess(Access):
             return self.element(target.space, target.index)
         return self.element("w", self.layout.offset(target.space) + target.index)
 
-    def note(self, space: str, index: int) -> str:
+    def name_in_model(self, space: str, index: int) -> str:
         """Return the name of an element in the model, empty where it has none."""
         return self.names.get((space, index), "")
 
 
 @dataclass(frozen=True)
 class LaneAccess(ElementAccess):
-    """Elements of `lanes` runs side by side in one array ``z``: element i stands at ``lanes*i + lane``.
+    """Elements of `lanes` runs side by side in one array ``z``: element i is at ``lanes*i + lane``.
 
     `bases` are the beginnings of the arrays of a single run.
     """
@@ -142,7 +142,7 @@ class Printer:
                 space, index = payload
                 name, expression = self.access.read(space, index)
                 if name != expression:
-                    note = comment_text(self.access.note(space, index))
+                    note = comment_text(self.access.name_in_model(space, index))
                     inputs.append(f"{name} = {expression}" + (f"  # {note}" if note else ""))
                 self.text[node] = (name, 5)
             else:
@@ -153,15 +153,16 @@ class Printer:
                     text, level = name, 5
                 self.text[node] = (text, level)
         outputs = tuple(
-            f"{self.access.write(target)} {self.access.operator(target)} {self.text[n][0]}" + self.comment(target)
+            f"{self.access.write(target)} {self.access.sign_of_output(target)} {self.text[n][0]}"
+            + self.comment_on_output(target)
             for target, n in self.block.outputs
         )
         flag = None if self.block.flag is None else self.text[self.block.flag][0]
         return BodyLines(tuple(inputs), tuple(terms), outputs, flag, frozenset(self.functions))
 
-    def comment(self, target: OutputSlot) -> str:
+    def comment_on_output(self, target: OutputSlot) -> str:
         """Return the name of an output as a comment, empty where it has none."""
-        note = comment_text(self.access.note(target.space, target.index))
+        note = comment_text(self.access.name_in_model(target.space, target.index))
         return f"  # {note}" if note else ""
 
     def operation(self, op: str, args: tuple[int, ...], payload: object) -> tuple[str, int]:
@@ -169,17 +170,17 @@ class Printer:
         if op in _BINARY:
             sign, level = _BINARY[op]
             if op == "pow":
-                return f"{self.factor(args[0])}{sign}{self.factor(args[1])}", level
-            left = self.wrapped(args[0], level)
-            right = self.wrapped(args[1], level if op == "add" else level + 1)
+                return f"{self.factor_text(args[0])}{sign}{self.factor_text(args[1])}", level
+            left = self.bracket(args[0], level)
+            right = self.bracket(args[1], level if op == "add" else level + 1)
             return f"{left} {sign} {right}" if level == 1 else f"{left}{sign}{right}", level
         if op == "neg":
-            return f"-{self.wrapped(args[0], 2)}", 1
+            return f"-{self.bracket(args[0], 2)}", 1
         texts = [self.text[a][0] for a in args]
         if op in _COMPARE:
-            return f"({self.wrapped(args[0], 1)} {_COMPARE[op]} {self.wrapped(args[1], 1)})", 5
+            return f"({self.bracket(args[0], 1)} {_COMPARE[op]} {self.bracket(args[1], 1)})", 5
         if op in _LOGIC:
-            return f"({self.truth(args[0])} {_LOGIC[op]} {self.truth(args[1])})", 5
+            return f"({self.truth_text(args[0])} {_LOGIC[op]} {self.truth_text(args[1])})", 5
         if op in _MATH:
             name = self.access.function(op)
             self.functions.add(name)
@@ -199,14 +200,14 @@ class Printer:
         if op in special:
             return special[op].format(*texts), 2 if op in ("step", "sign") else 5
         if op == "table":
-            name = table_name(*of_table(payload))
+            name = table_name(*table_of_payload(payload))
             self.functions.add(name)
             return f"{name}({texts[0]})", 5
         raise AssertionError(f"no syntax for operation {op}")
 
-    def factor(self, node: int) -> str:
+    def factor_text(self, node: int) -> str:
         """Return a node's text as a part of a power: no integer, whose powers overflow or raise uncaught exceptions."""
-        return f"float({self.text[node][0]})" if self.is_whole(node) else self.wrapped(node, 5)
+        return f"float({self.text[node][0]})" if self.is_whole(node) else self.bracket(node, 5)
 
     def is_whole(self, node: int) -> bool:
         """Whether a node's text is an integer, as rounded numbers are, and their sums and products."""
@@ -214,12 +215,12 @@ class Printer:
         values = args[1:] if op == "where" else args
         return op == "floor" or (op in _WHOLE and all(map(self.is_whole, values)))
 
-    def truth(self, node: int) -> str:
+    def truth_text(self, node: int) -> str:
         """Return the text of a truth value."""
-        text = self.wrapped(node, 1)
+        text = self.bracket(node, 1)
         return text if self.graph.nodes[node].op in _TRUTH else f"({text} != 0.0)"
 
-    def wrapped(self, node: int, level: int) -> str:
+    def bracket(self, node: int, level: int) -> str:
         """Return a node's text, in parentheses where it binds more weakly than `level`."""
         text, own = self.text[node]
         return text if own >= level else f"({text})"
@@ -255,7 +256,7 @@ _OF_ROWS = ("residual", "nu", "multipliers", "mask", "pivot", "row_weight")
 _OF_VELOCITIES = ("change", "mass", "gauge")
 
 
-def of_model(equations: Equations, jacobian: Sequence[JacobianEntry]) -> Names:
+def names_in_model(equations: Equations, jacobian: Sequence[JacobianEntry]) -> Names:
     """Return the names of sections of ``w`` that all methods share, and of the values returned at outputs.
 
     Parameters
@@ -276,7 +277,7 @@ def of_model(equations: Equations, jacobian: Sequence[JacobianEntry]) -> Names:
     }
 
 
-def of_observed(equations: Equations) -> Names:
+def names_of_observed(equations: Equations) -> Names:
     """Return the names of the outputs of ``observe``."""
     labels = [row.name for row in equations.rows]
     labels += [name for c in equations.joint_coordinates for name in (c.name, f"rate of {c.name}")]
@@ -293,7 +294,7 @@ class _ByName(ElementAccess):
         return name, name
 
 
-def of_hoisted(blocks: Sequence[Block], access: ElementAccess) -> Names:
+def formulas_of_hoisted(blocks: Sequence[Block], access: ElementAccess) -> Names:
     """Return the short formulas of numbers that depend on parameters alone.
 
     Parameters

@@ -88,21 +88,21 @@ class Places:
         constants |= {name: (i, "counters in iw") for i, name in enumerate(COUNTERS)}
         return constants | {name: (at, "parameters of the method in p") for name, at in self.parameters.items()}
 
-    def named(self, code: ModulePiece) -> ModulePiece:
+    def put_names(self, code: ModulePiece) -> ModulePiece:
         """Return a function with names in place of the numbers of elements of w and iw, and of the method in p."""
         used = set(code.sections)
 
-        def name(match: re.Match[str]) -> str:
+        def name_of_match(match: re.Match[str]) -> str:
             array, index = match[1], int(match[2])
-            place = self._place(array, index)
+            place = self._name_and_distance(array, index)
             if place is None:
                 return match[0]
             used.add(place[0])
             return f"{array}[{place[0].upper()}{f' + {place[1]}' if place[1] else ''}]"
 
-        return replace(code, text=_ELEMENT.sub(name, code.text), sections=frozenset(used))
+        return replace(code, text=_ELEMENT.sub(name_of_match, code.text), sections=frozenset(used))
 
-    def _place(self, array: str, index: int) -> tuple[str, int] | None:
+    def _name_and_distance(self, array: str, index: int) -> tuple[str, int] | None:
         """Return the name of an element, and its distance from the beginning of that name."""
         if array == "iw":
             return COUNTERS[index], 0
@@ -131,18 +131,18 @@ class Places:
         groups : sequence of sequence of Code
             The functions, those of each part of the law together, in the order of their text.
         """
-        codes = [self.named(code) for code in with_own_names(groups, origins)]
+        codes = [self.put_names(code) for code in rename_duplicates(groups, origins)]
         constants = {**(offsets or {}), **self.constants}
-        origins = {**origins, **{model_name(name): origin for name, origin in origins.items()}}
-        return absolute(module_source(title, header, codes, origins, constants, **keys))
+        origins = {**origins, **{name_in_model(name): origin for name, origin in origins.items()}}
+        return import_siblings_by_name(module_source(title, header, codes, origins, constants, **keys))
 
 
-def model_name(name: str) -> str:
+def name_in_model(name: str) -> str:
     """Return the name of the model's function in a module that has its own function of that name."""
     return f"{name}_of_model"
 
 
-def with_own_names(groups: Sequence[Sequence[ModulePiece]], origins: Origins) -> list[ModulePiece]:
+def rename_duplicates(groups: Sequence[Sequence[ModulePiece]], origins: Origins) -> list[ModulePiece]:
     """Return functions of several modules as one module: of two with the same name, the earlier is renamed.
 
     A law has its own `geometry` and `spread` where its metric is not the model's, and its own `rhs` around the one for
@@ -159,20 +159,20 @@ def with_own_names(groups: Sequence[Sequence[ModulePiece]], origins: Origins) ->
     before, codes = set[str](), list[ModulePiece]()
     for i, group in enumerate(groups):
         own = {name for code in group for name in code.names}
-        replaced = {name: model_name(name) for name in origins.keys() & last.keys() - own - before}
+        replaced = {name: name_in_model(name) for name in origins.keys() & last.keys() - own - before}
         names = replaced | {name: "accelerate" for name in own if last[name] > i}
-        codes += [_renamed(code, names) for code in group]
+        codes += [_rename_function(code, names) for code in group]
         before |= own
     return codes
 
 
-def _renamed(code: ModulePiece, names: Mapping[str, str]) -> ModulePiece:
+def _rename_function(code: ModulePiece, names: Mapping[str, str]) -> ModulePiece:
     """Return a function with other names for itself and its callees."""
     text = re.sub(r"\b(\w+)(?=\()", lambda match: names.get(match[0], match[0]), code.text)
     calls = frozenset(names.get(name, name) for name in code.calls)
     return replace(code, name=names.get(code.name, code.name), text=text, calls=calls)
 
 
-def absolute(source: str) -> str:
+def import_siblings_by_name(source: str) -> str:
     """Return a module that imports its siblings by their names alone, as in the folder of a script."""
     return re.sub(r"^from \.(?=\w)", "from ", source, flags=re.MULTILINE)

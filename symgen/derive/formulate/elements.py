@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from symgen.base.ir.graph import Graph
 from symgen.derive.formulate.equations import ConstraintRow, Equations
 from symgen.derive.formulate.formulate import formulate, rotor_rate, with_rotors
-from symgen.derive.formulate.measures import ModelNodes
+from symgen.derive.formulate.measure_nodes import ModelNodes
 from symgen.describe.mechanism import Mechanism
 
 #: Stride of the records in the numbering ("record", frame * RECORD + place).
@@ -57,7 +57,7 @@ class Element:
     equations: Equations
     frames: tuple[FrameRecord, ...]
 
-    def over_records(self, nodes: Sequence[int], graph: Graph, source: Graph | None = None) -> list[int]:
+    def copy_over_records(self, nodes: Sequence[int], graph: Graph, source: Graph | None = None) -> list[int]:
         """Copy nodes into `graph` as functions of ``t``, ``p`` and ``("record", RECORD * frame + place)``.
 
         `source` is an extended copy of the equations' graph that contains `nodes`; by default that graph itself.
@@ -69,10 +69,10 @@ class Element:
             for place, node in enumerate((*inputs, *frame.slots)):
                 places.setdefault(node, graph.input("record", RECORD * f + place))
 
-        def image(node: int) -> int:
+        def node_in_graph(node: int) -> int:
             return places[node] if node in places else graph.input(*source.key(node))
 
-        return graph.rebuilt(source, nodes, image, places.__contains__)
+        return graph.rebuild_from(source, nodes, node_in_graph, places.__contains__)
 
 
 def derive_element(abstract: Mechanism) -> Element:
@@ -99,11 +99,11 @@ def derive_element(abstract: Mechanism) -> Element:
         frames.append(FrameRecord(tuple(range(q, q + nq)), tuple(range(v, v + nv)), slots))
         q, v = q + nq, v + nv
     if abstract.rotors:
-        equations = _of_rotor(model, equations)
+        equations = _equations_of_rotor(model, equations)
     return Element(equations, tuple(frames))
 
 
-def _of_rotor(model: ModelNodes, equations: Equations) -> Equations:
+def _equations_of_rotor(model: ModelNodes, equations: Equations) -> Equations:
     """Return the equations of a rotor without the bodies that it joins.
 
     M is R^T R: with its inertia J and the rate r v of its angle the only row is R = sqrt(J) r, without Phi, nu, gamma.

@@ -8,17 +8,17 @@ from collections.abc import Sequence
 from symgen.base.ir.graph import Graph
 
 
-def matrix_of(g: Graph, e: Sequence[int]) -> list[int]:
+def rotation_matrix_rows(g: Graph, e: Sequence[int]) -> list[int]:
     """Return A row by row in homogeneous form: A' = A skew(omega) for Euler parameters of any length."""
     a, b, c, d = e
 
-    def twice(x: int, y: int) -> int:
+    def times_two(x: int, y: int) -> int:
         return g.mul(g.constant(2.0), g.mul(x, y))
 
     aa, bb, cc, dd = (g.mul(x, x) for x in (a, b, c, d))
     plus, minus = g.add(aa, bb), g.sub(aa, bb)
     sums, rest = g.add(cc, dd), g.sub(cc, dd)
-    bc, ad, bd, ac, cd, ab = (twice(*pair) for pair in ((b, c), (a, d), (b, d), (a, c), (c, d), (a, b)))
+    bc, ad, bd, ac, cd, ab = (times_two(*pair) for pair in ((b, c), (a, d), (b, d), (a, c), (c, d), (a, b)))
     return [
         *(g.sub(plus, sums), g.sub(bc, ad), g.add(bd, ac)),
         *(g.add(bc, ad), g.add(minus, rest), g.sub(cd, ab)),
@@ -26,7 +26,7 @@ def matrix_of(g: Graph, e: Sequence[int]) -> list[int]:
     ]
 
 
-def turning(g: Graph, e: Sequence[int], omega: Sequence[int]) -> list[int]:
+def rate_of_parameters(g: Graph, e: Sequence[int], omega: Sequence[int]) -> list[int]:
     """Return e' = G^T omega / 2 for an angular velocity in body axes: it keeps the length of e."""
     half = g.constant(0.5)
     x, y, z = (g.mul(half, w) for w in omega)
@@ -52,7 +52,7 @@ def inverse_rotation(g: Graph, e: Sequence[int]) -> list[int]:
     return [e[0], *(g.neg(x) for x in e[1:])]
 
 
-def composed(g: Graph, p: Sequence[int], q: Sequence[int]) -> list[int]:
+def compose_rotations(g: Graph, p: Sequence[int], q: Sequence[int]) -> list[int]:
     """Return the Euler parameters of A(p) A(q)."""
     a, b, c, d = p
     w, x, y, z = q
@@ -64,7 +64,7 @@ def composed(g: Graph, p: Sequence[int], q: Sequence[int]) -> list[int]:
     ]
 
 
-def parameters_of(g: Graph, matrix: Sequence[Sequence[int]]) -> list[int]:
+def parameters_of_matrix(g: Graph, matrix: Sequence[Sequence[int]]) -> list[int]:
     """Return the Euler parameters of a rotation matrix of literals, such as joint axes; the largest is positive."""
     r = [[g.value(n) or 0.0 for n in row] for row in matrix]
     trace = r[0][0] + r[1][1] + r[2][2]

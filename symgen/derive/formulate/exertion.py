@@ -9,8 +9,8 @@ from symgen.base.vocabulary.expressions import ZERO
 from symgen.base.vocabulary.measures import (
     Effort,
 )
-from symgen.derive.formulate.measures import ModelNodes
-from symgen.derive.formulate.of_time import potential_of
+from symgen.derive.formulate.measure_nodes import ModelNodes
+from symgen.derive.formulate.of_time import slope_and_potential
 
 
 @dataclass(frozen=True)
@@ -38,16 +38,16 @@ class Exertion:
     energy: int
 
 
-def exertion(model: ModelNodes, effort: Effort) -> Exertion:
+def exertion_of_effort(model: ModelNodes, effort: Effort) -> Exertion:
     """Return the force of an effort."""
-    g, measure = model.graph, model.motion(effort.measure)
+    g, measure = model.graph, model.measure_or_velocity(effort.measure)
     rate = measure.rate(g, model.velocities)
     zero = g.zero
     conservative, energy = (
-        (zero, zero) if effort.potential == ZERO else potential_of(model, effort.potential, measure.value)
+        (zero, zero) if effort.potential == ZERO else slope_and_potential(model, effort.potential, measure.value)
     )
     magnitude = model.expression(effort.magnitude, s=measure.value, rate=rate)
     total = g.add(conservative, magnitude)
     # what drifts changes the potential, and the force moves no body by it
-    power = g.sub(g.mul(magnitude, measure.along(g, model.velocities)), g.mul(conservative, measure.drift))
+    power = g.sub(g.mul(magnitude, measure.velocity_part(g, model.velocities)), g.mul(conservative, measure.drift))
     return Exertion(measure.row, rate, total, power, energy)

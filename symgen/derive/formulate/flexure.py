@@ -24,8 +24,8 @@ from collections.abc import Sequence
 from functools import cached_property
 
 from symgen.base.vocabulary.measures import Exerted, Flexed, Flexure
-from symgen.derive.formulate.exertion import Exertion, exertion
-from symgen.derive.formulate.measures import ModelNodes
+from symgen.derive.formulate.exertion import Exertion, exertion_of_effort
+from symgen.derive.formulate.measure_nodes import ModelNodes
 from symgen.derive.formulate.vector_algebra import Triple, Vectors
 from symgen.describe.mechanism import Force
 
@@ -59,17 +59,19 @@ SPACE = (
 )
 
 
-def exertions(model: ModelNodes, source: Force | Exerted) -> list[Exertion]:
+def exertions_of_force(model: ModelNodes, source: Force | Exerted) -> list[Exertion]:
     """Return the exertions of the efforts and beam elements of a force, measure by measure."""
-    exerted = [exertion(model, effort) for effort in source.efforts]
-    return exerted + [part for flexure in source.flexures for part in Flexing(model, flexure).exertions()]
+    exerted = [exertion_of_effort(model, effort) for effort in source.efforts]
+    return exerted + [
+        part for flexure in source.flexures for part in Flexing(model, flexure).exertions_along_measures()
+    ]
 
 
-def flexed(model: ModelNodes, source: Flexed) -> int:
+def flexure_component(model: ModelNodes, source: Flexed) -> int:
     """Return a component of the strain or of the force and moment in the middle of an element."""
     flexing, i = Flexing(model, source.flexure), source.component
     if source.stress:
-        return model.graph.add(flexing.stress[i], flexing.damped[i])
+        return model.graph.add(flexing.stress[i], flexing.damping_force[i])
     return model.graph.div(flexing.excess[i], flexing.length)
 
 
@@ -99,9 +101,9 @@ class Flexing:
     # -- deformation -------------------------------------------------------------------------------------------------
 
     @cached_property
-    def series(self) -> tuple[int, int, int, int]:
+    def series_factors(self) -> tuple[int, int, int, int]:
         """The factor c and (c - 1/2) / X, each with its derivative with respect to X."""
-        g, x = self.graph, self.argument
+        g, x = self.graph, self.series_argument
         value = slope = g.zero
         for coefficient in reversed(SPACE if self.spatial else PLANE):
             slope = g.add(g.mul(slope, x), value)
@@ -109,16 +111,16 @@ class Flexing:
         return g.add(g.constant(0.5), g.mul(x, value)), g.add(value, g.mul(x, slope)), value, slope
 
     @cached_property
-    def argument(self) -> int:
+    def series_argument(self) -> int:
         """The argument X of the series."""
         g = self.graph
         return g.sub(g.constant(3.0), self.values[6]) if self.spatial else g.mul(self.values[2], self.values[2])
 
     @cached_property
-    def across(self) -> tuple[int, int]:
+    def factor_across(self) -> tuple[int, int]:
         """The factor k = (c - 1/2) / X / (4 - X) and its derivative with respect to X."""
-        g, (_, _, value, slope) = self.graph, self.series
-        rest = g.sub(g.constant(4.0), self.argument)
+        g, (_, _, value, slope) = self.graph, self.series_factors
+        rest = g.sub(g.constant(4.0), self.series_argument)
         k = g.div(value, rest)
         return k, g.div(g.add(slope, k), rest)
 
@@ -131,23 +133,23 @@ class Flexing:
     @cached_property
     def deformation(self) -> list[int]:
         """The components of psi."""
-        g, v, c = self.graph, self.algebra, self.series[0]
+        g, v, c = self.graph, self.algebra, self.series_factors[0]
         if not self.spatial:
             return [g.mul(c, self.values[0]), g.mul(c, self.values[1]), self.values[2]]
         s, b = self.vectors
-        pull = g.mul(self.across[0], v.dot(b, s))
+        pull = g.mul(self.factor_across[0], v.dot(b, s))
         return [*v.sub(v.scale(c, s), v.scale(pull, b)), *v.scale(c, b)]
 
     @cached_property
     def rate(self) -> list[int]:
         """The rate of psi along the motion."""
-        g, v, (c, slope, _, _) = self.graph, self.algebra, self.series
+        g, v, (c, slope, _, _) = self.graph, self.algebra, self.series_factors
         rates = [m.rate(g, self.model.velocities) for m in self.measures]
         if not self.spatial:
             change = g.mul(g.mul(g.constant(2.0), slope), g.mul(self.values[2], rates[2]))
             parts = [g.add(g.mul(c, rates[i]), g.mul(change, self.values[i])) for i in range(2)]
             return [*parts, rates[2]]
-        (s, b), (k, bent), x = self.vectors, self.across, g.neg(rates[6])
+        (s, b), (k, bent), x = self.vectors, self.factor_across, g.neg(rates[6])
         ds, db, change = v.triple(rates[:3]), v.triple(rates[3:6]), g.mul(slope, x)
         along = v.dot(b, s)
         pull = g.add(g.mul(g.mul(bent, x), along), g.mul(k, g.add(v.dot(db, s), v.dot(b, ds))))
@@ -177,7 +179,7 @@ class Flexing:
             columns = [[g.zero, turn, g.zero], [g.neg(turn), g.zero, g.zero], [psi[1], g.neg(psi[0]), g.zero]]
         weighted = [[g.mul(c[j], x) for x in column] for j, column in enumerate(columns)]
         rows = [
-            [g.mul(k, g.total(g.mul(columns[m][i], weighted[m][j]) for m in range(len(c)))) for j in range(i + 1)]
+            [g.mul(k, g.sum_of(g.mul(columns[m][i], weighted[m][j]) for m in range(len(c)))) for j in range(i + 1)]
             for i in range(len(c))
         ]
         for i, row in enumerate(rows):
@@ -197,7 +199,7 @@ class Flexing:
             inverse.append(g.div(g.one, g.sub(row[i], g.dot(lower[i], scaled))))
         return lower, inverse
 
-    def solved(self, right: Sequence[int]) -> list[int]:
+    def solve_flexibility(self, right: Sequence[int]) -> list[int]:
         """Return F^-1 times a vector."""
         g, (lower, inverse) = self.graph, self.factors
         forward = list[int]()
@@ -212,15 +214,15 @@ class Flexing:
     @cached_property
     def stress(self) -> list[int]:
         """The force and moment in the middle, P = F^-1 d."""
-        return self.solved(self.excess)
+        return self.solve_flexibility(self.excess)
 
     @cached_property
-    def damped(self) -> list[int]:
+    def damping_force(self) -> list[int]:
         """The damping force and moment, tau F^-1 psi'."""
         damping = self.model.expression(self.flexure.damping)
         if damping == self.graph.zero:
             return [damping] * len(self.compliances)
-        return [self.graph.mul(damping, x) for x in self.solved(self.rate)]
+        return [self.graph.mul(damping, x) for x in self.solve_flexibility(self.rate)]
 
     @cached_property
     def gradient(self) -> list[int]:
@@ -244,14 +246,14 @@ class Flexing:
         )
         return [*v.sub(pu, v.cross(zw, pu)), *v.sub(pw, v.add(v.cross(zu, pu), v.cross(zw, pw)))]
 
-    def pulled(self, force: Sequence[int]) -> list[int]:
+    def forces_along_measures(self, force: Sequence[int]) -> list[int]:
         """Return the forces along the measures for forces along psi."""
-        g, v, (c, slope, _, _) = self.graph, self.algebra, self.series
+        g, v, (c, slope, _, _) = self.graph, self.algebra, self.series_factors
         if not self.spatial:
             turned = g.dot(self.values[:2], force[:2])
             bend = g.mul(g.mul(g.mul(g.constant(2.0), slope), self.values[2]), turned)
             return [g.mul(c, force[0]), g.mul(c, force[1]), g.add(force[2], bend)]
-        (s, b), (k, bent) = self.vectors, self.across
+        (s, b), (k, bent) = self.vectors, self.factor_across
         fu, fw = v.triple(force[:3]), v.triple(force[3:])
         along, work = v.dot(b, s), v.dot(b, fu)
         on_s = v.sub(v.scale(c, fu), v.scale(g.mul(k, work), b))
@@ -259,16 +261,16 @@ class Flexing:
         by_x = g.sub(g.mul(slope, g.add(v.dot(s, fu), v.dot(b, fw))), g.mul(bent, g.mul(along, work)))
         return [*on_s, *on_b, g.neg(by_x)]
 
-    def exertions(self) -> list[Exertion]:
+    def exertions_along_measures(self) -> list[Exertion]:
         """Return the exertions along the measures; the first one carries the energy and power of the element."""
         g, force = self.graph, self.gradient
         energy = g.mul(g.constant(0.5), g.dot(self.excess, self.stress))
         power = g.zero
-        if any(x != g.zero for x in self.damped):
-            force = [g.add(x, y) for x, y in zip(force, self.damped, strict=True)]
-            power = g.neg(g.dot(self.damped, self.rate))
+        if any(x != g.zero for x in self.damping_force):
+            force = [g.add(x, y) for x, y in zip(force, self.damping_force, strict=True)]
+            power = g.neg(g.dot(self.damping_force, self.rate))
         result = list[Exertion]()
-        for measure, along in zip(self.measures, self.pulled(force), strict=True):
+        for measure, along in zip(self.measures, self.forces_along_measures(force), strict=True):
             rate = measure.rate(g, self.model.velocities)
             result.append(Exertion(measure.row, rate, g.neg(along), power, energy))
             energy = power = g.zero

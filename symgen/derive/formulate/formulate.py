@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from symgen.base.errors import finite_numbers
-from symgen.base.ir.program import MODE_NUMBERS, of_table
+from symgen.base.errors import refuse_overflow
+from symgen.base.ir.program import MODE_NUMBERS, table_of_payload
 from symgen.base.vocabulary.expressions import ZERO
 from symgen.base.vocabulary.measures import GROUND, Dot, Holonomic, Row, StiffHolonomic, Sum
 from symgen.base.vocabulary.quantities import Quantity
@@ -23,14 +23,14 @@ from symgen.derive.formulate.equations import (
     Omission,
     mass_blocks,
 )
-from symgen.derive.formulate.exertion import exertion
-from symgen.derive.formulate.flexure import exertions
-from symgen.derive.formulate.measures import DerivedMeasure, ModelNodes
+from symgen.derive.formulate.exertion import exertion_of_effort
+from symgen.derive.formulate.flexure import exertions_of_force
+from symgen.derive.formulate.joint_tree import energies_on_tree
+from symgen.derive.formulate.measure_nodes import DerivedMeasure, ModelNodes
 from symgen.derive.formulate.of_time import time_function
-from symgen.derive.formulate.tree import energies_on_tree
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.bounds.by_reaction import held_by_reactions, refuse_repeated
-from symgen.describe.bounds.modes import first_modes, number_of
+from symgen.describe.bounds.bounded_modes import name_of_number, places_of_first_modes
+from symgen.describe.bounds.by_reaction import refuse_shared_reactions, rows_bounded_by_reactions
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.mechanism import Mechanism, Rotor, SpatialBody
 from symgen.describe.parts.topology import UNITS, state_quantities
@@ -55,19 +55,19 @@ def formulate(mechanism: Mechanism) -> Equations:
         If products or sums of a mechanism's numbers overflow; it names the body, joint or force.
     """
     mechanism, repeats = without_repeats(mechanism)
-    with finite_numbers("mechanism"):
+    with refuse_overflow("mechanism"):
         model = ModelNodes(mechanism)
-    modes = dict(first_modes(mechanism))
+    modes = dict(places_of_first_modes(mechanism))
     rows = tuple(
-        row if joint.name not in modes else _switched(model, row, modes[joint.name] + MODE_NUMBERS * i)
+        row if joint.name not in modes else _switchable_row(model, row, modes[joint.name] + MODE_NUMBERS * i)
         for joint in mechanism.joints
-        for i, row in enumerate(_row(model, joint.name, row) for row in joint.rows)
+        for i, row in enumerate(_equations_of_row(model, joint.name, row) for row in joint.rows)
     )
-    rows += tuple(_bounded_row(model, bounded, modes[bounded.row]) for bounded in mechanism.bounded)
-    forces, power, potential = _forces(model)
+    rows += tuple(_equations_of_bounded_row(model, bounded, modes[bounded.row]) for bounded in mechanism.bounded)
+    forces, power, potential = _forces_and_potential(model)
     driving = None
     if model.tree is None:
-        mass, kinetic, gravity_potential = _inertia(model, forces)
+        mass, kinetic, gravity_potential = _mass_and_energies(model, forces)
     else:
         kinetic, gravity_potential = energies_on_tree(model, forces)
         mass, forces, driving = model.tree.dynamics(forces)
@@ -75,7 +75,7 @@ def formulate(mechanism: Mechanism) -> Equations:
     joint_coordinates = _joint_coordinates(model)
     rates = tuple(model.expression(x.rate) for x in mechanism.states)
     coordinates, velocities = state_quantities(mechanism)
-    read = {of_table(o.payload)[0] for o in model.graph.nodes if o.op == "table"}
+    read = {table_of_payload(o.payload)[0] for o in model.graph.nodes if o.op == "table"}
     return Equations(
         name=mechanism.name,
         graph=model.graph,
@@ -92,23 +92,23 @@ def formulate(mechanism: Mechanism) -> Equations:
         potential=model.graph.add(potential, gravity_potential),
         joint_coordinates=tuple(joint_coordinates),
         windings=tuple(model.windings),
-        spins=_spins(model),
+        spins=_first_indices_of_spins(model),
         tables=tuple(t.interpolated for t in mechanism.tables if t.name in read),
         omissions=(
             *(Omission(f"row {row}", f"it repeats row {other} for all q") for row, other in repeats),
-            *_omissions(mechanism),
+            *_omitted_terms(mechanism),
         ),
         dropped_rows=tuple(f"{row} = {other}" for row, other in repeats),
-        bodies=_bodies(model),
+        bodies=_coordinates_of_bodies(model),
         driving=driving,
-        metric=() if model.tree is None else model.tree.metric(),
+        metric=() if model.tree is None else model.tree.metric_of_bodies(),
         states=tuple(Quantity(x.name, x.unit) for x in mechanism.states),
         state_rates=rates,
-        drags=tuple(_drag(model, row, rows, repeats) for row in held_by_reactions(mechanism)),
+        drags=tuple(_drag_of_reaction(model, row, rows, repeats) for row in rows_bounded_by_reactions(mechanism)),
     )
 
 
-def _bodies(model: ModelNodes) -> tuple[int, ...]:
+def _coordinates_of_bodies(model: ModelNodes) -> tuple[int, ...]:
     """Return coordinates, velocities and accelerations of the bodies on a tree of joints."""
     if model.tree is None:
         return ()
@@ -118,7 +118,7 @@ def _bodies(model: ModelNodes) -> tuple[int, ...]:
     return (*(model.names[n] for n in (*names, *speeds)), *(rates[n] for n in speeds))
 
 
-def _spins(model: ModelNodes) -> tuple[tuple[int, int], ...]:
+def _first_indices_of_spins(model: ModelNodes) -> tuple[tuple[int, int], ...]:
     """Return the first indices of Euler parameters in q and of their angular velocities in v."""
     if model.tree is not None:
         return tuple(model.tree.spins)
@@ -132,7 +132,7 @@ def _spins(model: ModelNodes) -> tuple[tuple[int, int], ...]:
 def _joint_coordinates(model: ModelNodes) -> list[JointCoordinate]:
     coordinates = list[JointCoordinate]()
     for joint in model.mechanism.joints:
-        with finite_numbers(f"joints.{joint.name}"):
+        with refuse_overflow(f"joints.{joint.name}"):
             for label, measure in joint.coordinates:
                 derived = model.measure(measure)
                 rate = derived.rate(model.graph, model.velocities)
@@ -143,9 +143,9 @@ def _joint_coordinates(model: ModelNodes) -> list[JointCoordinate]:
 # -- constraints -----------------------------------------------------------------------------------------------------
 
 
-def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
+def _equations_of_row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
     g = model.graph
-    with finite_numbers(f"joints.{joint}"):
+    with refuse_overflow(f"joints.{joint}"):
         value, slope, curvature = time_function(model, row.value)
         stiffness = time_function(model, row.stiffness)[0] if isinstance(row, StiffHolonomic) else None
         if isinstance(row, Holonomic):
@@ -154,30 +154,30 @@ def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
         else:
             measure = model.speed(row.speed)
             phi, nu, curvature = None, value, slope
-        entries, bias, drift = model.pulled(measure.row, measure.bias)
+        entries, bias, drift = model.row_over_state(measure.row, measure.bias)
         gamma, nu = g.sub(curvature, bias), g.sub(g.sub(nu, drift), measure.drift)
-        ordered, size = tuple(sorted(entries.items())), _size(model, row, measure.row)
-    axes = model.tree is None and isinstance(row, Holonomic) and is_of_axes(row)
+        ordered, size = tuple(sorted(entries.items())), _size_of_row(model, row, measure.row)
+    axes = model.tree is None and isinstance(row, Holonomic) and holds_parallel_axes(row)
     name = f"{joint}.{row.label}"
     return ConstraintRow(name, joint, row.unit, phi, ordered, nu, gamma, size, stiffness, axes=axes)
 
 
-def _bounded_row(model: ModelNodes, bounded: BoundedRow, first: int) -> ConstraintRow:
+def _equations_of_bounded_row(model: ModelNodes, bounded: BoundedRow, first: int) -> ConstraintRow:
     """Return a row whose force has bounds, in force at times."""
-    row = _row(model, bounded.owner, bounded.held)
-    return replace(_switched(model, row, first), name=bounded.row, bounded=True)
+    row = _equations_of_row(model, bounded.owner, bounded.held)
+    return replace(_switchable_row(model, row, first), name=bounded.row, bounded=True)
 
 
-def _drag(
+def _drag_of_reaction(
     model: ModelNodes, bounded: BoundedRow, rows: Sequence[ConstraintRow], repeats: Iterable[tuple[str, str]]
 ) -> Drag:
     """Return the effort by the reaction of a joint."""
     places = {row.name: i for i, row in enumerate(rows)}
-    refuse_repeated(bounded, repeats)
+    refuse_shared_reactions(bounded, repeats)
     rate = model.measure(bounded.measure).rate(model.graph, model.velocities)
-    with finite_numbers(bounded.where):
+    with refuse_overflow(bounded.where):
         sign, coefficient = (
-            model.expression(number_of(bounded, "sign")),
+            model.expression(name_of_number(bounded, "sign")),
             model.expression(bounded.coefficient, rate=rate),
         )
     rows_of = tuple(places[name] for name in bounded.pressed)
@@ -188,14 +188,14 @@ def _drag(
     return Drag(places[bounded.row], sign, coefficient, rate, pressed, bounded.family.one)
 
 
-def _switched(model: ModelNodes, row: ConstraintRow, first: int) -> ConstraintRow:
+def _switchable_row(model: ModelNodes, row: ConstraintRow, first: int) -> ConstraintRow:
     """Return a row as one that may be off: ``Phi = held (s - value - constant)``; D stays as it is."""
     g, held = model.graph, model.graph.input("modes", first)
     phi = row.phi if row.phi is None else g.mul(held, g.sub(row.phi, g.input("modes", first + 1)))
     return replace(row, phi=phi, held=held)
 
 
-def _size(model: ModelNodes, row: Row, entries: Mapping[int, int]) -> int | None:
+def _size_of_row(model: ModelNodes, row: Row, entries: Mapping[int, int]) -> int | None:
     """Return the square of a row over the translational velocities of bodies, or the angular ones for an angle."""
     if model.tree is None or any(i >= model.size for i in entries):
         return None
@@ -210,27 +210,27 @@ def _size(model: ModelNodes, row: Row, entries: Mapping[int, int]) -> int | None
 # -- forces, inertia and energies ------------------------------------------------------------------------------------
 
 
-def _forces(model: ModelNodes) -> tuple[list[int], int, int]:
+def _forces_and_potential(model: ModelNodes) -> tuple[list[int], int, int]:
     """Return f without gravity, the power of its part without potential, and its potential."""
     g = model.graph
     forces, power, potential = [g.zero] * len(model.velocities), g.zero, g.zero
     for force in model.mechanism.forces:
-        with finite_numbers(f"forces.{force.name}"):
-            for exerted in exertions(model, force):
+        with refuse_overflow(f"forces.{force.name}"):
+            for exerted in exertions_of_force(model, force):
                 for i, entry in sorted(exerted.row.items()):
                     forces[i] = g.add(forces[i], g.mul(entry, exerted.total))
                 power = g.add(power, exerted.power)
                 potential = g.add(potential, exerted.energy)
     for bounded in model.mechanism.bounded:
-        with finite_numbers(bounded.where):
-            exerted = exertion(model, bounded.effort)
+        with refuse_overflow(bounded.where):
+            exerted = exertion_of_effort(model, bounded.effort)
             for i, entry in sorted(exerted.row.items()):
                 forces[i] = g.add(forces[i], g.mul(entry, exerted.total))
             power = g.add(power, exerted.power)
     return forces, power, potential
 
 
-def _inertia(model: ModelNodes, forces: list[int]) -> tuple[tuple[MassBlock, ...], int, int]:
+def _mass_and_energies(model: ModelNodes, forces: list[int]) -> tuple[tuple[MassBlock, ...], int, int]:
     """Return M, the kinetic energy and gravity's potential; add weights and gyroscopic terms to `forces`."""
     g = model.graph
     gravity = tuple(model.expression(e) for e in model.mechanism.gravity)
@@ -238,14 +238,14 @@ def _inertia(model: ModelNodes, forces: list[int]) -> tuple[tuple[MassBlock, ...
     kinetic = potential = g.zero
     half = g.constant(0.5)
     for body in model.mechanism.bodies:
-        with finite_numbers(f"bodies.{body.name}", "its weight is its mass times gravity"):
+        with refuse_overflow(f"bodies.{body.name}", "its weight is its mass times gravity"):
             first, first_q = model.first[body.name], model.first_q[body.name]
             mass = model.expression(body.mass)
             masses = [mass] * len(gravity)
             if isinstance(body, SpatialBody):
                 if body.inertia is not None:
                     tensor = tuple(model.expression(e) for e in body.inertia)
-                    kinetic = g.add(kinetic, _turning(model, first + 3, tensor, blocks, forces))
+                    kinetic = g.add(kinetic, _add_rotational_inertia(model, first + 3, tensor, blocks, forces))
             elif body.inertia is not None:
                 masses.append(model.expression(body.inertia))
             for offset, entry in enumerate(masses):
@@ -277,7 +277,7 @@ def with_rotors(model: ModelNodes, mass: tuple[MassBlock, ...], forces: list[int
         if node != g.zero
     }
     for rotor in model.mechanism.rotors:
-        with finite_numbers(f"joints.{rotor.joint}"):
+        with refuse_overflow(f"joints.{rotor.joint}"):
             inertia, rate, row, bias = rotor_rate(model, rotor)
             energy = g.add(energy, g.mul(g.mul(g.constant(0.5), inertia), g.mul(rate, rate)))
             for i, of_i in row.items():
@@ -291,13 +291,13 @@ def with_rotors(model: ModelNodes, mass: tuple[MassBlock, ...], forces: list[int
 def rotor_rate(model: ModelNodes, rotor: Rotor) -> tuple[int, int, dict[int, int], int]:
     """Return a rotor's inertia, the rate r v of its angle, the entries of r, and b of the second derivative."""
     inertia, angle = model.expression(rotor.inertia), model.measure(rotor.angle)
-    angle = _about_axes(model, rotor) or angle
+    angle = _rate_about_parallel_axes(model, rotor) or angle
     rate = angle.rate(model.graph, model.velocities)
-    row, bias, _ = model.pulled(angle.row, angle.bias)
+    row, bias, _ = model.row_over_state(angle.row, angle.bias)
     return inertia, rate, row, bias
 
 
-def _about_axes(model: ModelNodes, rotor: Rotor) -> DerivedMeasure | None:
+def _rate_about_parallel_axes(model: ModelNodes, rotor: Rotor) -> DerivedMeasure | None:
     """Return the difference of two bodies' angular velocities about axes that a joint in space keeps parallel.
 
     It is the rate of the joint's angle where its rows hold, with constant factors in body axes.
@@ -312,7 +312,9 @@ def _about_axes(model: ModelNodes, rotor: Rotor) -> DerivedMeasure | None:
     return DerivedMeasure(g.zero, row, g.zero)
 
 
-def _turning(model: ModelNodes, first: int, tensor: tuple[int, ...], blocks: list[MassBlock], forces: list[int]) -> int:
+def _add_rotational_inertia(
+    model: ModelNodes, first: int, tensor: tuple[int, ...], blocks: list[MassBlock], forces: list[int]
+) -> int:
     """Add the rotational inertia to M and -omega x (I omega) to f; return the rotational energy.
 
     Differences of the diagonal entries make the gyroscopic term vanish for an isotropic body.
@@ -337,7 +339,7 @@ def _turning(model: ModelNodes, first: int, tensor: tuple[int, ...], blocks: lis
     return g.mul(g.constant(0.5), g.dot(momentum, (x, y, z)))
 
 
-def _omissions(mechanism: Mechanism) -> list[Omission]:
+def _omitted_terms(mechanism: Mechanism) -> list[Omission]:
     omissions = [Omission("columns of the ground", "the ground does not move")]
     if mechanism.space == "planar":
         omissions = [
@@ -359,7 +361,7 @@ def _omissions(mechanism: Mechanism) -> list[Omission]:
     return omissions
 
 
-def is_of_axes(row: Holonomic) -> bool:
+def holds_parallel_axes(row: Holonomic) -> bool:
     """Whether a row holds two axes parallel: `parallel` of joints in space makes pairs of them."""
     measure = row.measure
     if row.label == "first" and isinstance(measure, Sum) and len(measure.terms) == 1:

@@ -93,7 +93,7 @@ SPATIAL_SLOTS = (
 Triple = tuple[Any, Any, Any]
 
 
-def cross(a: Sequence[Any], b: Sequence[Any]) -> Triple:
+def cross_product(a: Sequence[Any], b: Sequence[Any]) -> Triple:
     """Return a x b."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
@@ -145,13 +145,13 @@ class SpatialFrame(FrameSymbols):
         """Return the position of a point given relative to the centre of mass (ground: to the origin)."""
         if not self.moves:
             return point[0], point[1], point[2]
-        return self._vector("r", tuple(point))
+        return self._rotated_symbols("r", tuple(point))
 
     def rotate(self, vector: Sequence[Any]) -> Triple:
         """Return A times a vector given in the frame."""
         if not self.turns:
             return vector[0], vector[1], vector[2]
-        return self._vector("e", tuple(vector))
+        return self._rotated_symbols("e", tuple(vector))
 
     def spin(self) -> Triple:
         """Return the angular velocity in ground axes, whose derivative for constant omega is zero."""
@@ -160,14 +160,14 @@ class SpatialFrame(FrameSymbols):
         if ("w", ()) not in self._vectors:
             units = [[sp.Integer(int(i == j)) for j in range(3)] for i in range(3)]
             columns = [self.to_ground(unit) for unit in units]
-            symbols = self._symbols("w", self.to_ground(self.omega))
+            symbols = self._symbols_defined_as("w", self.to_ground(self.omega))
             for i, s in enumerate(symbols):
                 self._rates[s] = sp.S.Zero
                 self._columns[s] = (sp.S.Zero,) * 3 + tuple(column[i] for column in columns)
             self._vectors["w", ()] = symbols
         return self._vectors["w", ()]
 
-    def _vector(self, what: str, local: tuple[Any, ...]) -> Triple:
+    def _rotated_symbols(self, what: str, local: tuple[Any, ...]) -> Triple:
         """Return symbols of A p, plus the centre of mass for a point, and register their derivatives."""
         symbols = self._vectors.get((what, local))
         if symbols is not None:
@@ -177,14 +177,14 @@ class SpatialFrame(FrameSymbols):
         speed = [self.symbol(f"v{s}") for s in "xyz"] if what == "r" else [zero] * 3
         name = f"{what}{len(self._vectors)}"
         turned = local if self.turns else (zero, zero, zero)
-        first = self._local(f"{name}p", cross(self.omega, turned))
-        second = self._local(f"{name}q", cross(self.omega, first))
+        first = self._symbols_in_frame(f"{name}p", cross_product(self.omega, turned))
+        second = self._symbols_in_frame(f"{name}q", cross_product(self.omega, first))
         at, rate, bias = (self.to_ground(v) for v in (turned, first, second))
-        value = self._symbols(name, tuple(o + a for o, a in zip(origin, at, strict=True)))
-        rates = self._symbols(f"{name}d", tuple(v + a for v, a in zip(speed, rate, strict=True)))
-        seconds = self._symbols(f"{name}dd", bias)
+        value = self._symbols_defined_as(name, tuple(o + a for o, a in zip(origin, at, strict=True)))
+        rates = self._symbols_defined_as(f"{name}d", tuple(v + a for v, a in zip(speed, rate, strict=True)))
+        seconds = self._symbols_defined_as(f"{name}dd", bias)
         units = [[sp.Integer(int(i == j)) for j in range(3)] for i in range(3)]
-        turning = [self.to_ground(cross(unit, turned)) for unit in units] if self.turns else []
+        turning = [self.to_ground(cross_product(unit, turned)) for unit in units] if self.turns else []
         for i in range(3):
             self._rates[value[i]], self._rates[rates[i]] = rates[i], seconds[i]
             shift = tuple(sp.Integer(int(what == "r" and i == j)) for j in range(3))
@@ -192,22 +192,22 @@ class SpatialFrame(FrameSymbols):
         self._vectors[what, local] = value
         return value
 
-    def _local(self, name: str, vector: Triple) -> Triple:
+    def _symbols_in_frame(self, name: str, vector: Triple) -> Triple:
         """Introduce symbols for the components of a vector in body axes, so that they are computed once."""
-        return self._symbols(name, vector) if self.turns else vector
+        return self._symbols_defined_as(name, vector) if self.turns else vector
 
-    def _symbols(self, name: str, definition: Sequence[Any]) -> Triple:
+    def _symbols_defined_as(self, name: str, definition: Sequence[Any]) -> Triple:
         x, y, z = (sp.Symbol(f"{self.prefix}_{name}_{i}", real=True) for i in range(3))
         self.definitions.update(zip((x, y, z), definition, strict=True))
         return x, y, z
 
 
-def frame(prefix: str, kind: str) -> FrameSymbols:
+def frame_of_kind(prefix: str, kind: str) -> FrameSymbols:
     """Return a frame of a kind; kinds of space end in 3."""
     return SpatialFrame(prefix, kind) if kind.endswith("3") else FrameSymbols(prefix, kind)
 
 
-def along_motion(expression: object, frames: Iterable[FrameSymbols]) -> Any:
+def derivative_along_motion(expression: object, frames: Iterable[FrameSymbols]) -> Any:
     """Return the time derivative of `expression` along the motion of `frames`, velocities constant."""
     total = sp.S.Zero
     for frame in frames:

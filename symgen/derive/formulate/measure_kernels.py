@@ -15,7 +15,13 @@ from typing import Any
 import sympy as sp
 
 from symgen.base.ir.graph import Graph
-from symgen.derive.formulate.frames import FrameSymbols, SpatialFrame, along_motion, cross, frame
+from symgen.derive.formulate.frames import (
+    FrameSymbols,
+    SpatialFrame,
+    cross_product,
+    derivative_along_motion,
+    frame_of_kind,
+)
 from symgen.derive.formulate.translate import Translator
 
 
@@ -46,93 +52,97 @@ Constants = tuple[Any, ...]
 _Build = Callable[[Frames, Constants], Any]
 
 
-def _dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
+def _scalar_product(a: Sequence[Any], b: Sequence[Any]) -> Any:
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:], strict=True):
         total = total + x * y
     return total
 
 
-def _minus(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, ...]:
+def _vector_difference(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, ...]:
     return tuple(x - y for x, y in zip(a, b, strict=True))
 
 
 def _component(f: Frames, k: Constants) -> Any:
     a, b = f[0].locate(k[0]), f[1].locate(k[1])
-    return _dot(f[2].rotate(k[2]), _minus(b, a))
+    return _scalar_product(f[2].rotate(k[2]), _vector_difference(b, a))
 
 
-def _squared(f: Frames, k: Constants) -> Any:
+def _squared_distance(f: Frames, k: Constants) -> Any:
     a, b = f[0].locate(k[0]), f[1].locate(k[1])
     return sp.Add(*((x - y) ** 2 for x, y in zip(b, a, strict=True)))
 
 
 def _distance(f: Frames, k: Constants) -> Any:
-    return sp.sqrt(_squared(f, k))
+    return sp.sqrt(_squared_distance(f, k))
 
 
 def _half_square(f: Frames, k: Constants) -> Any:
-    return _squared(f, k) / 2
+    return _squared_distance(f, k) / 2
 
 
 def _link_stretch(f: Frames, k: Constants) -> Any:
-    return (_squared(f, k) - k[2] ** 2) / (2 * k[2])
+    return (_squared_distance(f, k) - k[2] ** 2) / (2 * k[2])
 
 
 def _point_speed(f: Frames, k: Constants) -> Any:
     a = f[0].locate(k[0])
-    return _dot(f[1].rotate(k[1]), tuple(along_motion(x, f[:1]) for x in a))
+    return _scalar_product(f[1].rotate(k[1]), tuple(derivative_along_motion(x, f[:1]) for x in a))
 
 
 # -- space only ------------------------------------------------------------------------------------------------------
 
 
 def _direction_product(f: Frames, k: Constants) -> Any:
-    return _dot(f[0].rotate(k[0]), f[1].rotate(k[1]))
+    return _scalar_product(f[0].rotate(k[0]), f[1].rotate(k[1]))
 
 
 def _spin(f: Frames, k: Constants) -> Any:
     """Relative angular velocity along a direction; the velocity of the direction's own body stays in body axes."""
-    a, b, along = _spatial(f)
+    a, b, along = _spatial_frames(f)
     total = sp.S.Zero
     for body, sign in ((b, 1), (a, -1)):
         if body is along:
-            total += sign * _dot(k[0], body.omega)
+            total += sign * _scalar_product(k[0], body.omega)
         elif body.turns:
-            total += sign * _dot(along.rotate(k[0]), body.spin())
+            total += sign * _scalar_product(along.rotate(k[0]), body.spin())
     return total
 
 
 def _rim_height(f: Frames, k: Constants) -> Any:
     plane, centre = f[0].locate(k[0]), f[1].locate(k[1])
     normal, axis = f[2].rotate(k[2]), f[3].rotate(k[3])
-    return _dot(normal, _minus(centre, plane)) - k[4] * sp.sqrt(1 - _dot(normal, axis) ** 2)
+    return _scalar_product(normal, _vector_difference(centre, plane)) - k[4] * sp.sqrt(
+        1 - _scalar_product(normal, axis) ** 2
+    )
 
 
 def _sphere_speed(f: Frames, k: Constants) -> Any:
-    ground, ball = _spatial(f)
+    ground, ball = _spatial_frames(f)
     along, normal = ground.rotate(k[1]), ground.rotate(k[2])
-    centre = tuple(along_motion(x, (ball,)) for x in ball.locate(k[0]))
-    return _dot(along, centre) - k[3] * _dot(along, cross(ball.spin(), normal))
+    centre = tuple(derivative_along_motion(x, (ball,)) for x in ball.locate(k[0]))
+    return _scalar_product(along, centre) - k[3] * _scalar_product(along, cross_product(ball.spin(), normal))
 
 
 def _disc_speed(f: Frames, k: Constants) -> Any:
-    ground, disc = _spatial(f)
+    ground, disc = _spatial_frames(f)
     along, normal, axis = ground.rotate(k[1]), ground.rotate(k[2]), disc.rotate(k[4])
-    lean = _dot(normal, axis)
+    lean = _scalar_product(normal, axis)
     down = tuple(lean * a - n for a, n in zip(axis, normal, strict=True))
-    centre = tuple(along_motion(x, (disc,)) for x in disc.locate(k[0]))
-    return _dot(along, centre) + k[3] * _dot(along, cross(disc.spin(), down)) / sp.sqrt(1 - lean**2)
+    centre = tuple(derivative_along_motion(x, (disc,)) for x in disc.locate(k[0]))
+    return _scalar_product(along, centre) + k[3] * _scalar_product(along, cross_product(disc.spin(), down)) / sp.sqrt(
+        1 - lean**2
+    )
 
 
 def _blade_speed(f: Frames, k: Constants) -> Any:
-    ground, body = _spatial(f)
-    across = cross(ground.rotate(k[1]), body.rotate(k[2]))
-    velocity = tuple(along_motion(x, (body,)) for x in body.locate(k[0]))
-    return _dot(across, velocity) / sp.sqrt(_dot(across, across))
+    ground, body = _spatial_frames(f)
+    across = cross_product(ground.rotate(k[1]), body.rotate(k[2]))
+    velocity = tuple(derivative_along_motion(x, (body,)) for x in body.locate(k[0]))
+    return _scalar_product(across, velocity) / sp.sqrt(_scalar_product(across, across))
 
 
-def _spatial(f: Frames) -> tuple[SpatialFrame, ...]:
+def _spatial_frames(f: Frames) -> tuple[SpatialFrame, ...]:
     assert all(isinstance(frame, SpatialFrame) for frame in f), "these measures exist in space only"
     return tuple(frame for frame in f if isinstance(frame, SpatialFrame))
 
@@ -155,7 +165,7 @@ _MEASURES: dict[str, tuple[_Build, int, str, bool]] = {
 }
 
 
-def _by_velocities(bias: Any, frames: Frames) -> Any:
+def _factor_by_velocities(bias: Any, frames: Frames) -> Any:
     """Return a sum of products, factored by velocities: what multiplies them are entries of other rows.
 
     In space it stays as it is: common parts are symbols already.
@@ -176,7 +186,7 @@ def _by_velocities(bias: Any, frames: Frames) -> Any:
 
 
 @cache
-def derive(kind: str, frames: tuple[tuple[int, str], ...]) -> Kernel:
+def derive_kernel(kind: str, frames: tuple[tuple[int, str], ...]) -> Kernel:
     """Derive the kernel of a measure.
 
     Parameters
@@ -189,7 +199,7 @@ def derive(kind: str, frames: tuple[tuple[int, str], ...]) -> Kernel:
     """
     build, count, pattern, is_rate = _MEASURES[kind]
     assert len(frames) == count, "the caller passes one frame for each of the measure's"
-    unique = {slot: frame(f"f{slot}", frame_kind) for slot, frame_kind in frames}
+    unique = {slot: frame_of_kind(f"f{slot}", frame_kind) for slot, frame_kind in frames}
     ordered = tuple(unique[i] for i in sorted(unique))
     constants: list[Any] = []
     symbols: list[Any] = []
@@ -199,9 +209,9 @@ def derive(kind: str, frames: tuple[tuple[int, str], ...]) -> Kernel:
         symbols += part
         constants.append(part if letter == "v" else part[0])
     value = build(tuple(unique[slot] for slot, _ in frames), tuple(constants))
-    rate = value if is_rate else along_motion(value, ordered)
+    rate = value if is_rate else derivative_along_motion(value, ordered)
     row = tuple(tuple(part.column_entries(rate)) for part in ordered)
-    bias = _by_velocities(along_motion(rate, ordered), ordered)
+    bias = _factor_by_velocities(derivative_along_motion(rate, ordered), ordered)
 
     graph = Graph()
     nodes_of: dict[Any, int] = {}
@@ -215,9 +225,9 @@ def derive(kind: str, frames: tuple[tuple[int, str], ...]) -> Kernel:
     translator = Translator(graph, nodes_of)
     for body in ordered:
         for symbol, definition in body.definitions.items():
-            translator.nodes[symbol] = translator.node(definition)
+            translator.nodes[symbol] = translator.translate(definition)
     flat = [value, *(e for part in row for e in part), bias]
-    nodes = translator.all(flat)
+    nodes = translator.translate_all(flat)
     position = 1
     rows = []
     for body in ordered:

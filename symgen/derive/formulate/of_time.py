@@ -20,19 +20,21 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from symgen.base.ir.graph import Graph
-    from symgen.derive.formulate.measures import ModelNodes
+    from symgen.derive.formulate.measure_nodes import ModelNodes
     from symgen.describe.spanning_tree import Topology
 
 
-def as_symbols(e: Expr, *placeholders: str) -> dict[str, Any]:
+def symbols_of_names(e: Expr, *placeholders: str) -> dict[str, Any]:
     """Return a symbol for each name of a formula and each placeholder."""
     return {n: sp.Symbol(f"x{i}", real=True) for i, n in enumerate(dict.fromkeys([*placeholders, *names_in(e)]))}
 
 
-def translated(model: ModelNodes, symbols: dict[str, Any], expressions: list[Any], **nodes: int) -> list[int]:
+def translate_expressions(
+    model: ModelNodes, symbols: dict[str, Any], expressions: list[Any], **nodes: int
+) -> list[int]:
     """Return the nodes of SymPy expressions over symbols of names; placeholders stand for `nodes`."""
     images = {symbol: nodes[n] if n in nodes else model.names[n] for n, symbol in symbols.items()}
-    return Translator(model.graph, images).all(expressions)
+    return Translator(model.graph, images).translate_all(expressions)
 
 
 def time_function(model: ModelNodes, e: Expr) -> tuple[int, int, int]:
@@ -40,34 +42,34 @@ def time_function(model: ModelNodes, e: Expr) -> tuple[int, int, int]:
     g = model.graph
     if "t" not in names_in(e):
         return model.expression(e), g.zero, g.zero
-    symbols = as_symbols(e)
+    symbols = symbols_of_names(e)
     t = symbols["t"]
     try:
         formula = to_sympy(e, symbols)
         first = sp.diff(formula, t)
-        nodes = translated(model, symbols, [formula, first, sp.diff(first, t)])
+        nodes = translate_expressions(model, symbols, [formula, first, sp.diff(first, t)])
         return nodes[0], nodes[1], nodes[2]
     except NotReal:
         value = model.expression(e)
-        slope = _slope(g, value, ("t", 0))
-        return value, slope, _slope(g, slope, ("t", 0))
+        slope = _slope_of_node(g, value, ("t", 0))
+        return value, slope, _slope_of_node(g, slope, ("t", 0))
 
 
-def potential_of(model: ModelNodes, e: Expr, s: int) -> tuple[int, int]:
+def slope_and_potential(model: ModelNodes, e: Expr, s: int) -> tuple[int, int]:
     """Return -dU/ds and U of a formula U of parameters and ``s``, the node `s`."""
-    symbols = as_symbols(e, "s")
+    symbols = symbols_of_names(e, "s")
     try:
         potential = to_sympy(e, symbols)
-        force, energy = translated(model, symbols, [-sp.diff(potential, symbols["s"]), potential], s=s)
+        force, energy = translate_expressions(model, symbols, [-sp.diff(potential, symbols["s"]), potential], s=s)
         return force, energy
     except NotReal:
         g, key = model.graph, ("s", 0)
         value = model.expression(e, s=g.input(*key))
-        energy, slope = g.replaced([value, _slope(g, value, key)], {key: s})
+        energy, slope = g.replace_inputs([value, _slope_of_node(g, value, key)], {key: s})
         return g.neg(slope), energy
 
 
-def _slope(g: Graph, node: int, key: tuple[str, int]) -> int:
+def _slope_of_node(g: Graph, node: int, key: tuple[str, int]) -> int:
     """Return the derivative of a node with respect to an input, by the rules of the graph."""
     return jacobian(g, [node], [key])[0].get(key, g.zero)
 
@@ -95,7 +97,7 @@ def prescribed_coordinates(model: ModelNodes, topology: Topology) -> dict[tuple[
     return coordinates
 
 
-def driving_of(
+def power_of_drivers(
     graph: Graph,
     coordinates: Mapping[int, Coordinate],
     mass: Mapping[tuple[int, int], int],

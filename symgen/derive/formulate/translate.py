@@ -11,9 +11,9 @@ import sympy as sp
 from symgen.base.errors import InputError
 from symgen.base.ir.formula import GraphFunctions
 from symgen.base.ir.graph import Graph
-from symgen.base.ir.program import derived_table, of_table
+from symgen.base.ir.program import derived_table, table_of_payload
+from symgen.base.vocabulary.elementary_functions import ELEMENTARY
 from symgen.base.vocabulary.expressions import Call, Expr, Name, Number, Reading
-from symgen.base.vocabulary.functions import ELEMENTARY
 
 #: Functions of formulas, and operations of the graph with these names, in SymPy's own normal form.
 TO_SYMPY: dict[str, Any] = {
@@ -59,71 +59,71 @@ class Translator:
         self.graph, self.functions = graph, GraphFunctions(graph)
         self.nodes: dict[Any, int] = dict(symbols)
 
-    def all(self, expressions: Sequence[Any]) -> list[int]:
+    def translate_all(self, expressions: Sequence[Any]) -> list[int]:
         """Return the nodes of `expressions`, shared parts computed once."""
         names = sp.numbered_symbols("cse_")
         replacements, reduced = sp.cse([sp.sympify(e) for e in expressions], symbols=names, order="canonical")
         for symbol, expression in replacements:
-            self.nodes[symbol] = self.node(expression)
-        return [self.node(e) for e in reduced]
+            self.nodes[symbol] = self.translate(expression)
+        return [self.translate(e) for e in reduced]
 
-    def node(self, e: object) -> int:
+    def translate(self, e: object) -> int:
         """Return the node of one expression."""
         image = self.nodes.get(e)
         if image is None:
-            image = self.nodes[e] = self._build(e)
+            image = self.nodes[e] = self._box_expression(e)
         return image
 
-    def _build(self, e: Any) -> int:
+    def _box_expression(self, e: Any) -> int:
         g = self.graph
         if e in (sp.zoo, sp.nan, sp.oo, -sp.oo):
             raise InputError("a formula", "one that is defined somewhere", f"one that is {e} after simplification")
         if e.is_Number or e in (sp.pi, sp.E):
             return g.constant(float(e))
         if e.is_Add:
-            return g.total(self.node(a) for a in e.args)
+            return g.sum_of(self.translate(a) for a in e.args)
         if e.is_Mul:
-            return self._product(e)
+            return self._translate_product(e)
         if e.is_Pow:
-            return g.power(self.node(e.base), self.node(e.exp))
+            return g.power(self.translate(e.base), self.translate(e.exp))
         if isinstance(e, sp.Heaviside):  # slope of min and max; its value at the kink is a convention
-            return self.functions.call("step", self.node(e.args[0]), g.zero)
+            return self.functions.call("step", self.translate(e.args[0]), g.zero)
         if isinstance(e, sp.DiracDelta):  # slope of a jump: zero everywhere else
             return g.zero
         if e.func in _FROM_SYMPY:
-            return self._call(_FROM_SYMPY[e.func], *e.args)
+            return self._translate_call(_FROM_SYMPY[e.func], *e.args)
         if isinstance(e, sp.Piecewise):
-            return self._piecewise(e)
+            return self._translate_piecewise(e)
         if isinstance(e, _Table):
-            return self.functions.call(f"table:{e.payload}", self.node(e.args[0]))
+            return self.functions.call(f"table:{e.payload}", self.translate(e.args[0]))
         if e in (sp.true, sp.false):
             return g.one if e == sp.true else g.zero
         raise NotReal(f"no graph operation for {type(e).__name__}: {e}")
 
-    def _product(self, e: Any) -> int:
+    def _translate_product(self, e: Any) -> int:
         g = self.graph
         above, below = g.one, g.one
         for factor in e.args:
             if factor.is_Pow and factor.exp.is_Number and factor.exp.is_negative:
-                below = g.mul(below, g.power(self.node(factor.base), g.constant(-float(factor.exp))))
+                below = g.mul(below, g.power(self.translate(factor.base), g.constant(-float(factor.exp))))
             else:
-                above = g.mul(above, self.node(factor))
+                above = g.mul(above, self.translate(factor))
         return g.div(above, below)
 
-    def _call(self, function: str, first: object, *others: object) -> int:
+    def _translate_call(self, function: str, first: object, *others: object) -> int:
         """Return a function of one or two arguments; with more it is applied from the left."""
-        result = self.node(first)
+        result = self.translate(first)
         if not others:
             return self.functions.call(function, result)
         for other in others:
-            result = self.functions.call(function, result, self.node(other))
+            result = self.functions.call(function, result, self.translate(other))
         return result
 
-    def _piecewise(self, e: Any) -> int:
+    def _translate_piecewise(self, e: Any) -> int:
         *pieces, (last, _) = e.args
-        result = self.node(last)
+        result = self.translate(last)
         for value, condition in reversed(pieces):
-            result = self.functions.call("where", self.node(condition), self.node(value), result)
+            result = self.functions.call("where", self.translate(condition), self.translate(value), result)
         return result
 
 
@@ -136,7 +136,7 @@ class _Table(sp.Function):  # type: ignore[misc]  # SymPy is untyped
 @cache  # SymPy treats two classes as two functions, whatever their names
 def table_function(payload: str) -> Any:
     """Return the SymPy function for the payload of a table's operation on the graph."""
-    (name, what), derived = of_table(payload), derived_table(payload)
+    (name, what), derived = table_of_payload(payload), derived_table(payload)
 
     def fdiff(self: Any, argindex: int = 1) -> Any:
         return sp.S.Zero if derived is None else table_function(derived)(self.args[0])

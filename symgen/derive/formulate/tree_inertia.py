@@ -20,7 +20,7 @@ from symgen.describe.spanning_tree import Link
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from symgen.derive.formulate.measures import ModelNodes
+    from symgen.derive.formulate.measure_nodes import ModelNodes
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,7 @@ class Inertia:
     second: Matrix
 
 
-def welded(p: Placed) -> bool:
+def is_welded(p: Placed) -> bool:
     """Whether a body is rigidly attached to its parent."""
     return not p.motions and not p.own and p.link.parent != GROUND
 
@@ -123,30 +123,30 @@ class Composite:
         self.push: dict[str, Triple] = {}
         self.torque: dict[str, Triple] = {}
         for name in reversed(self.order):
-            self.rigid[name] = self._without_rod(name, self._rigid(name))
+            self.rigid[name] = self._without_rod(name, self._inertia_with_welded(name))
         for name in reversed(self.order):
-            self.hanging[name] = self._hanging(name)
-            self.push[name], self.torque[name] = self._taken(name)
+            self.hanging[name] = self._inertia_of_subtree(name)
+            self.push[name], self.torque[name] = self._load_of_joint(name)
 
     # -- inertia -------------------------------------------------------------------------------------------------------
 
-    def _rigid(self, name: str) -> Inertia:
+    def _inertia_with_welded(self, name: str) -> Inertia:
         """Return the inertia of a body with the bodies welded to it."""
         v, body, p = self.v, self.model.mechanism.body(name), self.placed[name]
         assert isinstance(body, SpatialBody), "bodies in space"
         m = self.model.graph.one if self.alike else self.model.expression(body.mass)
-        second = v.second(m, p.centre)
+        second = v.second_moment(m, p.centre)
         if self.alike and not body.is_point:
-            second = v.plus(v.units, second)
+            second = v.matrix_sum(v.units, second)
         elif body.inertia is not None:
             xx, yy, zz, xy, xz, yz = (self.model.expression(e) for e in body.inertia)
-            second = v.plus(((xx, xy, xz), (xy, yy, yz), (xz, yz, zz)), second)
+            second = v.matrix_sum(((xx, xy, xz), (xy, yy, yz), (xz, yz, zz)), second)
         inertia = Inertia(m, v.scale(m, p.centre), second)
         for child in p.children:
-            if welded(self.placed[child]):
-                inertia = self._joined(inertia, self._carried(self.placed[child], self.rigid[child]))
+            if is_welded(self.placed[child]):
+                inertia = self._sum_of_inertias(inertia, self._inertia_at_parent(self.placed[child], self.rigid[child]))
             elif child in self.transferred:
-                inertia = self._joined(inertia, self.transferred[child])
+                inertia = self._sum_of_inertias(inertia, self.transferred[child])
         return inertia
 
     def _without_rod(self, name: str, inertia: Inertia) -> Inertia:
@@ -158,69 +158,75 @@ class Composite:
         shift = v.scale(inertia.mass, p.arm)
         ((i, sign),) = [(k, g.value(x)) for k, x in enumerate(axis) if g.value(x) not in (0.0, None)][:1] or [(0, None)]
         if axis == v.zero or sign not in (1.0, -1.0) or sum(x != g.zero for x in axis) != 1:
-            self.transferred[name] = Inertia(inertia.mass, shift, v.shifted(shift, p.arm))
+            self.transferred[name] = Inertia(inertia.mass, shift, v.shift_moment(shift, p.arm))
             return Inertia(g.zero, inertia.first, inertia.second)
         first, second = list(inertia.first), [list(row) for row in inertia.second]
         j, k = (i + 1) % 3, (i + 2) % 3
         turned = v.scale(g.mul(g.constant(sign), first[i]), beside)
         # the second moment by coordinates along the axis
         along = g.mul(g.constant(0.5), g.sub(g.add(second[j][j], second[k][k]), second[i][i]))
-        rod = v.shifted(v.scale(along, beside), beside)
+        rod = v.shift_moment(v.scale(along, beside), beside)
         first[i] = g.zero
         second[j][j], second[k][k] = g.sub(second[j][j], along), g.sub(second[k][k], along)
         double = v.add(shift, turned, turned)
-        self.transferred[name] = Inertia(inertia.mass, v.add(shift, turned), v.plus(rod, v.shifted(double, p.arm)))
+        self.transferred[name] = Inertia(
+            inertia.mass, v.add(shift, turned), v.matrix_sum(rod, v.shift_moment(double, p.arm))
+        )
         return Inertia(g.zero, v.triple(first), (v.triple(second[0]), v.triple(second[1]), v.triple(second[2])))
 
-    def _hanging(self, name: str) -> Inertia:
+    def _inertia_of_subtree(self, name: str) -> Inertia:
         """Return the inertia of a body with its subtree."""
         inertia, v = self.rigid[name], self.v
         for child in self.placed[name].children:
             c, own = self.placed[child], self.hanging[child]
-            if welded(c):  # the rigid part is already included
+            if is_welded(c):  # the rigid part is already included
                 less = self.rigid[child]
                 second = tuple(v.sub(a, b) for a, b in zip(own.second, less.second, strict=True))
                 rest = v.sub(own.first, less.first), (second[0], second[1], second[2])
                 own = Inertia(self.model.graph.sub(own.mass, less.mass), *rest)
-            inertia = self._joined(inertia, self._carried(c, own))
+            inertia = self._sum_of_inertias(inertia, self._inertia_at_parent(c, own))
         return inertia
 
-    def _joined(self, a: Inertia, b: Inertia) -> Inertia:
+    def _sum_of_inertias(self, a: Inertia, b: Inertia) -> Inertia:
         v = self.v
-        return Inertia(self.model.graph.add(a.mass, b.mass), v.add(a.first, b.first), v.plus(a.second, b.second))
+        return Inertia(self.model.graph.add(a.mass, b.mass), v.add(a.first, b.first), v.matrix_sum(a.second, b.second))
 
-    def _carried(self, c: Placed, own: Inertia) -> Inertia:
+    def _inertia_at_parent(self, c: Placed, own: Inertia) -> Inertia:
         """Return an inertia about the parent's point, in the parent's axes."""
         v = self.v
         shift = v.scale(own.mass, c.arm)
         if c.own:  # a body with its own orientation acts as a point mass in its joint
-            return Inertia(own.mass, shift, v.shifted(shift, c.arm))
-        turned = v.times(c.turn, own.first)
+            return Inertia(own.mass, shift, v.shift_moment(shift, c.arm))
+        turned = v.matrix_times(c.turn, own.first)
         double = v.add(shift, turned, turned)
-        return Inertia(own.mass, v.add(shift, turned), v.plus(v.turned(c.turn, own.second), v.shifted(double, c.arm)))
+        return Inertia(
+            own.mass,
+            v.add(shift, turned),
+            v.matrix_sum(v.rotate_symmetric(c.turn, own.second), v.shift_moment(double, c.arm)),
+        )
 
     # -- forces --------------------------------------------------------------------------------------------------------
 
-    def _taken(self, name: str) -> tuple[Triple, Triple]:
+    def _load_of_joint(self, name: str) -> tuple[Triple, Triple]:
         """Return force and torque of the joint on its body, about the body's point, where v' is 0."""
         v, p, first = self.v, self.placed[name], self.model.first[name]
         is_point = self.model.mechanism.body(name).is_point
-        push = v.neg(v.back(p.axes, v.triple(self.forces[first : first + 3])))
+        push = v.neg(v.times_transposed(p.axes, v.triple(self.forces[first : first + 3])))
         torque = v.zero if is_point else v.neg(v.triple(self.forces[first + 3 : first + 6]))
-        if not welded(p):  # else its inertia is part of the parent's
+        if not is_welded(p):  # else its inertia is part of the parent's
             m, h, j = self.rigid[name].mass, self.rigid[name].first, self.rigid[name].second
-            push = v.add(push, v.scale(m, p.bias), v.times(p.whirl, h))
-            torque = v.add(torque, v.moment(p.whirl, j), v.cross(h, p.bias))
+            push = v.add(push, v.scale(m, p.bias), v.matrix_times(p.whirl, h))
+            torque = v.add(torque, v.moment_of_inertia_forces(p.whirl, j), v.cross(h, p.bias))
         for child in p.children:
             c = self.placed[child]
-            passed = v.times(c.turn, self.push[child])
+            passed = v.matrix_times(c.turn, self.push[child])
             push = v.add(push, passed)
             torque = v.add(torque, v.cross(c.arm, passed))
             if not c.own:
-                torque = v.add(torque, v.times(c.turn, self.torque[child]))
+                torque = v.add(torque, v.matrix_times(c.turn, self.torque[child]))
         return push, torque
 
-    def force(self) -> dict[int, int]:
+    def generalized_forces(self) -> dict[int, int]:
         """Return f by velocity, including those that drivers prescribe."""
         g, v = self.model.graph, self.v
         f = dict(enumerate(self.forces[self.model.size :]))
@@ -230,7 +236,7 @@ class Composite:
                 f[i] = g.sub(f.get(i, g.zero), held)
         return f
 
-    def mass(self) -> dict[tuple[int, int], int]:
+    def mass_entries(self) -> dict[tuple[int, int], int]:
         """Return the entries of M: the momentum of each velocity, propagated inwards to the velocities before it."""
         g, v = self.model.graph, self.v
         entries: dict[tuple[int, int], int] = {}
@@ -238,7 +244,7 @@ class Composite:
             p, own = self.placed[name], self.hanging[name]
             for i, motion in p.motions.items():
                 momentum = v.add(v.cross(motion.about, own.first), v.scale(own.mass, motion.along))
-                angular = v.add(v.times(own.second, motion.about), v.cross(own.first, motion.along))
+                angular = v.add(v.matrix_times(own.second, motion.about), v.cross(own.first, motion.along))
                 at = p
                 while True:
                     for k, other in at.motions.items():
@@ -247,8 +253,8 @@ class Composite:
                             entries[i, k] = entries[k, i] = node
                     if at.link.parent == GROUND:
                         break
-                    momentum = v.times(at.turn, momentum)
+                    momentum = v.matrix_times(at.turn, momentum)
                     lever = v.cross(at.arm, momentum)
-                    angular = lever if at.own else v.add(v.times(at.turn, angular), lever)
+                    angular = lever if at.own else v.add(v.matrix_times(at.turn, angular), lever)
                     at = self.placed[at.link.parent]
         return entries

@@ -18,11 +18,11 @@ from typing import TYPE_CHECKING
 
 from symgen.base.vocabulary.measures import GROUND
 from symgen.derive.formulate.equations import DriverPower, MassBlock
-from symgen.derive.formulate.of_time import driving_of
-from symgen.derive.formulate.tree import Tree
+from symgen.derive.formulate.joint_tree import Tree
+from symgen.derive.formulate.of_time import power_of_drivers
 from symgen.derive.formulate.vector_algebra import Pair, PlaneVectors
 from symgen.describe.mechanism import Body, Vec
-from symgen.describe.parts.topology import labels_of
+from symgen.describe.parts.topology import labels_of_link
 from symgen.describe.spanning_tree import Link
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ class _PlanarPlace:
     centre: Pair = (0, 0)
 
     @property
-    def group(self) -> int:
+    def rotating_velocity(self) -> int:
         """The velocity of the state that rotates the body, or -1."""
         return max((i for i in self.turners if i >= 0), default=-1)
 
@@ -86,7 +86,7 @@ class _PlanarPlace:
 class PlanarTree(Tree):
     """Planar bodies on a tree."""
 
-    def begin(self) -> None:
+    def place_ground(self) -> None:
         """Place the ground."""
         g, self.v = self.graph, PlaneVectors(self.graph)
         nothing, still = (g.zero, g.zero), (g.one, g.zero)
@@ -112,10 +112,10 @@ class PlanarTree(Tree):
                 velocities.append(p.spin)
                 biases.append(p.gain)
                 self.columns.append(dict.fromkeys(p.turners, g.one))
-            self._name(body, p)
+            self._name_coordinates(body, p)
         return velocities, biases
 
-    def place(self, link: Link) -> None:
+    def place_body(self, link: Link) -> None:
         """Place the body of a link."""
         g, model = self.graph, self.model
         body = model.mechanism.body(link.body)
@@ -124,12 +124,12 @@ class PlanarTree(Tree):
         self.children[link.parent].append(link.body)
         joint, parent = link.articulation, self.placed[link.parent]
         if joint is None:
-            self._free(link, body)
+            self._place_free_body(link, body)
             return
         carrier, own = (joint.a, joint.b) if link.forward else (joint.b, joint.a)
         model.references[link.body] = own.point
-        lengths, _ = labels_of(model.mechanism, link)
-        slid = [self.coordinate(link.body, label) for label in lengths]
+        lengths, _ = labels_of_link(model.mechanism, link)
+        slid = [self.add_coordinate(link.body, label) for label in lengths]
         sign = g.one if link.forward else g.constant(-1.0)
         driven = self.prescribed.get((link.body, "angle"))
         gain, follows = g.zero, joint.turn == "fixed" or driven is not None
@@ -150,7 +150,7 @@ class PlanarTree(Tree):
         elif body.is_point:
             turned, spin, axes = g.zero, g.zero, (g.one, g.zero)
         else:
-            own_angle = self.coordinate(link.body, "theta")
+            own_angle = self.add_coordinate(link.body, "theta")
             turners, turned, spin, gain = (own_angle.number,), *own_angle[1:]
             axes = (g.call("cos", turned), g.call("sin", turned))
         local = self.v.pair(model.local(carrier))
@@ -193,14 +193,14 @@ class PlanarTree(Tree):
             slides,
             sliding,
             pulled,
-            self._centre(body, own.point),
+            self._centre_from_joint(body, own.point),
         )
 
-    def _free(self, link: Link, body: Body) -> None:
+    def _place_free_body(self, link: Link, body: Body) -> None:
         """Place a body without a joint: its centre of mass moves freely."""
         g = self.graph
         at = g.input("q", self.count), g.input("q", self.count + 1)
-        x, y = self.velocity(), self.velocity()
+        x, y = self.add_velocity(), self.add_velocity()
         velocity = g.input("v", x), g.input("v", y)
         slides = {x: (g.one, g.zero), y: (g.zero, g.one)}
         nothing = (g.zero, g.zero)
@@ -208,7 +208,7 @@ class PlanarTree(Tree):
             turners: tuple[int, ...] = ()
             axes, turned, spin = (g.one, g.zero), g.zero, g.zero
         else:
-            turned, group = g.input("q", self.count), self.velocity()
+            turned, group = g.input("q", self.count), self.add_velocity()
             turners, spin = (group,), g.input("v", group)
             axes = (g.call("cos", turned), g.call("sin", turned))
         self.placed[link.body] = _PlanarPlace(
@@ -216,14 +216,14 @@ class PlanarTree(Tree):
             *(nothing, nothing, nothing),
         )
 
-    def _centre(self, body: Body, reference: Vec) -> Pair:
+    def _centre_from_joint(self, body: Body, reference: Vec) -> Pair:
         """Return the centre of mass relative to the joint's point, in the body's frame."""
         g = self.graph
         com = [self.model.expression(e) for e in body.centre_of_mass]
         at = [self.model.expression(e) for e in reference]
         return g.sub(com[0], at[0]), g.sub(com[1], at[1])
 
-    def _name(self, body: Body, p: _PlanarPlace) -> None:
+    def _name_coordinates(self, body: Body, p: _PlanarPlace) -> None:
         """Store the coordinates and velocities of a body by their names."""
         rho = self.v.rotate(p.axes, p.centre)
         place = self.v.add(p.at, rho)
@@ -243,7 +243,7 @@ class PlanarTree(Tree):
         for body in self.model.mechanism.bodies:
             p = self.placed[body.name]
             rho, w = self.v.rotate(p.axes, p.centre), p.spin
-            turning = g.add(rates[p.group], p.gain) if p.group >= 0 else p.gain
+            turning = g.add(rates[p.rotating_velocity], p.gain) if p.rotating_velocity >= 0 else p.gain
             total = self.v.sub(p.bias, self.v.scale(g.mul(w, w), rho))
             total = self.v.add(total, self.v.scale(turning, self.v.perp(rho)))
             for i, c in sorted(p.columns.items()):
@@ -258,7 +258,7 @@ class PlanarTree(Tree):
         """Return the velocity of a centre of mass in ground axes."""
         return [self.names[f"{body}.{name}"] for name in ("vx", "vy")]
 
-    def weight(self, body: str, force: list[int]) -> dict[int, int]:
+    def force_over_velocities(self, body: str, force: list[int]) -> dict[int, int]:
         """Return a force at the centre of mass, in ground axes, over the velocities of bodies."""
         p, first = self.placed[body], self.model.first[body]
         forces = {first: force[0], first + 1: force[1]}
@@ -268,7 +268,7 @@ class PlanarTree(Tree):
 
     # -- M and f -------------------------------------------------------------------------------------------------------
 
-    def metric(self) -> tuple[MassBlock, ...]:
+    def metric_of_bodies(self) -> tuple[MassBlock, ...]:
         """Return the metric of the velocities of bodies, pulled back: M for masses and inertias of 1."""
         return self.dynamics([self.graph.zero] * len(self.velocities), alike=True)[0]
 
@@ -348,6 +348,6 @@ class PlanarTree(Tree):
                     entries[k, j] = entries[j, k] = entry
                 entries[k, k] = seconds[name]
                 f[k] = turns[name]
-        blocks = self.blocks(entries)
-        driving = driving_of(g, self.coordinates, entries, f)
+        blocks = self.mass_without_prescribed(entries)
+        driving = power_of_drivers(g, self.coordinates, entries, f)
         return blocks, [g.add(f[i], own[i]) for i in range(self.size)], driving

@@ -66,7 +66,7 @@ class Vectors:
     def add(self, *vectors: Triple) -> Triple:
         """Return a sum."""
         g = self.graph
-        return self.triple([g.total(parts) for parts in zip(*vectors, strict=True)])
+        return self.triple([g.sum_of(parts) for parts in zip(*vectors, strict=True)])
 
     def sub(self, a: Triple, b: Triple) -> Triple:
         """Return a - b."""
@@ -93,36 +93,36 @@ class Vectors:
             g.sub(g.mul(a[0], b[1]), g.mul(a[1], b[0])),
         )
 
-    def times(self, m: Matrix, a: Triple) -> Triple:
+    def matrix_times(self, m: Matrix, a: Triple) -> Triple:
         """Return a matrix times a vector."""
         return self.triple([self.graph.dot(row, a) for row in m])
 
-    def back(self, m: Matrix, a: Triple) -> Triple:
+    def times_transposed(self, m: Matrix, a: Triple) -> Triple:
         """Return the transpose of a matrix times a vector."""
-        return self.times(self.transposed(m), a)
+        return self.matrix_times(self.transpose(m), a)
 
-    def transposed(self, m: Matrix) -> Matrix:
+    def transpose(self, m: Matrix) -> Matrix:
         """Return the transpose of a matrix."""
         a, b, c = (self.triple(column) for column in zip(*m, strict=True))
         return a, b, c
 
     def product(self, a: Matrix, b: Matrix) -> Matrix:
         """Return a product of matrices."""
-        columns = [self.times(a, column) for column in self.transposed(b)]
+        columns = [self.matrix_times(a, column) for column in self.transpose(b)]
         x, y, z = (self.triple(row) for row in zip(*columns, strict=True))
         return x, y, z
 
-    def plus(self, a: Matrix, b: Matrix) -> Matrix:
+    def matrix_sum(self, a: Matrix, b: Matrix) -> Matrix:
         """Return a sum of matrices."""
         x, y, z = (self.add(p, q) for p, q in zip(a, b, strict=True))
         return x, y, z
 
-    def turned(self, r: Matrix, j: Matrix) -> Matrix:
+    def rotate_symmetric(self, r: Matrix, j: Matrix) -> Matrix:
         """Return R J R^T of a symmetric J; the lower triangle reuses the nodes of the upper one."""
         g = self.graph
         for i in range(3):
-            if self._about(r, i):
-                return self._turned_about(r, j, i)
+            if self._is_about_axis(r, i):
+                return self._rotate_about_axis(r, j, i)
         half = self.product(r, j)
         entries = [[g.zero] * 3 for _ in range(3)]
         for i in range(3):
@@ -131,14 +131,14 @@ class Vectors:
         x, y, z = (self.triple(row) for row in entries)
         return x, y, z
 
-    def _about(self, r: Matrix, i: int) -> bool:
+    def _is_about_axis(self, r: Matrix, i: int) -> bool:
         """Whether a matrix is a rotation about a coordinate axis by an angle that is not constant."""
         g, j, k = self.graph, (i + 1) % 3, (i + 2) % 3
         rest = r[i][j], r[i][k], r[j][i], r[k][i]
         around = r[i][i] == g.one and rest == (g.zero,) * 4
         return around and r[j][j] == r[k][k] and r[j][k] == g.neg(r[k][j]) and g.value(r[j][j]) is None
 
-    def _turned_about(self, r: Matrix, a: Matrix, i: int) -> Matrix:
+    def _rotate_about_axis(self, r: Matrix, a: Matrix, i: int) -> Matrix:
         """Return R A R^T of a symmetric A in half the operations, without the trace and the squares of c and s."""
         g, j, k = self.graph, (i + 1) % 3, (i + 2) % 3
         c, s = r[j][j], r[k][j]
@@ -152,7 +152,7 @@ class Vectors:
         x, y, z = (self.triple(row) for row in entries)
         return x, y, z
 
-    def whirl(self, omega: Triple, alpha: Triple) -> Matrix:
+    def acceleration_matrix(self, omega: Triple, alpha: Triple) -> Matrix:
         """Return K with K a the acceleration of a point at a: alpha x a + omega x (omega x a)."""
         g = self.graph
         square = [g.mul(w, w) for w in omega]
@@ -165,8 +165,8 @@ class Vectors:
         x, y, z = (self.triple(row) for row in entries)
         return x, y, z
 
-    def moment(self, k: Matrix, j: Matrix) -> Triple:
-        """Return J alpha + omega x (J omega) of an inertia J, from the `whirl` of omega and alpha.
+    def moment_of_inertia_forces(self, k: Matrix, j: Matrix) -> Triple:
+        """Return J alpha + omega x (J omega) of an inertia J, from the `acceleration_matrix` of omega and alpha.
 
         It is the axis of K S - (K S)^T with S the second moments of mass by coordinates, J = tr(S) 1 - S.
         """
@@ -179,11 +179,11 @@ class Vectors:
             [g.sub(g.dot(k[(i + 2) % 3], s[(i + 1) % 3]), g.dot(k[(i + 1) % 3], s[(i + 2) % 3])) for i in range(3)]
         )
 
-    def second(self, m: int, a: Triple) -> Matrix:
+    def second_moment(self, m: int, a: Triple) -> Matrix:
         """Return m (|a|^2 1 - a a^T): the second moment of a mass at a point."""
-        return self.shifted(self.scale(m, a), a)
+        return self.shift_moment(self.scale(m, a), a)
 
-    def shifted(self, h: Triple, a: Triple) -> Matrix:
+    def shift_moment(self, h: Triple, a: Triple) -> Matrix:
         """Return ((a . h) 1 - (a h^T + h a^T) / 2), which is symmetric."""
         g = self.graph
         half = g.constant(0.5)

@@ -39,34 +39,34 @@ def drag_forces(
         Whether as few iterations are enough as usual drags need; else there is no such node.
     """
     if len(coefficients) == 1:
-        return [_only(g, coefficients[0], alone[0], parts[0][0])], None
-    forces = [g.mul(k, length(g, n)) for k, n in zip(coefficients, alone, strict=True)]
+        return [_root_of_one(g, coefficients[0], alone[0], parts[0][0])], None
+    forces = [g.mul(k, length_of_vector(g, n)) for k, n in zip(coefficients, alone, strict=True)]
     factors = list[list[int]]()
     for _ in range(_FEWER if brief else _ITERATIONS):
-        total, pressed = _reactions(g, forces, alone, parts)
+        total, pressed = _sizes_of_reactions(g, forces, alone, parts)
         slopes = [g.div(k, size) for k, size in zip(coefficients, total, strict=True)]
         matrix = [
             [g.add(g.mul(slope, g.dot(n, each)), g.one if i == j else g.zero) for j, each in enumerate(parts[i])]
             for i, (slope, n) in enumerate(zip(slopes, pressed, strict=True))
         ]
-        factors = _factorised(g, matrix)
-        change = _solved(g, factors, _left(g, coefficients, total, forces))
+        factors = _factorise(g, matrix)
+        change = _solve_factors(g, factors, _missing_forces(g, coefficients, total, forces))
         forces = [g.add(c, x) for c, x in zip(forces, change, strict=True)]
     if not brief:
         return forces, None
-    total, _ = _reactions(g, forces, alone, parts)
-    change = _solved(g, factors, _left(g, coefficients, total, forces))
+    total, _ = _sizes_of_reactions(g, forces, alone, parts)
+    change = _solve_factors(g, factors, _missing_forces(g, coefficients, total, forces))
     allowed = g.mul(g.constant(_CONVERGED**2), g.dot(forces, forces))
     forces = [g.add(c, x) for c, x in zip(forces, change, strict=True)]
     return forces, g.call("lt", allowed, g.dot(change, change))
 
 
-def length(g: Graph, vector: Sequence[int]) -> int:
+def length_of_vector(g: Graph, vector: Sequence[int]) -> int:
     """Return the length of a vector; its derivatives at 0 are 0."""
     return g.call("sqrt", g.call("max", g.dot(vector, vector), g.constant(TINY)))
 
 
-def _reactions(
+def _sizes_of_reactions(
     g: Graph, forces: Sequence[int], alone: Sequence[Nodes], parts: Sequence[Sequence[Nodes]]
 ) -> tuple[list[int], list[Nodes]]:
     """Return the sizes of the reactions, and the reactions, with some forces."""
@@ -74,15 +74,15 @@ def _reactions(
         tuple(g.sub(x, g.dot(forces, [n[a] for n in each])) for a, x in enumerate(own))
         for own, each in zip(alone, parts, strict=True)
     ]
-    return [length(g, n) for n in pressed], pressed
+    return [length_of_vector(g, n) for n in pressed], pressed
 
 
-def _left(g: Graph, coefficients: Sequence[int], total: Sequence[int], forces: Sequence[int]) -> list[int]:
+def _missing_forces(g: Graph, coefficients: Sequence[int], total: Sequence[int], forces: Sequence[int]) -> list[int]:
     """Return what is missing at each force."""
     return [g.sub(g.mul(k, size), c) for k, size, c in zip(coefficients, total, forces, strict=True)]
 
 
-def _only(g: Graph, coefficient: int, alone: Nodes, part: Nodes) -> int:
+def _root_of_one(g: Graph, coefficient: int, alone: Nodes, part: Nodes) -> int:
     """Return the root c of ``c^2 = k^2 |N0 - c n|^2`` with the sign of k.
 
     It is ``k N0^2 / (k N0 n + sqrt((k N0 n)^2 + (1 - k^2 n^2) N0^2))``.
@@ -93,7 +93,7 @@ def _only(g: Graph, coefficient: int, alone: Nodes, part: Nodes) -> int:
     return g.div(g.mul(coefficient, square), g.call("max", g.add(own, root), g.constant(TINY)))
 
 
-def _factorised(g: Graph, matrix: list[list[int]]) -> list[list[int]]:
+def _factorise(g: Graph, matrix: list[list[int]]) -> list[list[int]]:
     """Return the triangular factors of a small matrix near the identity, by elimination without pivoting."""
     factors = [list(line) for line in matrix]
     for k, pivot in enumerate(factors):
@@ -103,7 +103,7 @@ def _factorised(g: Graph, matrix: list[list[int]]) -> list[list[int]]:
     return factors
 
 
-def _solved(g: Graph, factors: list[list[int]], right: list[int]) -> list[int]:
+def _solve_factors(g: Graph, factors: list[list[int]], right: list[int]) -> list[int]:
     """Return the solution for a right-hand side."""
     x = list(right)
     for k, line in enumerate(factors):

@@ -57,7 +57,7 @@ def minimum_degree(
     return tuple(order), below
 
 
-def fill_of(neighbours: Sequence[frozenset[int]], order: Sequence[int]) -> int:
+def fill_of_order(neighbours: Sequence[frozenset[int]], order: Sequence[int]) -> int:
     """Return the number of entries of L that a symmetric pattern does not have, for an order of elimination."""
     graph, filled = [set(near) for near in neighbours], 0
     for pivot in order:
@@ -84,9 +84,9 @@ class FactorNodes:
 
     def solve(self, graph: Graph, right: Sequence[int]) -> list[int]:
         """Return the nodes of the solution for a right-hand side."""
-        return self.back(graph, self.forward(graph, right))
+        return self.solve_transposed(graph, self.solve_lower(graph, right))
 
-    def forward(self, graph: Graph, right: Sequence[int]) -> list[int]:
+    def solve_lower(self, graph: Graph, right: Sequence[int]) -> list[int]:
         """Return the nodes of L^-1 x."""
         x = list(right)
         for k in self.order:
@@ -94,7 +94,7 @@ class FactorNodes:
                 x[i] = graph.sub(x[i], graph.mul(entry, x[k]))
         return x
 
-    def back(self, graph: Graph, half: Sequence[int]) -> list[int]:
+    def solve_transposed(self, graph: Graph, half: Sequence[int]) -> list[int]:
         """Return the nodes of L^-T D^-1 x."""
         x = list(half)
         for k in reversed(self.order):
@@ -104,7 +104,7 @@ class FactorNodes:
         return x
 
 
-def factorisation(
+def factorise(
     graph: Graph,
     matrix: Mapping[tuple[int, int], int],
     order: Sequence[int],
@@ -210,7 +210,7 @@ class Elimination:
     local: tuple[dict[int, int], ...]  # for each supernode: row -> place in its panel
 
     @classmethod
-    def of(cls, neighbours: Sequence[frozenset[int]]) -> Elimination:
+    def lay_out(cls, neighbours: Sequence[frozenset[int]]) -> Elimination:
         """Order and lay out a pattern."""
         nodes = supernodes(neighbours)
         first, place, local, size = list[int](), dict[int, tuple[int, int]](), list[dict[int, int]](), 0
@@ -225,22 +225,22 @@ class Elimination:
         return cls(nodes, tuple(first), size, largest, place, tuple(local))
 
     @property
-    def alone(self) -> tuple[int, ...]:
+    def rows_alone(self) -> tuple[int, ...]:
         """Rows that are eliminated before all their neighbours, in their order."""
         behind = {row for node in self.nodes for row in (*node.columns[1:], *node.below)}
         return tuple(sorted(self.place.keys() - behind))
 
-    def target(self, a: int, b: int) -> int:
+    def place_of_entry(self, a: int, b: int) -> int:
         """Return the place of the entry of rows `a` and `b`."""
         (sa, ka), (sb, kb) = self.place[a], self.place[b]
         if (sb, kb) > (sa, ka):
             a, sa, ka, sb, kb = b, sb, kb, sa, ka
         return self.first[sb] + self.local[sb][a] * len(self.nodes[sb].columns) + kb
 
-    def table(self) -> list[int]:
+    def lists_for_code(self) -> list[int]:
         """Return the lists for generic code.
 
-        The number of supernodes and of rows, where each row's diagonal entry stands, where each supernode's list begins
+        The number of supernodes and of rows, where each row's diagonal entry is, where each supernode's list begins
         (counted from here), and the lists: number of columns, number of rows below, where the panel begins, the rows of
         the columns, the rows below, then for each pair of rows below, the second not after the first, where its update
         goes.
@@ -250,10 +250,10 @@ class Elimination:
             below = node.below
             each = [len(node.columns), len(below), first, *node.columns, *below]
             for i, a in enumerate(below):
-                each += [self.target(a, b) for b in below[: i + 1]]
+                each += [self.place_of_entry(a, b) for b in below[: i + 1]]
             lists.append(each)
         size = len(self.place)
-        table = [len(self.nodes), size, *(self.target(i, i) for i in range(size))]
+        table = [len(self.nodes), size, *(self.place_of_entry(i, i) for i in range(size))]
         start = len(table) + len(lists)
         for each in lists:
             table.append(start)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from symgen.base.ir.program import FixedVelocities
 from symgen.derive.formulate.equations import Equations
-from symgen.derive.lower.blocks import SaddleMatrix
+from symgen.derive.lower.saddle_matrix import SaddleMatrix
 
 
 def fixed_velocities(equations: Equations, hinges: bool) -> tuple[FixedVelocities, ...]:
@@ -17,8 +17,8 @@ def fixed_velocities(equations: Equations, hinges: bool) -> tuple[FixedVelocitie
     """
     nv, rows = equations.nv, tuple(row.entries for row in equations.rows)
     matrix = SaddleMatrix(equations.graph.copy(), nv, mass_entries(equations), rows)
-    candidates = list(_candidates(matrix, equations, hinges))
-    costs = {block: _cost(matrix, block) for block in candidates}
+    candidates = list(_candidate_blocks(matrix, equations, hinges))
+    costs = {block: _products_of_elimination(matrix, block) for block in candidates}
     by_unknown: dict[int, list[FixedVelocities]] = {}
     for block in candidates:
         for x in (*block.columns, *(nv + r for r in block.rows)):
@@ -30,12 +30,12 @@ def fixed_velocities(equations: Equations, hinges: bool) -> tuple[FixedVelocitie
             del costs[block]
             continue
         taken |= dict.fromkeys(block.columns, block)
-        touched = matrix.fix(block)
+        touched = matrix.eliminate_fixed(block)
         for x in (*touched, *block.columns, *(nv + r for r in block.rows)):
             for other in by_unknown.get(x, ()):
                 if other in costs:
-                    costs[other] = _cost(matrix, other)
-                    if not _is_open(matrix, other):
+                    costs[other] = _products_of_elimination(matrix, other)
+                    if not _is_untouched(matrix, other):
                         del costs[other]
     return tuple(dict.fromkeys(taken.values()))
 
@@ -68,7 +68,7 @@ def _closes_a_cycle(matrix: SaddleMatrix, taken: Mapping[int, FixedVelocities], 
     return False
 
 
-def _candidates(matrix: SaddleMatrix, equations: Equations, hinges: bool) -> Iterator[FixedVelocities]:
+def _candidate_blocks(matrix: SaddleMatrix, equations: Equations, hinges: bool) -> Iterator[FixedVelocities]:
     of_joint: dict[str, list[int]] = {}
     for r, row in enumerate(equations.rows):
         if row.held is not None:
@@ -87,7 +87,7 @@ def _candidates(matrix: SaddleMatrix, equations: Equations, hinges: bool) -> Ite
                 yield FixedVelocities(two, tuple(rows))
 
 
-def _is_open(matrix: SaddleMatrix, block: FixedVelocities) -> bool:
+def _is_untouched(matrix: SaddleMatrix, block: FixedVelocities) -> bool:
     """Whether velocities and rows are left over, and their common entries as they were."""
     rows = [matrix.nv + r for r in block.rows]
     if not matrix.left.issuperset((*block.columns, *rows)):
@@ -95,7 +95,7 @@ def _is_open(matrix: SaddleMatrix, block: FixedVelocities) -> bool:
     return not any((r, c) in matrix.changed for r in rows for c in block.columns)
 
 
-def _cost(matrix: SaddleMatrix, block: FixedVelocities) -> int:
+def _products_of_elimination(matrix: SaddleMatrix, block: FixedVelocities) -> int:
     """Return about the number of products that the elimination takes."""
     k, rows = matrix.entries, [matrix.nv + r for r in block.rows]
     beside = {i for c in block.columns for i in k[c]} - {*block.columns, *rows}

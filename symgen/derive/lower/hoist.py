@@ -36,19 +36,19 @@ class Hoister:
 
         So a law's own functions depend neither on the number of the method's parameters nor on other hoisted numbers.
         """
-        for node in self.graph.needed(ends, self._moves):
-            if self._moves(node):
+        for node in self.graph.required_nodes(ends, self._is_hoisted):
+            if self._is_hoisted(node):
                 self.slots.setdefault(node, len(self.slots))
         self.reserved = len(self.slots)
 
-    def _place(self, slot: int) -> int:
+    def _place_in_parameters(self, slot: int) -> int:
         return self.first + slot + (self.parameters if slot >= self.reserved else 0)
 
-    def _input(self, graph: Graph, space: str, index: int) -> int:
+    def _input_of_block(self, graph: Graph, space: str, index: int) -> int:
         """Return an input as blocks read it."""
         return graph.input("p", self.first_parameter + index) if space == "parameter" else graph.input(space, index)
 
-    def block(
+    def block_with_hoisted(
         self,
         name: str,
         purpose: str,
@@ -58,26 +58,29 @@ class Hoister:
     ) -> Block:
         """Return a block in a graph of its own, hoisted nodes read from ``p``."""
         source, target = self.graph, Graph()
-        ends = [n for _, n in outputs] + ([] if flag is None else [flag])  # the flag stands last
+        ends = [n for _, n in outputs] + ([] if flag is None else [flag])  # the flag is last
 
         def image(node: int) -> int:
-            if self._moves(node):
-                return target.input("p", self._place(self.slots.setdefault(node, len(self.slots))))
-            return self._input(target, *source.key(node))
+            if self._is_hoisted(node):
+                return target.input("p", self._place_in_parameters(self.slots.setdefault(node, len(self.slots))))
+            return self._input_of_block(target, *source.key(node))
 
-        moved = target.rebuilt(source, ends, image, self._moves)
+        moved = target.rebuild_from(source, ends, image, self._is_hoisted)
         places = tuple((where, node) for (where, _), node in zip(outputs, moved, strict=False))
         return Block(name, purpose, target, places, arguments, None if flag is None else moved[-1])
 
-    def _moves(self, node: int) -> bool:
+    def _is_hoisted(self, node: int) -> bool:
         return self.graph.depends[node] == PARAMETER and self.graph.nodes[node].op != "input"
 
-    def prepare(self) -> Block:
+    def prepare_block(self) -> Block:
         """Return the block that fills the hoisted numbers; call it after all other blocks."""
         graph = Graph()
         nodes = sorted(self.slots, key=self.slots.__getitem__)
-        images = graph.inline(self.graph, nodes, {key: self._input(graph, *key) for key in self.graph.keys(nodes)})
+        images = graph.copy_from(
+            self.graph, nodes, {key: self._input_of_block(graph, *key) for key in self.graph.inputs_of(nodes)}
+        )
         outputs = tuple(
-            (OutputSlot("p", self._place(self.slots[n])), image) for n, image in zip(nodes, images, strict=True)
+            (OutputSlot("p", self._place_in_parameters(self.slots[n])), image)
+            for n, image in zip(nodes, images, strict=True)
         )
         return Block("prepare", "numbers that depend on parameters alone", graph, outputs, ("p",))

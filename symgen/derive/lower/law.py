@@ -27,7 +27,7 @@ from symgen.derive.lower.hoist import Hoister
 from symgen.derive.lower.plans import closing_plan
 from symgen.derive.lower.record import ARGUMENTS, BEHIND, EQUATIONS, Part, RecordedLaw, record_law
 from symgen.derive.lower.record_form import record_form
-from symgen.derive.lower.residual import by_residual
+from symgen.derive.lower.residual import outputs_by_residual
 from symgen.derive.lower.scalar import ScalarNodes
 from symgen.derive.lower.scalar_values import Outputs, to_status
 from symgen.derive.methods._base import Method
@@ -75,43 +75,43 @@ def lower_law(
         If velocities shall be scaled to the energy where drivers prescribe coordinates of a tree.
     """
     correction = method.correction(options)
-    _refuse(equations, method, options, implicit)
+    _refuse_method(equations, method, options, implicit)
     names = [p.name for p in method.parameters]
     recorded = record_law(method, options, equations.driving is not None)
-    eliminates = _eliminates(recorded)
+    eliminates = _uses_elimination(recorded)
     apart = frozenset(("constrained",) if equations.drags and eliminates else ())
-    record = recorded.resolved(model.plan.schur, apart)
+    record = recorded.choose_solution(model.plan.schur, apart)
     loose_rows = sum(row.held is not None for row in equations.rows)
     if loose_rows and (record.form == "tangent" or correction.metric == "independent"):
         record = replace(record, sections=(*record.sections, ("chosen_modes", ("switchable",))))
     scalars = ScalarNodes(equations, record.operations, names, plan=model.plan)
     scalars.pushing = bool(equations.drags) and not eliminates
-    _compute(scalars, record.parts[0], record.ends)
+    _compute_parts(scalars, record.parts[0], record.output_operations)
     hoister = Hoister(scalars.graph, model.layout.parameters + model.hoisted, len(names))
     accelerations = [(scalars, part) for part in record.parts if part.role == "acceleration"]
     closing = closing or closing_plan(equations, model.plan, ())
     closed = record.form == "direct" and method.integrates != "independent" and not correction.stages
     loose: tuple[ScalarNodes, Part] | None = None
     if record.form == "direct" and any(row.bounded for row in equations.rows):
-        loose = _without_bounded_rows(scalars, recorded, apart, closing, closed)
+        loose = _rates_without_bounded_rows(scalars, recorded, apart, closing, closed)
         accelerations.append(loose)
-    _reserve(hoister, accelerations)
+    _reserve_hoisted(hoister, accelerations)
     degrees = 0
     if record.form == "tangent":
         degrees = min(equations.nv, max(1, equations.nv - equations.m + loose_rows) + _SPARE_DEGREES)
     blocks = [law_block(hoister, scalars, part) for part in record.parts]
     if loose is not None:
-        blocks = [*_by_rows_in_force(hoister, equations, blocks[0], loose), *blocks[1:]]
+        blocks = [*_choose_by_rows_in_force(hoister, equations, blocks[0], loose), *blocks[1:]]
     elif closed:
-        blocks = _in_closed_form(hoister, scalars, recorded, closing, directed, blocks)
+        blocks = _has_closed_form(hoister, scalars, recorded, closing, directed, blocks)
     unknowns, level, pattern = 0, "", tuple[tuple[int, int], ...]()
     if implicit:
         form = record_form(method, options, driven=equations.driving is not None)
-        unknowns, level = _unknowns(equations, form), form.form
-        form_blocks, pattern = _form_blocks(hoister, scalars, form, unknowns)
+        unknowns, level = _unknowns_of_law(equations, form), form.form
+        form_blocks, pattern = _blocks_of_form(hoister, scalars, form, unknowns)
         blocks += form_blocks
-    blocks.insert(0, replace(hoister.prepare(), role="preparation"))
-    layout = replace(model.layout, sections=_sections(model.layout, record, blocks, degrees))
+    blocks.insert(0, replace(hoister.prepare_block(), role="preparation"))
+    layout = replace(model.layout, sections=_sections_of_law(model.layout, record, blocks, degrees))
     operations = {b.name: b.operations for b in blocks}
     info = LawInfo(
         method=method.name,
@@ -133,14 +133,14 @@ def lower_law(
     return LawProgram(info, record.form, correction.stages, correction, layout, tuple(blocks), degrees)
 
 
-def _reserve(hoister: Hoister, accelerations: Iterable[tuple[ScalarNodes, Part]]) -> None:
+def _reserve_hoisted(hoister: Hoister, accelerations: Iterable[tuple[ScalarNodes, Part]]) -> None:
     """Reserve places for the numbers that laws hoist, before any block is made."""
     for values, part in accelerations:
         flag = None if part.flag is None else values.values[part.flag]
         hoister.reserve([*(node for _, node in part_outputs(values, part)), *([] if flag is None else [flag])])
 
 
-def _in_closed_form(
+def _has_closed_form(
     hoister: Hoister,
     scalars: ScalarNodes,
     recorded: RecordedLaw,
@@ -151,14 +151,17 @@ def _in_closed_form(
     """Return the blocks of a law whose loops are in closed form where the plan has any, with slopes if `directed`."""
     solver = scalars
     if closing.loops:
-        solver, own = _with_closed_loops(hoister, scalars, recorded.resolved(False), closing, blocks[0])
+        solver, own = _rates_with_closed_loops(hoister, scalars, recorded.choose_solution(False), closing, blocks[0])
         blocks = [*own, *blocks[1:]]
     if directed and not scalars.equations.drags:
-        blocks = [*blocks, *_by_residual(hoister, solver, recorded, recorded.resolved(solver.plan.schur).parts[0])]
+        blocks = [
+            *blocks,
+            *_rates_by_residual(hoister, solver, recorded, recorded.choose_solution(solver.plan.schur).parts[0]),
+        ]
     return blocks
 
 
-def _by_rows_in_force(
+def _choose_by_rows_in_force(
     hoister: Hoister, equations: Equations, law: Block, loose: tuple[ScalarNodes, Part]
 ) -> tuple[Block, Block]:
     """Return the blocks of a law with rows with bounds in force, and of motions without any."""
@@ -168,13 +171,13 @@ def _by_rows_in_force(
     return held, replace(free, purpose=f"{free.purpose}{converged}; no row with bounds in force")
 
 
-def _unknowns(equations: Equations, form: RecordedLaw) -> int:
+def _unknowns_of_law(equations: Equations, form: RecordedLaw) -> int:
     """Return the number of unknowns of a form for implicit integrators."""
     multipliers = equations.m * (2 if form.form == "stabilised" else 1)
     return equations.nq + equations.nv + multipliers + len(equations.states)
 
 
-def _refuse(equations: Equations, method: Method, options: Mapping[str, str], implicit: bool) -> None:
+def _refuse_method(equations: Equations, method: Method, options: Mapping[str, str], implicit: bool) -> None:
     """Refuse equations that a method has no law for."""
     if method.correction(options).energy and equations.driving is not None:  # T is not quadratic in v then
         expected = f"coordinates in which no driver prescribes one of the state, for '{method.name}'"
@@ -184,7 +187,7 @@ def _refuse(equations: Equations, method: Method, options: Mapping[str, str], im
 
 
 def refuse_bounded_rows(method: Method, options: Mapping[str, str], implicit: bool, pressed: str) -> None:
-    """Refuse methods that do not take rows with bounds: those that project onto all rows behind their equations.
+    """Refuse methods that do not take rows with bounds: those that project onto all rows after their equations.
 
     Parameters
     ----------
@@ -211,33 +214,33 @@ def refuse_bounded_rows(method: Method, options: Mapping[str, str], implicit: bo
         raise InputError(f"method '{method.name}'", expected, "one that iterates", "--method lagrange")
 
 
-def _without_bounded_rows(
+def _rates_without_bounded_rows(
     scalars: ScalarNodes, record: RecordedLaw, apart: frozenset[str], plan: EliminationPlan, closed: bool
 ) -> tuple[ScalarNodes, Part]:
     """Return the right-hand side of motions with no row with bounds in force, by a plan for them."""
-    record = record.resolved(plan.schur, apart)
+    record = record.choose_solution(plan.schur, apart)
     loose, part = scalars.without_bounded_rows(record.operations, plan, closed), record.parts[0]
-    _compute(loose, part, [*(index for _, index in part.outputs), *(() if part.flag is None else (part.flag,))])
+    _compute_parts(loose, part, [*(index for _, index in part.outputs), *(() if part.flag is None else (part.flag,))])
     return loose, part
 
 
-def _compute(scalars: ScalarNodes, part: Part, ends: Sequence[int]) -> None:
+def _compute_parts(scalars: ScalarNodes, part: Part, ends: Sequence[int]) -> None:
     """Evaluate operations, and drags in a right-hand side that eliminates no multipliers."""
     scalars.compute(ends)
     if scalars.pushing:
         scalars.settle_drags(dict(part.outputs)["multipliers"], (index for _, index in part.outputs))
 
 
-def _eliminates(record: RecordedLaw) -> bool:
+def _uses_elimination(record: RecordedLaw) -> bool:
     """Whether a right-hand side eliminates multipliers."""
     outputs = [output for part in record.parts for output in part.outputs]
     return {record.operations[index].kind for place, index in outputs if place == "rates.v"} == {"constrained"}
 
 
-def _with_closed_loops(
+def _rates_with_closed_loops(
     hoister: Hoister, scalars: ScalarNodes, record: RecordedLaw, plan: EliminationPlan, block: Block
 ) -> tuple[ScalarNodes, list[Block]]:
-    """Return the right-hand side with loops in closed form, and behind it the one that `confirm` evaluates."""
+    """Return the right-hand side with loops in closed form, then the one that `confirm` evaluates."""
     if not any(operation.kind == "constrained" for operation in record.operations):
         return scalars, [block]
     part, closing = record.parts[0], scalars.with_closed_loops(record.operations, plan)
@@ -247,21 +250,23 @@ def _with_closed_loops(
     return closing, [replace(closed, purpose=f"{part.purpose}; 1 where a loop or a pivot of S is suspicious"), behind]
 
 
-def _by_residual(hoister: Hoister, scalars: ScalarNodes, record: RecordedLaw, part: Part) -> list[Block]:
+def _rates_by_residual(hoister: Hoister, scalars: ScalarNodes, record: RecordedLaw, part: Part) -> list[Block]:
     """Return the right-hand side for derivatives, if there is one."""
-    outputs = by_residual(scalars, record, part_outputs(scalars, part))
+    outputs = outputs_by_residual(scalars, record, part_outputs(scalars, part))
     if outputs is None:
         return []
     purpose = "q', v', power and multipliers, with the derivatives of the residual"
     flag = None if part.flag is None else scalars.values[part.flag]
-    return [replace(hoister.block(BY_RESIDUAL, purpose, outputs, ARGUMENTS["rhs"], flag), role="derivation")]
+    return [
+        replace(hoister.block_with_hoisted(BY_RESIDUAL, purpose, outputs, ARGUMENTS["rhs"], flag), role="derivation")
+    ]
 
 
 def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part) -> Block:
     """Return a function of a law as a block."""
     flag = None if part.flag is None else scalars.values[part.flag]
     purpose = part.purpose + ("" if flag is None else "; 1 where a pivot of S is suspicious")
-    block = hoister.block(part.name, purpose, part_outputs(scalars, part), ARGUMENTS[part.name], flag)
+    block = hoister.block_with_hoisted(part.name, purpose, part_outputs(scalars, part), ARGUMENTS[part.name], flag)
     return replace(block, role=part.role)
 
 
@@ -269,12 +274,12 @@ def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
     """Return the outputs of a function of a law; an M that changes is read by those without the state."""
     if scalars.mass_entries and "y" not in ARGUMENTS[part.name]:
         scalars = scalars.with_stored_mass
-    outputs = [output for place, index in part.outputs for output in _outputs(scalars, place, index)]
+    outputs = [output for place, index in part.outputs for output in _outputs_of_parts(scalars, place, index)]
     if any(place == "rates.work" for place, _ in part.outputs):
         space, work = scalars.places["rates.work"]
         rates = scalars.equations.state_rates
         if part.velocities is not None:
-            rates = scalars.at_velocity(rates, scalars.values[part.velocities])
+            rates = scalars.with_velocities(rates, scalars.values[part.velocities])
         outputs += [(OutputSlot(space, work + i), node) for i, node in enumerate(rates, 1)]
         outputs += [(OutputSlot(JAMMING, i), node) for i, node in enumerate(scalars.jamming)]
     if part.name in _KEEPS_MASS:
@@ -282,7 +287,7 @@ def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
     return outputs
 
 
-def _outputs(scalars: ScalarNodes, place: str, index: int) -> Outputs:
+def _outputs_of_parts(scalars: ScalarNodes, place: str, index: int) -> Outputs:
     """Return the targets of the nodes of a value."""
     e, value = scalars.equations, scalars.values[index]
     if scalars.operations[index].kind.startswith("keep"):
@@ -293,7 +298,7 @@ def _outputs(scalars: ScalarNodes, place: str, index: int) -> Outputs:
         return list(value)
     if place == "dense":
         return [
-            (OutputSlot(place, i * e.nv + j), scalars.in_force(i, node))
+            (OutputSlot(place, i * e.nv + j), scalars.node_in_force(i, node))
             for i, row in enumerate(value)
             for j, node in row
         ]
@@ -307,7 +312,7 @@ def _outputs(scalars: ScalarNodes, place: str, index: int) -> Outputs:
     return [(OutputSlot(space, first + i), node) for i, node in enumerate(nodes)]
 
 
-def _sections(
+def _sections_of_law(
     layout: ModelLayout, record: RecordedLaw, blocks: list[Block], degrees: int
 ) -> dict[str, tuple[int, int]]:
     """Return the sections of ``w``: the model's, then the law's own."""
@@ -324,19 +329,19 @@ def _sections(
     return sections
 
 
-def _form_blocks(
+def _blocks_of_form(
     hoister: Hoister, law: ScalarNodes, form: RecordedLaw, unknowns: int
 ) -> tuple[list[Block], tuple[tuple[int, int], ...]]:
     """Return the blocks ``residual`` and ``tangent``, and equation and unknown of each number of the latter.
 
     ``residual(t, y, k, p, w, r)`` writes F to r and the power of forces without potential and of drivers to the status;
     ``tangent(t, y, k, p, w, j)`` the structural nonzeros of dF/dk and dF/dy, equation by equation; from `unknowns` on,
-    unknowns are q and v. Rates of states are the last unknowns, and stand last among the derivatives by the state.
+    unknowns are q and v. Rates of states are the last unknowns, and the last of the derivatives by the state.
     """
-    e, scalars = law.equations, law.following(form.operations)
+    e, scalars = law.equations, law.for_tape(form.operations)
     if e.drags:
         scalars.pressing = law.section("k_first", e.m)
-    scalars.run(range(len(form.operations)))
+    scalars.evaluate_remaining(range(len(form.operations)))
     (part,) = form.parts
     groups = {place: scalars.values[index] for place, index in part.outputs}
     rows = [(group, node) for group in EQUATIONS if group in groups for node in groups[group]]
@@ -365,6 +370,6 @@ def _form_blocks(
             pattern.append((i, index + first[space]))
     entries = "entries of dF/dk and dF/dy of the descriptor form"
     return [
-        replace(hoister.block("residual", part.purpose, residual, arguments), role=part.role),
-        replace(hoister.block("tangent", entries, tangent, (*arguments[:-1], "j")), role=part.role),
+        replace(hoister.block_with_hoisted("residual", part.purpose, residual, arguments), role=part.role),
+        replace(hoister.block_with_hoisted("tangent", entries, tangent, (*arguments[:-1], "j")), role=part.role),
     ], tuple(pattern)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from symgen.base.ir.program import JAMMING, MODE_NUMBERS, SECTIONS, STATUS, Block, ModelLayout, ModelProgram, OutputSlot
 from symgen.derive.formulate.equations import Equations
-from symgen.derive.lower.factor import fill_of
+from symgen.derive.lower.factor import fill_of_order
 from symgen.derive.lower.hoist import Hoister
 from symgen.derive.lower.law import law_block
-from symgen.derive.lower.manifold import manifold_blocks
 from symgen.derive.lower.plans import cheapest_plan
+from symgen.derive.lower.position_changes import position_change_blocks
 from symgen.derive.lower.record import record_model
 from symgen.derive.lower.scalar import ScalarNodes
 from symgen.derive.lower.scalar_values import Outputs, to_status
@@ -25,9 +25,9 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         Digest of the canonical description, for the emitted header.
     """
     m, plan = equations.m, cheapest_plan(equations)
-    record = record_model().resolved(plan.schur)
+    record = record_model().choose_solution(plan.schur)
     scalars = ScalarNodes(equations, record.operations, plan=plan)
-    scalars.compute(record.ends)
+    scalars.compute(record.output_operations)
     geometry, spread = record.parts
     sections: dict[str, tuple[int, int]] = {}
     offset = 0
@@ -53,16 +53,16 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
     blocks = [
         law_block(hoister, scalars, geometry),
         law_block(hoister, scalars, spread),
-        measure(hoister, scalars),
-        observe(hoister, scalars),
-        hoister.block("masses", "diagonal of M", diagonal_at_origin(scalars), ("p", "w")),
-        *manifold_blocks(hoister, equations),
+        measure_block(hoister, scalars),
+        observe_block(hoister, scalars),
+        hoister.block_with_hoisted("masses", "diagonal of M", diagonal_at_origin(scalars), ("p", "w")),
+        *position_change_blocks(hoister, equations),
     ]
     if equations.bodies:
         outputs = [(OutputSlot("out", i), node) for i, node in enumerate(equations.bodies)]
         purpose = "coordinates, velocities and accelerations of bodies"
-        blocks.append(hoister.block("bodies", purpose, outputs, ("t", "y", "p", "w", "ydot", "out")))
-    blocks.insert(0, hoister.prepare())
+        blocks.append(hoister.block_with_hoisted("bodies", purpose, outputs, ("t", "y", "p", "w", "ydot", "out")))
+    blocks.insert(0, hoister.prepare_block())
     return ModelProgram(
         name=equations.name,
         digest=digest,
@@ -71,7 +71,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         jacobian=scalars.jacobian,
         hoisted=len(hoister.slots),
         order=scalars.order,
-        fill=fill_of(scalars.neighbours(scalars.rows), scalars.order),
+        fill=fill_of_order(scalars.neighbours(scalars.rows), scalars.order),
         tables=equations.tables,
         plan=plan,
     )
@@ -86,40 +86,43 @@ def diagonal_at_origin(scalars: ScalarNodes) -> Outputs:
     origin = {("t", 0): g.zero} | {("q", i): g.zero for i in range(equations.nq)}
     origin |= {("q", i): g.one for i, _ in equations.spins}
     return [
-        (target, node) for (target, _), node in zip(diagonal, g.replaced([n for _, n in diagonal], origin), strict=True)
+        (target, node)
+        for (target, _), node in zip(diagonal, g.replace_inputs([n for _, n in diagonal], origin), strict=True)
     ]
 
 
 # -- blocks of the model ----------------------------------------------------------------------------------------------
 
 
-def measure(hoister: Hoister, scalars: ScalarNodes) -> Block:
+def measure_block(hoister: Hoister, scalars: ScalarNodes) -> Block:
     """Return the block that measures a state after its geometry."""
     g, equations = hoister.graph, scalars.equations
     outputs: Outputs = []
     residuals: list[int] = []
     for i, row in enumerate(scalars.stored_constraints()):
-        total = g.total(g.mul(e, g.input("v", j)) for j, e in row)
+        total = g.sum_of(g.mul(e, g.input("v", j)) for j, e in row)
         if equations.rows[i].nu != g.zero:
             total = g.sub(total, g.input("nu", i))
-        total = scalars.in_force(i, total)
+        total = scalars.node_in_force(i, total)
         residuals.append(total)
         outputs.append((OutputSlot("residual", i), total))
     outputs += scalars.violation("velocity", residuals)
     outputs += [to_status("kinetic", equations.kinetic), to_status("potential", equations.potential)]
     outputs += [(OutputSlot("winding", i), node) for i, node in enumerate(equations.windings)]
     purpose = "D v - nu with the D and nu that `geometry` left, and the energies"
-    return hoister.block("measure", purpose, outputs, ("t", "y", "p", "w"))
+    return hoister.block_with_hoisted("measure", purpose, outputs, ("t", "y", "p", "w"))
 
 
-def observe(hoister: Hoister, scalars: ScalarNodes) -> Block:
+def observe_block(hoister: Hoister, scalars: ScalarNodes) -> Block:
     """Return the block of quantities reported at outputs only."""
     g, e = hoister.graph, scalars.equations
     changes = scalars.product(scalars.rows, scalars.section("rates.v", e.nv))
-    left = [scalars.in_force(i, g.sub(n, row.gamma)) for i, (n, row) in enumerate(zip(changes, e.rows, strict=True))]
+    left = [
+        scalars.node_in_force(i, g.sub(n, row.gamma)) for i, (n, row) in enumerate(zip(changes, e.rows, strict=True))
+    ]
     outputs: Outputs = [(OutputSlot("out", i), n) for i, n in enumerate(left)]
     for k, c in enumerate(e.joint_coordinates):
         outputs += [(OutputSlot("out", e.m + 2 * k), c.value), (OutputSlot("out", e.m + 2 * k + 1), c.rate)]
-    return hoister.block(
+    return hoister.block_with_hoisted(
         "observe", "D v' - gamma, then joint coordinates and their rates", outputs, ("t", "y", "p", "w", "ydot", "out")
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from symgen.base.vocabulary.measures import GROUND, Marker
-from symgen.derive.formulate.measures import ModelNodes
+from symgen.derive.formulate.measure_nodes import ModelNodes
 from symgen.describe.mechanism import Vec
 
 
@@ -32,9 +32,9 @@ class PlacedPoint:
         self.axes = axes
         arm = [g.dot(row, own) for row in axes]
         self.at = [g.add(x, a) for x, a in zip(at, arm, strict=True)]
-        self.moved = [g.add(x, s) for x, s in zip(moved, self._swing(own, arm), strict=True)]
+        self.moved = [g.add(x, s) for x, s in zip(moved, self._velocity_of_arm(own, arm), strict=True)]
 
-    def _swing(self, own: Sequence[int], arm: Sequence[int]) -> list[int]:
+    def _velocity_of_arm(self, own: Sequence[int], arm: Sequence[int]) -> list[int]:
         g = self.graph
         if self.spatial:
             x, y, z = own
@@ -44,7 +44,7 @@ class PlacedPoint:
         (w,) = self.omega
         return [g.neg(g.mul(w, arm[1])), g.mul(w, arm[0])]
 
-    def pose(self) -> list[int]:
+    def homogeneous_matrix(self) -> list[int]:
         """Return the homogeneous matrix, row by row."""
         g = self.graph
         rows = [[*row, x] for row, x in zip(self.axes, self.at, strict=True)]

@@ -8,7 +8,7 @@ from dataclasses import replace
 from symgen.base.ir.graph import PARAMETER
 from symgen.base.ir.program import EliminationPlan
 from symgen.derive.formulate.equations import Equations, without_bounded_rows
-from symgen.derive.lower.closing import closed_loops
+from symgen.derive.lower.closed_loops import loops_in_order
 from symgen.derive.lower.fixed_velocities import fixed_velocities
 from symgen.derive.lower.record import record_multipliers
 from symgen.derive.lower.scalar import ScalarNodes
@@ -21,11 +21,11 @@ def cheapest_plan(equations: Equations, closing: bool = True) -> EliminationPlan
     """
     if not equations.m:
         return EliminationPlan()
-    costs = {plan: cost(equations, plan) for plan in _plans(equations) if closing or not plan.loops}
+    costs = {plan: cost_of_plan(equations, plan) for plan in _candidate_plans(equations) if closing or not plan.loops}
     best = min(costs, key=costs.__getitem__)
     normal = replace(best, normal=True)
     # Euler parameters have no sines whose squares meet
-    return best if best.schur or equations.spins or cost(equations, normal) >= costs[best] else normal
+    return best if best.schur or equations.spins or cost_of_plan(equations, normal) >= costs[best] else normal
 
 
 def closing_plan(equations: Equations, plan: EliminationPlan, free: Sequence[int]) -> EliminationPlan:
@@ -45,35 +45,35 @@ def closing_plan(equations: Equations, plan: EliminationPlan, free: Sequence[int
     if any(row.bounded for row in equations.rows):
         equations = without_bounded_rows(equations)
         plan = cheapest_plan(equations, closing=False)
-    loops = closed_loops(equations, plan.fixed, free) if free and not plan.loops else ()
+    loops = loops_in_order(equations, plan.fixed, free) if free and not plan.loops else ()
     orders = dict.fromkeys((loops, loops[::-1]))  # from free velocities on, and towards them
     normal = (False,) if equations.spins else (False, True)
     plans = [plan, *(EliminationPlan(plan.fixed, False, n, order) for order in orders if order for n in normal)]
-    return min(plans, key=lambda each: cost(equations, each)) if len(plans) > 1 else plan
+    return min(plans, key=lambda each: cost_of_plan(equations, each)) if len(plans) > 1 else plan
 
 
-def _plans(equations: Equations) -> Iterator[EliminationPlan]:
+def _candidate_plans(equations: Equations) -> Iterator[EliminationPlan]:
     yield EliminationPlan()
     for hinges in (False, True) if any(row.axes for row in equations.rows) else (False,):
         fixed = fixed_velocities(equations, hinges)
         if fixed:
             yield EliminationPlan(fixed, schur=False)
-        loops = closed_loops(equations, fixed)
+        loops = loops_in_order(equations, fixed)
         if loops:
             yield EliminationPlan(fixed, schur=False, loops=loops)
 
 
-def cost(equations: Equations, plan: EliminationPlan) -> tuple[int, int]:
+def cost_of_plan(equations: Equations, plan: EliminationPlan) -> tuple[int, int]:
     """Return the operations of a right-hand side, and the longest chain of them: none on parameters alone."""
     record = record_multipliers(equations.driving is not None)
-    record = record.resolved(plan.schur, frozenset(("constrained",) if equations.drags else ()))
+    record = record.choose_solution(plan.schur, frozenset(("constrained",) if equations.drags else ()))
     scalars = ScalarNodes(equations, record.operations, plan=plan)
     scalars = scalars.with_closed_loops(record.operations, plan) if plan.loops else scalars
-    scalars.compute(record.ends)
-    values = [scalars.values[i] for i in record.ends]
+    scalars.compute(record.output_operations)
+    values = [scalars.values[i] for i in record.output_operations]
     nodes = [n for value in values for n in (value if isinstance(value, tuple) else (value,)) if n is not None]
     g, depth, counted = scalars.graph, dict[int, int](), 0
-    for node in g.needed(nodes, lambda node: g.depends[node] == PARAMETER):
+    for node in g.required_nodes(nodes, lambda node: g.depends[node] == PARAMETER):
         op, args, _ = g.nodes[node]
         if op in ("const", "input") or g.depends[node] == PARAMETER:
             depth[node] = 0

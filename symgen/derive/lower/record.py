@@ -1,7 +1,7 @@
 """The functions of a law and its correction as formulas, before layout.
 
-Code for one mechanism (`symgen.derive.lower.law`) and loops for all (`symgen.derive.lower.looped.law`) are two layouts
-of them.
+Code for one mechanism (`symgen.derive.lower.law`) and loops for all (`symgen.derive.lower.looped.looped_law`) are two
+layouts of them.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import assert_never
 
 from symgen.derive.methods._base import Acceleration, Dense, Iteration, Law, Method, Tangent, multiplier_law
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 from symgen.derive.methods._tape import ALTERNATIVES, Factor, FormulaStep, Scalar, Value, Vector
 
 #: Groups of equations of a descriptor form: kinematic, dynamic, then up to three rows for each constraint.
@@ -80,13 +80,13 @@ class RecordedLaw:
     form: str = ""
 
     @property
-    def ends(self) -> list[int]:
+    def output_operations(self) -> list[int]:
         """Operations whose values the functions return."""
         return [
             index for part in self.parts for index in (*(i for _, i in part.outputs), part.flag) if index is not None
         ]
 
-    def resolved(self, schur: bool, apart: frozenset[str] = frozenset()) -> RecordedLaw:
+    def choose_solution(self, schur: bool, apart: frozenset[str] = frozenset()) -> RecordedLaw:
         """Return the same with one way to what may be solved in two: by factors of D W D^T, or by fixed velocities.
 
         Parameters
@@ -120,7 +120,7 @@ def record_law(method: Method, options: Mapping[str, str], driven: bool = False)
     `driven`: drivers prescribe coordinates of a tree, and their power is work.
     """
     recording = _Law(driven)
-    recording.law(method.law(recording.system, options))
+    recording.add_law(method.law(recording.system, options))
     correction = method.correction(options)
     recording.role = "metric"
     if correction.any and correction.metric != "scaled":  # which is the model's own
@@ -128,14 +128,14 @@ def record_law(method: Method, options: Mapping[str, str], driven: bool = False)
         getattr(recording, f"{correction.metric}_metric")()
     if correction.energy:
         recording.sections["balance"] = ("one",)  # the target energy of the scaling of velocities
-    return recording.record()
+    return recording.recorded()
 
 
 def record_multipliers(driven: bool) -> RecordedLaw:
     """Record a right-hand side of multipliers without a correction: what plans of elimination are compared by."""
     recording = _Law(driven)
-    recording.law(multiplier_law(recording.system, recording.system.gamma))
-    return recording.record()
+    recording.add_law(multiplier_law(recording.system, recording.system.gamma))
+    return recording.recorded()
 
 
 class _Law:
@@ -146,31 +146,31 @@ class _Law:
         self.sections: dict[str, tuple[str, ...]] = {}
         self.form, self.role, self.share = "", "acceleration", ""
 
-    def record(self) -> RecordedLaw:
+    def recorded(self) -> RecordedLaw:
         return RecordedLaw(
             tuple(self.system.tape.operations), tuple(self.parts), tuple(self.sections.items()), self.form
         )
 
-    def add(self, name: str, purpose: str, *outputs: tuple[str, Value], flag: Value | None = None) -> None:
+    def add_part(self, name: str, purpose: str, *outputs: tuple[str, Value], flag: Value | None = None) -> None:
         places = tuple((place, value.index) for place, value in outputs)
         self.parts.append(Part(name, purpose, places, None if flag is None else flag.index, self.role))
 
-    def law(self, law: Law) -> None:
+    def add_law(self, law: Law) -> None:
         if isinstance(law, Acceleration):
             self.form, flag = "direct", self.system.flag()
-            rates = self.rates(law.acceleration, law.multipliers, law.position)
+            rates = self.state_rates(law.acceleration, law.multipliers, law.position)
             outputs = [*rates, ("multipliers", law.multipliers)]
-            self.add("rhs", "q', v', power and multipliers", *outputs, flag=flag)
+            self.add_part("rhs", "q', v', power and multipliers", *outputs, flag=flag)
         elif isinstance(law, Iteration):
-            self.iterated(law)
+            self.add_iteration(law)
         elif isinstance(law, Dense):
-            self.dense(law)
+            self.add_orthogonal_factorisation(law)
         elif isinstance(law, Tangent):
-            self.tangent()
+            self.add_tangent_basis()
         else:
             assert_never(law)
 
-    def rates(
+    def state_rates(
         self,
         acceleration: Vector,
         multipliers: Vector,
@@ -179,18 +179,20 @@ class _Law:
     ) -> list[tuple[str, Value]]:
         """Return the rates of the state; forces do work at `velocities` where these differ from the state's."""
         s = self.system
-        work = self.work(acceleration, multipliers, velocities)
+        work = self.power_without_potential(acceleration, multipliers, velocities)
         return [("rates.q", position or s.q_rates), ("rates.v", acceleration), ("rates.work", work)]
 
-    def work(self, acceleration: Vector, multipliers: Vector, velocities: Vector | None = None) -> Scalar:
+    def power_without_potential(
+        self, acceleration: Vector, multipliers: Vector, velocities: Vector | None = None
+    ) -> Scalar:
         """Return the power of forces without potential and of drivers: those with rows, and those with coordinates."""
         s = self.system
         power = s.power + s.driving(acceleration) if self.driven else s.power
         if velocities is not None:
-            power = power.applied(Scalar, "at_velocity", power, velocities)
+            power = power.apply(Scalar, "at_velocity", power, velocities)
         return power - multipliers.dot(s.nu)
 
-    def iterated(self, law: Iteration) -> None:
+    def add_iteration(self, law: Iteration) -> None:
         """Add the parts of an iterated law: ``begin``, ``iterate`` and ``finish``."""
         s, self.form = self.system, "iterated"
         first, change = law.state[0], law.increment
@@ -201,16 +203,19 @@ class _Law:
         relative = (change.dot(s.mass(change)) / (least + first.following.dot(s.mass(first.following)))).root()
         final = [s.variable(state.section, state.start.size) for state in law.state]
         if law.rates is None:
-            finish = self.rates(final[0], final[1])
+            finish = self.state_rates(final[0], final[1])
             if law.multipliers is not None:
                 finish.append(("multipliers", law.multipliers))
         else:
             rates = law.rates
-            finish = self.rates(rates.velocity, rates.multipliers, rates.position, rates.velocities)
+            finish = self.state_rates(rates.velocity, rates.multipliers, rates.position, rates.velocities)
             # the integrated quantity is not v: v' and lambda for results have their own law
             observed = multiplier_law(s, s.gamma)
-            outputs = [*self.rates(observed.acceleration, observed.multipliers), ("multipliers", observed.multipliers)]
-            self.add("rates", "q', v' and multipliers for results", *outputs)
+            outputs = [
+                *self.state_rates(observed.acceleration, observed.multipliers),
+                ("multipliers", observed.multipliers),
+            ]
+            self.add_part("rates", "q', v' and multipliers for results", *outputs)
         for name, _ in s.tape.stored:
             self.sections[name] = ()
         for state in law.state:
@@ -218,25 +223,25 @@ class _Law:
                 self.sections[state.section] = (state.start.size,)
         begin = [*s.tape.stored, *((state.section, state.start) for state in law.state)]
         following = [(state.section, state.following) for state in law.state]
-        self.add("begin", "matrices and start of the iteration", *begin)
+        self.add_part("begin", "matrices and start of the iteration", *begin)
         self.role = "iteration"
-        self.add("iterate", "one iteration", *following, ("status.increment", relative))
-        self.add("finish", "rates of the state, and power", *finish)
+        self.add_part("iterate", "one iteration", *following, ("status.increment", relative))
+        self.add_part("finish", "rates of the state, and power", *finish)
         if law.rates is not None:
             self.parts[-1] = replace(self.parts[-1], velocities=law.rates.velocities.index)
 
     # -- laws on dense matrices ----------------------------------------------------------------------------------------
 
-    def expanded(self) -> None:
+    def add_dense_constraints(self) -> None:
         """Add D as a dense matrix, for the choice of independent columns, or for an orthogonal factorisation."""
         if "dense" not in self.sections:
             self.sections |= {"dependent": ("nv",), "dense": ("m", "nv")}
-            self.add("expand", "D as a dense matrix", ("dense", self.system.stored_constraints()))
+            self.add_part("expand", "D as a dense matrix", ("dense", self.system.stored_constraints()))
 
-    def tangent(self) -> None:
+    def add_tangent_basis(self) -> None:
         """Add the parts of a law on a tangent basis."""
         s, self.form = self.system, "tangent"
-        self.expanded()
+        self.add_dense_constraints()
         basis = ("nv", "degrees")
         self.sections |= {"basis": basis, "trial": basis, "small": ("degrees", "degrees"), "reduced": ("degrees",)}
         self.sections |= {"force": ("nv",), "weighed": ("nv",)}
@@ -246,67 +251,71 @@ class _Law:
         left = s.f - s.mass(accelerations)
         multipliers = s.solve(factor, constraints @ s.gauged(left))
         multipliers = s.stored_constrained("scaled", "multipliers", rank, left, s.zeros("m"), multipliers)
-        work = self.work(accelerations, multipliers)
+        work = self.power_without_potential(accelerations, multipliers)
         aim = [("residual", -s.gamma), ("force", s.f)]
         struck, weighed = constraints @ change, s.mass(change)
-        self.add("aim", "the section `residual` = -gamma, the section `force` = f", *aim)
-        self.add("strike", "the section `residual` = D times `change`", ("residual", struck))
-        self.add("weigh", "the section `weighed` = M times `change`", ("weighed", weighed))
+        self.add_part("aim", "the section `residual` = -gamma, the section `force` = f", *aim)
+        self.add_part("strike", "the section `residual` = D times `change`", ("residual", struck))
+        self.add_part("weigh", "the section `weighed` = M times `change`", ("weighed", weighed))
         finish = (("rates.q", s.q_rates), ("multipliers", multipliers), ("rates.work", work))
-        self.add("finish", "q', power and multipliers", *finish)
+        self.add_part("finish", "q', power and multipliers", *finish)
 
-    def dense(self, law: Dense) -> None:
+    def add_orthogonal_factorisation(self, law: Dense) -> None:
         """Add the parts of a law on an orthogonal factorisation of D^T."""
         s, self.form = self.system, "dense"
-        self.expanded()
+        self.add_dense_constraints()
         self.sections |= {name: ("m",) for name in ("row_length", "row_chosen", "row_corner", "row_factor")}
         self.sections |= {"basis": ("nv", "nv"), "small": ("nv", "nv"), "reduced": ("nv",), "force": ("nv",)}
         self.sections["weighed"] = ("nv",)
         change, multipliers = s.variable("change", "nv"), s.variable("multipliers", "m")
-        work, weighed = self.work(s.variable("rates.v", "nv"), multipliers), s.mass(change)
+        work, weighed = self.power_without_potential(s.variable("rates.v", "nv"), multipliers), s.mass(change)
         aim = (("residual", law.target), ("force", s.f))
-        self.add("aim", "the section `residual` = what D v' shall be, `force` = f", *aim)
-        self.add("weigh", "the section `weighed` = M times `change`", ("weighed", weighed))
-        self.add("finish", "q' and power", ("rates.q", s.q_rates), ("rates.work", work))
+        self.add_part("aim", "the section `residual` = what D v' shall be, `force` = f", *aim)
+        self.add_part("weigh", "the section `weighed` = M times `change`", ("weighed", weighed))
+        self.add_part("finish", "q' and power", ("rates.q", s.q_rates), ("rates.work", work))
 
     # -- metrics of corrections ----------------------------------------------------------------------------------------
 
-    def metric(self, name: str, purpose: str, *outputs: tuple[str, Value]) -> None:
+    def add_metric(self, name: str, purpose: str, *outputs: tuple[str, Value]) -> None:
         self.sections |= {"law_lower": (), "law_reciprocal": ()}
-        self.add(name, purpose, *outputs)
+        self.add_part(name, purpose, *outputs)
 
-    def metric_apart(self, matrix: str, factor: Factor) -> None:
+    def add_refactor(self, matrix: str, factor: Factor) -> None:
         """Add ``refactor``, which the law's own ``geometry`` calls after the model's."""
         purpose = f"the factorisation of {matrix} from D, without the rows that depend on others"
-        self.metric("refactor", purpose, ("law_", factor))
+        self.add_metric("refactor", purpose, ("law_", factor))
 
     def only_for_factors(self) -> None:
         """Mark the factor of the last part as one that solutions without factors need not."""
         part = self.parts[-1]
         self.parts[-1] = replace(part, factors=tuple(output for output in part.outputs if output[0] in ("", "law_")))
 
-    def spread(self, change: Vector) -> None:
+    def add_spread(self, change: Vector) -> None:
         if self.share:
             change = self.system.parameter(self.share) * change
-        self.add("spread", "the correction -D^+ times the section `residual`, of v, or of q by N", ("change", change))
+        self.add_part(
+            "spread", "the correction -D^+ times the section `residual`, of v, or of q by N", ("change", change)
+        )
 
     def identity_metric(self) -> None:
         """Add a factorisation and spread in the metric of the identity, in which 1 rad weighs as 1 m: D D^T."""
         s = self.system
         rank = s.rank_factor()
         factor = s.weighted_factor(rank, "identity")
-        self.metric_apart("D D^T", factor)
+        self.add_refactor("D D^T", factor)
         self.only_for_factors()
-        self.spread(_nearest(s, "identity", rank, _change(s, s.stored_factor(factor, "law_"))))
+        self.add_spread(_nearest_change(s, "identity", rank, _correcting_change(s, s.stored_factor(factor, "law_"))))
 
     def mass_metric(self) -> None:
         """Add a factorisation and spread in the metric of M: S = D M^-1 D^T, rows skipped as D G D^T decides."""
         s = self.system
         rank = s.rank_factor()
         factor = s.weighted_factor(rank, "mass")
-        self.metric_apart("D M^-1 D^T", factor)
+        self.add_refactor("D M^-1 D^T", factor)
         self.only_for_factors()
-        self.spread(_nearest(s, "mass", rank, s.minv(_change(s, s.stored_factor(factor, "law_")))))
+        self.add_spread(
+            _nearest_change(s, "mass", rank, s.minv(_correcting_change(s, s.stored_factor(factor, "law_"))))
+        )
 
     def body_metric(self) -> None:
         """Add a factorisation and spread in the metric of the velocities of bodies that joints of a tree carry."""
@@ -316,19 +325,19 @@ class _Law:
         entries = s.body_entries()
         purpose = "Phi, nu, D, the pivots that decide rank, and the factorisation of D W^-1 D^T"
         self.sections["body_entry"] = ()
-        self.metric("geometry", purpose, ("geometry", s.geometry(rank)), ("law_", factor), ("body_entry", entries))
-        self.spread(s.body_inverse(_change(s, s.stored_factor(factor, "law_"))))
+        self.add_metric("geometry", purpose, ("geometry", s.geometry(rank)), ("law_", factor), ("body_entry", entries))
+        self.add_spread(s.body_inverse(_correcting_change(s, s.stored_factor(factor, "law_"))))
 
     def independent_metric(self) -> None:
         """Add geometry and spread that change dependent coordinates only: W^-1 = P G, P in ``dependent``."""
         s = self.system
-        self.expanded()
+        self.add_dense_constraints()
         chosen, rank = s.variable("dependent", "nv"), s.rank_factor(whole=True)
         factor = s.weighted_factor(rank, "dependent")
         written = ("status.partition_quality", s.partition_quality(rank, factor)), ("law_", factor)
         purpose = "Phi, nu, D, the pivots of D G D^T that decide rank, and the factorisation of D P D^T"
-        self.metric("geometry", purpose, ("geometry", s.geometry(rank)), *written)
-        self.spread(chosen.times(s.gauged(_change(s, s.stored_factor(factor, "law_")))))
+        self.add_metric("geometry", purpose, ("geometry", s.geometry(rank)), *written)
+        self.add_spread(chosen.times(s.gauged(_correcting_change(s, s.stored_factor(factor, "law_")))))
 
     def augmented_metric(self) -> None:
         """Add the mass-orthogonal projection by iterations with M + a D^T D (Bayo and Ledesma 1996).
@@ -340,7 +349,7 @@ class _Law:
         s = self.system
         penalties = s.penalties(s.parameter("penalty"))
         factor = s.augmented_metric(penalties)
-        self.metric_apart("M + a D^T D", factor)
+        self.add_refactor("M + a D^T D", factor)
         self.sections |= {"moved": ("nv",), "force_of_constraints": ("m",)}
         residual, moved = s.variable("residual", "m"), s.variable("moved", "nv")
         raised = s.variable("force_of_constraints", "m") + penalties.times(residual)
@@ -348,16 +357,16 @@ class _Law:
         right = s.mass(moved) + s.stored_constraints().transposed(pressed)
         x = s.solve(s.stored_factor(factor, "law_"), -right)
         outputs = (("change", x), ("moved", moved + x), ("force_of_constraints", raised))
-        self.add("spread", "one iteration of the mass-orthogonal projection", *outputs)
+        self.add_part("spread", "one iteration of the mass-orthogonal projection", *outputs)
 
 
-def _change(s: System, factor: Factor) -> Vector:
+def _correcting_change(s: System, factor: Factor) -> Vector:
     """Return ``-D^T (D W D^T)^-1 r`` of the section ``residual``."""
     y = s.solve(factor, -s.variable("residual", "m"))
     return s.stored_constraints().transposed(y)
 
 
-def _nearest(s: System, metric: str, rank: Factor, by_factor: Vector) -> Vector:
+def _nearest_change(s: System, metric: str, rank: Factor, by_factor: Vector) -> Vector:
     """Return the smallest change in a metric with ``D x = -r``."""
     return s.stored_constrained(metric, "change", rank, s.zeros("nv"), -s.variable("residual", "m"), by_factor)
 
@@ -371,7 +380,7 @@ def record_model() -> RecordedLaw:
     s = recording.system
     rank = s.rank_factor()
     purpose = "Phi, nu, D, and the factorisation of D G D^T that decides rank"
-    recording.add("geometry", purpose, ("geometry", s.geometry(rank)), ("", rank))
+    recording.add_part("geometry", purpose, ("geometry", s.geometry(rank)), ("", rank))
     recording.only_for_factors()
-    recording.spread(_nearest(s, "scaled", rank, s.gauged(_change(s, s.stored_factor(rank, "")))))
-    return recording.record()
+    recording.add_spread(_nearest_change(s, "scaled", rank, s.gauged(_correcting_change(s, s.stored_factor(rank, "")))))
+    return recording.recorded()

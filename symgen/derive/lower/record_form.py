@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from symgen.base.errors import InputError
 from symgen.derive.lower.record import EQUATIONS, Part, RecordedLaw
 from symgen.derive.methods._base import Descriptor, Method
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 from symgen.derive.methods._tape import Scalar, Value, Vector
 
 
@@ -50,7 +50,7 @@ def record_form(method: Method, options: Mapping[str, str], kind: str = "whole",
             kinematic = kinematic + s.at_velocity(s.q_rates, s.D.transposed(eta))
         equations += [("q", kinematic), ("v", dynamic)]
     if kind in ("whole", "joint"):
-        equations += zip(EQUATIONS[2:], _constraints(s, form, accelerations, multipliers), strict=False)
+        equations += zip(EQUATIONS[2:], _constraint_groups(s, form, accelerations, multipliers), strict=False)
     drivers = multipliers.dot(s.nu)
     if kind == "joint":
         equations.append(("v", s.D.transposed(multipliers)))
@@ -67,7 +67,7 @@ def record_form(method: Method, options: Mapping[str, str], kind: str = "whole",
     return RecordedLaw(tuple(s.tape.operations), (part,), form=form.level)
 
 
-def _constraints(s: System, form: Descriptor, accelerations: Vector, multipliers: Vector) -> list[Vector]:
+def _constraint_groups(s: System, form: Descriptor, accelerations: Vector, multipliers: Vector) -> list[Vector]:
     """Return the equations of constraints in groups of m, and the rows after the equations for projections."""
     velocity = s.D @ s.v - s.nu
     if form.level == "position":

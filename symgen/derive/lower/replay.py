@@ -41,7 +41,7 @@ class Replay:
         self.graph, self.operations, self.parameters = graph, operations, tuple(parameters)
         self.values: dict[int, Any] = {}
 
-    def run(self, indices: Iterable[int]) -> None:
+    def evaluate_remaining(self, indices: Iterable[int]) -> None:
         """Evaluate the remaining operations, in order."""
         for index in indices:
             if index not in self.values:
@@ -49,11 +49,11 @@ class Replay:
                 operands = [self.values.get(i) for i in operation.operands]
                 arithmetic = ARITHMETIC.get(operation.kind)
                 if arithmetic is not None:
-                    self.values[index] = self.each(getattr(self.graph, arithmetic), *operands)
+                    self.values[index] = self.apply_elementwise(getattr(self.graph, arithmetic), *operands)
                 else:
                     self.values[index] = getattr(self, f"_on_{operation.kind}")(operation, *operands)
 
-    def each(self, function: Callable[..., int], *operands: object) -> Any:
+    def apply_elementwise(self, function: Callable[..., int], *operands: object) -> Any:
         """Return a function of scalars and of the elements of vectors."""
         lengths = [len(x) for x in operands if isinstance(x, tuple)]
         if not lengths:
@@ -78,5 +78,7 @@ class Replay:
 
     def _on_penalties(self, operation: FormulaStep, penalty: int) -> Nodes:
         g = self.graph
-        penalties: Nodes = self.each(lambda mask, a: g.mul(a, g.call("step", g.one, mask)), self.mask, penalty)
+        penalties: Nodes = self.apply_elementwise(
+            lambda mask, a: g.mul(a, g.call("step", g.one, mask)), self.mask, penalty
+        )
         return penalties

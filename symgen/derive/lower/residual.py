@@ -29,7 +29,7 @@ class _Solved:
     unknowns: tuple[int, ...]
 
 
-def by_residual(scalars: ScalarNodes, record: RecordedLaw, outputs: Outputs) -> Outputs | None:
+def outputs_by_residual(scalars: ScalarNodes, record: RecordedLaw, outputs: Outputs) -> Outputs | None:
     """Return the outputs of a right-hand side with other derivatives, None where these take no fewer operations.
 
     Parameters
@@ -41,12 +41,12 @@ def by_residual(scalars: ScalarNodes, record: RecordedLaw, outputs: Outputs) -> 
     outputs : Outputs
         Of the right-hand side.
     """
-    solved = _solved(scalars, record)
+    solved = _equations_solved(scalars, record)
     if solved is None:
         return None
     g = scalars.graph
     held = tuple(g.call("held", node) for node in solved.unknowns)
-    changes = _changes(scalars, solved, held)
+    changes = _newton_change(scalars, solved, held)
     new = {
         node: g.call("carried", node, change)
         for node, change in zip(solved.unknowns, changes, strict=True)
@@ -54,17 +54,17 @@ def by_residual(scalars: ScalarNodes, record: RecordedLaw, outputs: Outputs) -> 
     }
     own = [new.get(node, node) for _, node in outputs]
     for k, (target, _) in enumerate(outputs):
-        place = _place(scalars, target)
+        place = _place_of_output(scalars, target)
         if place is None:
-            (own[k],) = g.rebuilt(g, [own[k]], lambda node: new.get(node, node), new.__contains__)
+            (own[k],) = g.rebuild_from(g, [own[k]], lambda node: new.get(node, node), new.__contains__)
         else:
             own[k] = g.call("carried", solved.unknowns[place], changes[place])
-    if slopes(g, own) >= slopes(g, [node for _, node in outputs]):
+    if count_slope_products(g, own) >= count_slope_products(g, [node for _, node in outputs]):
         return None
     return [(target, node) for (target, _), node in zip(outputs, own, strict=True)]
 
 
-def _place(scalars: ScalarNodes, target: OutputSlot) -> int | None:
+def _place_of_output(scalars: ScalarNodes, target: OutputSlot) -> int | None:
     """Return the place among v' and lambda of an output."""
     e = scalars.equations
     if target.space == "multipliers":
@@ -72,7 +72,7 @@ def _place(scalars: ScalarNodes, target: OutputSlot) -> int | None:
     return target.index - e.nq if target.space == "ydot" and e.nq <= target.index < e.nq + e.nv else None
 
 
-def _solved(scalars: ScalarNodes, record: RecordedLaw) -> _Solved | None:
+def _equations_solved(scalars: ScalarNodes, record: RecordedLaw) -> _Solved | None:
     """Return the equations that a right-hand side solves, None where it solves others, or none."""
     own = [(i, o) for i, o in enumerate(record.operations) if o.kind == "constrained"]
     if len(own) != 2 or len({o.operands[-2:] for _, o in own}) != 1:
@@ -84,46 +84,48 @@ def _solved(scalars: ScalarNodes, record: RecordedLaw) -> _Solved | None:
     return _Solved(f, gamma, (*accelerations, *multipliers))
 
 
-def _changes(scalars: ScalarNodes, solved: _Solved, held: tuple[int, ...]) -> list[int]:
+def _newton_change(scalars: ScalarNodes, solved: _Solved, held: tuple[int, ...]) -> list[int]:
     """Return K^-1 times the residual with held unknowns, K held as well: 0 with the derivatives of the unknowns."""
     g, nv = scalars.graph, scalars.equations.nv
     accelerations, multipliers = held[:nv], held[nv:]
-    forces = zip(scalars.mass_times(accelerations), scalars.transposed(scalars.rows, multipliers), strict=True)
+    forces = zip(
+        scalars.mass_times(accelerations), scalars.product_with_transpose(scalars.rows, multipliers), strict=True
+    )
     residual = [g.sub(f, g.add(x, y)) for f, (x, y) in zip(solved.f, forces, strict=True)]
     residual += [g.sub(x, y) for x, y in zip(solved.gamma, scalars.product(scalars.rows, accelerations), strict=True)]
     right = tuple(g.input(_RIGHT, i) for i in range(len(residual)))
-    solution = [node for part in scalars.solution(right[:nv], right[nv:]) for node in part]
+    solution = [node for part in scalars.solve_plan(right[:nv], right[nv:]) for node in part]
     follows = set[int]()
-    for node in g.needed(solution):
+    for node in g.required_nodes(solution):
         if node in right or not follows.isdisjoint(g.nodes[node].args):
             follows.add(node)
 
-    def image(node: int) -> int:
+    def node_with_held_unknowns(node: int) -> int:
         return residual[g.key(node)[1]] if node in follows else g.call("held", node)
 
-    return g.rebuilt(g, solution, image, lambda node: node not in follows)
+    return g.rebuild_from(g, solution, node_with_held_unknowns, lambda node: node not in follows)
 
 
-def slopes(graph: Graph, ends: Sequence[int]) -> int:
+def count_slope_products(graph: Graph, ends: Sequence[int]) -> int:
     """Return the number of products in the derivatives of some nodes: about the operations of a direction."""
     moving, waiting = dict[int, bool](), list(ends)
     while waiting:
         node = waiting.pop()
         if node not in moving:
             moving[node] = bool(graph.depends[node] & (TIME | POSITION | VELOCITY | PARAMETER))
-            waiting += () if graph.depends[node] == PARAMETER else _differentiated(graph, node)
+            waiting += () if graph.depends[node] == PARAMETER else _arguments_of_derivatives(graph, node)
     count = 0
     for node in sorted(moving):
         op, _, payload = graph.nodes[node]
         if op == "input":
             moving[node] |= payload[0] == "z" if isinstance(payload, tuple) else False
         elif graph.depends[node] != PARAMETER:
-            factors = sum(moving[a] for a in _differentiated(graph, node))
+            factors = sum(moving[a] for a in _arguments_of_derivatives(graph, node))
             moving[node], count = factors > 0, count + factors * (op not in ("add", "sub", "neg", "carried"))
     return count
 
 
-def _differentiated(graph: Graph, node: int) -> tuple[int, ...]:
+def _arguments_of_derivatives(graph: Graph, node: int) -> tuple[int, ...]:
     """Return the arguments of an operation that its derivatives depend on."""
     op, args, _ = graph.nodes[node]
     return () if op == "held" else args[1:] if op == "carried" else args

@@ -11,12 +11,12 @@ from symgen.base.ir.graph import PARAMETER
 from symgen.base.ir.numerics import PARALLEL, SKIP, SUSPICIOUS
 from symgen.base.ir.program import EliminationPlan, FixedVelocities
 from symgen.derive.formulate.equations import without_bounded_rows
-from symgen.derive.lower.blocks import SaddleMatrix
 from symgen.derive.lower.drag import drag_forces
 from symgen.derive.lower.factor import FactorNodes
 from symgen.derive.lower.replay import Nodes
+from symgen.derive.lower.saddle_matrix import SaddleMatrix
 from symgen.derive.lower.scalar_rows import OfRows
-from symgen.derive.methods._tape import FormulaStep, needed
+from symgen.derive.methods._tape import FormulaStep, needed_operations
 
 
 class ScalarNodes(OfRows):
@@ -28,14 +28,14 @@ class ScalarNodes(OfRows):
 
     def with_closed_loops(self, operations: tuple[FormulaStep, ...], plan: EliminationPlan) -> Self:
         """Return a tape in the same graph, nothing evaluated yet, with the loops of a plan in closed form."""
-        other = self.following(operations)
+        other = self.for_tape(operations)
         other.__dict__.pop("saddle", None)
         other.plan, other.stored, other.flags, other.closing = plan, {}, [], True
         return other
 
     def without_bounded_rows(self, operations: tuple[FormulaStep, ...], plan: EliminationPlan, closing: bool) -> Self:
         """Return another tape in the same graph, nothing evaluated yet, of motions with no row with bounds in force."""
-        other = self.following(operations)
+        other = self.for_tape(operations)
         for name in ("saddle", "row_halves", "order", "_schur"):
             other.__dict__.pop(name, None)
         other.equations = without_bounded_rows(self.equations)
@@ -45,32 +45,34 @@ class ScalarNodes(OfRows):
 
     def compute(self, ends: Iterable[int]) -> None:
         """Evaluate the operations that some depend on."""
-        self.run(needed(ends, lambda i: self.operations[i].operands))
+        self.evaluate_remaining(needed_operations(ends, lambda i: self.operations[i].operands))
 
     def _on_constrained(self, operation: FormulaStep, f: Nodes, gamma: Nodes) -> Nodes:
-        accelerations, multipliers = self._dragged(f, gamma) if self.equations.drags else self.saddle.solve(f, gamma)
+        accelerations, multipliers = (
+            self._solve_with_drags(f, gamma) if self.equations.drags else self.saddle.solve(f, gamma)
+        )
         return accelerations if operation.payload == ("accelerations",) else multipliers
 
-    def solution(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
+    def solve_plan(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
         """Return v' and lambda with ``M v' + D^T lambda = f``, ``D v' = gamma``, eliminated as the plan says."""
-        return self.by_factor(f, gamma, self._schur) if self.plan.schur else self.saddle.solve(f, gamma)
+        return self.solve_by_factor(f, gamma, self._schur_factor) if self.plan.schur else self.saddle.solve(f, gamma)
 
-    def _dragged(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
+    def _solve_with_drags(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
         """Return v' and lambda with drags; leave its power and the squares of jamming numbers."""
         g, drags = self.graph, self.equations.drags
         given, effects = (*f, *gamma), list[Nodes]()
         for drag in drags:
             entries = dict(self.directions[drag.row])
             effects.append(tuple(entries.get(j, g.zero) for j in range(len(given))))
-        without, *solved = (self._completed(x, self._rest(x))[1] for x in (given, *effects))
+        without, *solved = (self._complete_solution(x, self._solve_rest(x))[1] for x in (given, *effects))
         alone = [self.reaction(drag, without) for drag in drags]
         parts = [[self.reaction(drag, effect) for effect in solved] for drag in drags]
-        forces, rest = self._drag_forces(alone, parts), self._rest(given)
+        forces, rest = self._drag_forces(alone, parts), self._solve_rest(given)
         for force, effect in zip(forces, effects, strict=True):
-            own = self._rest(effect)
+            own = self._solve_rest(effect)
             rest = {k: g.sub(x, g.mul(force, own[k])) for k, x in rest.items()}
             given = tuple(g.sub(x, g.mul(force, y)) for x, y in zip(given, effect, strict=True))
-        return self._completed(given, rest)
+        return self._complete_solution(given, rest)
 
     def _drag_forces(self, alone: Sequence[Nodes], parts: Sequence[Sequence[Nodes]]) -> list[int]:
         """Return the forces of drags; leave its power and the squares of jamming numbers."""
@@ -91,26 +93,28 @@ class ScalarNodes(OfRows):
         """
         g, keys = self.graph, [("drag", i) for i in range(len(self.equations.drags))]
         reactions = [self.reaction(drag, self.values[multipliers]) for drag in self.equations.drags]
-        alone = [tuple(g.replaced(n, dict.fromkeys(keys, g.zero))) for n in reactions]
+        alone = [tuple(g.replace_inputs(n, dict.fromkeys(keys, g.zero))) for n in reactions]
         slopes = [jacobian(g, n, keys) for n in reactions]
         parts = [[tuple(g.neg(x.get(key, g.zero)) for x in each) for key in keys] for each in slopes]
         forces = dict(zip(keys, self._drag_forces(alone, parts), strict=True))
         for index in dict.fromkeys(ends):
             value = self.values[index]
-            new = g.replaced(value if isinstance(value, tuple) else (value,), forces)
+            new = g.replace_inputs(value if isinstance(value, tuple) else (value,), forces)
             self.values[index] = tuple(new) if isinstance(value, tuple) else new[0]
 
-    def _rest(self, given: Nodes) -> Mapping[int, int]:
+    def _solve_rest(self, given: Nodes) -> Mapping[int, int]:
         """Return the unknowns of v' and lambda that no row alone fixes, linear in f and gamma."""
         if not self.plan.schur:
-            return self.saddle.rest(given)
-        accelerations, multipliers = self.by_factor(given[: self.equations.nv], given[self.equations.nv :], self._schur)
+            return self.saddle.solve_rest(given)
+        accelerations, multipliers = self.solve_by_factor(
+            given[: self.equations.nv], given[self.equations.nv :], self._schur_factor
+        )
         return dict(enumerate((*accelerations, *multipliers)))
 
-    def _completed(self, given: Nodes, rest: Mapping[int, int]) -> tuple[Nodes, Nodes]:
+    def _complete_solution(self, given: Nodes, rest: Mapping[int, int]) -> tuple[Nodes, Nodes]:
         """Return v' and lambda from those that no row alone fixes."""
         if not self.plan.schur:
-            return self.saddle.completed(given, rest)
+            return self.saddle.complete_solution(given, rest)
         unknowns = tuple(rest[i] for i in range(len(given)))
         return unknowns[: self.equations.nv], unknowns[self.equations.nv :]
 
@@ -124,12 +128,12 @@ class ScalarNodes(OfRows):
         g = self.graph
 
         def reciprocal(row: int, pivot: int, _: int) -> int:
-            if self._certain(row, rank.pivots[row], rank.diagonal[row]):
+            if self._is_always_kept(row, rank.pivots[row], rank.diagonal[row]):
                 return g.div(g.one, pivot)
             keep = g.call("step", g.input("pivot", row), g.add(g.constant(SKIP), self.mask[row]))
             return self._masked_reciprocal(keep, pivot)
 
-        matrix = self._with_fixed(self._metric(metric), self.stored_constraints())
+        matrix = self._eliminate_fixed(self._metric_rows(metric), self.stored_constraints())
         matrix.eliminate_rest(reciprocal)
         return matrix
 
@@ -137,18 +141,18 @@ class ScalarNodes(OfRows):
     def saddle(self) -> SaddleMatrix:
         """The eliminated matrix of M and D; masked rows get a reciprocal pivot of 0, small pivots a flag."""
         g, fixed = self.graph, {c for block in self.plan.fixed for c in block.columns}
-        matrix, eliminated = self._with_fixed(self.mass_matrix, self.rows, self.plan.normal), set(self.plan.rows)
+        matrix, eliminated = self._eliminate_fixed(self.mass_matrix, self.rows, self.plan.normal), set(self.plan.rows)
         for loop in self.plan.loops if self.closing else ():
-            square, largest = matrix.close(loop)
+            square, largest = matrix.eliminate_loop(loop)
             sine = PARALLEL if matrix.loops[-1].motion else SUSPICIOUS
-            self.flags.append(self._doubtful(loop, square, largest, sine))
+            self.flags.append(self._is_doubtful_loop(loop, square, largest, sine))
             fixed |= set(loop.columns)
             eliminated |= set(loop.rows)
         for row, entries in enumerate(self.rows):
             if row not in eliminated and fixed & {j for j, _ in entries} and self._pinned_mass(row) is None:
-                rest = self._square(row, sorted(matrix.entries[matrix.nv + row].items()))
-                least = g.mul(g.constant(SUSPICIOUS), self._square(row, entries))
-                self.flags.append(g.call("lt", g.add(rest, self.mask[row]), self.in_force(row, least)))
+                rest = self._square_of_row(row, sorted(matrix.entries[matrix.nv + row].items()))
+                least = g.mul(g.constant(SUSPICIOUS), self._square_of_row(row, entries))
+                self.flags.append(g.call("lt", g.add(rest, self.mask[row]), self.node_in_force(row, least)))
 
         def reciprocal(row: int, pivot: int, first: int) -> int:
             masked = g.add(pivot, self.mask[row])  # the mask is 0, or infinite for a row to be left out
@@ -156,14 +160,14 @@ class ScalarNodes(OfRows):
             if mass is not None:
                 usual = g.div(g.one, mass) if pivot == first else g.call("max", first, g.div(g.one, mass))
             if pivot != usual:
-                least = self.in_force(row, g.mul(g.constant(SUSPICIOUS), usual))
+                least = self.node_in_force(row, g.mul(g.constant(SUSPICIOUS), usual))
                 self.flags.append(g.call("lt", masked, least))
-            return self._masked_reciprocal(self._held(row), masked)
+            return self._masked_reciprocal(self._is_held(row), masked)
 
         matrix.eliminate_rest(reciprocal)
         return matrix
 
-    def _doubtful(self, loop: FixedVelocities, square: int, largest: int, sine: float) -> int:
+    def _is_doubtful_loop(self, loop: FixedVelocities, square: int, largest: int, sine: float) -> int:
         """Return the node that is true where a loop's columns are nearly parallel or short, or a row is masked."""
         g, (a, b), (i, j) = self.graph, loop.rows, loop.columns
         least = g.add(g.mul(g.constant(sine), largest), g.add(self.mask[a], self.mask[b]))

@@ -10,7 +10,7 @@ from typing import Any, Self
 from symgen.base.ir.derivative import jacobian
 from symgen.base.ir.program import STATUS, JacobianEntry, OutputSlot
 from symgen.derive.formulate.equations import Drag, Equations
-from symgen.derive.lower.drag import length
+from symgen.derive.lower.drag import length_of_vector
 from symgen.derive.lower.factor import FactorNodes
 from symgen.derive.lower.replay import Nodes, Replay
 from symgen.derive.methods._tape import FormulaStep
@@ -61,7 +61,7 @@ class NodeValues(Replay):
         #: Whether drags are unknowns of f, one number an element.
         self.pushing = False
 
-    def following(self, operations: tuple[FormulaStep, ...]) -> Self:
+    def for_tape(self, operations: tuple[FormulaStep, ...]) -> Self:
         """Return the same for another tape, in the same graph."""
         other = copy(self)
         other.operations, other.values = operations, {}
@@ -97,13 +97,13 @@ class NodeValues(Replay):
         """Yield drags by the unknown multipliers, as forces along the coordinates."""
         g = self.graph
         for drag in self.equations.drags if self.pressing else ():
-            size = length(g, self.reaction(drag, self.pressing))
+            size = length_of_vector(g, self.reaction(drag, self.pressing))
             yield drag, g.mul(drag.sign, g.mul(drag.coefficient, size))
 
     def reaction(self, drag: Drag, multipliers: Nodes) -> Nodes:
         """Return the components of a reaction that a drag depends on."""
         g = self.graph
-        return tuple(g.total(g.mul(node, multipliers[row]) for row, node in line) for line in drag.pressed)
+        return tuple(g.sum_of(g.mul(node, multipliers[row]) for row, node in line) for line in drag.pressed)
 
     def _on_section(self, operation: FormulaStep) -> Nodes:
         return self.section(str(operation.payload[0]), self.size(operation.size))
@@ -117,7 +117,7 @@ class NodeValues(Replay):
     def _on_driving(self, operation: FormulaStep, accelerations: Nodes) -> int:
         g, driving = self.graph, self.equations.driving
         assert driving is not None, "drivers prescribe coordinates"
-        return g.add(g.total(g.mul(node, accelerations[j]) for j, node in driving.entries), driving.rest)
+        return g.add(g.sum_of(g.mul(node, accelerations[j]) for j, node in driving.entries), driving.rest)
 
     def _on_zeros(self, operation: FormulaStep) -> Nodes:
         return (self.graph.zero,) * self.size(operation.size)
@@ -130,11 +130,11 @@ class NodeValues(Replay):
         return self.graph.dot(a, b)
 
     def _on_at_velocity(self, operation: FormulaStep, x: Nodes | int, v: Nodes) -> Any:
-        return self.at_velocity(x, v) if isinstance(x, tuple) else self.at_velocity((x,), v)[0]
+        return self.with_velocities(x, v) if isinstance(x, tuple) else self.with_velocities((x,), v)[0]
 
-    def at_velocity(self, x: Nodes, v: Nodes) -> Nodes:
+    def with_velocities(self, x: Nodes, v: Nodes) -> Nodes:
         """Return nodes with other velocities in place of the state's."""
-        return tuple(self.graph.replaced(x, {("v", i): n for i, n in enumerate(v)}))
+        return tuple(self.graph.replace_inputs(x, {("v", i): n for i, n in enumerate(v)}))
 
     # -- D -------------------------------------------------------------------------------------------------------------
 
@@ -144,15 +144,15 @@ class NodeValues(Replay):
     def product(self, matrix: Rows, x: Nodes) -> Nodes:
         """Return a matrix times a vector."""
         g = self.graph
-        return tuple(g.total(g.mul(e, x[j]) for j, e in row) for row in matrix)
+        return tuple(g.sum_of(g.mul(e, x[j]) for j, e in row) for row in matrix)
 
     def _on_product(self, operation: FormulaStep, matrix: Rows, x: Nodes) -> Nodes:
         return self.product(matrix, x)
 
     def _on_transposed(self, operation: FormulaStep, matrix: Rows, y: Nodes) -> Nodes:
-        return self.transposed(matrix, y)
+        return self.product_with_transpose(matrix, y)
 
-    def transposed(self, matrix: Rows, y: Nodes) -> Nodes:
+    def product_with_transpose(self, matrix: Rows, y: Nodes) -> Nodes:
         """Return the transpose of a matrix times a vector."""
         g = self.graph
         result = [g.zero] * self.equations.nv
@@ -165,7 +165,7 @@ class NodeValues(Replay):
         g, rows = self.graph, []
         for row in matrix:
             own = dict(row)
-            entries = ((k, g.total(g.mul(own[j], e) for j, e in right if j in own)) for k, right in enumerate(other))
+            entries = ((k, g.sum_of(g.mul(own[j], e) for j, e in right if j in own)) for k, right in enumerate(other))
             rows.append(tuple((k, node) for k, node in entries if node != g.zero))
         return tuple(rows)
 
@@ -194,19 +194,19 @@ class NodeValues(Replay):
         return self.stored_constraints()
 
     def _on_constraint_rate_transposed(self, operation: FormulaStep, y: Nodes, v: Nodes) -> Nodes:
-        g, rates = self.graph, self.along([n for row in self.rows for _, n in row], v)
+        g, rates = self.graph, self.derivatives_along_motion([n for row in self.rows for _, n in row], v)
         result = [g.zero] * self.equations.nv
         for row, factor in zip(self.rows, y, strict=True):
             for j, _ in row:
                 result[j] = g.add(result[j], g.mul(next(rates), factor))
         return tuple(result)
 
-    def along(self, nodes: Sequence[int], v: Nodes) -> Iterator[int]:
+    def derivatives_along_motion(self, nodes: Sequence[int], v: Nodes) -> Iterator[int]:
         """Yield the derivatives of nodes that depend on the position along the motion with velocities `v`."""
         g, e = self.graph, self.equations
-        rates = self.at_velocity(e.q_rates, v)
+        rates = self.with_velocities(e.q_rates, v)
         for slopes in jacobian(g, nodes, [("t", 0), *(("q", i) for i in range(e.nq))]):
-            yield g.total(n if space == "t" else g.mul(n, rates[i]) for (space, i), n in sorted(slopes.items()))
+            yield g.sum_of(n if space == "t" else g.mul(n, rates[i]) for (space, i), n in sorted(slopes.items()))
 
     def neighbours(self, matrix: Rows, coupled: Sequence[Mapping[int, int]] | None = None) -> list[frozenset[int]]:
         """Return, for each row of D, the other rows with which D W D^T has an entry; `coupled`: rows of W, or None."""
@@ -233,11 +233,11 @@ class NodeValues(Replay):
             left.append(weighted)
 
         def entry(i: int, j: int) -> int:
-            return g.total(g.mul(left[i][k], e) for k, e in matrix[j] if k in left[i])
+            return g.sum_of(g.mul(left[i][k], e) for k, e in matrix[j] if k in left[i])
 
-        return self.symmetric(self.neighbours(matrix, weight), entry)
+        return self.symmetric_matrix(self.neighbours(matrix, weight), entry)
 
-    def symmetric(
+    def symmetric_matrix(
         self, neighbours: Sequence[frozenset[int]], entry: Callable[[int, int], int]
     ) -> dict[tuple[int, int], int]:
         """Return a symmetric matrix of a pattern as nodes, each computed once; off-diagonal zeros vanish."""
@@ -251,7 +251,7 @@ class NodeValues(Replay):
 
     # -- kept values ---------------------------------------------------------------------------------------------------
 
-    def _keep(self, section: str, x: Iterable[int]) -> Iterator[int]:
+    def _keep_values(self, section: str, x: Iterable[int]) -> Iterator[int]:
         """Note the values that a function writes to a section, and yield them as inputs, literals unchanged."""
         written = self.stored.setdefault(section, [])
         for node in x:
@@ -261,17 +261,17 @@ class NodeValues(Replay):
             yield node
 
     def _keep_factor(self, factor: FactorNodes, lower: str, reciprocal: str) -> FactorNodes:
-        entries = iter(list(self._keep(lower, (n for k in factor.order for _, n in factor.lower[k]))))
+        entries = iter(list(self._keep_values(lower, (n for k in factor.order for _, n in factor.lower[k]))))
         columns = {k: tuple((i, next(entries)) for i, _ in factor.lower[k]) for k in factor.order}
-        pivots = list(self._keep(reciprocal, (factor.reciprocal[k] for k in factor.order)))
+        pivots = list(self._keep_values(reciprocal, (factor.reciprocal[k] for k in factor.order)))
         reciprocals = dict(zip(factor.order, pivots, strict=True))
         return FactorNodes(factor.order, columns, reciprocals, factor.pivots, factor.diagonal)
 
     def _on_keep(self, operation: FormulaStep, x: Nodes) -> Nodes:
-        return tuple(self._keep(str(operation.payload[0]), x))
+        return tuple(self._keep_values(str(operation.payload[0]), x))
 
     def _on_keep_constraints(self, operation: FormulaStep, matrix: Rows) -> Rows:
-        nodes = iter(list(self._keep(str(operation.payload[0]), (e for row in matrix for _, e in row))))
+        nodes = iter(list(self._keep_values(str(operation.payload[0]), (e for row in matrix for _, e in row))))
         return tuple(tuple((j, next(nodes)) for j, _ in row) for row in matrix)
 
     def _on_keep_factor(self, operation: FormulaStep, factor: FactorNodes) -> FactorNodes:
@@ -281,7 +281,7 @@ class NodeValues(Replay):
         prefix = str(operation.payload[0])
         return self._keep_factor(factor, f"{prefix}lower", f"{prefix}reciprocal")
 
-    def _reciprocal(self, row: int, pivot: int, diagonal: int) -> int:
+    def _reciprocal_pivot(self, row: int, pivot: int, diagonal: int) -> int:
         return self.graph.div(self.graph.one, pivot)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from symgen.base.vocabulary.expressions import Reading, moving, readings
+from symgen.base.vocabulary.expressions import Reading, moving_quantities, readings_in
 from symgen.base.vocabulary.measures import FormulaMeasure, FormulaSpeed, Holonomic, Measure, Sum, Turning
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.mechanism import Force, Joint, Mechanism
@@ -32,7 +32,7 @@ class Beside:
     rows: Mapping[str, int]
 
 
-def turns(measures: Iterable[Any]) -> tuple[Measure, ...]:
+def counted_turns(measures: Iterable[Any]) -> tuple[Measure, ...]:
     """Return those measures, and parts of sums among them, whose turns are counted, each once, in this order."""
     waiting, angles = list(measures), dict[Measure, None]()
     while waiting:
@@ -40,17 +40,17 @@ def turns(measures: Iterable[Any]) -> tuple[Measure, ...]:
         if isinstance(measure, Sum):
             waiting = [part for _, part in measure.terms] + waiting
         elif isinstance(measure, FormulaMeasure | FormulaSpeed):
-            waiting = [r.source for r in moving(measure.of) if isinstance(r, Reading)] + waiting
+            waiting = [r.source for r in moving_quantities(measure.of) if isinstance(r, Reading)] + waiting
         elif isinstance(measure, Turning):
             angles[measure] = None
     return tuple(angles)
 
 
-def measures_of(element: Joint | Force) -> list[Any]:
+def measures_of_element(element: Joint | Force) -> list[Any]:
     """Return the measures of an element in the order of derivation."""
     if isinstance(element, Joint):
-        return [*_held(element), *(m for _, m in element.coordinates)]
-    return [m for e in element.efforts for m in (e.measure, *(r.source for r in readings(e.magnitude)))]
+        return [*_held_measures(element), *(m for _, m in element.coordinates)]
+    return [m for e in element.efforts for m in (e.measure, *(r.source for r in readings_in(e.magnitude)))]
 
 
 def counts_turns(mechanism: Mechanism) -> bool:
@@ -80,13 +80,15 @@ def winding_order(mechanism: Mechanism, shape: str) -> tuple[Measure, ...]:
         return ()
     coordinates = {} if mechanism.topology is None else state_measures(mechanism, mechanism.topology)
     distinct, _ = without_repeats(mechanism)
-    efforts = [m for force in distinct.forces for m in measures_of(force)]
+    efforts = [m for force in distinct.forces for m in measures_of_element(force)]
     efforts += [rotor.angle for rotor in distinct.rotors]
     if shape == "looped":
-        return turns([m for joint in distinct.joints for m in turns(measures_of(joint))] + efforts)
-    rows = [m for joint in distinct.joints for m in _held(joint)]
+        return counted_turns(
+            [m for joint in distinct.joints for m in counted_turns(measures_of_element(joint))] + efforts
+        )
+    rows = [m for joint in distinct.joints for m in _held_measures(joint)]
     rows += [bounded.measure for bounded in distinct.bounded]
-    angles = turns(
+    angles = counted_turns(
         m
         for m in (*rows, *efforts, *(m for joint in distinct.joints for _, m in joint.coordinates))
         if m not in coordinates
@@ -94,5 +96,5 @@ def winding_order(mechanism: Mechanism, shape: str) -> tuple[Measure, ...]:
     return tuple(m for m in angles if m not in coordinates)
 
 
-def _held(joint: Joint) -> list[Any]:
+def _held_measures(joint: Joint) -> list[Any]:
     return [row.measure if isinstance(row, Holonomic) else row.speed for row in joint.rows]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from symgen.derive.methods._base import MethodParameter
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 from symgen.derive.methods._tape import Vector
 
 SOURCE = "the source's value (Marques, Souto, Flores, Multibody Syst. Dyn. 39, 2017)"
@@ -16,7 +16,7 @@ ITERATION_TOLERANCE = MethodParameter(
 )
 
 
-def stabilised(system: System) -> Vector:
+def stabilised_acceleration(system: System) -> Vector:
     """Return gamma - 2 omega mu Phi' - omega^2 Phi."""
     omega, mu = system.parameter("omega"), system.parameter("mu")
     drift = system.D @ system.v - system.nu

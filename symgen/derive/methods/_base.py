@@ -1,6 +1,6 @@
 """Constraint stabilisation methods: an acceleration law, a correction after each accepted step, parameters.
 
-A method is a formula over named blocks (`symgen.derive.methods._formula.System`), lowered like everything else, so one
+A method is a formula over named blocks (`symgen.derive.methods._system.System`), lowered like everything else, so one
 file serves every layout of the emitted code.
 """
 
@@ -17,9 +17,9 @@ from functools import lru_cache
 from pathlib import Path
 from typing import ClassVar
 
-from symgen.base.errors import InputError, nearest
+from symgen.base.errors import InputError, suggest
 from symgen.base.ir.program import Correction
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 from symgen.derive.methods._tape import Scalar, Vector
 
 
@@ -242,14 +242,14 @@ class Method(ABC):
             if name not in options:
                 numbers = [p.name for p in self.parameters]
                 got = f"'{name}'" + (", a number that runs are given" if name in numbers else "")
-                hint = nearest(name, options if name in numbers else [*options, *numbers]) or "it has none"
+                hint = suggest(name, options if name in numbers else [*options, *numbers]) or "it has none"
                 raise InputError(f"option {self.name}.{name}", "an option of the method", got, hint)
             if value not in options[name].values:
                 raise InputError(
                     f"option {self.name}.{name}",
                     "one of " + ", ".join(options[name].values),
                     f"'{value}'",
-                    nearest(value, options[name].values),
+                    suggest(value, options[name].values),
                 )
         return {o.name: values.get(o.name, o.values[0]) for o in self.options if o.emitted}
 
@@ -263,7 +263,7 @@ class Method(ABC):
         For a method from outside the package it includes a digest of the code.
         """
         chosen = (options[o.name] for o in self.options if o.emitted and options[o.name] != o.values[0])
-        parts = [self.name, *chosen, *(("implicit",) if implicit else ()), *_version(type(self))]
+        parts = [self.name, *chosen, *(("implicit",) if implicit else ()), *_digest_of_registered(type(self))]
         return "_".join(parts).replace("-", "_")
 
     def largest_step(self, parameters: Mapping[str, float], boundary: float) -> float | None:
@@ -294,7 +294,7 @@ class Method(ABC):
 
 
 @lru_cache(maxsize=32)
-def _version(kind: type[Method]) -> tuple[str, ...]:
+def _digest_of_registered(kind: type[Method]) -> tuple[str, ...]:
     """Return the digest of a method registered by hand: the key of the cache covers symgen's sources only."""
     outside = [base for base in kind.__mro__ if base.__module__.partition(".")[0] not in ("symgen", "builtins", "abc")]
     if not outside:

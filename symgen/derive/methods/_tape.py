@@ -76,7 +76,7 @@ class Tape:
         return stored
 
 
-def needed(ends: Iterable[int], operands: Callable[[int], tuple[int, ...]]) -> list[int]:
+def needed_operations(ends: Iterable[int], operands: Callable[[int], tuple[int, ...]]) -> list[int]:
     """Return the indices of all operations that `ends` depend on through their `operands`, in their order."""
     indices: set[int] = set()
     waiting = list(ends)
@@ -95,7 +95,7 @@ class Value:
     tape: Tape
     index: int
 
-    def applied(self, cls: type[_Value], kind: str, *operands: Value, size: str = "") -> _Value:
+    def apply(self, cls: type[_Value], kind: str, *operands: Value, size: str = "") -> _Value:
         """Return the result of an operation on values."""
         return cls(self.tape, self.tape.add(FormulaStep(kind, tuple(v.index for v in operands), (), size)))
 
@@ -109,37 +109,37 @@ class Vector(Value):
         return self.tape.operations[self.index].size
 
     def __add__(self, other: Vector) -> Vector:
-        return self.applied(Vector, "add", self, other, size=self.size)
+        return self.apply(Vector, "add", self, other, size=self.size)
 
     def __sub__(self, other: Vector) -> Vector:
-        return self.applied(Vector, "sub", self, other, size=self.size)
+        return self.apply(Vector, "sub", self, other, size=self.size)
 
     def __neg__(self) -> Vector:
-        return self.applied(Vector, "neg", self, size=self.size)
+        return self.apply(Vector, "neg", self, size=self.size)
 
     def times(self, other: Vector) -> Vector:
         """Return the elementwise product."""
-        return self.applied(Vector, "mul", self, other, size=self.size)
+        return self.apply(Vector, "mul", self, other, size=self.size)
 
     def dot(self, other: Vector) -> Scalar:
         """Return the inner product."""
-        return self.applied(Scalar, "dot", self, other)
+        return self.apply(Scalar, "dot", self, other)
 
 
 class Scalar(Value):
     """A number with arithmetic, so that a method's formula reads like the textbook's."""
 
     def __add__(self, other: Scalar) -> Scalar:
-        return self.applied(Scalar, "add", self, other)
+        return self.apply(Scalar, "add", self, other)
 
     def __sub__(self, other: Scalar) -> Scalar:
-        return self.applied(Scalar, "sub", self, other)
+        return self.apply(Scalar, "sub", self, other)
 
     def __neg__(self) -> Scalar:
-        return self.applied(Scalar, "neg", self)
+        return self.apply(Scalar, "neg", self)
 
     def __truediv__(self, other: Scalar) -> Scalar:
-        return self.applied(Scalar, "div", self, other)
+        return self.apply(Scalar, "div", self, other)
 
     @overload
     def __mul__(self, other: Scalar) -> Scalar: ...
@@ -147,37 +147,37 @@ class Scalar(Value):
     def __mul__(self, other: Vector) -> Vector: ...
     def __mul__(self, other: Scalar | Vector) -> Scalar | Vector:
         if isinstance(other, Vector):
-            return self.applied(Vector, "mul", self, other, size=other.size)
-        return self.applied(Scalar, "mul", self, other)
+            return self.apply(Vector, "mul", self, other, size=other.size)
+        return self.apply(Scalar, "mul", self, other)
 
     def __rmul__(self, factor: float) -> Scalar:
         return self.tape.constant(factor) * self
 
     def __pow__(self, exponent: int) -> Scalar:
-        return self.applied(Scalar, "pow", self, self.tape.constant(exponent))
+        return self.apply(Scalar, "pow", self, self.tape.constant(exponent))
 
     def root(self) -> Scalar:
         """Return the square root."""
-        return self.applied(Scalar, "sqrt", self)
+        return self.apply(Scalar, "sqrt", self)
 
     def smaller(self, other: Scalar) -> Scalar:
         """Return the smaller of two scalars."""
-        return self.applied(Scalar, "min", self, other)
+        return self.apply(Scalar, "min", self, other)
 
 
 class Matrix(Value):
     """A matrix used in products only: D by rows, or a root of M^-1."""
 
     def __matmul__(self, x: Vector) -> Vector:
-        return self.applied(Vector, "product", self, x, size="m")
+        return self.apply(Vector, "product", self, x, size="m")
 
     def transposed(self, y: Vector) -> Vector:
         """Return the transpose times a vector."""
-        return self.applied(Vector, "transposed", self, y, size="nv")
+        return self.apply(Vector, "transposed", self, y, size="nv")
 
     def times_transposed(self, other: Matrix) -> Matrix:
         """Return this matrix times the transpose of another one."""
-        return self.applied(Matrix, "times_transposed", self, other)
+        return self.apply(Matrix, "times_transposed", self, other)
 
 
 class Factor(Value):

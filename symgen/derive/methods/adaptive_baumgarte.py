@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from symgen.base.errors import InputError
 from symgen.derive.methods._augmented import SOURCE
 from symgen.derive.methods._base import SOLVER, MethodOption, MethodParameter, MultiplierMethod
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 from symgen.derive.methods._tape import Vector
 
 #: The zero of the stability function of `rk4`, z^4 + 4 z^3 + 12 z^2 + 24 z + 24, that is nearest to the real axis.

@@ -8,7 +8,7 @@ from typing import ClassVar
 from symgen.base.ir.program import Correction
 from symgen.derive.methods._augmented import ITERATION_TOLERANCE, PENALTY
 from symgen.derive.methods._base import Iteration, IterationState, Method, MethodParameter, Rates, multiplier_law
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 from symgen.derive.methods._tape import Vector
 
 

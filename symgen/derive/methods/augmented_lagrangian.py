@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from symgen.derive.methods._augmented import ITERATION_TOLERANCE, MU, OMEGA, PENALTY, stabilised
+from symgen.derive.methods._augmented import ITERATION_TOLERANCE, MU, OMEGA, PENALTY, stabilised_acceleration
 from symgen.derive.methods._base import Iteration, Method, augmented_iteration
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 
 
 class AugmentedLagrangian(Method):
@@ -24,7 +24,7 @@ class AugmentedLagrangian(Method):
 
     def law(self, system: System, options: Mapping[str, str]) -> Iteration:
         """Return the iteration for the stabilised constraints."""
-        return augmented_iteration(system, system.parameter("penalty"), stabilised(system))
+        return augmented_iteration(system, system.parameter("penalty"), stabilised_acceleration(system))
 
 
 KIND = AugmentedLagrangian()

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from symgen.derive.methods._augmented import SOURCE
 from symgen.derive.methods._base import SOLVER, MethodOption, MethodParameter, MultiplierMethod
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 from symgen.derive.methods._tape import Vector
 
 #: Rule whose gains follow from the motion, before the run.

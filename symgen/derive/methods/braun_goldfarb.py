@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 from symgen.derive.methods._tape import Scalar
 from symgen.derive.methods.invariant_stabilization import InvariantStabilization
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from symgen.derive.methods._augmented import MU, OMEGA, stabilised
+from symgen.derive.methods._augmented import MU, OMEGA, stabilised_acceleration
 from symgen.derive.methods._base import Acceleration, Descriptor, Method, MethodParameter
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 
 
 class CompliantConstraints(Method):
@@ -35,12 +35,12 @@ class CompliantConstraints(Method):
     def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
         """Return the law: one solve with S + e."""
         factor = system.compliant_factor(system.parameter("compliance"))
-        multipliers = system.solve(factor, system.D @ system.minv(system.f) - stabilised(system))
+        multipliers = system.solve(factor, system.D @ system.minv(system.f) - stabilised_acceleration(system))
         return Acceleration(system.minv(system.f - system.D.transposed(multipliers)), multipliers)
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
         """Return the same equations without elimination."""
-        return Descriptor("acceleration", stabilised(system), system.parameter("compliance"))
+        return Descriptor("acceleration", stabilised_acceleration(system), system.parameter("compliance"))
 
 
 KIND = CompliantConstraints()

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from symgen.base.ir.program import Correction
 from symgen.derive.methods._base import TOLERANCE, Descriptor, MultiplierMethod
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 
 
 class CoordinatePartitioning(MultiplierMethod):

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from symgen.base.errors import InputError
 from symgen.base.ir.program import Correction
 from symgen.derive.methods._base import SOLVER, TOLERANCE, Descriptor, MethodOption, MultiplierMethod
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 
 
 class DirectCorrection(MultiplierMethod):

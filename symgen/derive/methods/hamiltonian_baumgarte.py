@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from symgen.derive.methods._augmented import ITERATION_TOLERANCE, PENALTY, SOURCE
 from symgen.derive.methods._base import MethodParameter
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 from symgen.derive.methods._tape import Vector
 from symgen.derive.methods.augmented_hamiltonian import AugmentedHamiltonian
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from symgen.base.ir.program import Correction
 from symgen.derive.methods._augmented import ITERATION_TOLERANCE, PENALTY
 from symgen.derive.methods._base import Iteration, Method, MethodParameter, augmented_iteration
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 
 
 class Index1AugmentedLagrangian(Method):

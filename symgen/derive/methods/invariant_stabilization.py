@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import ClassVar
 
 from symgen.derive.methods._base import Acceleration, Method, MethodParameter
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 from symgen.derive.methods._tape import Scalar
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from symgen.derive.methods._augmented import MU, OMEGA, stabilised
+from symgen.derive.methods._augmented import MU, OMEGA, stabilised_acceleration
 from symgen.derive.methods._base import Acceleration, Descriptor, Method, MethodParameter
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 
 
 class Penalty(Method):
@@ -37,14 +37,14 @@ class Penalty(Method):
 
     def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
         """Return the law: one solve with M + a D^T D."""
-        penalties, target = system.penalties(system.parameter("penalty")), stabilised(system)
+        penalties, target = system.penalties(system.parameter("penalty")), stabilised_acceleration(system)
         right = system.f + system.D.transposed(penalties.times(target))
         acceleration = system.solve(system.augmented_factor(penalties), right)
         return Acceleration(acceleration, penalties.times(system.D @ acceleration - target))
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
         """Return the same equations with lambda = a (D v' - g) kept as an unknown."""
-        return Descriptor("acceleration", stabilised(system), system.inverse(system.parameter("penalty")))
+        return Descriptor("acceleration", stabilised_acceleration(system), system.inverse(system.parameter("penalty")))
 
 
 KIND = Penalty()

@@ -16,7 +16,7 @@ from symgen.derive.methods._base import (
     augmented_iteration,
     multiplier_law,
 )
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 from symgen.derive.methods._tape import Vector
 
 #: The largest penalty over the mean mass, and how often what a solution leaves of the force is solved for again: each
@@ -29,8 +29,8 @@ class StiffnessScaledPenalty(Method):
 
     The independent rows determine the constraint force F = D^T lambda. ``(M + D^T a D) z = F``,
     ``lambda += a D z``, ``F -= D^T a D z`` with penalties a like the stiffness k, of redundant rows as well, gives
-    ``lambda = k D z``: loads are shared in proportion to k. Penalties act on multipliers alone: in the law
-    itself those of redundant rows would act on the motion, as these rows are independent at the stages of a step.
+    ``lambda = k D z``: loads are shared in proportion to k. Penalties act on multipliers alone: redundant rows
+    are independent at the stages of a step, so that in the law itself their penalties would change the motion.
     """
 
     name = "stiffness-scaled-penalty"
@@ -58,11 +58,11 @@ class StiffnessScaledPenalty(Method):
         if options["solver"] == "augmented":
             iterated = augmented_iteration(system, system.heavy_penalty, system.gamma)
             multipliers = system.variable("multipliers", system.gamma.size)
-            return replace(iterated, multipliers=self._shared(system, multipliers))
+            return replace(iterated, multipliers=self._multipliers_by_stiffness(system, multipliers))
         motion = multiplier_law(system, system.gamma)
-        return Acceleration(motion.acceleration, self._shared(system, motion.multipliers))
+        return Acceleration(motion.acceleration, self._multipliers_by_stiffness(system, motion.multipliers))
 
-    def _shared(self, system: System, multipliers: Vector) -> Vector:
+    def _multipliers_by_stiffness(self, system: System, multipliers: Vector) -> Vector:
         """Return multipliers of the same force in proportion to the stiffness."""
         stiffness = system.row_stiffness(system.parameter("stiffness"))
         penalties = (_HEAVY * system.scale("mean_mass") / stiffness.dot(stiffness).root()) * stiffness

@@ -5,13 +5,22 @@ from __future__ import annotations
 import heapq
 from dataclasses import dataclass
 
-from symgen.base.vocabulary.expressions import ZERO, Expr, call, difference, dot, literal_of, product, sum_of_terms
+from symgen.base.vocabulary.expressions import (
+    ZERO,
+    Expr,
+    call,
+    difference,
+    literal_of,
+    product,
+    scalar_product_of,
+    sum_of_terms,
+)
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.beams.beam_sections import BeamSection
 from symgen.describe.mechanism import Vec
-from symgen.describe.parts.fields import words_of
+from symgen.describe.parts.fields import value_in_words
 from symgen.describe.parts.scope import Scope
-from symgen.describe.parts.triads import triad
+from symgen.describe.parts.triads import triad_from_directions
 
 #: Maximum number of elements of a beam: `check` takes some seconds, and four times that of twice as many.
 MOST_ELEMENTS = 250
@@ -20,7 +29,7 @@ _FEW = {1: (0.5,), 2: (1 / 3, 4 / 3), 3: (3 / 8, 9 / 8), 4: (14 / 45, 64 / 45, 2
 _MANY = (3 / 8, 7 / 6, 23 / 24)
 
 
-def weights(elements: int) -> list[float]:
+def node_weights(elements: int) -> list[float]:
     """Return the weights of the nodes of a segment in lengths of its elements, all above 0."""
     ends = _FEW.get(elements, _MANY)
     return [(*ends, 1.0)[min(k, elements - k, len(ends))] for k in range(elements + 1)]
@@ -66,7 +75,7 @@ class Segment:
     @property
     def chord(self) -> Expr:
         """The distance of its ends."""
-        return call("sqrt", dot(self.between, self.between))
+        return call("sqrt", scalar_product_of(self.between, self.between))
 
     @property
     def length(self) -> Expr:
@@ -86,8 +95,8 @@ class Segment:
         """The curvature towards the second axis."""
         return ZERO if self.bend == ZERO else call("div", self.bend, self.length)
 
-    def pose(self, k: int) -> tuple[Vec, tuple[Vec, ...], Expr, tuple[Vec, Vec]]:
-        """Return place, axes, angle and sides of the cross section behind `k` elements."""
+    def section_pose(self, k: int) -> tuple[Vec, tuple[Vec, ...], Expr, tuple[Vec, Vec]]:
+        """Return place, axes, angle and sides of the cross section after `k` elements."""
         part, (first, second) = literal_of(k / self.elements), self.axes[:2]
         reach: Expr = product(part, self.chord)
         across: Expr = ZERO
@@ -109,7 +118,7 @@ class Segment:
         return place, (x, y, *self.axes[2:]), sum_of_terms(call("atan2", first[1], first[0]), turn), sides
 
 
-def segments(scope: Scope, beam: BeamSection) -> list[Segment]:
+def beam_segments(scope: Scope, beam: BeamSection) -> list[Segment]:
     """Return the segments of a beam's line from its start to its end.
 
     Raises
@@ -117,20 +126,28 @@ def segments(scope: Scope, beam: BeamSection) -> list[Segment]:
     InputError
         If points, arc, axis of the section or number of elements are wrong.
     """
-    points, bend = _points(scope, beam), ZERO if beam.arc is None else scope.constant("arc", beam.arc)
+    points, bend = _beam_vertices(scope, beam), ZERO if beam.arc is None else scope.constant("arc", beam.arc)
     if not abs(scope.value(bend, "arc")) < 6.28:
-        raise scope.error("arc", "less than a turn [rad]", words_of(beam.arc))
-    sides, lines, lengths = _sides(scope, beam, len(points) - 1), list[tuple[Vec, Vec, Vec, tuple[Vec, ...]]](), []
+        raise scope.error("arc", "less than a turn [rad]", value_in_words(beam.arc))
+    sides, lines, lengths = (
+        _section_sides(scope, beam, len(points) - 1),
+        list[tuple[Vec, Vec, Vec, tuple[Vec, ...]]](),
+        [],
+    )
     for (_, start), (key, point), side in zip(points, points[1:], sides, strict=False):
         between = tuple(map(difference, point, start))
-        chord = call("sqrt", dot(between, between))
+        chord = call("sqrt", scalar_product_of(between, between))
         lengths.append(scope.value(chord, key))
         if not lengths[-1] > 0.0:
             raise scope.error(key, f"another point than {'start' if key == 'end' else 'the one before'}", "the same")
         along = tuple(e if e == ZERO else call("div", e, chord) for e in between)
-        axes = triad(scope, "y_axis", along, side) if scope.spatial else (along, (call("neg", along[1]), along[0]))
+        axes = (
+            triad_from_directions(scope, "y_axis", along, side)
+            if scope.spatial
+            else (along, (call("neg", along[1]), along[0]))
+        )
         lines.append((start, between, side, axes))
-    counts = _counts(scope, beam.elements, lengths)
+    counts = _elements_of_segments(scope, beam.elements, lengths)
     return [Segment(*line, bend, count) for line, count in zip(lines, counts, strict=True)]
 
 
@@ -140,16 +157,16 @@ def cross_sections(scope: Scope, line: list[Segment]) -> list[list[CrossSection]
     nodes, before, whole = list[list[CrossSection]]([[]]), 0.0, sum(lengths)
     for segment, length in zip(line, lengths, strict=True):
         step = segment.step
-        for k, weight in enumerate(weights(segment.elements)):
+        for k, weight in enumerate(node_weights(segment.elements)):
             if k > 0:
                 nodes.append([])
             part = (before + length * k / segment.elements) / whole
-            nodes[-1].append(CrossSection(*segment.pose(k), part, product(literal_of(weight), step)))
+            nodes[-1].append(CrossSection(*segment.section_pose(k), part, product(literal_of(weight), step)))
         before += length
     return nodes
 
 
-def _points(scope: Scope, beam: BeamSection) -> list[tuple[str, Vec]]:
+def _beam_vertices(scope: Scope, beam: BeamSection) -> list[tuple[str, Vec]]:
     """Return the vertices of a beam's line, its ends among them, each with its key."""
     ends = {"start": beam.start, "end": beam.end}
     if beam.line is None:
@@ -159,33 +176,35 @@ def _points(scope: Scope, beam: BeamSection) -> list[tuple[str, Vec]]:
         return [(key, scope.vector(key, point)) for key, point in ends.items() if point is not None]
     for key, value in {**ends, "arc": beam.arc}.items():
         if value is not None:
-            raise scope.error(key, "no such key beside the key line", words_of(value))
+            raise scope.error(key, "no such key beside the key line", value_in_words(value))
     return [(f"line[{i}]", scope.vector(f"line[{i}]", point)) for i, point in enumerate(beam.line)]
 
 
-def _sides(scope: Scope, beam: BeamSection, count: int) -> list[Vec]:
+def _section_sides(scope: Scope, beam: BeamSection, count: int) -> list[Vec]:
     """Return a direction on the side of y of each segment's section; none in the plane."""
     if not scope.spatial:
         if beam.y_axis is not None:
-            raise scope.error("y_axis", "no such key in the plane", words_of(beam.y_axis))
+            raise scope.error("y_axis", "no such key in the plane", value_in_words(beam.y_axis))
         return [()] * count
     written = (0.0, 1.0, 0.0) if beam.y_axis is None else beam.y_axis
     listed = [e for e in written if isinstance(e, tuple)]
     plain = [tuple(e for e in written if not isinstance(e, tuple))] * count
     if (listed and len(listed) != count) or len(listed) not in (0, len(written)):
         expected = "one direction" if count == 1 else f"one direction, or {count}, one for each segment"
-        raise scope.error("y_axis", expected, words_of(written))
+        raise scope.error("y_axis", expected, value_in_words(written))
     return [scope.direction("y_axis", GROUND, side).vector for side in listed or plain]
 
 
-def _counts(scope: Scope, elements: int | tuple[int, ...], lengths: list[float]) -> list[int]:
+def _elements_of_segments(scope: Scope, elements: int | tuple[int, ...], lengths: list[float]) -> list[int]:
     """Return the number of elements of each segment; where it is free, the longest element is as short as possible."""
     least = len(lengths)
     counts = list(elements) if isinstance(elements, tuple) else [1] * least
     whole = sum(counts) if isinstance(elements, tuple) else elements
     if not least <= whole <= MOST_ELEMENTS or len(counts) != least or min(counts) < 1:
         listed = f", or {least} numbers above 0, one for each segment" if least > 1 else ""
-        raise scope.error("elements", f"a number of elements, {least} to {MOST_ELEMENTS}{listed}", words_of(elements))
+        raise scope.error(
+            "elements", f"a number of elements, {least} to {MOST_ELEMENTS}{listed}", value_in_words(elements)
+        )
     steps = [(-length / count, i) for i, (length, count) in enumerate(zip(lengths, counts, strict=True))]
     heapq.heapify(steps)
     for _ in range(whole - sum(counts)):

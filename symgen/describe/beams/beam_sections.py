@@ -10,7 +10,17 @@ import msgspec
 
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, call, difference, literal_of, product, sum_of_terms
 from symgen.describe.formulas.formula_text import file_value
-from symgen.describe.parts.fields import Across, Counts, Held, Scalar, Sides, StateVector, Vector, Vertices, words_of
+from symgen.describe.parts.fields import (
+    Across,
+    Counts,
+    Held,
+    Scalar,
+    Sides,
+    StateVector,
+    Vector,
+    Vertices,
+    value_in_words,
+)
 from symgen.describe.parts.scope import Scope
 
 
@@ -120,7 +130,7 @@ class Properties:
     rotary: tuple[Expr, ...]
 
 
-def properties_of(scope: Scope, beam: BeamSection) -> Properties:
+def section_properties(scope: Scope, beam: BeamSection) -> Properties:
     """Return stiffnesses and masses of a beam by its length.
 
     Raises
@@ -135,46 +145,48 @@ def properties_of(scope: Scope, beam: BeamSection) -> Properties:
         raise scope.error(missing, "a table, as section and material belong together", "no such key")
     if beam.section is not None and beam.material is not None:
         if named:
-            raise scope.error(named[0], "no such key beside section and material", words_of(getattr(beam, named[0])))
-        return _of_material(scope, beam.section, beam.material)
+            raise scope.error(
+                named[0], "no such key beside section and material", value_in_words(getattr(beam, named[0]))
+            )
+        return _properties_of_material(scope, beam.section, beam.material)
     for key in ("axial", "bending", "mass", *(("torsion",) if scope.spatial else ())):
         if getattr(beam, key) is None:
             raise scope.error(key, "a value, or the tables section and material", "no such key")
     keys = {key: getattr(beam, key) for key in direct[:4] if getattr(beam, key) is not None}
     assert beam.mass is not None, "the loop above requires it"
-    return Properties(keys, scope.constant("mass", beam.mass, positive=True), _rotary(scope, beam))
+    return Properties(keys, scope.constant("mass", beam.mass, positive=True), _rotary_inertias(scope, beam))
 
 
-def _rotary(scope: Scope, beam: BeamSection) -> tuple[Expr, ...]:
+def _rotary_inertias(scope: Scope, beam: BeamSection) -> tuple[Expr, ...]:
     """Return rotary inertias; without them nodes would turn without a mass."""
     result = () if beam.rotary is None else scope.several("rotary", beam.rotary, 3 if scope.spatial else 1)
     if not all(scope.value(inertia, "rotary") > 0.0 for inertia in result or (ZERO,)):
         hint = "rho I of the section, density times second moment of area, makes the nodes' turns a motion"
-        got = "no such key" if beam.rotary is None else words_of(beam.rotary)
+        got = "no such key" if beam.rotary is None else value_in_words(beam.rotary)
         raise scope.error("rotary", "a rotary inertia by length above 0", got, hint)
     return result
 
 
-def _of_material(scope: Scope, section: ProfileSection, material: MaterialSection) -> Properties:
+def _properties_of_material(scope: Scope, section: ProfileSection, material: MaterialSection) -> Properties:
     young, density = (
         scope.constant(f"material.{k}", getattr(material, k), positive=True) for k in ("young", "density")
     )
     poisson = scope.constant("material.poisson", material.poisson)
     if not -1.0 < scope.value(poisson, "material.poisson") <= 0.5:
-        raise scope.error("material.poisson", "a ratio above -1, at most 0.5", words_of(material.poisson))
+        raise scope.error("material.poisson", "a ratio above -1, at most 0.5", value_in_words(material.poisson))
     keys = {key: getattr(section, key) for key in section.__struct_fields__ if getattr(section, key) is not None}
     sizes = {key: scope.constant(f"section.{key}", value, positive=True) for key, value in keys.items()}
     if sizes.keys() == {"width", "height"}:
-        area, moments, torsion = _rectangle(sizes["width"], sizes["height"])
+        area, moments, torsion = _rectangle_moments(sizes["width"], sizes["height"])
         factor = _shear_factor(poisson, (10.0, 10.0), (12.0, 11.0))
     elif sizes.keys() == {"diameter"}:
-        area, moments, torsion = _ring(sizes["diameter"], ZERO)
+        area, moments, torsion = _ring_moments(sizes["diameter"], ZERO)
         factor = _shear_factor(poisson, (6.0, 6.0), (7.0, 6.0))
     elif sizes.keys() == {"diameter", "thickness"}:
         inner = difference(sizes["diameter"], product(literal_of(2.0), sizes["thickness"]))
         if not scope.value(inner, "section.thickness") >= 0.0:
-            raise scope.error("section.thickness", "at most half of the diameter", words_of(section.thickness))
-        area, moments, torsion = _ring(sizes["diameter"], inner)
+            raise scope.error("section.thickness", "at most half of the diameter", value_in_words(section.thickness))
+        area, moments, torsion = _ring_moments(sizes["diameter"], inner)
         factor = _shear_factor(poisson, (2.0, 2.0), (4.0, 3.0))
     else:
         expected = "width and height, diameter, or diameter and thickness"
@@ -195,7 +207,7 @@ def _of_material(scope: Scope, section: ProfileSection, material: MaterialSectio
     return Properties(stiffness, product(density, area), rotary)
 
 
-def _rectangle(width: Expr, height: Expr) -> tuple[Expr, tuple[Expr, Expr], Expr]:
+def _rectangle_moments(width: Expr, height: Expr) -> tuple[Expr, tuple[Expr, Expr], Expr]:
     """Return area, second moments about y and z, and the torsion constant (Saint-Venant's series)."""
     area, ratio = product(width, height), call("div", width, height)
     about_y = product(area, product(width, width), literal_of(1.0 / 12.0))
@@ -209,7 +221,7 @@ def _rectangle(width: Expr, height: Expr) -> tuple[Expr, tuple[Expr, Expr], Expr
     return area, (about_y, about_z), torsion
 
 
-def _ring(outer: Expr, inner: Expr) -> tuple[Expr, tuple[Expr, Expr], Expr]:
+def _ring_moments(outer: Expr, inner: Expr) -> tuple[Expr, tuple[Expr, Expr], Expr]:
     """Return area, second moments and torsion constant of a circle with a hole."""
     squares = [product(d, d) for d in (outer, inner)]
     area = product(literal_of(0.25 * math.pi), difference(*squares))

@@ -3,7 +3,7 @@
 A node has the mass and the rotary inertia of the beam at its place, by the weights of a rule of integration that is
 exact for cubics and positive (Gregory's, of fourth order), so that mass, centre of mass and moments of inertia of the
 beam are exact, and frequencies converge as its elements do while M stays diagonal. A node at a vertex of a line has the
-masses of the ends of two segments, and the elements before and behind it have axes of their own there.
+masses of the ends of two segments, and the elements before and after it have their own axes there.
 """
 
 from __future__ import annotations
@@ -15,35 +15,35 @@ from typing import Any
 
 import msgspec
 
-from symgen.base.errors import nearest, quoted
+from symgen.base.errors import quote, suggest
 from symgen.base.vocabulary.expressions import (
     ONE,
     ZERO,
     Expr,
     call,
     difference,
-    dot,
     literal_of,
     product,
+    scalar_product_of,
     sum_of_terms,
     vector_product,
 )
 from symgen.base.vocabulary.measures import GROUND
-from symgen.base.vocabulary.rotations import matrix
-from symgen.describe.beams.beam_lines import CrossSection, cross_sections, segments
-from symgen.describe.beams.beam_sections import BeamSection, Properties, properties_of
-from symgen.describe.formulas.evaluate import scalars
+from symgen.base.vocabulary.rotations import rotation_matrix_of
+from symgen.describe.beams.beam_lines import CrossSection, beam_segments, cross_sections
+from symgen.describe.beams.beam_sections import BeamSection, Properties, section_properties
+from symgen.describe.formulas.evaluate import scalar_values
 from symgen.describe.formulas.formula_text import file_value, to_text
 from symgen.describe.formulas.start import euler_parameters
 from symgen.describe.mechanism import AnyBody, Body, Vec
-from symgen.describe.parts.bodies import shifted
+from symgen.describe.parts.bodies import shift_tensor
 from symgen.describe.parts.collected import Errors
-from symgen.describe.parts.fields import read_table, words_of
+from symgen.describe.parts.fields import read_table, value_in_words
 from symgen.describe.parts.kinds import FORCES, JOINTS
 from symgen.describe.parts.scope import CENTRE, Scope
 
 Raw = Mapping[str, Any]
-#: Names of the nodes at the ends, and of elements and loads behind a beam's name.
+#: Names of the nodes at the ends, and of elements and loads, after a beam's name.
 START, END, ELEMENT, LOAD = "start", "end", "e", "load"
 _PLACE = re.compile(r"at\(\s*([0-9.eE+-]+)\s*\)")
 #: Coordinates of the place in a load by length.
@@ -74,9 +74,9 @@ class _Seat:
     place: str | list[float | str]
     sides: list[tuple[Vec, ...]]
 
-    def side(self, section: int, i: int) -> list[float | str]:
+    def written_axis(self, section: int, i: int) -> list[float | str]:
         """Return direction x or y of a cross section as written in a file."""
-        return _written(self.sides[section][i])
+        return _write_vector(self.sides[section][i])
 
 
 #: A point of a rigid beam, its velocity, and three components of the angular velocity.
@@ -118,8 +118,8 @@ class Beams:
         self.bodies: dict[str, Any] = {}
         self.forces: dict[str, Any] = {}
 
-    def expanded(self) -> dict[str, Any]:
-        """Return the description without beams: with their nodes behind its bodies, their elements before its forces.
+    def expand(self) -> dict[str, Any]:
+        """Return the description without beams: with their nodes after its bodies and their elements before its forces.
 
         Raises
         ------
@@ -128,43 +128,47 @@ class Beams:
         """
         for name, table in self.raw["beams"].items():
             scope = self.scope_of("beams", name)
-            with self.errors.apart(name):
-                self._add(scope, name, read_table(BeamSection, table, scope.where("")))
-        self.errors.need(*self.raw["beams"])
+            with self.errors.part_of_description(name):
+                self._add_beam(scope, name, read_table(BeamSection, table, scope.where("")))
+        self.errors.leave_if_wrong(*self.raw["beams"])
         raw = {key: dict(value) if key in ("joints", "forces") else value for key, value in self.raw.items()}
         for section in ("joints", "forces"):
             for name, table in self.raw.get(section, {}).items():
                 if isinstance(table, Mapping):
                     del raw[section][name]
-                    with self.errors.apart(name):
-                        raw[section][name] = self._on_nodes(self.scope_of(section, name), dict(table), section)
+                    with self.errors.part_of_description(name):
+                        raw[section][name] = self._replace_beams_by_nodes(
+                            self.scope_of(section, name), dict(table), section
+                        )
         del raw["beams"]
         return raw | {
             "bodies": {**self.raw.get("bodies", {}), **self.bodies},
             "forces": {**self.forces, **raw.get("forces", {})},
         }
 
-    def counted(self) -> dict[str, Any]:
+    def count_elements(self) -> dict[str, Any]:
         """Return the description with the number of elements of each segment of its beams."""
         beams = {name: {**table, "elements": self._counts[name]} for name, table in self.raw["beams"].items()}
         return {**self.raw, "beams": beams}
 
-    def with_ends(self, body: AnyBody) -> AnyBody:
+    def add_end_masses(self, body: AnyBody) -> AnyBody:
         """Return a body with the masses of the ends of beams that are part of it."""
         for further in self._further.get(body.name, ()):
-            body = _with_mass(body, further)
+            body = _add_mass(body, further)
         return body
 
     # -- nodes and elements ------------------------------------------------------------------------------------------
 
-    def _add(self, scope: Scope, name: str, beam: BeamSection) -> None:
+    def _add_beam(self, scope: Scope, name: str, beam: BeamSection) -> None:
         if beam.load is not None and any(x in scope.context.states for x in "xyz"):
             raise scope.error("load", "x, y and z to mean the place", "a parameter or an input of that name")
-        line, properties = segments(scope, beam), properties_of(scope, beam)
+        line, properties = beam_segments(scope, beam), section_properties(scope, beam)
         clamps = (beam.clamp, "") if isinstance(beam.clamp, str) else beam.clamp
         if len(clamps) != 2:
-            raise scope.error("clamp", "one body, or two: that of the start and that of the end", words_of(beam.clamp))
-        nodes, motion, seats = cross_sections(scope, line), _motion(scope, beam, line[0].start), list[_Seat]()
+            raise scope.error(
+                "clamp", "one body, or two: that of the start and that of the end", value_in_words(beam.clamp)
+            )
+        nodes, motion, seats = cross_sections(scope, line), _rigid_motion(scope, beam, line[0].start), list[_Seat]()
         last = len(nodes) - 1
         self._counts[name], self._nodes[name] = [segment.elements for segment in line], []
         for k, sections in enumerate(nodes):
@@ -172,13 +176,13 @@ class Beams:
             host = {0: clamps[0], last: clamps[1]}.get(k, "")
             self._nodes[name].append(("" if host else node, sections[0].part))
             if host:
-                seats.append(self._clamp(scope, host, sections[0], properties))
+                seats.append(self._clamped_seat(scope, host, sections[0], properties))
             else:
-                seats.append(self._node(node, beam, sections, properties, motion))
+                seats.append(self._node_seat(node, beam, sections, properties, motion))
             if beam.load is not None and host != GROUND:
-                at = self._point(host, node.replace(".", "_"), seats[-1].place) if host else CENTRE
+                at = self._name_clamped_point(host, node.replace(".", "_"), seats[-1].place) if host else CENTRE
                 size, place = sum_of_terms(*(section.share for section in sections)), f"{host}.{at}" if host else node
-                load = [_times_text(size, part, place) for part in beam.load]
+                load = [_load_on_node(size, part, place) for part in beam.load]
                 self.forces[f"{name}.{LOAD}{k}"] = {"type": "force", "body": host or node, "at": at, "force": load}
         k = 0
         for segment in line:
@@ -189,32 +193,36 @@ class Beams:
                 element["curvature"] = [0.0, 0.0, bend] if scope.spatial else bend
             for _ in range(segment.elements):
                 a, b, k = seats[k], seats[k + 1], k + 1
-                keys = {"between": [a.body, b.body], "at": [a.place, b.place], "axis": [a.side(-1, 0), b.side(0, 0)]}
+                keys = {
+                    "between": [a.body, b.body],
+                    "at": [a.place, b.place],
+                    "axis": [a.written_axis(-1, 0), b.written_axis(0, 0)],
+                }
                 if scope.spatial:
-                    keys["reference"] = [a.side(-1, 1), b.side(0, 1)]
+                    keys["reference"] = [a.written_axis(-1, 1), b.written_axis(0, 1)]
                 self.forces[f"{name}.{ELEMENT}{k}"] = element | keys
 
-    def _node(
+    def _node_seat(
         self, name: str, beam: BeamSection, sections: list[CrossSection], properties: Properties, motion: _Motion | None
     ) -> _Seat:
         """Return the seat of a node, which becomes a body."""
         vertex, own = len(sections) > 1, sections[0]
         dimension = len(own.place)
         unturned = _UNTURNED[dimension]
-        (mass, inertia), *others = (_mass(properties, s, s.axes if vertex else None) for s in sections)
+        (mass, inertia), *others = (_section_mass(properties, s, s.axes if vertex else None) for s in sections)
         if vertex:  # it has no direction of its own
             own = replace(own, axes=unturned, angle=ZERO)
             self._further[name] = [_Mass((ZERO,) * dimension, *other) for other in others]
         self.bodies[name] = {
             "mass": file_value(mass),
-            "inertia": _written(inertia) if dimension == 3 else file_value(*inertia),
+            "inertia": _write_vector(inertia) if dimension == 3 else file_value(*inertia),
             "hold": beam.hold,
-            **_pose(own),
-            **({} if motion is None else _velocities(own, motion)),
+            **_pose_keys(own),
+            **({} if motion is None else _node_velocities(own, motion)),
         }
         return _Seat(name, CENTRE, [section.sides if vertex else unturned for section in sections])
 
-    def _point(self, body: str, name: str, place: str | list[float | str]) -> str:
+    def _name_clamped_point(self, body: str, name: str, place: str | list[float | str]) -> str:
         """Return the name of a further point of a body with a clamped end."""
         table = self.bodies.get(body, self.raw["bodies"][body])
         points = table.get("points", {})
@@ -223,27 +231,27 @@ class Beams:
         self.bodies[body] = {**table, "points": {**points, name: place}}
         return name
 
-    def _clamp(self, scope: Scope, name: str, end: CrossSection, properties: Properties) -> _Seat:
+    def _clamped_seat(self, scope: Scope, name: str, end: CrossSection, properties: Properties) -> _Seat:
         """Return the seat of a clamped end on its body, which takes the mass of the end."""
         if name == GROUND:
-            return _Seat(name, _written(end.place), [end.sides])
+            return _Seat(name, _write_vector(end.place), [end.sides])
         bodies = self.raw.get("bodies", {})
         if name not in bodies:
-            got = f"the unknown body {quoted(name)}"
-            raise scope.error("clamp", "the name of a body or 'ground'", got, nearest(name, [*bodies, GROUND]))
+            got = f"the unknown body {quote(name)}"
+            raise scope.error("clamp", "the name of a body or 'ground'", got, suggest(name, [*bodies, GROUND]))
         body = self.body_of(self.scope_of("bodies", name), bodies[name])
         if body.is_point:
             raise scope.error("clamp", "a body with an angle", f"the point mass '{name}'")
-        frame = _axes_of(scope, body)
-        (place,) = _within(frame, [tuple(map(difference, end.place, body.position))])
-        mass = _Mass(place, *_mass(properties, end, _within(frame, end.axes)))
+        frame = _body_axes(scope, body)
+        (place,) = _in_frame(frame, [tuple(map(difference, end.place, body.position))])
+        mass = _Mass(place, *_section_mass(properties, end, _in_frame(frame, end.axes)))
         self._further.setdefault(name, []).append(mass)
-        self._centres[name] = _written(body.centre_of_mass)
-        return _Seat(name, _written(place), [_within(frame, end.sides)])
+        self._centres[name] = _write_vector(body.centre_of_mass)
+        return _Seat(name, _write_vector(place), [_in_frame(frame, end.sides)])
 
     # -- names of nodes ----------------------------------------------------------------------------------------------
 
-    def _on_nodes(self, scope: Scope, table: dict[str, Any], section: str) -> dict[str, Any]:
+    def _replace_beams_by_nodes(self, scope: Scope, table: dict[str, Any], section: str) -> dict[str, Any]:
         """Return the table of a joint or force with beams and places on them replaced by nodes.
 
         Clamped beams do not move a body's centre of mass.
@@ -280,13 +288,13 @@ class Beams:
             try:
                 part = float(place.group(1))
             except ValueError:
-                raise scope.error("at", expected, words_of(at)) from None
+                raise scope.error("at", expected, value_in_words(at)) from None
             k = min(range(last + 1), key=lambda i: abs(nodes[i][1] - part))
             if abs(nodes[k][1] - part) > _NEAR:
                 hint = f"the nearest node is number {k}, at({nodes[k][1]:g})"
-                raise scope.error("at", expected, f"{words_of(at)}, where no node is", hint)
+                raise scope.error("at", expected, f"{value_in_words(at)}, where no node is", hint)
         elif isinstance(at, bool) or not isinstance(at, int | str) or str(at) not in numbers:
-            raise scope.error("at", expected, "no such key" if at is None else words_of(at))
+            raise scope.error("at", expected, "no such key" if at is None else value_in_words(at))
         else:
             k = numbers[str(at)]
         if not nodes[k][0]:
@@ -298,7 +306,7 @@ class Beams:
 # -- tables of nodes, and masses -------------------------------------------------------------------------------------
 
 
-def _motion(scope: Scope, beam: BeamSection, start: Vec) -> _Motion | None:
+def _rigid_motion(scope: Scope, beam: BeamSection, start: Vec) -> _Motion | None:
     """Return the rigid-body motion of a beam at the start, None where its table has no velocities."""
     if beam.velocity is None and beam.angular_velocity is None:
         return None
@@ -308,23 +316,29 @@ def _motion(scope: Scope, beam: BeamSection, start: Vec) -> _Motion | None:
     return start, velocity, (*(ZERO,) * (3 - count), *omega)
 
 
-def _velocities(section: CrossSection, motion: _Motion) -> dict[str, Any]:
+def _node_velocities(section: CrossSection, motion: _Motion) -> dict[str, Any]:
     """Return the velocities of a node."""
     start, velocity, omega = motion
     swept = vector_product(omega, (*map(difference, section.place, start), ZERO))
-    own = _written(dot(omega, axis) for axis in section.axes) if len(start) == 3 else file_value(omega[2])
-    return {"velocity": _written(map(sum_of_terms, velocity, swept)), "angular_velocity": own}
+    own = (
+        _write_vector(scalar_product_of(omega, axis) for axis in section.axes)
+        if len(start) == 3
+        else file_value(omega[2])
+    )
+    return {"velocity": _write_vector(map(sum_of_terms, velocity, swept)), "angular_velocity": own}
 
 
-def _pose(section: CrossSection) -> dict[str, Any]:
+def _pose_keys(section: CrossSection) -> dict[str, Any]:
     """Return the position and orientation of a node."""
     if len(section.axes) == 2:
-        return {"position": _written(section.place), "angle": file_value(section.angle)}
-    turned = {"x_axis": _written(section.axes[0]), "y_axis": _written(section.axes[1])}
-    return {"position": _written(section.place), "orientation": turned}
+        return {"position": _write_vector(section.place), "angle": file_value(section.angle)}
+    turned = {"x_axis": _write_vector(section.axes[0]), "y_axis": _write_vector(section.axes[1])}
+    return {"position": _write_vector(section.place), "orientation": turned}
 
 
-def _mass(properties: Properties, section: CrossSection, axes: tuple[Vec, ...] | None) -> tuple[Expr, tuple[Expr, ...]]:
+def _section_mass(
+    properties: Properties, section: CrossSection, axes: tuple[Vec, ...] | None
+) -> tuple[Expr, tuple[Expr, ...]]:
     """Return the mass of a cross section and its rotary inertia, in space with axes in a frame its tensor there."""
     mass, *rotary = (product(section.share, e) for e in (properties.mass, *properties.rotary))
     if axes is None or len(axes) == 2:
@@ -339,18 +353,20 @@ def _mass(properties: Properties, section: CrossSection, axes: tuple[Vec, ...] |
     )
 
 
-def _axes_of(scope: Scope, body: AnyBody) -> tuple[Vec, ...]:
+def _body_axes(scope: Scope, body: AnyBody) -> tuple[Vec, ...]:
     """Return the axes of a body's frame in the ground frame, as it is described."""
     if isinstance(body, Body):
         cosine, sine = call("cos", body.angle), call("sin", body.angle)
         return (cosine, sine), (call("neg", sine), cosine)
     if not body.orientation.is_numeric:
         raise scope.error("clamp", "a body whose orientation at the start is given in numbers", f"'{body.name}'")
-    rows = matrix(euler_parameters(body.orientation, scalars(scope.context.values), scope.where("clamp")))
+    rows = rotation_matrix_of(
+        euler_parameters(body.orientation, scalar_values(scope.context.values), scope.where("clamp"))
+    )
     return tuple(tuple(literal_of(x) for x in column) for column in zip(*rows, strict=True))
 
 
-def _with_mass(body: AnyBody, further: _Mass) -> AnyBody:
+def _add_mass(body: AnyBody, further: _Mass) -> AnyBody:
     """Return a body with a further mass and tensor of inertia at a place of its frame (Huygens, Steiner)."""
     mass = sum_of_terms(body.mass, further.mass)
     share = call("div", further.mass, mass)
@@ -360,26 +376,26 @@ def _with_mass(body: AnyBody, further: _Mass) -> AnyBody:
     assert inertia is not None, "a point mass clamps nothing"
     if isinstance(inertia, tuple):
         a, b, c, d, e, f = map(sum_of_terms, inertia, further.inertia)
-        inertia = shifted((a, b, c, d, e, f), call("neg", reduced), apart)
+        inertia = shift_tensor((a, b, c, d, e, f), call("neg", reduced), apart)
     else:
-        inertia = sum_of_terms(inertia, *further.inertia, product(reduced, dot(apart, apart)))
+        inertia = sum_of_terms(inertia, *further.inertia, product(reduced, scalar_product_of(apart, apart)))
     return msgspec.structs.replace(body, mass=mass, centre_of_mass=centre, inertia=inertia)
 
 
 # -- vectors ---------------------------------------------------------------------------------------------------------
 
 
-def _within(frame: Sequence[Vec], vectors: Sequence[Vec]) -> tuple[Vec, ...]:
+def _in_frame(frame: Sequence[Vec], vectors: Sequence[Vec]) -> tuple[Vec, ...]:
     """Return vectors in the axes of a frame."""
-    return tuple(tuple(dot(vector, axis) for axis in frame) for vector in vectors)
+    return tuple(tuple(scalar_product_of(vector, axis) for axis in frame) for vector in vectors)
 
 
-def _written(vector: Iterable[Expr]) -> list[float | str]:
+def _write_vector(vector: Iterable[Expr]) -> list[float | str]:
     """Return a vector as written in a file."""
     return [file_value(e) for e in vector]
 
 
-def _times_text(size: Expr, part: float | str, node: str) -> str:
+def _load_on_node(size: Expr, part: float | str, node: str) -> str:
     """Return a load by length, times the length of beam that a node has, at that node."""
     own = _OWN.sub(lambda match: f"{node}.{match.group()}", str(part))
     return f"({to_text(size)})*({own})"

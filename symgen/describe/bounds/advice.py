@@ -8,7 +8,7 @@ from symgen.describe.mechanism import Joint
 JUMPING = "a formula jumps to and fro with the state, as friction by sign(v) does that sticks, and no step gets across"
 
 
-def advice(joint: Joint, label: str, text: str) -> str:
+def advice_on_joint(joint: Joint, label: str, text: str) -> str:
     """Return the sentence on the key in place of a formula with the sign of a velocity."""
     key = "friction" if len(joint.coordinates) == 1 else f"friction.{label}"
     unit = "N m" if joint.unit(label) == "rad" else "N"

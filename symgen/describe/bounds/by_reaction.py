@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from symgen.base.errors import InputError
 from symgen.base.ir.program import JAMMING
-from symgen.base.vocabulary.expressions import ONE, Expr, Reading, call, dot
+from symgen.base.vocabulary.expressions import ONE, Expr, Reading, call, scalar_product_of
 from symgen.base.vocabulary.measures import GROUND, Dot, Driven, Holonomic, Measure, Turn, axes
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.mechanism import Joint, Mechanism
@@ -43,13 +43,13 @@ def directions_across(measure: Measure, pressed: Sequence[str]) -> tuple[tuple[M
     return tuple(tuple(Dot(e, axis) for axis in axes(GROUND, 3)) for e in (measure.zero, measure.quarter))
 
 
-def components(row: BoundedRow) -> tuple[Expr, ...]:
+def reaction_components(row: BoundedRow) -> tuple[Expr, ...]:
     """Return the components of the reaction that bounds depend on."""
     forces = [Reading(each, Driven(each, row.measure)) for each in row.pressed]
     if not row.across:
         return tuple(forces)
     return tuple(
-        dot(
+        scalar_product_of(
             forces,
             [Reading(f"{row.name}.across{k}{axis}", cosine) for axis, cosine in zip("xyz", line, strict=True)],
         )
@@ -57,9 +57,9 @@ def components(row: BoundedRow) -> tuple[Expr, ...]:
     )
 
 
-def reaction_of(row: BoundedRow) -> Expr:
+def size_of_reaction(row: BoundedRow) -> Expr:
     """Return the factor of the bounds: the size of the reaction, or 1."""
-    parts = components(row)
+    parts = reaction_components(row)
     if not parts:
         return ONE
     if len(parts) == 1:
@@ -68,12 +68,12 @@ def reaction_of(row: BoundedRow) -> Expr:
     return call("sqrt", call("add", *squares))
 
 
-def held_by_reactions(mechanism: Mechanism) -> tuple[BoundedRow, ...]:
+def rows_bounded_by_reactions(mechanism: Mechanism) -> tuple[BoundedRow, ...]:
     """Return the rows whose bounds depend on a reaction."""
     return tuple(row for row in mechanism.bounded if row.pressed)
 
 
-def refuse_repeated(row: BoundedRow, repeats: Iterable[tuple[str, str]]) -> None:
+def refuse_shared_reactions(row: BoundedRow, repeats: Iterable[tuple[str, str]]) -> None:
     """Refuse bounds over a reaction of which one row repeats another, so that both share it.
 
     Raises
@@ -89,4 +89,4 @@ def refuse_repeated(row: BoundedRow, repeats: Iterable[tuple[str, str]]) -> None
 
 def jamming_names(mechanism: Mechanism) -> dict[str, int]:
     """Return the names of jamming numbers, with their places in the section ``jamming``."""
-    return {f"{row.row}.{JAMMING}": i for i, row in enumerate(held_by_reactions(mechanism))}
+    return {f"{row.row}.{JAMMING}": i for i, row in enumerate(rows_bounded_by_reactions(mechanism))}

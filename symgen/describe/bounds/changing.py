@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from symgen.base.vocabulary.expressions import ZERO, Call, Expr, call, names_in, readings, table_of
+from symgen.base.vocabulary.expressions import ZERO, Call, Expr, call, names_in, readings_in, table_of
 from symgen.describe.parts.scope import Scope
 
 
 def is_constant(scope: Scope, formula: Expr) -> bool:
     """Return whether a formula depends on parameters alone."""
     return (
-        not (any(readings(formula)) or _reads_table(formula)) and set(names_in(formula)) <= scope.context.values.keys()
+        not (any(readings_in(formula)) or _reads_table(formula))
+        and set(names_in(formula)) <= scope.context.values.keys()
     )
 
 
@@ -23,7 +24,7 @@ def _reads_table(formula: Expr) -> bool:
 
 
 def read_bound(scope: Scope, key: str, value: float | str, words: Sequence[str] = ()) -> Expr:
-    """Return a bound: what depends on parameters alone is at least 0, of another formula what is below 0 counts as 0.
+    """Return a bound. A formula of parameters must be at least 0; of any other formula, a negative value counts as 0.
 
     Parameters
     ----------

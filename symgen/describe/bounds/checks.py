@@ -5,8 +5,8 @@ from __future__ import annotations
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import Number
 from symgen.base.vocabulary.measures import Holonomic, Measure, Sum
-from symgen.describe.bounds.by_reaction import held_by_reactions
-from symgen.describe.bounds.modes import one_sided, two_sided
+from symgen.describe.bounds.bounded_modes import one_sided_rows, two_sided_rows
+from symgen.describe.bounds.by_reaction import rows_bounded_by_reactions
 from symgen.describe.mechanism import Mechanism
 
 
@@ -22,20 +22,22 @@ def check_bounds(mechanism: Mechanism, source: str) -> None:
     for joint in mechanism.joints:
         for prescribed in joint.rows if joint.kind == "driver" else ():
             if isinstance(prescribed, Holonomic):
-                driven[_upright(prescribed.measure)] = joint.name
-    for row in two_sided(mechanism):
-        driver = driven.get(_upright(row.measure))
+                driven[_positive_measure(prescribed.measure)] = joint.name
+    for row in two_sided_rows(mechanism):
+        driver = driven.get(_positive_measure(row.measure))
         if driver is not None:
             raise InputError(
                 f"{source}: {row.where}", "a coordinate that no driver prescribes", f"one that '{driver}' prescribes"
             )
-    for pressed, pushing in zip(held_by_reactions(mechanism), one_sided(mechanism), strict=False):  # the first of each
+    for pressed, pushing in zip(
+        rows_bounded_by_reactions(mechanism), one_sided_rows(mechanism), strict=False
+    ):  # the first of each
         what, other = pressed.family.one, pushing.family.noun
         expected = f"{what} of constant bound beside {other}, as that has no impulse at an impact"
         raise InputError(f"{source}: {pressed.where}", expected, f"{what} by the reaction of the joint")
 
 
-def _upright(measure: Measure) -> Measure:
+def _positive_measure(measure: Measure) -> Measure:
     """Return a measure, or the one that it is the negative of."""
     if isinstance(measure, Sum) and len(measure.terms) == 1 and measure.terms[0][0] == Number(-1.0):
         return measure.terms[0][1]

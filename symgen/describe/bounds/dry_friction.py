@@ -11,29 +11,29 @@ from symgen.base.ir.program import JAMMING
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call, sum_of_terms
 from symgen.base.vocabulary.measures import Effort, Exerted, Holonomic, Measure
 from symgen.describe.bounded import BoundedRow, RowFamily
-from symgen.describe.bounds.by_reaction import reaction_of
-from symgen.describe.bounds.modes import (
+from symgen.describe.bounds.bounded_modes import (
     JAM,
     MODE,
     REVERSE,
     SLIP,
-    carried_bounds,
+    bounds_from_carried_force,
     effort_in_force,
-    is_whole,
-    number_of,
-    rate_of,
+    equals_whole_number,
+    measure_derivative,
+    name_of_number,
     unit_of_effort,
 )
+from symgen.describe.bounds.by_reaction import size_of_reaction
 from symgen.describe.bounds.row import Bounds
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Event, Output
-from symgen.describe.parts.inputs import replaced
+from symgen.describe.parts.driven_mechanism import replace_names
 
 #: Factor of a mean.
 _HALF = Number(0.5)
 
 
-def _line(facts: Mapping[str, Any]) -> str:
+def _inspection_line(facts: Mapping[str, Any]) -> str:
     """Return the line of `symgen inspect` on a row."""
     x = facts
     viscous = "" if x["viscous"] == "0.0" else f", {x['viscous']} times the rate beside"
@@ -57,7 +57,7 @@ FRICTION = RowFamily(
     named="that of {}",
     hint="runs and sweeps have it",
     held="while it sticks, {} does not change",
-    line=_line,
+    line=_inspection_line,
     apart="'friction = { sliding = BOUND }' has a bound of its own",
 )
 
@@ -137,7 +137,7 @@ class Friction(Bounds, frozen=True):
 
     @property
     def smooth(self) -> bool:
-        """Whether a smooth force stands in its place."""
+        """Whether a smooth force replaces it."""
         return self.speed is not None
 
     @property
@@ -163,9 +163,9 @@ class Friction(Bounds, frozen=True):
         friction by a reaction only this and the viscous part are here.
         """
         rate = Name("rate")
-        against: Expr = sum_of_terms(number_of(self, "effort"), self.shift(rate))
+        against: Expr = sum_of_terms(name_of_number(self, "effort"), self.middle_of_bounds(rate))
         if not self.pressed:
-            against = call("add", against, call("mul", number_of(self, "sign"), self.bound_in_motion(rate)))
+            against = call("add", against, call("mul", name_of_number(self, "sign"), self.bound_in_motion(rate)))
         return Effort("friction", self.measure, call("neg", call("add", against, call("mul", self.viscous, rate))))
 
     @property
@@ -175,14 +175,14 @@ class Friction(Bounds, frozen=True):
         way = call("sign", rate) if self.speed is None else call("tanh", call("div", rate, self.speed))
         dry = call("mul", way, self.bound_in_motion(rate))
         if self.backwards is not None:
-            dry = call("add", dry, call("mul", call("abs", way), self.shift(rate)))
+            dry = call("add", dry, call("mul", call("abs", way), self.middle_of_bounds(rate)))
         against = call("add", dry, call("mul", self.viscous, rate))
         return Effort("friction", self.measure, call("neg", against))
 
     @property
     def place(self) -> tuple[str, Expr]:
         """The coordinate."""
-        return self.name, rate_of(self, 0)
+        return self.name, measure_derivative(self, 0)
 
     @property
     def numbers(self) -> tuple[tuple[str, Expr], ...]:
@@ -194,9 +194,9 @@ class Friction(Bounds, frozen=True):
 
     def bound_in_motion(self, rate: Expr = ZERO) -> Expr:
         """Return the bound at a rate, by default at the beginning of a motion; of two bounds the mean."""
-        sliding = at_rate(self.sliding, rate)
+        sliding = bound_at_rate(self.sliding, rate)
         if self.backwards is not None:
-            return call("mul", _HALF, call("add", sliding, at_rate(self.backwards, rate)))
+            return call("mul", _HALF, call("add", sliding, bound_at_rate(self.backwards, rate)))
         if self.stribeck_speed is None:
             return sliding
         if rate == ZERO:  # rounding of the sum would put it above that at rest
@@ -208,11 +208,11 @@ class Friction(Bounds, frozen=True):
         fall = call("exp", call("neg", power))
         return call("add", sliding, call("mul", call("sub", self.static, sliding), fall))
 
-    def shift(self, rate: Expr = ZERO) -> Expr:
+    def middle_of_bounds(self, rate: Expr = ZERO) -> Expr:
         """Return the force in the middle between the bounds of two directions, against a positive rate."""
         if self.backwards is None:
             return ZERO
-        return call("mul", _HALF, call("sub", at_rate(self.sliding, rate), at_rate(self.backwards, rate)))
+        return call("mul", _HALF, call("sub", bound_at_rate(self.sliding, rate), bound_at_rate(self.backwards, rate)))
 
     @property
     def coefficient(self) -> Expr:
@@ -240,8 +240,8 @@ class Friction(Bounds, frozen=True):
         total = call("add", force, effort_in_force(self))
         if not self.pressed:
             return total
-        against = call("mul", self.bound_in_motion(rate_of(self)), reaction_of(self))
-        return call("sub", total, call("mul", number_of(self, "sign"), against))
+        against = call("mul", self.bound_in_motion(measure_derivative(self)), size_of_reaction(self))
+        return call("sub", total, call("mul", name_of_number(self, "sign"), against))
 
     def events(self, beside: Sequence[BoundedRow]) -> tuple[Event, ...]:
         """Return the events at which its mode is chosen anew.
@@ -250,27 +250,27 @@ class Friction(Bounds, frozen=True):
         ``limit`` is then what counts as none. A row at rest that is not in force, as joints lock it, is watched by its
         rate: the joints may move it, as a driver that starts smoothly does.
         """
-        held, sign, limit = (number_of(self, number) for number in ("held", "sign", "limit"))
-        limit_at_rest, off = sum_of_terms(limit, *carried_bounds(self, beside)), call("sub", ONE, held)
+        held, sign, limit = (name_of_number(self, number) for number in ("held", "sign", "limit"))
+        limit_at_rest, off = sum_of_terms(limit, *bounds_from_carried_force(self, beside)), call("sub", ONE, held)
         if self.changing and not self.pressed:
             limit_at_rest = call("add", self.static, limit_at_rest)
-            shares = is_whole(number_of(self, "constant"), -1)
-            own = call("sub", call("add", self.static, limit), call("abs", number_of(self, "effort")))
+            shares = equals_whole_number(name_of_number(self, "constant"), -1)
+            own = call("sub", call("add", self.static, limit), call("abs", name_of_number(self, "effort")))
             off = call("mul", off, call("add", call("sub", ONE, shares), call("mul", shares, own)))
         if self.pressed:
-            limit_at_rest = call("add", call("mul", self.static, reaction_of(self)), limit)
+            limit_at_rest = call("add", call("mul", self.static, size_of_reaction(self)), limit)
         left = call("sub", limit_at_rest, call("abs", effort_in_force(self)))
         resting = call("add", call("mul", held, left), off)
-        locked = call("sub", held, call("mul", call("sub", ONE, held), call("abs", rate_of(self))))
+        locked = call("sub", held, call("mul", call("sub", ONE, held), call("abs", measure_derivative(self))))
         resting_rate = call("mul", call("sub", ONE, call("mul", sign, sign)), locked)
-        moving = call("add", call("mul", sign, rate_of(self)), resting_rate)
+        moving = call("add", call("mul", sign, measure_derivative(self)), resting_rate)
         events = (
             Event(f"{self.name}.{SLIP}", resting, "falling", MODE, (), "effort at rest at its bound"),
             Event(f"{self.name}.{REVERSE}", moving, "falling", MODE, (), "rate of sliding 0"),
         )
         if not self.pressed:
             return events
-        free = call("sub", ONE, number_of(self, JAMMING))
+        free = call("sub", ONE, name_of_number(self, JAMMING))
         return (*events, Event(f"{self.name}.{JAM}", free, "falling", MODE, (), "jamming number 1"))
 
     def outputs(self, beside: Sequence[BoundedRow]) -> Iterator[Output]:
@@ -284,7 +284,7 @@ class Friction(Bounds, frozen=True):
                 effort = effort_in_force(row)
                 pulls = call("mul", Number(0.5), call("sub", effort, call("abs", effort)))
                 total = call("sub" if row.reversed else "add", total, pulls)
-        yield Output(f"{self.name}.mode", number_of(self, "sign"), "")
+        yield Output(f"{self.name}.mode", name_of_number(self, "sign"), "")
         yield Output(f"{self.name}.force", total, unit_of_effort(self))
 
     def facts(self) -> dict[str, Any]:
@@ -297,7 +297,7 @@ class Friction(Bounds, frozen=True):
         }
 
 
-def at_rate(bound: Expr, rate: Expr) -> Expr:
+def bound_at_rate(bound: Expr, rate: Expr) -> Expr:
     """Return a bound with the size of a rate for ``rate``."""
     size = ZERO if rate == ZERO else call("abs", rate)
-    return replaced(bound, lambda name: size if name == Name("rate") else name)
+    return replace_names(bound, lambda name: size if name == Name("rate") else name)

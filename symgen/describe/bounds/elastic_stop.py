@@ -1,4 +1,4 @@
-"""Stops that give way: a force of the depth behind a gap and of its rate, which only pushes."""
+"""Stops that give way: a force of the depth beyond a gap and of its rate, which only pushes."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from typing import Any
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Reading, call, difference, sum_of_terms
 from symgen.base.vocabulary.measures import Effort, Exerted
 from symgen.describe.bounded import BoundedRow
+from symgen.describe.bounds.bounded_modes import measure_derivative
 from symgen.describe.bounds.end_stop import GapStop
-from symgen.describe.bounds.modes import rate_of
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Event, Output
 
@@ -37,7 +37,7 @@ class ElasticStop(GapStop, frozen=True):
 
     @property
     def smooth(self) -> bool:
-        """A force stands in its place."""
+        """A force replaces it."""
         return True
 
     @property
@@ -49,14 +49,14 @@ class ElasticStop(GapStop, frozen=True):
     def smooth_effort(self) -> Effort:
         """The force along the gap."""
         depth = difference(self.value, Name("s"))
-        pushing = call("max", sum_of_terms(self._spring(depth), *self._damper(Name("rate"))), ZERO)
+        pushing = call("max", sum_of_terms(self._spring_force(depth), *self._damper_force(Name("rate"))), ZERO)
         inside = pushing if self.damping == ZERO else call("where", call("gt", depth, ZERO), pushing, ZERO)
         return Effort("stop", self.measure, inside)
 
-    def _spring(self, depth: Expr) -> Expr:
+    def _spring_force(self, depth: Expr) -> Expr:
         return call("mul", self.stiffness, depth)
 
-    def _damper(self, rate: Expr) -> tuple[Expr, ...]:
+    def _damper_force(self, rate: Expr) -> tuple[Expr, ...]:
         return () if self.damping == ZERO else (call("neg", call("mul", self.damping, rate)),)
 
     @property
@@ -67,7 +67,7 @@ class ElasticStop(GapStop, frozen=True):
     @property
     def taking(self) -> Expr:
         """The part of the force that takes energy: all but the force of the spring."""
-        spring = self._spring(call("max", difference(self.value, rate_of(self, 0)), ZERO))
+        spring = self._spring_force(call("max", difference(self.value, measure_derivative(self, 0)), ZERO))
         return call("sub", Reading(f"{self.name}.force", Exerted((self.smooth_effort,))), spring)
 
     def events(self, beside: Sequence[BoundedRow]) -> tuple[Event, ...]:

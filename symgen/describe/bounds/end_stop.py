@@ -12,14 +12,14 @@ from typing import Any, ClassVar
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, Reading, call, difference, sum_of_terms
 from symgen.base.vocabulary.measures import Effort, Holonomic, Measure
 from symgen.describe.bounded import BoundedRow, RowFamily
-from symgen.describe.bounds.modes import (
+from symgen.describe.bounds.bounded_modes import (
     HIT,
     LEAVE,
     MODE,
-    carried_bounds,
+    bounds_from_carried_force,
     effort_in_force,
-    number_of,
-    rate_of,
+    measure_derivative,
+    name_of_number,
     unit_of_effort,
 )
 from symgen.describe.bounds.row import Bounds
@@ -30,7 +30,7 @@ from symgen.describe.mechanism import Event, Output
 LOWER, UPPER = "lower", "upper"
 
 
-def _line(facts: Mapping[str, Any]) -> str:
+def _inspection_line(facts: Mapping[str, Any]) -> str:
     """Return the line of `symgen inspect` on a row."""
     closed = f"row {facts['row']} in force where it is closed, pushing [{facts['unit']}]"
     return f"stop {facts['name']}: {closed}; restitution {facts['restitution']}"
@@ -47,7 +47,7 @@ STOPS = RowFamily(
     named="{}",
     hint="runs and sweeps have them",
     held="while it is closed, {}",
-    line=_line,
+    line=_inspection_line,
 )
 
 
@@ -125,7 +125,7 @@ class EndStop(GapStop, frozen=True):
     @property
     def effort(self) -> Effort:
         """The effort by which transitions probe accelerations: the sign of the row, which is 0 in runs."""
-        return Effort("stop", self.measure, number_of(self, "sign"))
+        return Effort("stop", self.measure, name_of_number(self, "sign"))
 
     @property
     def numbers(self) -> tuple[tuple[str, Expr], ...]:
@@ -141,9 +141,9 @@ class EndStop(GapStop, frozen=True):
         """Return the rate of the gap after an impact, the law of impacts: ``-e u`` for a rate u below 0, else 0."""
         return call("mul", call("mul", Number(0.5), self.restitution), call("sub", call("abs", rate), rate))
 
-    def closed(self) -> Expr:
+    def is_closed_formula(self) -> Expr:
         """Return the formula that is 1 where the stop is closed, else 0."""
-        held, limit = number_of(self, "held"), number_of(self, "limit")
+        held, limit = name_of_number(self, "held"), name_of_number(self, "limit")
         return call("add", held, call("mul", call("sub", ONE, held), limit))
 
     def events(self, beside: Sequence[BoundedRow]) -> tuple[Event, ...]:
@@ -153,9 +153,9 @@ class EndStop(GapStop, frozen=True):
         opens, that holds it too. The velocity that an impact sets is the rate of the gap: 0 where the sign of the row
         is not 0, and where impacts do not come to rest, that of `rebound`.
         """
-        held, sign, limit = (number_of(self, number) for number in ("held", "sign", "limit"))
-        pulling = sum_of_terms(effort_in_force(self), limit, *carried_bounds(self, beside))
-        closed, rate = self.closed(), rate_of(self)
+        held, sign, limit = (name_of_number(self, number) for number in ("held", "sign", "limit"))
+        pulling = sum_of_terms(effort_in_force(self), limit, *bounds_from_carried_force(self, beside))
+        closed, rate = self.is_closed_formula(), measure_derivative(self)
         open_gap = call("add", call("mul", call("sub", ONE, closed), self.place[1]), closed)
         pushing = call("add", call("mul", held, pulling), call("sub", ONE, held))
         after = call("mul", call("sub", ONE, call("mul", sign, sign)), self.rebound(rate))
@@ -169,7 +169,7 @@ class EndStop(GapStop, frozen=True):
         force: Expr = effort_in_force(self)
         if any(not row.one_sided and row.along == self.along for row in beside):
             force = call("mul", Number(0.5), call("add", force, call("abs", force)))
-        yield Output(f"{self.name}.mode", self.closed(), "")
+        yield Output(f"{self.name}.mode", self.is_closed_formula(), "")
         yield Output(f"{self.name}.force", force, unit_of_effort(self))
 
     def facts(self) -> dict[str, Any]:

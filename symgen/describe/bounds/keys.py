@@ -10,7 +10,7 @@ import msgspec
 from symgen.base.registry import Registry
 from symgen.describe.bounded import BoundedRow, RowFamily
 from symgen.describe.mechanism import Joint
-from symgen.describe.parts.fields import OF_ANY_JOINT, words_of
+from symgen.describe.parts.fields import OF_ANY_JOINT, value_in_words
 from symgen.describe.parts.scope import Scope
 
 
@@ -66,19 +66,19 @@ def keys_of_any_joint() -> dict[str, Any]:
     return {**OF_ANY_JOINT, **{key: kind.table for key, kind in keys_of_joints().items()}}
 
 
-def families() -> tuple[RowFamily, ...]:
+def all_families() -> tuple[RowFamily, ...]:
     """Return the families of all kinds."""
     return tuple(dict.fromkeys(kind.family for _, kind in BOUNDS.items()))
 
 
-def nouns(word: str = "noun", joined: str = " and ") -> str:
+def nouns_of_families(word: str = "noun", joined: str = " and ") -> str:
     """Return a word of all families, joined: what rows with bounds are."""
-    return joined.join(getattr(family, word) for family in families())
+    return joined.join(getattr(family, word) for family in all_families())
 
 
-def lines_of_rows(facts: Mapping[str, Any]) -> Iterator[str]:
+def inspection_lines(facts: Mapping[str, Any]) -> Iterator[str]:
     """Yield the lines of ``symgen inspect`` on rows with bounds, from its facts."""
-    for family in families():
+    for family in all_families():
         yield from map(family.line, facts.get(family.fact, ()))
 
 
@@ -95,7 +95,7 @@ def rows_of_joint(scope: Scope, joint: Joint, raw: Mapping[str, Any]) -> Iterato
             yield from kind.read(scope, joint, raw[key])
 
 
-def by_coordinate(scope: Scope, joint: Joint, key: str, raw: object, example: str) -> Mapping[str, object]:
+def tables_by_coordinate(scope: Scope, joint: Joint, key: str, raw: object, example: str) -> Mapping[str, object]:
     """Return the table that a key of a joint holds for each of its coordinates.
 
     Parameters
@@ -117,7 +117,7 @@ def by_coordinate(scope: Scope, joint: Joint, key: str, raw: object, example: st
         If it is no table, or the joint has no such coordinates.
     """
     if not isinstance(raw, Mapping):
-        raise scope.error(key, f"a table such as {example}", words_of(raw))
+        raise scope.error(key, f"a table such as {example}", value_in_words(raw))
     labels = dict(joint.coordinates)
     if not labels:
         raise scope.error(key, "a joint with a coordinate", f"a {joint.kind} joint, which reports none")

@@ -11,30 +11,30 @@ from collections.abc import Iterable
 from symgen.base.vocabulary.expressions import Reading, call
 from symgen.base.vocabulary.measures import Integral
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.bounds.modes import one_sided, rate_of
-from symgen.describe.formulas.readings import integrals
+from symgen.describe.bounds.bounded_modes import measure_derivative, one_sided_rows
+from symgen.describe.formulas.readings import integrals_of_outputs
 from symgen.describe.mechanism import Mechanism
 
 #: Last word of their names.
 LOSS = "dissipated"
 
 
-def _loss(row: BoundedRow) -> Integral:
+def _integral_of_power(row: BoundedRow) -> Integral:
     """Return the integral of the power that a row takes."""
-    return Integral(call("neg", call("mul", row.taking, rate_of(row))))
+    return Integral(call("neg", call("mul", row.taking, measure_derivative(row))))
 
 
-def loss_of(row: BoundedRow) -> Reading:
+def energy_taken(row: BoundedRow) -> Reading:
     """Return the energy that a row has taken since the start of a run."""
-    return Reading(f"{row.name}.{LOSS}", _loss(row))
+    return Reading(f"{row.name}.{LOSS}", _integral_of_power(row))
 
 
-def losses(rows: Iterable[BoundedRow]) -> dict[str, Reading]:
+def losses_by_name(rows: Iterable[BoundedRow]) -> dict[str, Reading]:
     """Return the losses by their names."""
-    return {reading.name: reading for reading in map(loss_of, rows)}
+    return {reading.name: reading for reading in map(energy_taken, rows)}
 
 
 def places_of_losses(mechanism: Mechanism) -> tuple[int | None, ...]:
     """Return the places of the losses of one-sided rows among the integrals; None where no output reads one."""
-    numbers = integrals(mechanism)
-    return tuple(numbers.get(_loss(row)) for row in one_sided(mechanism))
+    numbers = integrals_of_outputs(mechanism)
+    return tuple(numbers.get(_integral_of_power(row)) for row in one_sided_rows(mechanism))

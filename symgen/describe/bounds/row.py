@@ -22,7 +22,7 @@ class Bounds(msgspec.Struct, frozen=True):
 
     @property
     def smooth(self) -> bool:
-        """Whether a smooth force stands in its place."""
+        """Whether a smooth force replaces it."""
         return False
 
     @property

@@ -10,9 +10,9 @@ from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import Number, Reading
 from symgen.base.vocabulary.measures import Exerted
 from symgen.describe.bounded import BoundedRow
+from symgen.describe.bounds.bounded_modes import two_sided_rows, unit_of_effort, without_bounds
 from symgen.describe.bounds.dry_friction import Friction
 from symgen.describe.bounds.elastic_stop import ElasticStop
-from symgen.describe.bounds.modes import two_sided, unit_of_effort, without_bounds
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Force, Mechanism, Output
 
@@ -20,7 +20,7 @@ from symgen.describe.mechanism import Force, Mechanism, Output
 SMOOTH, WITH_LAWS = "friction", "dry friction"
 
 
-def with_smooth(mechanism: Mechanism, rows: Iterable[BoundedRow]) -> Mechanism:
+def rows_as_forces(mechanism: Mechanism, rows: Iterable[BoundedRow]) -> Mechanism:
     """Return a mechanism with some rows as forces, dry friction and elastic stops, which ``NAME.force`` reports."""
     smooth = [row for row in rows if isinstance(row, Friction | ElasticStop)]
     bodies = {joint.name: joint.bodies for joint in mechanism.joints}
@@ -37,7 +37,7 @@ def with_smooth(mechanism: Mechanism, rows: Iterable[BoundedRow]) -> Mechanism:
     )
 
 
-def with_sliding(where: str, mechanism: Mechanism, apart: Sequence[BoundedRow] = ()) -> Mechanism:
+def sliding_rows_as_forces(where: str, mechanism: Mechanism, apart: Sequence[BoundedRow] = ()) -> Mechanism:
     """Return a mechanism with its dry friction as forces against the rates, 0 at rest; some rows stay as they are.
 
     Raises
@@ -45,13 +45,13 @@ def with_sliding(where: str, mechanism: Mechanism, apart: Sequence[BoundedRow] =
     InputError
         If bounds depend on reactions.
     """
-    rows = [row for row in two_sided(mechanism) if isinstance(row, Friction) and row not in apart]
+    rows = [row for row in two_sided_rows(mechanism) if isinstance(row, Friction) and row not in apart]
     if names := ", ".join(row.name for row in rows if row.pressed):
         raise InputError(where, "dry friction with constant bounds", f"friction of {names} by the reaction")
-    return with_smooth(without_bounds(mechanism, rows), rows) if rows else mechanism
+    return rows_as_forces(without_bounds(mechanism, rows), rows) if rows else mechanism
 
 
-def smoothed(where: str, rows: Sequence[BoundedRow], speed: float, values: Mapping[str, float]) -> list[BoundedRow]:
+def smooth_rows(where: str, rows: Sequence[BoundedRow], speed: float, values: Mapping[str, float]) -> list[BoundedRow]:
     """Return dry friction with the bound in motion times tanh(rate / `speed`), at values of all parameters.
 
     Raises

@@ -21,7 +21,7 @@ from symgen.base.errors import InputError
 from symgen.base.registry import Registry
 
 
-def _folder() -> Path:
+def _catalogue_folder() -> Path:
     """Return the folder of the files; in an archive, its equivalent."""
     here = Path(__file__).parent
     if here.is_dir():
@@ -31,7 +31,7 @@ def _folder() -> Path:
     return cast(Path, files(__name__))
 
 
-_FOLDER = _folder()
+_FOLDER = _catalogue_folder()
 #: Groups of entries: those of studies, the gallery and tests of every method, and machines to start from.
 STUDIED, MACHINES = "studied", "machines"
 
@@ -66,7 +66,7 @@ class CatalogueEntry(msgspec.Struct, frozen=True):
 SIZED: Registry[Sized] = Registry(__name__, "sized mechanism")
 
 
-def _files(group: str) -> dict[str, Path]:
+def _files_of_group(group: str) -> dict[str, Path]:
     folder = _FOLDER / MACHINES if group == MACHINES else _FOLDER
     paths = sorted(folder.iterdir(), key=lambda path: path.name)
     return {path.name.removesuffix(".toml"): path for path in paths if path.name.endswith(".toml")}
@@ -80,7 +80,7 @@ def names(group: str = STUDIED) -> tuple[str, ...]:
     group : {"studied", "machines"}
         Group of the entries.
     """
-    return tuple(sorted({*_files(group), *(SIZED.names if group == STUDIED else ())}))
+    return tuple(sorted({*_files_of_group(group), *(SIZED.names if group == STUDIED else ())}))
 
 
 def all_names() -> tuple[str, ...]:
@@ -88,9 +88,9 @@ def all_names() -> tuple[str, ...]:
     return tuple(sorted((*names(STUDIED), *names(MACHINES))))
 
 
-def file_of(name: str) -> Path | None:
+def file_of_entry(name: str) -> Path | None:
     """Return the file of the entry `name`; None for sized ones, which are built."""
-    return (_files(STUDIED) | _files(MACHINES)).get(name)
+    return (_files_of_group(STUDIED) | _files_of_group(MACHINES)).get(name)
 
 
 def raw(name: str, size: int | None = None) -> dict[str, Any]:
@@ -113,7 +113,7 @@ def raw(name: str, size: int | None = None) -> dict[str, Any]:
         raise InputError("model", f"'{name}' without a size", f"'{name}:{size}'")
     import tomllib
 
-    return tomllib.loads((_files(STUDIED) | _files(MACHINES))[name].read_text(encoding="utf-8"))
+    return tomllib.loads((_files_of_group(STUDIED) | _files_of_group(MACHINES))[name].read_text(encoding="utf-8"))
 
 
 def entries(group: str = STUDIED) -> tuple[CatalogueEntry, ...]:

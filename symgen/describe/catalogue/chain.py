@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from symgen.base.vocabulary.rotations import EulerParameters, Matrix, composed_rotation, matrix, rotate
+from symgen.base.vocabulary.rotations import EulerParameters, Matrix, composed_rotation, rotate, rotation_matrix_of
 from symgen.describe.catalogue import Sized
 
 #: Angle of every hinge at the start [rad]: the chain is curled, so that nothing stays in a plane.
@@ -35,7 +35,7 @@ def build(size: int) -> dict[str, Any]:
         axis = 1 + i % 2
         if i:
             turned = composed_rotation(turned, _half_turn(axis))
-        frame: Matrix = matrix(turned)
+        frame: Matrix = rotation_matrix_of(turned)
         middle, tip = rotate(frame, (0.5, 0.0, 0.0)), rotate(frame, (1.0, 0.0, 0.0))
         bodies[f"rod{i + 1}"] = rod | {
             "position": [a + b for a, b in zip(end, middle, strict=True)],

@@ -12,16 +12,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.base.arguments import path as argument_path
+from symgen.base.arguments import path_argument as argument_path
 from symgen.base.files import check_path, write_whole
 from symgen.describe.drawing.mechanism_scene import build_scene
-from symgen.describe.drawing.paper import Drawn, View, on_paper, view_axes
+from symgen.describe.drawing.paper import Drawn, View, items_on_paper, view_axes
 from symgen.describe.drawing.paper import Path as Stroke
-from symgen.describe.drawing.pictures import svg, write_pixels
+from symgen.describe.drawing.pictures import svg_text, write_pixel_file
 from symgen.describe.drawing.scene import COLOURS, Array, Item, Look, Point, Scene
 from symgen.describe.drawing.traced import traced_points
-from symgen.describe.drawing.viewpoint import USUAL, viewpoint
-from symgen.describe.formulas.evaluate import parameter_values, scalars
+from symgen.describe.drawing.viewpoint import USUAL, choose_viewpoint
+from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ class Drawing:
     caption: str = ""
 
     @classmethod
-    def of(
+    def of_mechanism(
         cls,
         mechanism: Mechanism,
         q: Sequence[float] | Array | None = None,
@@ -78,11 +78,11 @@ class Drawing:
     ) -> Drawing:
         """Return the picture of a mechanism; arguments as for `symgen.describe.drawing.sketch`."""
         if q is None:
-            q = described_start(mechanism, scalars(parameter_values(mechanism, values)))[0]
+            q = described_start(mechanism, scalar_values(parameter_values(mechanism, values)))[0]
         scene = build_scene(mechanism, q, values, open_joints)
         where = tuple(float(x) for x in np.asarray(q, dtype=np.float64).ravel())
         behind = tuple(tuple(map(float, ghost)) for ghost in ghosts)
-        return cls(scene, where, view or viewpoint(scene, np.array(where)), behind, (), labels, caption)
+        return cls(scene, where, view or choose_viewpoint(scene, np.array(where)), behind, (), labels, caption)
 
     @classmethod
     def of_motion(
@@ -109,19 +109,19 @@ class Drawing:
         points = traced_points(mechanism, parameter_values(mechanism, values))
         shown = [p for p in points if p.free] or [p for p in points if not any(p.at)]
         poses = [scene.poses(row) for row in q[:: max(1, len(q) // PATH)]]
-        ways = [np.concatenate([at.out(p.body, [p.at]) for at in poses]) for p in shown]
+        ways = [np.concatenate([at.to_ground(p.body, [p.at]) for at in poses]) for p in shown]
         paths = tuple(tuple((float(x), float(y), float(z)) for x, y, z in way) for way in ways)
-        return cls(scene, tuple(q[0].tolist()), view or viewpoint(scene, q[0]), ghosts, paths, labels=False)
+        return cls(scene, tuple(q[0].tolist()), view or choose_viewpoint(scene, q[0]), ghosts, paths, labels=False)
 
     @cached_property
     def svg(self) -> str:
         """The picture as SVG text, the same for the same scene."""
-        return svg(self.scene, self._drawn(), self._behind(), self.labels, self.caption)
+        return svg_text(self.scene, self._scene_on_paper(), self._ghosts_and_paths(), self.labels, self.caption)
 
-    def _drawn(self) -> list[Drawn]:
-        return on_paper(self.scene, np.array(self.q), self.view)
+    def _scene_on_paper(self) -> list[Drawn]:
+        return items_on_paper(self.scene, np.array(self.q), self.view)
 
-    def _behind(self) -> list[Drawn]:
+    def _ghosts_and_paths(self) -> list[Drawn]:
         drawn: list[Drawn] = []
         eye = view_axes(self.scene, self.view)
         for i, path in enumerate(self.paths):
@@ -130,7 +130,7 @@ class Drawing:
             way = Item("path", "", "", ())
             drawn.append(Drawn(way, (Stroke(points[:, :2], look, False),), 0.0, None))
         for ghost in self.ghosts:
-            drawn += on_paper(self.scene, np.array(ghost), self.view, bodies=True)
+            drawn += items_on_paper(self.scene, np.array(ghost), self.view, bodies=True)
         return drawn
 
     def save(self, path: str | PathLike[str]) -> Path:
@@ -145,13 +145,15 @@ class Drawing:
         if file.suffix.lower() == ".svg":
             return write_whole(file, self.svg)
         kind = file.suffix.lower().removeprefix(".")
-        drawn, behind = self._drawn(), self._behind()
-        return write_whole(file, lambda stream: write_pixels(stream, kind, drawn, behind, self.labels, self.caption))
+        drawn, behind = self._scene_on_paper(), self._ghosts_and_paths()
+        return write_whole(
+            file, lambda stream: write_pixel_file(stream, kind, drawn, behind, self.labels, self.caption)
+        )
 
     def png(self) -> bytes:
         """Return the picture as pixels."""
         stream = io.BytesIO()
-        write_pixels(stream, "png", self._drawn(), self._behind(), self.labels, self.caption)
+        write_pixel_file(stream, "png", self._scene_on_paper(), self._ghosts_and_paths(), self.labels, self.caption)
         return stream.getvalue()
 
     def _repr_svg_(self) -> str:
@@ -202,4 +204,6 @@ def sketch(
     InputError
         If `q` has not as many numbers as the mechanism has coordinates.
     """
-    return Drawing.of(mechanism, q, values, open_joints=open_joints, view=view, labels=labels, caption=caption).svg
+    return Drawing.of_mechanism(
+        mechanism, q, values, open_joints=open_joints, view=view, labels=labels, caption=caption
+    ).svg

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from symgen.base.vocabulary.measures import Component, Sum, Turning, parts
-from symgen.describe.drawing.pen import EARTH, FILLED, PLAIN, BodyPoint, Pen, PlacedMechanism, across
+from symgen.base.vocabulary.measures import Component, Sum, Turning, nested_parts
+from symgen.describe.drawing.pen import EARTH, FILLED, PLAIN, BodyPoint, Pen, PlacedMechanism, directions_across_axis
 from symgen.describe.drawing.scene import GREY, GROUNDED, Array, Look, Mark
 from symgen.describe.mechanism import Joint
-from symgen.describe.parts.topology import articulation_of
+from symgen.describe.parts.topology import articulation_of_joint
 
 DRIVE = Look("#a0522d", "", 1.6)
 PITCH = Look(GREY, "", 1.0, dashed=True)
@@ -26,42 +26,42 @@ def joint_points(pen: Pen, joint: Joint) -> list[Mark]:
     return [pen.dot(place, 0.35, PLAIN) for place in places]
 
 
-def ends_of(numbers: PlacedMechanism, joint: Joint) -> tuple[BodyPoint, BodyPoint]:
+def joint_ends(numbers: PlacedMechanism, joint: Joint) -> tuple[BodyPoint, BodyPoint]:
     """Return the points of both bodies of a joint, from its first rows, in the order of its bodies."""
-    articulation = articulation_of(joint)
+    articulation = articulation_of_joint(joint)
     if articulation is not None:
         return numbers.place(articulation.a), numbers.place(articulation.b)
     places = numbers.markers(joint.rows)
     return places[0], places[1] if len(places) > 1 else places[0]
 
 
-def along_of(numbers: PlacedMechanism, joint: Joint) -> Array:
+def sliding_direction(numbers: PlacedMechanism, joint: Joint) -> Array:
     """Return the direction that a joint's displacement counts along."""
     components = [m for _, m in joint.coordinates if isinstance(m, Component)]
     return numbers.direction(components[0].along) if components else np.array([1.0, 0.0, 0.0])
 
 
-def axis_of(numbers: PlacedMechanism, joint: Joint) -> Array:
+def joint_axis(numbers: PlacedMechanism, joint: Joint) -> Array:
     """Return the axis of a joint."""
     if not numbers.spatial:
         return Z
-    articulation = articulation_of(joint)
+    articulation = articulation_of_joint(joint)
     if articulation is not None and articulation.of_a:
         return numbers.direction(articulation.of_a[2])
-    turns = [m for m in parts(joint) if isinstance(m, Turning)]
+    turns = [m for m in nested_parts(joint) if isinstance(m, Turning)]
     if turns:
         return np.cross(numbers.direction(turns[0].zero), numbers.direction(turns[0].quarter))
     directions = numbers.directions(joint.rows)
     return numbers.direction(directions[-1]) if directions else Z
 
 
-def turned_about(numbers: PlacedMechanism, joint: Joint, angle: object) -> tuple[BodyPoint, Array]:
+def pivot_and_axis(numbers: PlacedMechanism, joint: Joint, angle: object) -> tuple[BodyPoint, Array]:
     """Return the point of a joint and the axis of one of its angles, both on the body that has the axis.
 
     The second body turns forward about the axis where the angle grows.
     """
-    ends = ends_of(numbers, joint)
-    for part in parts(angle):
+    ends = joint_ends(numbers, joint)
+    for part in nested_parts(angle):
         sign, inner = 1.0, part
         if isinstance(part, Sum) and len(part.terms) == 1:
             sign, inner = float(np.sign(numbers.number(part.terms[0][0]))), part.terms[0][1]
@@ -69,26 +69,26 @@ def turned_about(numbers: PlacedMechanism, joint: Joint, angle: object) -> tuple
             sign *= 1.0 if inner.zero.body == joint.bodies[0] else -1.0
             axis = sign * np.cross(numbers.direction(inner.zero), numbers.direction(inner.quarter))
             return next((end for end in ends if end.body == numbers.index[inner.zero.body]), ends[0]), axis
-    return ends[0], axis_of(numbers, joint)
+    return ends[0], joint_axis(numbers, joint)
 
 
-def grounded(pen: Pen, places: tuple[BodyPoint, BodyPoint], swivel: bool = True) -> list[Mark]:
+def ground_stand(pen: Pen, places: tuple[BodyPoint, BodyPoint], swivel: bool = True) -> list[Mark]:
     """Return the stand of a ground point of a joint, if any."""
     for place in places:
         if place.body == GROUNDED:
-            at, up = pen.numbers.out(place), pen.up
+            at, up = pen.numbers.in_ground_frame(place), pen.up
             if pen.numbers.spatial:
-                return _stand(pen, at)
+                return _draw_stand(pen, at)
             along = np.array([up[1], -up[0], 0.0])
             foot = at - 1.5 * pen.unit * up
             sides = [at, foot + 0.9 * pen.unit * along, foot - 0.9 * pen.unit * along]
             triangle = [pen.line(GROUNDED, sides, FILLED, closed=True)] if swivel else []
-            return [*triangle, *pen.earth(foot if swivel else at, along, -up)]
+            return [*triangle, *pen.ground_hatching(foot if swivel else at, along, -up)]
     return []
 
 
-def _stand(pen: Pen, at: Array) -> list[Mark]:
-    u, (first, second) = pen.unit, across(pen.up)
+def _draw_stand(pen: Pen, at: Array) -> list[Mark]:
+    u, (first, second) = pen.unit, directions_across_axis(pen.up)
     foot = at - 1.8 * u * pen.up
     plate = [foot + u * 1.1 * (i * first + j * second) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
     marks: list[Mark] = [pen.line(GROUNDED, plate, Look(GREY, "#c9cfd6", 0.8), closed=True)]
@@ -103,7 +103,7 @@ def wheel_marks(
 ) -> list[Mark]:
     """Return a circle with a spoke, in the colour of its body."""
     colour = pen.colour(pen.numbers.index[body])
-    at = pen.numbers.out(centre)
+    at = pen.numbers.in_ground_frame(centre)
     ring = pen.ring(centre.body, at, axis, radius, look or Look(colour, colour, 1.6, 0.13))
-    rim = pen.numbers.now.out(ring.body, ring.points)
+    rim = pen.numbers.now.to_ground(ring.body, ring.points)
     return [ring, pen.line(centre.body, [at, rim[0]], Look(colour, "", 1.0)), pen.dot(centre, 0.2)]

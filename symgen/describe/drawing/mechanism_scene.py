@@ -9,11 +9,11 @@ from itertools import pairwise
 import numpy as np
 
 from symgen.base.errors import InputError
-from symgen.base.vocabulary.measures import GROUND, Marker, parts
+from symgen.base.vocabulary.measures import GROUND, Marker, nested_parts
 from symgen.describe.drawing.force_parts import force_item
-from symgen.describe.drawing.joint_parts import along_of
+from symgen.describe.drawing.joint_parts import sliding_direction
 from symgen.describe.drawing.meshes import mesh_faces
-from symgen.describe.drawing.pen import RIGID, BodyPoint, Pen, PlacedMechanism, across
+from symgen.describe.drawing.pen import RIGID, BodyPoint, Pen, PlacedMechanism, directions_across_axis
 from symgen.describe.drawing.scene import (
     GREY,
     GROUNDED,
@@ -27,10 +27,10 @@ from symgen.describe.drawing.scene import (
     Scene,
     Solid,
     Tube,
-    upwards,
+    axis_against_gravity,
 )
-from symgen.describe.drawing.symbols import gap_item, joint_item
-from symgen.describe.formulas.evaluate import parameter_values, scalars
+from symgen.describe.drawing.symbols import gap_mark, joint_symbol
+from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import AnyBody, Mechanism, Shape, SpatialBody, Vec
 
@@ -69,26 +69,26 @@ def build_scene(
     """
     parameters = parameter_values(mechanism, values)
     if q is None:
-        q = described_start(mechanism, scalars(parameters))[0]
+        q = described_start(mechanism, scalar_values(parameters))[0]
     rows = np.atleast_2d(np.asarray(q, dtype=np.float64))
     size = mechanism.body_coordinates
     if rows.ndim != 2 or rows.shape[1] != size or not len(rows):
         raise InputError("q", f"{size} coordinates, as {mechanism.name} has", str(rows.shape[-1]))
     rows = rows[:: max(1, len(rows) // 60)]
     numbers = PlacedMechanism(mechanism, parameters, rows)
-    up = upwards([numbers.number(g) for g in mechanism.gravity], numbers.spatial)
-    points = _points(numbers)
-    unit = _unit(numbers, points)
+    up = axis_against_gravity([numbers.number(g) for g in mechanism.gravity], numbers.spatial)
+    points = _points_of_bodies(numbers)
+    unit = _symbol_size(numbers, points)
     pen = Pen(numbers, unit, up)
     guided = {name for joint in mechanism.joints if joint.kind in SHOWN for name in joint.bodies}
     bodies = [_body_item(pen, body, points[body.name], guided) for body in mechanism.bodies]
-    joints = [joint_item(pen, joint) for joint in mechanism.joints]
+    joints = [joint_symbol(pen, joint) for joint in mechanism.joints]
     forces = [force_item(pen, force) for force in mechanism.forces]
-    faults = [gap_item(pen, item) for item in joints if item.name in open_joints]
+    faults = [gap_mark(pen, item) for item in joints if item.name in open_joints]
     return Scene(
         name=mechanism.name,
         title=mechanism.title,
-        items=(*_ground(pen), *bodies, *forces, *joints, *faults),
+        items=(*_ground_item(pen), *bodies, *forces, *joints, *faults),
         spatial=numbers.spatial,
         up=up,
         unit=unit,
@@ -97,48 +97,48 @@ def build_scene(
     )
 
 
-def _points(numbers: PlacedMechanism) -> dict[str, list[Point]]:
+def _points_of_bodies(numbers: PlacedMechanism) -> dict[str, list[Point]]:
     """Return the points of each body from its centre of mass: points of joints and forces, and named points."""
     by_body: dict[str, dict[Point, None]] = {frame.name: {} for frame in numbers.frames}
     names = [frame.name for frame in numbers.frames]
     for element in (*numbers.mechanism.joints, *numbers.mechanism.forces):
-        for marker in parts(element):
+        for marker in nested_parts(element):
             if isinstance(marker, Marker) and marker.body in by_body:
                 place = numbers.place(marker)
-                by_body[names[place.body]][_rounded(place.at)] = None
+                by_body[names[place.body]][_round_point(place.at)] = None
     for joint in numbers.mechanism.joints:
         if joint.kind != "pin-in-slot" or numbers.spatial:
             continue
         pin, slot = numbers.markers(joint.rows[0])
         if slot.body != GROUNDED:  # which is as long as its slot
-            along = along_of(numbers, joint)
+            along = sliding_direction(numbers, joint)
             own = numbers.now.turns[slot.body].T @ along
-            for reach in numbers.span(slot, pin, along):
+            for reach in numbers.range_along(slot, pin, along):
                 x, y, z = np.array(slot.at) + reach * own
-                by_body[names[slot.body]][_rounded((x, y, z))] = None
+                by_body[names[slot.body]][_round_point((x, y, z))] = None
     for body in numbers.mechanism.bodies:
         for _, point in body.points:
-            by_body[body.name][_rounded(numbers.place(Marker(body.name, point)).at)] = None
+            by_body[body.name][_round_point(numbers.place(Marker(body.name, point)).at)] = None
     return {name: list(points) for name, points in by_body.items()}
 
 
-def _rounded(point: Point) -> Point:
+def _round_point(point: Point) -> Point:
     x, y, z = (round(c, 12) + 0.0 for c in point)
     return (x, y, z)
 
 
-def _unit(numbers: PlacedMechanism, points: Mapping[str, list[Point]]) -> float:
+def _symbol_size(numbers: PlacedMechanism, points: Mapping[str, list[Point]]) -> float:
     """Return the size of symbols [m]: small against the mechanism and its bodies."""
-    places = [numbers.now.out(numbers.index[name], own) for name, own in points.items() if own]
+    places = [numbers.now.to_ground(numbers.index[name], own) for name, own in points.items() if own]
     everyone = (*numbers.mechanism.joints, *numbers.mechanism.forces)
     grounded = [m for element in everyone for m in numbers.markers(element) if m.body < 0]
-    places += [numbers.now.out(-1, [m.at]) for m in grounded]
+    places += [numbers.now.to_ground(-1, [m.at]) for m in grounded]
     places.append(numbers.now.centres[:-1])
     for name, shape in numbers.mechanism.shapes:
         corners: Sequence[Point] | Array = [numbers.place(Marker(name, point)).at for point in shape.points]
         if shape.kind == "mesh":
             corners = mesh_faces(numbers, name, shape)
-        places.append(numbers.now.out(numbers.index[name], np.array(corners).reshape(-1, 3)))
+        places.append(numbers.now.to_ground(numbers.index[name], np.array(corners).reshape(-1, 3)))
     everything = np.concatenate(places)
     whole = float(np.linalg.norm(np.ptp(everything, axis=0)))
     spans = [float(np.linalg.norm(np.ptp(np.array(own), axis=0))) for own in points.values() if len(own) > 1]
@@ -149,7 +149,7 @@ def _unit(numbers: PlacedMechanism, points: Mapping[str, list[Point]]) -> float:
     return min(SHARE * max(whole, usual), OF_BODY * usual) or 0.1
 
 
-def _ground(pen: Pen) -> list[Item]:
+def _ground_item(pen: Pen) -> list[Item]:
     """Return the shapes of the ground, where it has some."""
     shapes = [shape for name, shape in pen.numbers.mechanism.shapes if name == GROUND]
     marks = tuple(mark for shape in shapes for mark in _shape_marks(pen, GROUND, shape, GREY))
@@ -171,18 +171,27 @@ def _body_item(pen: Pen, body: AnyBody, points: list[Point], guided: set[str]) -
     elif shapes:
         marks = [mark for shape in shapes for mark in _shape_marks(pen, body.name, shape, colour)]
     else:
-        marks = _outline(pen, i, points, _gyration(numbers, body), Look(colour, colour, 1.6, 0.16), body.name in guided)
+        marks = _body_outline(
+            pen,
+            i,
+            points,
+            _half_edges_of_inertia_box(numbers, body),
+            Look(colour, colour, 1.6, 0.16),
+            body.name in guided,
+        )
     if not body.is_point:
         held = any(body.name in joint.bodies for joint in numbers.mechanism.joints)
         if numbers.spatial and not held and points and not shapes:
-            marks += _outline(pen, i, [], _gyration(numbers, body), Look(colour, colour, 1.0, 0.3), False)
+            marks += _body_outline(
+                pen, i, [], _half_edges_of_inertia_box(numbers, body), Look(colour, colour, 1.0, 0.3), False
+            )
         marks.append(pen.dot(centre, 0.34, replace(RIGID, width=0.8), mass=True))
     own = [p for p in points if any(p)]
     x, y, z = np.mean(np.array(own), axis=0) if own else np.zeros(3)
     return Item("body", body.name, "point" if body.is_point else "rigid", tuple(marks), label=(i, (x, y, z)))
 
 
-def _gyration(numbers: PlacedMechanism, body: AnyBody) -> Array:
+def _half_edges_of_inertia_box(numbers: PlacedMechanism, body: AnyBody) -> Array:
     """Return half the edges of the box of even density that has a body's mass and moments of inertia [m]."""
     mass = numbers.number(body.mass) or 1.0
     if isinstance(body, SpatialBody):
@@ -219,11 +228,11 @@ def _shape_marks(pen: Pen, body: str, shape: Shape, colour: str) -> list[Mark]:
         points = tuple(place(point).at for point in shape.points)
         return [Line(index, points, look, shape.closed)]
     if shape.kind == "mesh":
-        faces_of = tuple(_tuples(face) for face in mesh_faces(numbers, body, shape))
+        faces_of = tuple(_as_tuples(face) for face in mesh_faces(numbers, body, shape))
         return [Solid(index, faces_of, replace(look, ink=colour, width=0.4, opacity=1.0), convex=False)]
     sizes = [numbers.number(e) for e in shape.sizes]
     middle = place(shape.at)
-    at, turned = numbers.out(middle), numbers.now.turns[index]
+    at, turned = numbers.in_ground_frame(middle), numbers.now.turns[index]
     if shape.kind == "box":
         size = np.array([*sizes, 0.0]) if len(sizes) == 2 else np.array(sizes)
         return [pen.box(index, at, turned.T, size, replace(look, opacity=0.6) if numbers.spatial else look)]
@@ -234,7 +243,7 @@ def _shape_marks(pen: Pen, body: str, shape: Shape, colour: str) -> list[Mark]:
         ring = pen.ring(index, at, np.array([0.0, 0.0, 1.0]), sizes[0], look)
         return [ring, Line(index, (middle.at, ring.points[0]), replace(look, width=1.0))]
     axis = turned @ numbers.vector(shape.axis)
-    first, second = across(axis)
+    first, second = directions_across_axis(axis)
     turn = np.linspace(0.0, 2.0 * np.pi, SIDES, endpoint=False)[:, None]
     ring_points = sizes[0] * (np.cos(turn) * first + np.sin(turn) * second)
     ends = [at + 0.5 * sign * sizes[1] * axis + ring_points for sign in (-1.0, 1.0)]
@@ -245,7 +254,7 @@ def _shape_marks(pen: Pen, body: str, shape: Shape, colour: str) -> list[Mark]:
     return [Solid(index, tuple(faces), replace(look, ink=colour, width=0.4, opacity=0.6))]
 
 
-def _outline(pen: Pen, body: int, points: Sequence[Point], gyration: Array, look: Look, shown: bool) -> list[Mark]:
+def _body_outline(pen: Pen, body: int, points: Sequence[Point], gyration: Array, look: Look, shown: bool) -> list[Mark]:
     """Return a body as bars or a plate through its points; one without is a disc or box of its inertia.
 
     Parameters
@@ -265,7 +274,7 @@ def _outline(pen: Pen, body: int, points: Sequence[Point], gyration: Array, look
     """
     away = np.array([p for p in points]).reshape(-1, 3)
     if not len(away) or not np.any(np.ptp(np.vstack([away, np.zeros(3)]), axis=0) > 0.0):
-        return [] if shown else _of_inertia(pen, body, gyration, look)
+        return [] if shown else _inertia_mark(pen, body, gyration, look)
     if len(away) == 1:
         away = np.vstack([away, np.zeros(3)])
     middle = away.mean(axis=0)
@@ -273,23 +282,23 @@ def _outline(pen: Pen, body: int, points: Sequence[Point], gyration: Array, look
     length = spread[0]
     if len(spread) < 2 or spread[1] <= 1e-6 * length:  # in a line
         order = np.argsort((away - middle) @ axes[0])
-        return [_bar(pen, body, away[order[0]], away[order[-1]], look)]
+        return [_bar_mark(pen, body, away[order[0]], away[order[-1]], look)]
     if len(spread) < 3 or spread[2] <= 1e-6 * length:
-        corners = hull((away - middle) @ axes[:2].T)
-        plate = Line(body, _tuples(away[corners]), look, closed=True)
+        corners = convex_hull((away - middle) @ axes[:2].T)
+        plate = Line(body, _as_tuples(away[corners]), look, closed=True)
         inner = [p for k, p in enumerate(away) if k not in set(corners)]
         if not pen.numbers.spatial or len(corners) < 3:
             return [plate]
         ends = np.vstack([away[corners], away[corners[:1]]])
-        bars = [_bar(pen, body, a, b, look) for a, b in pairwise(ends)]
-        return [plate, *bars, *(_bar(pen, body, middle, p, look) for p in inner)]
+        bars = [_bar_mark(pen, body, a, b, look) for a, b in pairwise(ends)]
+        return [plate, *bars, *(_bar_mark(pen, body, middle, p, look) for p in inner)]
     if len(away) == 4:
         pairs = [(i, j) for i in range(4) for j in range(i)]
-        return [_bar(pen, body, away[i], away[j], look) for i, j in pairs]
-    return [_bar(pen, body, middle, p, look) for p in away]
+        return [_bar_mark(pen, body, away[i], away[j], look) for i, j in pairs]
+    return [_bar_mark(pen, body, middle, p, look) for p in away]
 
 
-def _of_inertia(pen: Pen, body: int, gyration: Array, look: Look) -> list[Mark]:
+def _inertia_mark(pen: Pen, body: int, gyration: Array, look: Look) -> list[Mark]:
     at, turned = pen.numbers.now.centres[body], pen.numbers.now.turns[body]
     if pen.numbers.spatial:
         return [pen.box(body, at, turned.T, 2.0 * np.maximum(gyration, 0.02 * float(gyration.max())), look)]
@@ -298,13 +307,13 @@ def _of_inertia(pen: Pen, body: int, gyration: Array, look: Look) -> list[Mark]:
     return [ring, Line(body, ((0.0, 0.0, 0.0), (radius, 0.0, 0.0)), replace(look, fill=""))]
 
 
-def _tuples(points: Array) -> tuple[Point, ...]:
+def _as_tuples(points: Array) -> tuple[Point, ...]:
     return tuple((float(x), float(y), float(z)) for x, y, z in points)
 
 
-def _bar(pen: Pen, body: int, a: Array, b: Array, look: Look) -> Mark:
+def _bar_mark(pen: Pen, body: int, a: Array, b: Array, look: Look) -> Mark:
     """Return a bar with round ends, in space a tube."""
-    ends = _tuples(np.array([a, b]))
+    ends = _as_tuples(np.array([a, b]))
     half = HALF * pen.unit
     if pen.numbers.spatial:
         return Tube(body, ends[0], ends[1], 0.6 * half, replace(look, opacity=0.45, width=1.0))
@@ -312,23 +321,23 @@ def _bar(pen: Pen, body: int, a: Array, b: Array, look: Look) -> Mark:
     turn = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 9)
     first = [b + half * np.array([np.cos(way + t), np.sin(way + t), 0.0]) for t in turn]
     second = [a - half * np.array([np.cos(way + t), np.sin(way + t), 0.0]) for t in turn]
-    return Line(body, _tuples(np.array(first + second)), look, closed=True)
+    return Line(body, _as_tuples(np.array(first + second)), look, closed=True)
 
 
-def hull(points: Array) -> list[int]:
+def convex_hull(points: Array) -> list[int]:
     """Return the corners of the convex hull of points in a plane, counter-clockwise."""
     order = [int(i) for i in np.lexsort((points[:, 1], points[:, 0]))]
 
-    def chain(indices: Sequence[int]) -> list[int]:
+    def hull_chain(indices: Sequence[int]) -> list[int]:
         corners: list[int] = []
         for i in indices:
-            while len(corners) > 1 and _turn(points[corners[-2]], points[corners[-1]], points[i]) <= 0.0:
+            while len(corners) > 1 and _turn_of_corner(points[corners[-2]], points[corners[-1]], points[i]) <= 0.0:
                 corners.pop()
             corners.append(i)
         return corners[:-1]
 
-    return chain(order) + chain(order[::-1])
+    return hull_chain(order) + hull_chain(order[::-1])
 
 
-def _turn(a: Array, b: Array, c: Array) -> float:
+def _turn_of_corner(a: Array, b: Array, c: Array) -> float:
     return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))

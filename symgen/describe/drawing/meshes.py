@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from symgen.base.errors import InputError, quoted
+from symgen.base.errors import InputError, quote
 from symgen.base.vocabulary.measures import Marker
-from symgen.base.vocabulary.rotations import matrix
+from symgen.base.vocabulary.rotations import rotation_matrix_of
 from symgen.describe.drawing.pen import PlacedMechanism
 from symgen.describe.drawing.scene import Array
 from symgen.describe.mechanism import Shape
@@ -32,7 +32,7 @@ def mesh_faces(numbers: PlacedMechanism, body: str, shape: Shape) -> Array:
     InputError
         If the file is not there or no mesh.
     """
-    where = f"bodies.{body}.shape, file {quoted(shape.file)}"
+    where = f"bodies.{body}.shape, file {quote(shape.file)}"
     path = mesh_file(shape.folder, shape.file) if shape.folder else None
     if path is None:
         raise InputError(where, "a file in the folder of the mechanism file", "none there")
@@ -41,28 +41,28 @@ def mesh_faces(numbers: PlacedMechanism, body: str, shape: Shape) -> Array:
         status = path.stat()
         if status.st_size > LARGEST:
             raise InputError(where, f"a file of at most {LARGEST} bytes", f"{status.st_size}")
-        corners = _triangles(path, status.st_mtime_ns, status.st_size, MOST_TRIANGLES // beside, where)
+        corners = _read_triangles(path, status.st_mtime_ns, status.st_size, MOST_TRIANGLES // beside, where)
     except OSError as error:
         raise InputError(where, "a file that can be read", error.strerror or "an error") from None
     scale = numbers.vector(shape.scale) if shape.scale else np.ones(3)
-    placed = (corners * scale) @ np.array(matrix(shape.turn)).T + numbers.place(Marker(body, shape.at)).at
+    placed = (corners * scale) @ np.array(rotation_matrix_of(shape.turn)).T + numbers.place(Marker(body, shape.at)).at
     return np.asarray(placed[:, ::-1] if np.prod(scale) < 0.0 else placed)  # a mirror turns faces inside out
 
 
 @lru_cache(maxsize=256)
-def _triangles(path: Path, changed: int, size: int, most: int, where: str) -> Array:
+def _read_triangles(path: Path, changed: int, size: int, most: int, where: str) -> Array:
     """Return the triangles of a file that last `changed` at a time, simplified to at most `most`."""
     with path.open("rb") as file:
         content = file.read(LARGEST + 1)
-    corners = _obj(content, where) if path.suffix.lower() == ".obj" else _stl(content, where)
+    corners = _read_obj(content, where) if path.suffix.lower() == ".obj" else _read_stl(content, where)
     if not len(corners):
         raise InputError(where, "a mesh with triangles", "none")
     if not np.all(np.abs(corners) <= FARTHEST):  # which nan is not either
         raise InputError(where, f"finite coordinates of at most {FARTHEST:g}", "another number")
-    return decimated(corners, most)
+    return simplify_triangles(corners, most)
 
 
-def _stl(content: bytes, where: str) -> Array:
+def _read_stl(content: bytes, where: str) -> Array:
     """Return the triangles of an STL file: binary where its length says so, else text if it begins as text."""
     count = int.from_bytes(content[80:84], "little")
     size = 84 + 50 * count
@@ -70,7 +70,7 @@ def _stl(content: bytes, where: str) -> Array:
         vertices = _VERTEX.findall(content)
         if b"endsolid" not in content or len(vertices) % 3:
             raise InputError(where, "an STL file", "one that breaks off")
-        return _numbers(vertices, where).reshape(-1, 3, 3)
+        return _read_vertices(vertices, where).reshape(-1, 3, 3)
     if len(content) < max(size, 84):
         got = f"{len(content)} bytes" if len(content) < 84 else f"{len(content)} bytes for {count} triangles"
         raise InputError(where, "an STL file", f"one that breaks off: {got}")
@@ -78,7 +78,7 @@ def _stl(content: bytes, where: str) -> Array:
     return np.frombuffer(content, layout, count, 84)["corners"].astype(np.float64)
 
 
-def _obj(content: bytes, where: str) -> Array:
+def _read_obj(content: bytes, where: str) -> Array:
     """Return the triangles of an OBJ file; faces with more corners are fans."""
     vertices, faces = list[tuple[bytes, ...]](), list[tuple[int, int, int]]()
     for line in content.splitlines():
@@ -95,18 +95,18 @@ def _obj(content: bytes, where: str) -> Array:
             if len(corners) < 3 or not all(0 <= k < len(vertices) for k in corners):
                 raise InputError(where, "faces of three or more vertices above them", "another face")
             faces += [(corners[0], a, b) for a, b in pairwise(corners[1:])]
-    points = _numbers(vertices, where)
+    points = _read_vertices(vertices, where)
     return points[np.array(faces, dtype=np.intp).reshape(-1, 3)] if len(points) else np.zeros((0, 3, 3))
 
 
-def _numbers(vertices: list[tuple[bytes, ...]], where: str) -> Array:
+def _read_vertices(vertices: list[tuple[bytes, ...]], where: str) -> Array:
     try:
         return np.array([[float(x) for x in vertex] for vertex in vertices], dtype=np.float64).reshape(-1, 3)
     except ValueError:
         raise InputError(where, "vertices of three numbers", "another text") from None
 
 
-def decimated(corners: Array, most: int) -> Array:
+def simplify_triangles(corners: Array, most: int) -> Array:
     """Return at most `most` triangles: vertices in one cell of a grid become their mean.
 
     Parameters

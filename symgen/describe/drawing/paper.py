@@ -81,7 +81,7 @@ class Drawn:
     label: tuple[float, float] | None
 
 
-def on_paper(scene: Scene, q: Array, view: View | None = None, bodies: bool = False) -> list[Drawn]:
+def items_on_paper(scene: Scene, q: Array, view: View | None = None, bodies: bool = False) -> list[Drawn]:
     """Return a scene's items on paper in the order in which they are drawn.
 
     Parameters
@@ -97,14 +97,14 @@ def on_paper(scene: Scene, q: Array, view: View | None = None, bodies: bool = Fa
     """
     eye = view_axes(scene, view or View())
     poses = scene.poses(q)
-    items = [_plainly(item) for item in scene.items if item.role == "body"] if bodies else scene.items
-    drawn = [_drawn(item, poses, eye) for item in items]
+    items = [_bars_as_lines(item) for item in scene.items if item.role == "body"] if bodies else scene.items
+    drawn = [_draw_item(item, poses, eye) for item in items]
     if scene.spatial:  # faults stay in front
         drawn.sort(key=lambda d: (d.item.role == "fault", d.depth))
     return drawn
 
 
-def _plainly(item: Item) -> Item:
+def _bars_as_lines(item: Item) -> Item:
     """Return an item with its bars as lines, and without its centre of mass."""
     marks: list[Mark] = []
     for mark in item.marks:
@@ -128,27 +128,27 @@ def view_axes(scene: Scene, view: View) -> Array:
     return np.stack([side, upward, np.cross(side, upward)])
 
 
-def _drawn(item: Item, poses: Poses, eye: Array) -> Drawn:
+def _draw_item(item: Item, poses: Poses, eye: Array) -> Drawn:
     parts: list[Path | Circle] = []
     depths: list[float] = []
     for mark in item.marks:
-        for points, part in _parts(mark, poses, eye):
+        for points, part in _parts_of_mark(mark, poses, eye):
             depths.append(float(points[:, 2].min()))
             parts.append(part)
     label = None
     if item.label is not None:
-        x, y, _ = eye @ poses.out(item.label[0], [item.label[1]])[0]
+        x, y, _ = eye @ poses.to_ground(item.label[0], [item.label[1]])[0]
         label = float(x), float(y)
     return Drawn(item, tuple(parts), min(depths, default=0.0), label)
 
 
-def _parts(mark: Mark, poses: Poses, eye: Array) -> Iterator[tuple[Array, Path | Circle]]:
+def _parts_of_mark(mark: Mark, poses: Poses, eye: Array) -> Iterator[tuple[Array, Path | Circle]]:
     """Yield the parts of a mark with its points as the eye has them."""
     if isinstance(mark, Line):
-        projected = poses.out(mark.body, mark.points) @ eye.T
+        projected = poses.to_ground(mark.body, mark.points) @ eye.T
         yield projected, Path(projected[:, :2], mark.look, mark.closed)
     elif isinstance(mark, Disc):
-        projected = poses.out(mark.body, [mark.at]) @ eye.T
+        projected = poses.to_ground(mark.body, [mark.at]) @ eye.T
         x, y = float(projected[0, 0]), float(projected[0, 1])
         if not mark.mass:
             yield projected, Circle(x, y, mark.radius, mark.look)
@@ -160,9 +160,9 @@ def _parts(mark: Mark, poses: Poses, eye: Array) -> Iterator[tuple[Array, Path |
             quarter = np.array([x, y]) + mark.radius * np.vstack([[0.0, 0.0], rim])
             yield projected, Path(quarter, Look(INK, INK, 0.1), True)
     elif isinstance(mark, Tube):
-        yield from _tube(mark, poses, eye)
+        yield from _outline_of_tube(mark, poses, eye)
     elif isinstance(mark, Solid):
-        faces = [poses.out(mark.body, face) @ eye.T for face in mark.faces]
+        faces = [poses.to_ground(mark.body, face) @ eye.T for face in mark.faces]
         if not mark.convex:
             faces.sort(key=lambda face: float(face[:, 2].mean()))
         for projected in faces:
@@ -171,14 +171,14 @@ def _parts(mark: Mark, poses: Poses, eye: Array) -> Iterator[tuple[Array, Path |
                 light = 0.75 + 0.25 * float(normal[1]) / (float(np.linalg.norm(normal)) or 1.0)
                 yield projected, Path(projected[:, :2], replace(mark.look, opacity=mark.look.opacity * light), True)
     else:
-        ends = np.array([poses.out(mark.body, [mark.at])[0], poses.out(mark.other, [mark.to])[0]]) @ eye.T
-        for path in _stretched(mark, ends[:, :2]):
+        ends = np.array([poses.to_ground(mark.body, [mark.at])[0], poses.to_ground(mark.other, [mark.to])[0]]) @ eye.T
+        for path in _draw_stretched_mark(mark, ends[:, :2]):
             yield ends, path
 
 
-def _tube(mark: Tube, poses: Poses, eye: Array) -> Iterator[tuple[Array, Path]]:
+def _outline_of_tube(mark: Tube, poses: Poses, eye: Array) -> Iterator[tuple[Array, Path]]:
     """Yield the outline of a round bar, and its visible end."""
-    a, b = poses.out(mark.body, [mark.a, mark.b]) @ eye.T
+    a, b = poses.to_ground(mark.body, [mark.a, mark.b]) @ eye.T
     if a[2] > b[2]:
         a, b = b, a
     way = b - a
@@ -197,18 +197,18 @@ def _tube(mark: Tube, poses: Poses, eye: Array) -> Iterator[tuple[Array, Path]]:
         yield both, Path(b[:2] + ring, mark.look, True)
 
 
-def _stretched(mark: Stretch, ends: Array) -> Iterator[Path]:
+def _draw_stretched_mark(mark: Stretch, ends: Array) -> Iterator[Path]:
     """Yield a spring as a zigzag, a damper as a pot, a rod as a line, from one end to the other."""
     way = ends[1] - ends[0]
     length = float(np.hypot(*way))
     along = way / length if length else np.array([1.0, 0.0])
     side, u = np.array([-along[1], along[0]]), mark.size
 
-    def path(*points: tuple[float, float], closed: bool = False, look: Look = mark.look) -> Path:
+    def path_beside_line(*points: tuple[float, float], closed: bool = False, look: Look = mark.look) -> Path:
         return Path(np.array([ends[0] + s * along + n * u * side for s, n in points]), look, closed)
 
     if mark.kind in ("rod", "gap") or not length:
-        yield path((0.0, 0.0), (length, 0.0))
+        yield path_beside_line((0.0, 0.0), (length, 0.0))
         return
     aside = 0.75 if mark.kind == "spring-damper" else 0.0
     start, end = 0.18 * length, 0.82 * length
@@ -216,7 +216,7 @@ def _stretched(mark: Stretch, ends: Array) -> Iterator[Path]:
         teeth = 12
         step = (end - start) / teeth
         zigzag = [(start + (k + 0.5) * step, aside + (0.55 if k % 2 else -0.55)) for k in range(teeth)]
-        yield path(
+        yield path_beside_line(
             (0.0, 0.0),
             *([(start, 0.0), (start, aside)] if aside else [(start, 0.0)]),
             *zigzag,
@@ -226,9 +226,9 @@ def _stretched(mark: Stretch, ends: Array) -> Iterator[Path]:
     if "damper" in mark.kind or mark.kind == "actuator":
         n = -aside
         left, right = 0.4 * length, 0.62 * length
-        yield path(*([(start, 0.0)] if aside else [(0.0, 0.0)]), (start, n), (0.52 * length, n))
+        yield path_beside_line(*([(start, 0.0)] if aside else [(0.0, 0.0)]), (start, n), (0.52 * length, n))
         fill = replace(mark.look, fill="#dfe4ea") if mark.kind == "actuator" else mark.look
-        yield path(
+        yield path_beside_line(
             (left, n - 0.45),
             (right, n - 0.45),
             (right, n + 0.45),
@@ -237,5 +237,5 @@ def _stretched(mark: Stretch, ends: Array) -> Iterator[Path]:
             look=fill,
         )
         if mark.kind != "actuator":
-            yield path((0.52 * length, n - 0.36), (0.52 * length, n + 0.36))
-        yield path((right, n), (end, n), *([(end, 0.0)] if aside else [(length, 0.0)]))
+            yield path_beside_line((0.52 * length, n - 0.36), (0.52 * length, n + 0.36))
+        yield path_beside_line((right, n), (end, n), *([(end, 0.0)] if aside else [(length, 0.0)]))

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from symgen.base.vocabulary.measures import GROUND, Direction, Marker, parts
+from symgen.base.vocabulary.measures import GROUND, Direction, Marker, nested_parts
 from symgen.describe.drawing.scene import (
     COLOURS,
     GREY,
@@ -72,7 +72,7 @@ class PlacedMechanism:
         """Return a constant of the mechanism."""
         return evaluate(expression, self.values)
 
-    def at(self, expression: Any, further: Mapping[str, float]) -> float:
+    def value_of_formula(self, expression: Any, further: Mapping[str, float]) -> float:
         """Return the value of a formula of the state in the first positions, at rest."""
         values = {**self.values, **self.state, **further}
         return evaluate(expression, values, tables={table.name: table for table in self.mechanism.tables})
@@ -88,9 +88,9 @@ class PlacedMechanism:
         x, y, z = self.vector(marker.point) - self.centres[marker.body]
         return BodyPoint(self.index[marker.body], (float(x), float(y), float(z)))
 
-    def out(self, place: BodyPoint) -> Array:
+    def in_ground_frame(self, place: BodyPoint) -> Array:
         """Return a point in the ground frame, shape (3,)."""
-        return np.asarray(self.now.out(place.body, [place.at])[0])
+        return np.asarray(self.now.to_ground(place.body, [place.at])[0])
 
     def direction(self, direction: Direction) -> Array:
         """Return a direction in the ground frame, of length 1."""
@@ -100,25 +100,25 @@ class PlacedMechanism:
 
     def markers(self, value: object) -> list[BodyPoint]:
         """Return the different points that a value names, in order."""
-        return list(dict.fromkeys(self.place(m) for m in parts(value) if isinstance(m, Marker)))
+        return list(dict.fromkeys(self.place(m) for m in nested_parts(value) if isinstance(m, Marker)))
 
     def directions(self, value: object) -> list[Direction]:
         """Return the different directions that a value names, in order."""
-        return list(dict.fromkeys(d for d in parts(value) if isinstance(d, Direction)))
+        return list(dict.fromkeys(d for d in nested_parts(value) if isinstance(d, Direction)))
 
-    def span(self, a: BodyPoint, b: BodyPoint, along: Array) -> tuple[float, float]:
+    def range_along(self, a: BodyPoint, b: BodyPoint, along: Array) -> tuple[float, float]:
         """Return the range of b along a direction that a's body carries, as seen from a [m].
 
         The guide of a body that moves begins at the body's own point; that of the ground is only as long as it is used.
         """
-        places = [*self.travel(a, b, along), *([] if a.body == GROUNDED else [0.0])]
+        places = [*self.ends_of_travel(a, b, along), *([] if a.body == GROUNDED else [0.0])]
         return min(places), max(places)
 
-    def travel(self, a: BodyPoint, b: BodyPoint, along: Array) -> tuple[float, float]:
+    def ends_of_travel(self, a: BodyPoint, b: BodyPoint, along: Array) -> tuple[float, float]:
         """Return the ends of b's displacement from a along a direction that a's body carries [m]."""
         own, places = self.now.turns[a.body].T @ along, list[float]()
         for poses in self.all:
-            d = poses.out(b.body, [b.at])[0] - poses.out(a.body, [a.at])[0]
+            d = poses.to_ground(b.body, [b.at])[0] - poses.to_ground(a.body, [a.at])[0]
             places.append(float(d @ (poses.turns[a.body] @ own)))
         return min(places), max(places)
 
@@ -154,7 +154,7 @@ class Pen:
         """Return the colour of a body; the ground is grey."""
         return GREY if body == GROUNDED else COLOURS[body % len(COLOURS)]
 
-    def carry(self, place: BodyPoint, turned: int) -> int:
+    def add_carried_frame(self, place: BodyPoint, turned: int) -> int:
         """Return the number of a frame that moves with a point and has the directions of a body, or of the ground.
 
         This is the body's own frame if it always has those directions.
@@ -171,10 +171,10 @@ class Pen:
         """Return points of the ground frame as points of a frame."""
         now, places, frames = self.numbers.now, np.asarray(points, dtype=np.float64), self.numbers.frames
         if body < len(frames):
-            local = now.inside(body, places)
+            local = now.to_body(body, places)
         else:
             own = self.carried[body - len(frames)]
-            local = (places - now.out(own.body, [own.at])) @ now.turns[own.turned]
+            local = (places - now.to_ground(own.body, [own.at])) @ now.turns[own.turned]
         return tuple((float(x), float(y), float(z)) for x, y, z in local)
 
     def line(self, body: int, points: Sequence[Array] | Array, look: Look = PLAIN, closed: bool = False) -> Line:
@@ -196,7 +196,7 @@ class Pen:
 
     def ring(self, body: int, at: Array, axis: Array, radius: float, look: Look = PLAIN) -> Line:
         """Return a circle about an axis; its radius is in metres."""
-        first, second = across(axis)
+        first, second = directions_across_axis(axis)
         turn = np.linspace(0.0, 2.0 * np.pi, 40, endpoint=False)[:, None]
         return self.line(body, at + radius * (np.cos(turn) * first + np.sin(turn) * second), look, closed=True)
 
@@ -204,13 +204,13 @@ class Pen:
         """Return a line with a head at its end."""
         end, way = points[-1], points[-1] - points[-2]
         way = way / (float(np.linalg.norm(way)) or 1.0)
-        side = np.array([-way[1], way[0], 0.0]) if not self.numbers.spatial else across(way)[0]
+        side = np.array([-way[1], way[0], 0.0]) if not self.numbers.spatial else directions_across_axis(way)[0]
         head = np.array([end, end - self.unit * (0.9 * way - 0.35 * side), end - self.unit * (0.9 * way + 0.35 * side)])
         return [self.line(body, points, look), self.line(body, head, Look(look.ink, look.ink, 0.5), closed=True)]
 
-    def turning(self, body: int, at: Array, axis: Array, radius: float, look: Look) -> list[Mark]:
+    def turning_arrow(self, body: int, at: Array, axis: Array, radius: float, look: Look) -> list[Mark]:
         """Return an arrow that turns about an axis; its radius is in units."""
-        first, second = across(axis)
+        first, second = directions_across_axis(axis)
         turn = np.linspace(0.0, 2.0 * np.pi * 0.72, 20)[:, None]
         points = at + radius * self.unit * (np.cos(turn) * first + np.sin(turn) * second)
         return self.arrow(body, points, look)
@@ -229,7 +229,7 @@ class Pen:
                 faces.append(self.points(body, [at + sign * half[k] + s * half[i] + t * half[j] for s, t in turn]))
         return Solid(body, tuple(faces), look)
 
-    def earth(self, at: Array, along: Array, depth: Array) -> list[Mark]:
+    def ground_hatching(self, at: Array, along: Array, depth: Array) -> list[Mark]:
         """Return a line of the ground with hatches on its far side, three units long."""
         u = self.unit
         marks: list[Mark] = [self.line(GROUNDED, [at - 1.5 * u * along, at + 1.5 * u * along], Look(INK, "", 1.2))]
@@ -251,7 +251,7 @@ class Pen:
         return marks
 
 
-def across(axis: Array) -> tuple[Array, Array]:
+def directions_across_axis(axis: Array) -> tuple[Array, Array]:
     """Return two directions across an axis and each other, so that the three make a right-handed frame."""
     axis = axis / (float(np.linalg.norm(axis)) or 1.0)
     first = np.cross(np.eye(3)[int(np.argmin(np.abs(axis)))], axis)

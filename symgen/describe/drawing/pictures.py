@@ -24,7 +24,7 @@ THIN = 1.25
 NAMED = 14
 
 
-def svg(
+def svg_text(
     scene: Scene, drawn: Sequence[Drawn], behind: Sequence[Drawn] = (), labels: bool | None = None, caption: str = ""
 ) -> str:
     """Return a picture as the text of an SVG file.
@@ -37,7 +37,7 @@ def svg(
     scene : Scene
         What is drawn.
     drawn : sequence of Drawn
-        Its items on paper, from `symgen.describe.drawing.paper.on_paper`.
+        Its items on paper, from `symgen.describe.drawing.paper.items_on_paper`.
     behind : sequence of Drawn
         Items drawn faintly behind it.
     labels : bool, optional
@@ -45,33 +45,37 @@ def svg(
     caption : str
         A sentence below the picture.
     """
-    low, scale, width, height = fitted([*drawn, *behind])
+    low, scale, width, height = fit_picture([*drawn, *behind])
 
-    def place(points: Array) -> Array:
+    def pixels_of_points(points: Array) -> Array:
         return np.stack(
             [(points[:, 0] - low[0]) * scale + MARGIN, height - MARGIN - (points[:, 1] - low[1]) * scale], 1
         )
 
-    wrapped, named = _wrapped(caption, width), _named(drawn, labels)
+    wrapped, named = _wrap_caption(caption, width), _labels_with_places(drawn, labels)
     below = 22.0 * len(wrapped)
     title = escape(scene.title or scene.name)
     lines = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_short(width)} {_short(height + below)}" '
-        f'width="{_short(width)}" height="{_short(height + below)}" role="img" font-family="sans-serif" '
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_short_number(width)} {_short_number(height + below)}" '
+        f'width="{_short_number(width)}" height="{_short_number(height + below)}" role="img" font-family="sans-serif" '
         'stroke-linejoin="round" stroke-linecap="round">',
         f"<title>{title}</title>",
-        f'<rect width="{_short(width)}" height="{_short(height + below)}" fill="#ffffff"/>',
+        f'<rect width="{_short_number(width)}" height="{_short_number(height + below)}" fill="#ffffff"/>',
     ]
     if behind:
         parts = (part for each in behind for part in each.parts)
-        lines += ['<g class="ghost" opacity="0.3">', *(_part(part, place, scale) for part in parts), "</g>"]
+        lines += [
+            '<g class="ghost" opacity="0.3">',
+            *(_svg_part(part, pixels_of_points, scale) for part in parts),
+            "</g>",
+        ]
     for each in drawn:
         item = each.item
         name = escape(item.name, quote=True)
         lines.append(f'<g id="{item.role}-{name}" class="{item.role}" data-name="{name}" data-kind="{item.kind}">')
         words = f"joint {item.name} is open" if item.role == "fault" else f"{item.role} {item.name} ({item.kind})"
         lines.append(f"<title>{escape(words)}</title>")
-        lines += [_part(part, place, scale) for part in each.parts]
+        lines += [_svg_part(part, pixels_of_points, scale) for part in each.parts]
         lines.append("</g>")
     if named:
         lines.append(
@@ -79,28 +83,29 @@ def svg(
             'paint-order="stroke" text-anchor="middle">'
         )
         for name, label in named:
-            x, y = place(np.array([label]))[0]
-            lines.append(f'<text x="{_short(x)}" y="{_short(y - 9.0)}">{escape(name)}</text>')
+            x, y = pixels_of_points(np.array([label]))[0]
+            lines.append(f'<text x="{_short_number(x)}" y="{_short_number(y - 9.0)}">{escape(name)}</text>')
         lines.append("</g>")
     for k, text in enumerate(wrapped):
-        y = _short(height + 14.0 + 22.0 * k)
+        y = _short_number(height + 14.0 + 22.0 * k)
         lines.append(
-            f'<text class="caption" x="{_short(MARGIN)}" y="{y}" font-size="14" fill="#a00000">{escape(text)}</text>'
+            f'<text class="caption" x="{_short_number(MARGIN)}" y="{y}" font-size="14" fill="#a00000">'
+            f"{escape(text)}</text>"
         )
     return "\n".join([*lines, "</svg>", ""])
 
 
-def _wrapped(text: str, width: float) -> list[str]:
+def _wrap_caption(text: str, width: float) -> list[str]:
     return textwrap.wrap(text, max(20, int(width / 7.6)))
 
 
-def _named(drawn: Sequence[Drawn], labels: bool | None) -> list[tuple[str, tuple[float, float]]]:
+def _labels_with_places(drawn: Sequence[Drawn], labels: bool | None) -> list[tuple[str, tuple[float, float]]]:
     """Return the names in a picture with their places: by default only where bodies are few."""
     few = sum(d.item.role == "body" for d in drawn) <= NAMED
     return [(d.item.name, d.label) for d in drawn if d.label is not None and (few if labels is None else labels)]
 
 
-def fitted(drawn: Iterable[Drawn]) -> tuple[Array, float, float, float]:
+def fit_picture(drawn: Iterable[Drawn]) -> tuple[Array, float, float, float]:
     """Return the lower left corner [m], pixels a metre, width and height of a picture [pixel]."""
     corners: list[Array] = []
     for part in (part for each in drawn for part in each.parts):
@@ -119,13 +124,13 @@ def fitted(drawn: Iterable[Drawn]) -> tuple[Array, float, float, float]:
     return low - 0.5 * slack / scale, scale, width, height
 
 
-def _short(number: float) -> str:
+def _short_number(number: float) -> str:
     text = f"{number:.1f}"
     text = text.removesuffix(".0")
     return "0" if text == "-0" else text
 
 
-def _paint(look: Look, closed: bool) -> str:
+def _svg_style(look: Look, closed: bool) -> str:
     fill = look.fill if closed and look.fill else "none"
     words = f'fill="{fill}"' + (f' fill-opacity="{look.opacity:g}"' if fill != "none" and look.opacity < 1.0 else "")
     if look.ink and look.width:
@@ -133,13 +138,16 @@ def _paint(look: Look, closed: bool) -> str:
     return words + (' stroke-dasharray="5 3"' if look.dashed else "")
 
 
-def _part(part: Path | Circle, place: Callable[[Array], Array], scale: float) -> str:
+def _svg_part(part: Path | Circle, place: Callable[[Array], Array], scale: float) -> str:
     if isinstance(part, Circle):
         (x, y), r = place(np.array([[part.x, part.y]]))[0], part.radius * scale
-        return f'<circle cx="{_short(x)}" cy="{_short(y)}" r="{_short(r)}" {_paint(part.look, True)}/>'
-    points = " ".join(f"{_short(x)},{_short(y)}" for x, y in place(part.points))
+        return (
+            f'<circle cx="{_short_number(x)}" cy="{_short_number(y)}" r="{_short_number(r)}" '
+            f"{_svg_style(part.look, True)}/>"
+        )
+    points = " ".join(f"{_short_number(x)},{_short_number(y)}" for x, y in place(part.points))
     tag = "polygon" if part.closed else "polyline"
-    return f'<{tag} points="{points}" {_paint(part.look, part.closed)}/>'
+    return f'<{tag} points="{points}" {_svg_style(part.look, part.closed)}/>'
 
 
 #: Pixels per inch of sizes, and of written files.
@@ -148,7 +156,7 @@ LAID_OUT, WRITTEN = 96.0, 192.0
 FAINT = 0.3
 
 
-def write_pixels(
+def write_pixel_file(
     stream: IO[bytes], kind: str, drawn: Sequence[Drawn], behind: Sequence[Drawn], labels: bool | None, caption: str
 ) -> None:
     """Write a picture.
@@ -169,12 +177,12 @@ def write_pixels(
     from matplotlib.figure import Figure
 
     figure = Figure()
-    paint(figure, fitted([*drawn, *behind]), drawn, behind, labels, caption)
+    paint_on_figure(figure, fit_picture([*drawn, *behind]), drawn, behind, labels, caption)
     metadata = {"png": {"Software": None}, "pdf": {"CreationDate": None}}[kind]
     figure.savefig(stream, format=kind, dpi=WRITTEN, metadata=metadata)
 
 
-def paint(
+def paint_on_figure(
     figure: Figure,
     frame: tuple[Array, float, float, float],
     drawn: Sequence[Drawn],
@@ -189,12 +197,12 @@ def paint(
     figure : Figure
         Of matplotlib.
     frame : tuple
-        The value of `symgen.describe.drawing.pictures.fitted` for all items.
+        The value of `symgen.describe.drawing.pictures.fit_picture` for all items.
     drawn, behind, labels, caption
-        As for `write_pixels`.
+        As for `write_pixel_file`.
     """
     low, scale, width, height = frame
-    lines = _wrapped(caption, width)
+    lines = _wrap_caption(caption, width)
     below = 22.0 * len(lines)
     figure.set_size_inches(width / LAID_OUT, (height + below) / LAID_OUT)
     ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
@@ -203,15 +211,15 @@ def paint(
     ax.set_ylim(-MARGIN - below, height - MARGIN)
     for group, strength in ((behind, FAINT), (drawn, 1.0)):
         for part in (part for each in group for part in each.parts):
-            _add(ax, part, low, scale, strength)
-    for name, label in _named(drawn, labels):
+            _add_to_axes(ax, part, low, scale, strength)
+    for name, label in _labels_with_places(drawn, labels):
         x, y = ((c - o) * scale for c, o in zip(label, low, strict=True))
         ax.text(x, y + 9.0, name, fontsize=9.0, color="#20262e", ha="center", parse_math=False, zorder=9)
     for k, text in enumerate(lines):
         ax.text(0.0, -MARGIN - 14.0 - 22.0 * k, text, fontsize=10.5, color="#a00000", parse_math=False)
 
 
-def _add(ax: Any, part: Path | Circle, low: Any, scale: float, strength: float) -> None:
+def _add_to_axes(ax: Any, part: Path | Circle, low: Any, scale: float, strength: float) -> None:
     from matplotlib import patches
     from matplotlib.colors import to_rgba
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.vocabulary.rotations import matrix
+from symgen.base.vocabulary.rotations import rotation_matrix_of
 
 Array = NDArray[np.float64]
 #: Components of a point of a body, from its centre of mass along its axes, of the ground in its frame [m].
@@ -269,24 +269,24 @@ class Poses:
             self.centres[i, : 3 if spatial else 2] = own[: 3 if spatial else 2]
             if spatial and frame.size == 7:
                 e = np.array(own[3:]) / np.linalg.norm(own[3:])
-                self.turns[i] = matrix((e[0], e[1], e[2], e[3]))
+                self.turns[i] = rotation_matrix_of((e[0], e[1], e[2], e[3]))
             elif not spatial and frame.size == 3:
                 c, s = np.cos(own[2]), np.sin(own[2])
                 self.turns[i, :2, :2] = [[c, -s], [s, c]]
         for i, own_frame in enumerate(carried, len(frames)):
-            self.centres[i] = self.out(own_frame.body, [own_frame.at])[0]
+            self.centres[i] = self.to_ground(own_frame.body, [own_frame.at])[0]
             self.turns[i] = self.turns[own_frame.turned]
 
-    def out(self, body: int, points: Sequence[Sequence[float]] | Array) -> Array:
+    def to_ground(self, body: int, points: Sequence[Sequence[float]] | Array) -> Array:
         """Return points of a body in the ground frame, shape (k, 3)."""
         return np.asarray(self.centres[body] + np.asarray(points, dtype=np.float64) @ self.turns[body].T)
 
-    def inside(self, body: int, points: Array) -> Array:
+    def to_body(self, body: int, points: Array) -> Array:
         """Return points of the ground frame as points of a body, shape (k, 3)."""
         return np.asarray((np.asarray(points) - self.centres[body]) @ self.turns[body])
 
 
-def upwards(gravity: Sequence[float], spatial: bool) -> Point:
+def axis_against_gravity(gravity: Sequence[float], spatial: bool) -> Point:
     """Return the axis that points most against gravity."""
     if not any(gravity):
         return (0.0, 0.0, 1.0) if spatial else (0.0, 1.0, 0.0)

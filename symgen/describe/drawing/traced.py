@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from symgen.base.vocabulary.measures import Marker, parts
+from symgen.base.vocabulary.measures import Marker, nested_parts
 from symgen.describe.drawing.scene import Point
 from symgen.describe.formulas.evaluate import evaluate
 
@@ -47,22 +47,24 @@ def traced_points(mechanism: Mechanism, values: Mapping[str, float]) -> list[Tra
         Its parameters.
     """
 
-    def numbers(point: Vec) -> Point:
+    def point_as_numbers(point: Vec) -> Point:
         x, y, *z = (evaluate(e, values) for e in point)
         return (x, y, z[0] if z else 0.0)
 
-    def rounded(point: Vec) -> Point:
-        x, y, z = (round(c, 9) for c in numbers(point))
+    def rounded_point(point: Vec) -> Point:
+        x, y, z = (round(c, 9) for c in point_as_numbers(point))
         return (x, y, z)
 
-    markers = [m for joint in mechanism.joints for m in parts(joint.rows) if isinstance(m, Marker)]
-    tied = {(m.body, rounded(m.point)) for m in markers}
+    markers = [m for joint in mechanism.joints for m in nested_parts(joint.rows) if isinstance(m, Marker)]
+    tied = {(m.body, rounded_point(m.point)) for m in markers}
     points = list[TracedPoint]()
     bodies: tuple[AnyBody, ...] = mechanism.bodies
     for i, body in enumerate(bodies):
         points.append(TracedPoint(f"{body.name}.centre", i, (0.0, 0.0, 0.0), free=False))
-        centre = numbers(body.centre_of_mass)
+        centre = point_as_numbers(body.centre_of_mass)
         for name, point in body.points:
-            x, y, z = (p - c for p, c in zip(numbers(point), centre, strict=True))
-            points.append(TracedPoint(f"{body.name}.{name}", i, (x, y, z), (body.name, rounded(point)) not in tied))
+            x, y, z = (p - c for p, c in zip(point_as_numbers(point), centre, strict=True))
+            points.append(
+                TracedPoint(f"{body.name}.{name}", i, (x, y, z), (body.name, rounded_point(point)) not in tied)
+            )
     return points

@@ -7,10 +7,10 @@ from itertools import product, starmap
 
 import numpy as np
 
-from symgen.describe.drawing.paper import Circle, Path, View, on_paper, view_axes
+from symgen.describe.drawing.paper import Circle, Path, View, items_on_paper, view_axes
 from symgen.describe.drawing.scene import Array, Disc, Line, Mark, Poses, Scene, Solid, Tube
 
-#: The usual view, and the smallest share of a body in it (see `_least_shown`).
+#: The usual view, and the smallest share of a body in it (see `_least_visible_share`).
 USUAL, ENOUGH = View(), 0.95
 #: Turns and tilts of the views to choose from [rad].
 TURNS = (0.6, 0.9, 0.3, 1.2, 0.0, -0.3, -0.6, -0.9, -1.2, 1.57)
@@ -19,7 +19,7 @@ TILTS = (0.42, 0.62, 0.22)
 ALONG, MOST = 24, 300
 
 
-def viewpoint(scene: Scene, q: Array) -> View:
+def choose_viewpoint(scene: Scene, q: Array) -> View:
     """Return the usual view where it shows enough of every body, or else the one with the largest least share.
 
     Parameters
@@ -31,23 +31,27 @@ def viewpoint(scene: Scene, q: Array) -> View:
     """
     if not scene.spatial:
         return USUAL
-    scene = replace(scene, items=tuple(replace(x, marks=tuple(map(_boxed, x.marks))) for x in scene.items))
+    scene = replace(scene, items=tuple(replace(x, marks=tuple(map(_box_around_mesh, x.marks))) for x in scene.items))
     poses, clouds = scene.poses(q), dict[str, Array]()
     for item in scene.items:
-        points = [p for mark in item.marks for p in _points(mark, poses)] if item.role == "body" else []
+        points = [p for mark in item.marks for p in _points_on_mark(mark, poses)] if item.role == "body" else []
         if points:
             clouds[item.name] = np.concatenate(points)
     every = max(1, sum(map(len, clouds.values())) // MOST)
     clouds = {name: cloud[::every] for name, cloud in clouds.items()}
     bodies = replace(scene, items=tuple(x for x in scene.items if x.role == "body" and x.name in clouds))
 
-    def least(view: View) -> float:
-        return round(_least_shown(bodies, q, clouds, view), 9)  # views that differ by rounding are alike
+    def rounded_least_share(view: View) -> float:
+        return round(_least_visible_share(bodies, q, clouds, view), 9)  # views that differ by rounding are alike
 
-    return USUAL if least(USUAL) >= ENOUGH else max(starmap(View, product(TURNS, TILTS)), key=least)
+    return (
+        USUAL
+        if rounded_least_share(USUAL) >= ENOUGH
+        else max(starmap(View, product(TURNS, TILTS)), key=rounded_least_share)
+    )
 
 
-def _boxed(mark: Mark) -> Mark:
+def _box_around_mesh(mark: Mark) -> Mark:
     """Return a mesh as the box around it, which is seen from the same sides; another mark as it is."""
     if not isinstance(mark, Solid) or mark.convex:
         return mark
@@ -64,32 +68,32 @@ def _boxed(mark: Mark) -> Mark:
     return Solid(mark.body, tuple(faces), mark.look)
 
 
-def _points(mark: Mark, poses: Poses) -> list[Array]:
+def _points_on_mark(mark: Mark, poses: Poses) -> list[Array]:
     """Return points all over a mark in the ground frame; for a bar, points along its axis."""
     if isinstance(mark, Tube):
         share = np.linspace(0.0, 1.0, ALONG)[:, None]
-        return [poses.out(mark.body, (1.0 - share) * np.array(mark.a) + share * np.array(mark.b))]
+        return [poses.to_ground(mark.body, (1.0 - share) * np.array(mark.a) + share * np.array(mark.b))]
     if isinstance(mark, Line):
-        return [poses.out(mark.body, mark.points)]
+        return [poses.to_ground(mark.body, mark.points)]
     if isinstance(mark, Solid):
-        return [poses.out(mark.body, face) for face in mark.faces]
-    return [poses.out(mark.body, [mark.at])] if isinstance(mark, Disc) and not mark.mass else []
+        return [poses.to_ground(mark.body, face) for face in mark.faces]
+    return [poses.to_ground(mark.body, [mark.at])] if isinstance(mark, Disc) and not mark.mass else []
 
 
-def _least_shown(bodies: Scene, q: Array, clouds: dict[str, Array], view: View) -> float:
+def _least_visible_share(bodies: Scene, q: Array, clouds: dict[str, Array], view: View) -> float:
     """Return the visible share of the body that is shown least.
 
     That is the visible share of its points, areas in front of a point counting with their opacity, or twice the ratio
     of its length on paper to its length in space where that is less.
     """
-    eye, drawn = view_axes(bodies, view)[:2], on_paper(bodies, q, view)
+    eye, drawn = view_axes(bodies, view)[:2], items_on_paper(bodies, q, view)
     own = [clouds[each.item.name] for each in drawn]
     ends = np.cumsum([0, *map(len, own)])
     points = np.concatenate([np.zeros((0, 2)), *(cloud @ eye.T for cloud in own)])
     clear = np.ones(len(points))
     for end, each in zip(ends, drawn, strict=False):
         for part in each.parts:
-            clear[:end][_inside(part, points[:end])] *= 1.0 - part.look.opacity
+            clear[:end][_points_in_area(part, points[:end])] *= 1.0 - part.look.opacity
     least = 1.0
     for cloud, start, end in zip(own, ends[:-1], ends[1:], strict=True):
         whole, beside = (float(np.linalg.norm(np.ptp(x, axis=0))) for x in (cloud, points[start:end]))
@@ -97,7 +101,7 @@ def _least_shown(bodies: Scene, q: Array, clouds: dict[str, Array], view: View) 
     return least
 
 
-def _inside(part: Path | Circle, points: Array) -> Array:
+def _points_in_area(part: Path | Circle, points: Array) -> Array:
     """Return which points the area of a part covers, shape (k,)."""
     if isinstance(part, Circle):
         return np.asarray(np.hypot(points[:, 0] - part.x, points[:, 1] - part.y) < part.radius)

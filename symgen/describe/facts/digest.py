@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import msgspec
 
-from symgen.describe.bounds.modes import families_of
+from symgen.describe.bounds.bounded_modes import rows_by_family
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.remembered import remembered
-from symgen.describe.tables import Table
+from symgen.describe.remembered import compute_once
+from symgen.describe.table_functions import Table
 
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1
@@ -19,7 +19,7 @@ FORM = 1
 _LATER = ("flexures", "pressed", "across", "speed", "backwards", "exponent", "changing")
 
 
-def canonical(mechanism: Mechanism) -> str:
+def canonical_text(mechanism: Mechanism) -> str:
     """Return the text of all parts of `mechanism` on which the equations depend.
 
     Bodies, joints, forces, parameters and rows keep the declared order, which is the order of coordinates, multipliers
@@ -28,10 +28,10 @@ def canonical(mechanism: Mechanism) -> str:
     bodies = [
         [
             body.name,
-            _text(body.mass),
-            _text(body.inertia),
-            _text(body.centre_of_mass),
-            sorted([name, _text(point)] for name, point in body.points),
+            _canonical_value(body.mass),
+            _canonical_value(body.inertia),
+            _canonical_value(body.centre_of_mass),
+            sorted([name, _canonical_value(point)] for name, point in body.points),
         ]
         for body in mechanism.bodies
     ]
@@ -39,35 +39,35 @@ def canonical(mechanism: Mechanism) -> str:
         ["form", str(FORM)],
         ["name", mechanism.name],
         ["space", mechanism.space],
-        ["gravity", _text(mechanism.gravity)],
+        ["gravity", _canonical_value(mechanism.gravity)],
         ["parameters", [[p.name, p.unit, *(["input"] if p.input else [])] for p in mechanism.parameters]],
-        ["tables", sorted(_table(table) for table in mechanism.tables)],
+        ["tables", sorted(_table_content(table) for table in mechanism.tables)],
         ["bodies", bodies],
-        ["joints", [_text(joint) for joint in mechanism.joints]],
-        ["forces", [_text(force) for force in mechanism.forces]],
+        ["joints", [_canonical_value(joint) for joint in mechanism.joints]],
+        ["forces", [_canonical_value(force) for force in mechanism.forces]],
     ]
     if mechanism.states:
-        parts.append(["states", [[x.name, x.unit, _text(x.rate)] for x in mechanism.states]])
+        parts.append(["states", [[x.name, x.unit, _canonical_value(x.rate)] for x in mechanism.states]])
     if mechanism.rotors:
-        parts.append(["rotors", [_text(rotor) for rotor in mechanism.rotors]])
+        parts.append(["rotors", [_canonical_value(rotor) for rotor in mechanism.rotors]])
     if mechanism.switchable:
         parts.append(["switchable", sorted(mechanism.switchable)])
-    for family, rows in families_of(mechanism).items():
-        parts.append([family.part, [_text(row) for row in rows]])
+    for family, rows in rows_by_family(mechanism).items():
+        parts.append([family.part, [_canonical_value(row) for row in rows]])
     if mechanism.topology is not None:
-        parts.append(["topology", _text(mechanism.topology)])
-    return "\n".join(_text(part) for part in parts)
+        parts.append(["topology", _canonical_value(mechanism.topology)])
+    return "\n".join(_canonical_value(part) for part in parts)
 
 
-@remembered
+@compute_once
 def digest(mechanism: Mechanism) -> str:
     """Return the SHA-256 of the canonical text in hexadecimal digits."""
     import hashlib
 
-    return hashlib.sha256(canonical(mechanism).encode()).hexdigest()
+    return hashlib.sha256(canonical_text(mechanism).encode()).hexdigest()
 
 
-def identity(mechanism: Mechanism) -> str:
+def mechanism_digest(mechanism: Mechanism) -> str:
     """Return the digest of all of a mechanism: equations, start, values of parameters and defaults.
 
     Shapes, limits, author and revision stay outside, as nothing is computed with them, and so do the sources of
@@ -80,7 +80,7 @@ def identity(mechanism: Mechanism) -> str:
     )
     # the text of structs, which older folders of sweeps and journals were named by
     text = msgspec.Struct.__repr__(plain).replace(", bounded=()", "").removesuffix(")")
-    text += "".join(f", {family.part}={rows!r}" for family, rows in families_of(mechanism).items()) + ")"
+    text += "".join(f", {family.part}={rows!r}" for family, rows in rows_by_family(mechanism).items()) + ")"
     for absent in (
         ", shapes=()",
         ", limits=()",
@@ -103,20 +103,20 @@ def identity(mechanism: Mechanism) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _table(table: Table) -> list[str]:
+def _table_content(table: Table) -> list[str]:
     """Return the content of a table; a linear one has the content that it had when all tables were linear."""
     how = [] if table.interpolation == "linear" else [table.interpolation, str(table.periodic)]
-    return [table.name, _text(table.x), _text(table.y), *how]
+    return [table.name, _canonical_value(table.x), _canonical_value(table.y), *how]
 
 
-def _text(value: object) -> str:
+def _canonical_value(value: object) -> str:
     """Return `value` as text that differs wherever values differ: strings quoted, floats to the last digit."""
     if isinstance(value, msgspec.Struct):
         fields = [field for field in value.__struct_fields__ if field not in _LATER or getattr(value, field)]
-        inner = " ".join(f"{field}={_text(getattr(value, field))}" for field in fields)
+        inner = " ".join(f"{field}={_canonical_value(getattr(value, field))}" for field in fields)
         return f"{type(value).__name__}({inner})"
     if isinstance(value, list | tuple):
-        return "[" + " ".join(_text(item) for item in value) + "]"
+        return "[" + " ".join(_canonical_value(item) for item in value) + "]"
     if isinstance(value, float):
         # -0.0 equals 0.0 and leads to the same equations.
         return repr(value + 0.0)

@@ -13,6 +13,7 @@ from typing import Any
 
 import msgspec
 
+from symgen.base.vocabulary.elementary_functions import ELEMENTARY
 from symgen.base.vocabulary.expressions import (
     BENT,
     ZERO,
@@ -24,25 +25,24 @@ from symgen.base.vocabulary.expressions import (
     call,
     difference,
     names_in,
-    readings,
+    readings_in,
     sum_of_terms,
     table_of,
 )
-from symgen.base.vocabulary.functions import ELEMENTARY
 from symgen.base.vocabulary.measures import Effort, FormulaMeasure, FormulaSpeed, Holonomic
-from symgen.describe.bounds.modes import one_sided, two_sided
-from symgen.describe.formulas.readings import integrated
+from symgen.describe.bounds.bounded_modes import one_sided_rows, two_sided_rows
+from symgen.describe.formulas.readings import integrands_of_run
 from symgen.describe.mechanism import Event, Mechanism
-from symgen.describe.parts.inputs import MOST_KNOTS, Jump, compared, replaced
-from symgen.describe.remembered import remembered
-from symgen.describe.tables import Table
+from symgen.describe.parts.driven_mechanism import MOST_KNOTS, Jump, compared_with_zero, replace_names
+from symgen.describe.remembered import compute_once
+from symgen.describe.table_functions import Table
 
 #: Functions that may jump, and those that compare a value with zero, or two values with each other.
 _SIDES = ("lt", "le", "gt", "ge", "sign")
 _COMPARED = (*_SIDES, *BENT)
 #: Inverses of functions, and the function that is 0 where they have kinks or jump.
 _INVERSE = {("acos", "cos"): "sin", ("asin", "sin"): "cos", ("atan", "tan"): "cos"}
-#: How these are written where a formula is encoded: with their lengths, as `le` stands in other words too.
+#: How these are written where a formula is encoded: with their lengths, as other words contain `le` too.
 _COMPARED_TEXTS = tuple(map(msgspec.msgpack.encode, _COMPARED))
 
 
@@ -65,21 +65,23 @@ def jumps_in_time(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[t
     whatever their pieces are: of a cubic one the third derivative jumps. Where comparisons and `sign` are passed,
     formulas may jump. Arguments are formulas of t and parameters; those of state pass at times unknown before.
     """
-    return _jumps_in(mechanism, (*integrated(mechanism), _bounds_of(mechanism), tuple(e.when for e in events)))
+    return _kinks_in_formulas(
+        mechanism, (*integrands_of_run(mechanism), _bound_formulas(mechanism), tuple(e.when for e in events))
+    )
 
 
 def jumps_of_gaps(mechanism: Mechanism) -> tuple[Jump, ...]:
     """Return the jumps and kinks in time of the gaps of one-sided rows, whose rates jump there."""
-    return sum(_jumps_in(mechanism, (one_sided(mechanism),)), ())
+    return sum(_kinks_in_formulas(mechanism, (one_sided_rows(mechanism),)), ())
 
 
-def _jumps_in(mechanism: Mechanism, formulas: tuple[Any, ...]) -> tuple[tuple[Jump, ...], tuple[Jump, ...]]:
+def _kinks_in_formulas(mechanism: Mechanism, formulas: tuple[Any, ...]) -> tuple[tuple[Jump, ...], tuple[Jump, ...]]:
     """Return the kinks in time of formulas, and their comparisons."""
-    tables, timely = _tables(mechanism), _timely(mechanism)
+    tables, timely = _tables_with_halts(mechanism), _names_of_time(mechanism)
     kinks, sides = dict[Jump, None](), dict[Jump, None]()
-    for e, _ in _calls(*formulas) if _may_pass(formulas) else ():
+    for e, _ in _calls_with_efforts(*formulas) if _may_switch(formulas) else ():
         if e.function in _COMPARED:
-            jump = Jump(compared(e))
+            jump = Jump(compared_with_zero(e))
         elif (table := tables.get(table_of(e.function) or "")) is not None:
             period = table.x[-1] - table.x[0] if table.periodic else 0.0
             jump = Jump(e.arguments[0], table.x, period=period, derivative=KINKS.get(table.interpolation, 0))
@@ -90,29 +92,31 @@ def _jumps_in(mechanism: Mechanism, formulas: tuple[Any, ...]) -> tuple[tuple[Ju
     return tuple(kinks), tuple(sides)
 
 
-def _bounds_of(mechanism: Mechanism) -> tuple[Any, ...]:
+def _bound_formulas(mechanism: Mechanism) -> tuple[Any, ...]:
     """Return the formulas of the bounds of rows with two: their efforts in motion, and their bounds at rest."""
-    rows = two_sided(mechanism)
+    rows = two_sided_rows(mechanism)
     by_reaction = (Effort("bound", row.measure, row.coefficient) for row in rows if row.pressed)
     return (*((row.effort, row.numbers) for row in rows), *by_reaction)
 
 
 def changes_in_time(mechanism: Mechanism) -> bool:
     """Return whether anything but the motion changes over time: a formula of t, or a state of the file's own."""
-    return bool(mechanism.states) or _TIME in msgspec.msgpack.encode((integrated(mechanism), _bounds_of(mechanism)))
+    return bool(mechanism.states) or _TIME in msgspec.msgpack.encode(
+        (integrands_of_run(mechanism), _bound_formulas(mechanism))
+    )
 
 
-def _tables(mechanism: Mechanism) -> dict[str, Table]:
+def _tables_with_halts(mechanism: Mechanism) -> dict[str, Table]:
     """Return the tables at whose points runs halt."""
     return {table.name: table for table in mechanism.tables if len(table.x) <= MOST_KNOTS}
 
 
-def _timely(mechanism: Mechanism) -> set[str]:
+def _names_of_time(mechanism: Mechanism) -> set[str]:
     """Return the names in formulas of time alone."""
     return {p.name for p in mechanism.parameters if not p.input} | {"t"}
 
 
-def _may_pass(part: object) -> bool:
+def _may_switch(part: object) -> bool:
     """Return whether comparisons or tables are written in a part of a mechanism: most have none, and a walk is long."""
     text = msgspec.msgpack.encode(part)
     return b"table:" in text or any(name in text for name in _COMPARED_TEXTS)
@@ -147,21 +151,23 @@ def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
     nothing, so that no other error shows a dip of it between two evaluations. ``s`` and ``rate`` of forces
     are readings of their measures.
     """
-    formulas = *integrated(mechanism), _bounds_of(mechanism)
-    tables, plain = _tables(mechanism), {p.name for p in mechanism.parameters} | {"t"}
-    own = {_of_a_run(Name("rate"), row.effort) for row in two_sided(mechanism)}  # modes change where these are 0
+    formulas = *integrands_of_run(mechanism), _bound_formulas(mechanism)
+    tables, plain = _tables_with_halts(mechanism), {p.name for p in mechanism.parameters} | {"t"}
+    own = {
+        _effort_formula_of_run(Name("rate"), row.effort) for row in two_sided_rows(mechanism)
+    }  # modes change where these are 0
     jumping = dict[tuple[Expr, Table | None], bool]()
-    for e, effort in _calls(*formulas) if _may_pass(formulas) else ():
+    for e, effort in _calls_with_efforts(*formulas) if _may_switch(formulas) else ():
         table = tables.get(table_of(e.function) or "")
         if e.function not in _COMPARED and table is None:
             continue
-        argument = compared(e) if table is None else e.arguments[0]
-        argument = argument if effort is None else _of_a_run(argument, effort)
+        argument = compared_with_zero(e) if table is None else e.arguments[0]
+        argument = argument if effort is None else _effort_formula_of_run(argument, effort)
         if argument in own:
             continue
-        if any(readings(argument)) or not set(names_in(argument)) <= plain:
+        if any(readings_in(argument)) or not set(names_in(argument)) <= plain:
             jumping[argument, table] = jumping.get((argument, table), False) or e.function in _SIDES
-    held = dict.fromkeys((e, None) for row in changing_rows(mechanism) for e in row.switches)
+    held = dict.fromkeys((e, None) for row in rows_with_kinks(mechanism) for e in row.switches)
     for key in held:
         jumping.setdefault(key, False)
     return tuple(Discontinuity(*key, jumps, key in held) for key, jumps in jumping.items())
@@ -174,30 +180,30 @@ def compares_state(mechanism: Mechanism) -> bool:
 
 def kink_expressions(formula: Expr) -> tuple[Expr, ...]:
     """Return expressions that are 0 wherever a formula jumps or has a kink, tables aside, each once."""
-    return tuple(dict.fromkeys(x for e, _ in _calls(formula) for x in _passed_at(e)))
+    return tuple(dict.fromkeys(x for e, _ in _calls_with_efforts(formula) for x in _zero_at_kinks(e)))
 
 
-def _passed_at(e: Call) -> tuple[Expr, ...]:
+def _zero_at_kinks(e: Call) -> tuple[Expr, ...]:
     """Return the expressions that are 0 where a call jumps or has a kink.
 
     Of `atan2` these are both arguments, as its cut lies where y is 0. An inverse of a function that is not monotonic
     has kinks: the root of a square is an absolute value.
     """
     if e.function in _COMPARED:
-        return (compared(e),)
+        return (compared_with_zero(e),)
     if e.function == "atan2":
         return e.arguments
     inner = e.arguments[0]
     if not isinstance(inner, Call):
         return ()
-    if e.function == "sqrt" or (e.function == "pow" and not _is_whole(e.arguments[1])):
+    if e.function == "sqrt" or (e.function == "pow" and not _is_whole_number(e.arguments[1])):
         squared = inner.function == "pow" and isinstance(n := inner.arguments[1], Number) and n.value % 2.0 == 0.0
         return inner.arguments[:1] if squared or (inner.function == "mul" and len({*inner.arguments}) == 1) else ()
     turning = _INVERSE.get((e.function, inner.function))
     return () if turning is None else (Call(turning, inner.arguments),)
 
 
-def _is_whole(e: Expr) -> bool:
+def _is_whole_number(e: Expr) -> bool:
     return isinstance(e, Number) and e.value.is_integer()
 
 
@@ -230,20 +236,20 @@ class ChangingRow:
     is_speed: bool
 
 
-@remembered
-def changing_rows(mechanism: Mechanism) -> tuple[ChangingRow, ...]:
+@compute_once
+def rows_with_kinks(mechanism: Mechanism) -> tuple[ChangingRow, ...]:
     """Return the rows of joints whose formulas may jump or have kinks."""
     result, timely = list[ChangingRow](), {p.name for p in mechanism.parameters} | {"t"}
     for joint in mechanism.joints:
         for i, row in enumerate(joint.rows):
             measure = row.measure if isinstance(row, Holonomic) else row.speed
-            if not (kink_expressions(row.value) or any(True for _ in _changing_calls(measure))):
+            if not (kink_expressions(row.value) or any(True for _ in _switching_calls(measure))):
                 continue
             own = isinstance(measure, FormulaMeasure | FormulaSpeed)
             held = measure.of if isinstance(measure, FormulaMeasure | FormulaSpeed) else Reading(row.label, measure)
-            motion, rest = _parted(held, timely)
-            switches = tuple(dict.fromkeys(x for e, _ in _calls(rest) for x in _passed_at(e)))
-            moves = tuple(x for x in switches if any(readings(x)) or not set(names_in(x)) <= timely - {"t"})
+            motion, rest = _split_by_time(held, timely)
+            switches = tuple(dict.fromkeys(x for e, _ in _calls_with_efforts(rest) for x in _zero_at_kinks(e)))
+            moves = tuple(x for x in switches if any(readings_in(x)) or not set(names_in(x)) <= timely - {"t"})
             key = "value" if not own else f"rows[{i}].{'position' if isinstance(row, Holonomic) else 'velocity'}"
             result.append(
                 ChangingRow(
@@ -259,44 +265,50 @@ def changing_rows(mechanism: Mechanism) -> tuple[ChangingRow, ...]:
     return tuple(result)
 
 
-def _changing_calls(part: object) -> Iterator[Call]:
+def _switching_calls(part: object) -> Iterator[Call]:
     """Yield the calls in a part of a mechanism that may jump or have kinks."""
-    return (e for e, _ in _calls(part) if _passed_at(e))
+    return (e for e, _ in _calls_with_efforts(part) if _zero_at_kinks(e))
 
 
-def _parted(e: Expr, timely: set[str], sign: float = 1.0) -> tuple[Expr, Expr]:
+def _split_by_time(e: Expr, timely: set[str], sign: float = 1.0) -> tuple[Expr, Expr]:
     """Return the sums of the terms of a formula, times a sign, that depend on time alone, and of all others."""
-    if not any(readings(e)) and set(names_in(e)) <= timely:
+    if not any(readings_in(e)) and set(names_in(e)) <= timely:
         return (e if sign > 0.0 else call("neg", e)), ZERO
     if isinstance(e, Call) and e.function in ("add", "sub", "neg"):
         signs = (-sign,) if e.function == "neg" else (sign, sign if e.function == "add" else -sign)
-        parts = [_parted(a, timely, x) for a, x in zip(e.arguments, signs, strict=True)]
+        parts = [_split_by_time(a, timely, x) for a, x in zip(e.arguments, signs, strict=True)]
         return sum_of_terms(*(motion for motion, _ in parts)), sum_of_terms(*(rest for _, rest in parts))
     return ZERO, e if sign > 0.0 else call("neg", e)
 
 
-def changing(part: object) -> Iterator[Expr]:
+def switching_formulas(part: object) -> Iterator[Expr]:
     """Yield whole formulas in a part of a mechanism that compare something or read a table, as formulas of a run."""
-    for formula, effort in _calls(part, enters=lambda e: False):
-        if any(e.function in _COMPARED or table_of(e.function) for e, _ in _calls(formula)):
-            yield formula if effort is None else _of_a_run(formula, effort)
+    for formula, effort in _calls_with_efforts(part, enters=lambda e: False):
+        if any(e.function in _COMPARED or table_of(e.function) for e, _ in _calls_with_efforts(formula)):
+            yield formula if effort is None else _effort_formula_of_run(formula, effort)
 
 
-def restricted(part: object) -> Iterator[tuple[Expr, Expr]]:
+def formulas_with_domain(part: object) -> Iterator[tuple[Expr, Expr]]:
     """Yield formulas in a part of a mechanism, each with a call in it that is no number everywhere, as of a run."""
-    for whole, effort in _calls(part, enters=lambda e: False):
-        for e, _ in _calls(whole):
+    for whole, effort in _calls_with_efforts(part, enters=lambda e: False):
+        for e, _ in _calls_with_efforts(whole):
             if e.function in ("div", "pow") or (e.function in ELEMENTARY and not ELEMENTARY[e.function].everywhere):
-                yield (whole, e) if effort is None else (_of_a_run(whole, effort), _of_a_run(e, effort))
+                yield (
+                    (whole, e)
+                    if effort is None
+                    else (_effort_formula_of_run(whole, effort), _effort_formula_of_run(e, effort))
+                )
 
 
-def _of_a_run(e: Expr, effort: Effort) -> Expr:
+def _effort_formula_of_run(e: Expr, effort: Effort) -> Expr:
     """Return a formula of an effort with its ``s`` and ``rate`` as readings of the measure."""
     own = {name: Reading(name, effort.measure, order) for order, name in enumerate(("s", "rate"))}
-    return replaced(e, lambda name: own.get(name.name, name))
+    return replace_names(e, lambda name: own.get(name.name, name))
 
 
-def _calls(*parts: object, enters: Callable[[Call], bool] = lambda e: True) -> Iterator[tuple[Call, Effort | None]]:
+def _calls_with_efforts(
+    *parts: object, enters: Callable[[Call], bool] = lambda e: True
+) -> Iterator[tuple[Call, Effort | None]]:
     """Yield the calls of functions in the formulas of parts of a mechanism, and in which effort each is.
 
     Calls inside a call follow where `enters` is true for it.
@@ -338,7 +350,10 @@ def longest_step(
     if mechanism.defaults.max_step is not None:
         return mechanism.defaults.max_step, ""
     further = {"inputs": tuple(jump.argument for jump in jumps), "events": tuple(event.when for event in events)}
-    groups = *_groups(mechanism), *(group for group, part in further.items() if _may_hide(part, mechanism))
+    groups = (
+        *_groups_of_integrands(mechanism),
+        *(group for group, part in further.items() if _may_hide_changes(part, mechanism)),
+    )
     if not groups:
         return math.inf, ""
     longest = length / PARTS
@@ -348,28 +363,30 @@ def longest_step(
     )
 
 
-@remembered
-def _groups(mechanism: Mechanism) -> tuple[str, ...]:
+@compute_once
+def _groups_of_integrands(mechanism: Mechanism) -> tuple[str, ...]:
     """Return the groups of integrated formulas that may hide short changes."""
-    formulas = *integrated(mechanism), _bounds_of(mechanism)
+    formulas = *integrands_of_run(mechanism), _bound_formulas(mechanism)
     parts = zip(("drivers", "forces", "integrals", "bounds"), formulas, strict=True)
-    return tuple(group for group, part in parts if _may_hide(part, mechanism))
+    return tuple(group for group, part in parts if _may_hide_changes(part, mechanism))
 
 
-def _may_hide(part: object, mechanism: Mechanism) -> bool:
+def _may_hide_changes(part: object, mechanism: Mechanism) -> bool:
     """Return whether a part of a mechanism has a formula of t and parameters that may hide short changes."""
     if _TIME not in msgspec.msgpack.encode(part):
         return False
-    timely, tables = _timely(mechanism), frozenset(_tables(mechanism))
-    largest = _calls(part, enters=lambda e: not set(names_in(e)) <= timely)
-    return any("t" in (used := set(names_in(e))) and used <= timely and _form(e, tables) is None for e, _ in largest)
+    timely, tables = _names_of_time(mechanism), frozenset(_tables_with_halts(mechanism))
+    largest = _calls_with_efforts(part, enters=lambda e: not set(names_in(e)) <= timely)
+    return any(
+        "t" in (used := set(names_in(e))) and used <= timely and _power_and_sine(e, tables) is None for e, _ in largest
+    )
 
 
-def _form(e: Expr, tables: frozenset[str]) -> tuple[float, frozenset[Expr]] | None:
+def _power_and_sine(e: Expr, tables: frozenset[str]) -> tuple[float, frozenset[Expr]] | None:
     """Return the power of a polynomial of t and one sine, and the sine's argument; None for any other formula."""
     if not isinstance(e, Call):
         return float(isinstance(e, Name) and e.name == "t"), frozenset()
-    forms = [form for a in e.arguments if (form := _form(a, tables)) is not None]
+    forms = [form for a in e.arguments if (form := _power_and_sine(a, tables)) is not None]
     if len(forms) < len(e.arguments):
         return None
     powers = [power for power, _ in forms]

@@ -7,7 +7,15 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from symgen.base.vocabulary.expressions import Expr
-from symgen.base.vocabulary.measures import GROUND, Component, FormulaMeasure, FormulaSpeed, Holonomic, Marker, parts
+from symgen.base.vocabulary.measures import (
+    GROUND,
+    Component,
+    FormulaMeasure,
+    FormulaSpeed,
+    Holonomic,
+    Marker,
+    nested_parts,
+)
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.start import Numbers
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
@@ -38,7 +46,7 @@ def longest_body(mechanism: Mechanism, parameters: Mapping[str, float]) -> float
     return max((own_length(body, parameters) for body in mechanism.bodies), default=0.0)
 
 
-def datum_of(mechanism: Mechanism, numbers: Numbers) -> list[Any]:
+def origin_of_sizes(mechanism: Mechanism, numbers: Numbers) -> list[Any]:
     """Return the origin from which sizes of coordinates are compared: a place of the mechanism, 0 for angles.
 
     It is the first point of the ground that a joint or an element has, without any the place of the first body. So no
@@ -54,14 +62,14 @@ def datum_of(mechanism: Mechanism, numbers: Numbers) -> list[Any]:
     list
         As the coordinates of a start [m].
     """
-    point = next(_ground_points(mechanism), None)
+    point = next(_points_on_ground(mechanism), None)
     if point is None:
         point = next((body.position for body in mechanism.bodies), ())
     place = [numbers.value(e, f"{mechanism.name}: points of the ground") for e in point]
     return [x for body in mechanism.bodies for x in (*place, *[0.0] * (len(body.coordinates) - len(place)))]
 
 
-def _ground_points(mechanism: Mechanism) -> Iterator[tuple[Expr, ...]]:
+def _points_on_ground(mechanism: Mechanism) -> Iterator[tuple[Expr, ...]]:
     """Yield the points of the ground that joints and elements have; formulas and drivers may mean the origin."""
     owned = [
         row.measure if isinstance(row, Holonomic) else row.speed
@@ -73,6 +81,6 @@ def _ground_points(mechanism: Mechanism) -> Iterator[tuple[Expr, ...]]:
         owned += [effort.measure for effort in force.efforts if not isinstance(effort.measure, Component)]
         owned += [measure for flexure in force.flexures for measure in flexure.measures]
     for measure in owned:
-        inside = tuple(parts(measure))
+        inside = tuple(nested_parts(measure))
         if not any(isinstance(part, FormulaMeasure | FormulaSpeed) for part in inside):
             yield from (part.point for part in inside if isinstance(part, Marker) and part.body == GROUND)

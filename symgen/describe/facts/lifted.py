@@ -1,4 +1,4 @@
-"""Numbers written in a file, by their paths: one that a run is differentiated by becomes a parameter.
+"""Numbers of a file, named by their paths: a run can be differentiated by one, which becomes a parameter.
 
 Only numbers that are named become parameters, so that code of other runs stays what it is.
 """
@@ -10,11 +10,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 from symgen.describe.bounds.keys import sections_of_files
 from symgen.describe.files.origins import Origin, origin_of
 from symgen.describe.files.validate import validate
-from symgen.describe.formulas.names import LONGEST
+from symgen.describe.formulas.identifiers import LONGEST
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.key_units import unit_of_key
 
@@ -31,7 +31,7 @@ class Lifted:
     Attributes
     ----------
     mechanism : Mechanism
-        The mechanism; the one that was handed over where there are no such numbers.
+        The mechanism with these parameters; without such numbers, `mechanism` itself.
     keys : mapping of str to str
         Names as typed, each with its name in the mechanism.
     """
@@ -40,7 +40,7 @@ class Lifted:
     keys: Mapping[str, str]
 
 
-def lifted(where: str, mechanism: Mechanism, names: Sequence[str]) -> Lifted:
+def lift_numbers(where: str, mechanism: Mechanism, names: Sequence[str]) -> Lifted:
     """Return a mechanism in which the numbers that `names` has by their paths are parameters.
 
     Parameters
@@ -60,21 +60,21 @@ def lifted(where: str, mechanism: Mechanism, names: Sequence[str]) -> Lifted:
     paths, keys = [name for name in names if _is_path(name)], {name: name for name in names}
     if len(keys) < len(names):
         twice = next(name for i, name in enumerate(names) if name in names[:i])
-        raise InputError(where, "each number once", f"{quoted(twice)} twice")
+        raise InputError(where, "each number once", f"{quote(twice)} twice")
     if not paths:
         return Lifted(mechanism, keys)
     origin = origin_of(mechanism)
     if origin is None:
         expected = "names of parameters, as the file of this model is not at hand"
-        raise InputError(where, expected, quoted(paths[0]), "load the file again")
+        raise InputError(where, expected, quote(paths[0]), "load the file again")
     places, raw = {name: path for name, path, _ in numbers_of_file(origin.raw)}, [origin.raw]
     others = {name for section in ("parameters", "inputs", "states", "tables") for name in origin.raw.get(section, {})}
     for name in paths:
         if name not in places:
-            raise _absent(where, name, origin, places)
-        keys[name] = _free(name, others)
+            raise _no_such_number(where, name, origin, places)
+        keys[name] = _free_parameter_name(name, others)
         others.add(keys[name])
-        raw.append(_replaced(raw[-1], places[name], keys[name], name))
+        raw.append(_put_parameter(raw[-1], places[name], keys[name], name))
     try:
         return Lifted(validate(raw[-1], origin.source), keys)
     except InputError:
@@ -83,7 +83,7 @@ def lifted(where: str, mechanism: Mechanism, names: Sequence[str]) -> Lifted:
             try:
                 validate(own, origin.source)
             except InputError as error:
-                got = f"{quoted(name)}, whose place takes {error.expected}"
+                got = f"{quote(name)}, whose place takes {error.expected}"
                 raise InputError(where, "numbers that a parameter may stand for", got) from None
         raise
 
@@ -107,7 +107,7 @@ def numbers_of_file(raw: Mapping[str, Any]) -> Iterator[tuple[str, Path, float]]
             yield text, path, float(value)
 
 
-def _absent(where: str, name: str, origin: Origin, places: Mapping[str, Path]) -> InputError:
+def _no_such_number(where: str, name: str, origin: Origin, places: Mapping[str, Path]) -> InputError:
     """Return the error about a path that leads to no number."""
     value: object = origin.raw
     for part in re.findall(r"[^.\[\]]+", name):
@@ -119,38 +119,38 @@ def _absent(where: str, name: str, origin: Origin, places: Mapping[str, Path]) -
             value = None
     expected = f"the path of a number in {origin.source}"
     if isinstance(value, str):
-        return InputError(where, expected, f"{quoted(name)}, which is {quoted(value)}", "take the parameters in it")
-    return InputError(where, expected, quoted(name), nearest(name, places))
+        return InputError(where, expected, f"{quote(name)}, which is {quote(value)}", "take the parameters in it")
+    return InputError(where, expected, quote(name), suggest(name, places))
 
 
-def _free(name: str, others: set[str]) -> str:
+def _free_parameter_name(name: str, others: set[str]) -> str:
     """Return a name of a parameter for a path."""
     own = re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_")[: LONGEST - 4]
     return next(x for k in range(len(others) + 1) if (x := own if not k else f"{own}_{k}") not in others)
 
 
-def _replaced(raw: Mapping[str, Any], path: Path, parameter: str, name: str) -> dict[str, Any]:
-    """Return a description in which a parameter stands in place of a number; what shares a list keeps its own."""
+def _put_parameter(raw: Mapping[str, Any], path: Path, parameter: str, name: str) -> dict[str, Any]:
+    """Return a description in which a parameter replaces a number; other entries of its list keep theirs."""
     value: Any = raw
     for part in path:
         value = value[part]
-    entry = {"value": float(value), "unit": _unit(raw, path), "note": name}
-    result: dict[str, Any] = _put(raw, path, parameter)
+    entry = {"value": float(value), "unit": _unit_of_path(raw, path), "note": name}
+    result: dict[str, Any] = _put_at_path(raw, path, parameter)
     result["parameters"] = {**raw.get("parameters", {}), parameter: entry}
     return result
 
 
-def _unit(raw: Mapping[str, Any], path: Path) -> str:
+def _unit_of_path(raw: Mapping[str, Any], path: Path) -> str:
     """Return the unit of a number; empty where the texts on its table have none, or one for each of several."""
     section, key = str(path[0]), str(path[1] if path[0] == "mechanism" else path[2] if len(path) > 2 else "")
     kind = str(raw[section][path[1]].get("type")) if section in ("joints", "forces") else ""
     return unit_of_key(section, key, kind)
 
 
-def _put(value: Any, path: Path, new: str) -> Any:
+def _put_at_path(value: Any, path: Path, new: str) -> Any:
     """Return a copy of tables and lists on a path, with another end of it."""
     if not path:
         return new
     copied: Any = dict(value) if isinstance(value, Mapping) else list(value)
-    copied[path[0]] = _put(value[path[0]], path[1:], new)
+    copied[path[0]] = _put_at_path(value[path[0]], path[1:], new)
     return copied

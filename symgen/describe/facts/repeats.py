@@ -19,9 +19,9 @@ from symgen.base.vocabulary.measures import (
     RimHeight,
     Sum,
 )
-from symgen.describe.formulas.graph import Formulas
+from symgen.describe.formulas.formula_nodes import Formulas
 from symgen.describe.mechanism import Joint, Mechanism
-from symgen.describe.remembered import remembered
+from symgen.describe.remembered import compute_once
 
 
 def without_repeats(mechanism: Mechanism) -> tuple[Mechanism, tuple[tuple[str, str], ...]]:
@@ -35,7 +35,7 @@ def without_repeats(mechanism: Mechanism) -> tuple[Mechanism, tuple[tuple[str, s
     mechanism : Mechanism
         A validated mechanism.
     """
-    repeats = _repeats(mechanism)
+    repeats = _find_repeats(mechanism)
     if not repeats:
         return mechanism, ()
     joints: list[Joint] = []
@@ -45,15 +45,18 @@ def without_repeats(mechanism: Mechanism) -> tuple[Mechanism, tuple[tuple[str, s
     return msgspec.structs.replace(mechanism, joints=tuple(joints)), tuple(repeats.values())
 
 
-@remembered
-def _repeats(mechanism: Mechanism) -> dict[tuple[int, int], tuple[str, str]]:
+@compute_once
+def _find_repeats(mechanism: Mechanism) -> dict[tuple[int, int], tuple[str, str]]:
     """Return the rows that repeat an earlier one, by joint and place in it: their names and the earlier rows'."""
     contents = _Contents(mechanism)
     names: dict[object, str] = {}
     repeats: dict[tuple[int, int], tuple[str, str]] = {}
     for k, joint in enumerate(mechanism.joints):
         for i, row in enumerate(() if joint.name in mechanism.switchable else joint.rows):
-            name, content = f"{joint.name}.{row.label}", contents.of(msgspec.structs.replace(row, label="", unit=""))
+            name, content = (
+                f"{joint.name}.{row.label}",
+                contents.content_of(msgspec.structs.replace(row, label="", unit="")),
+            )
             if content in names:
                 repeats[k, i] = name, names[content]
             else:
@@ -67,7 +70,7 @@ class _Contents:
     def __init__(self, mechanism: Mechanism) -> None:
         self.formulas = Formulas(mechanism)
 
-    def of(self, value: object) -> Any:
+    def content_of(self, value: object) -> Any:
         """Return something hashable that is equal for equal content."""
         if isinstance(value, FormulaMeasure | FormulaSpeed):
             return value  # which readings are equal is a question of their measures: rank decides
@@ -76,48 +79,48 @@ class _Contents:
         if isinstance(value, Marker):
             return value.body, *self.formulas.local(value)
         if isinstance(value, Component | RimHeight):
-            return self.height(value)
+            return self.height_along(value)
         if isinstance(value, Direction):
             return value.body, *self.formulas.direction(value)
         if isinstance(value, Dot):
-            return frozenset((self.of(value.u), self.of(value.v)))
+            return frozenset((self.content_of(value.u), self.content_of(value.v)))
         if isinstance(value, Sum | Angle):
-            return self.sum(value)
+            return self.terms_of_sum(value)
         if isinstance(value, msgspec.Struct):
-            return type(value).__name__, *(self.of(getattr(value, f)) for f in value.__struct_fields__)
-        return tuple(self.of(item) for item in value) if isinstance(value, tuple) else value
+            return type(value).__name__, *(self.content_of(getattr(value, f)) for f in value.__struct_fields__)
+        return tuple(self.content_of(item) for item in value) if isinstance(value, tuple) else value
 
-    def height(self, value: Component | RimHeight) -> Any:
+    def height_along(self, value: Component | RimHeight) -> Any:
         """Return a component along a direction, of markers on its own ground only the height along it."""
         along = value.along if isinstance(value, Component) else value.normal
         fields = []
         for name in value.__struct_fields__:
             part = getattr(value, name)
             if isinstance(part, Marker) and part.body == along.body == GROUND:
-                fields.append((GROUND, self.formulas.graph.dot(self.of(along)[1:], self.of(part)[1:])))
+                fields.append((GROUND, self.formulas.graph.dot(self.content_of(along)[1:], self.content_of(part)[1:])))
             else:
-                fields.append(self.of(part))
+                fields.append(self.content_of(part))
         return type(value).__name__, *fields
 
-    def sum(self, value: Sum | Angle) -> Any:
+    def terms_of_sum(self, value: Sum | Angle) -> Any:
         """Return the terms of a sum: terms of its parts and angles of bodies together."""
         g = self.formulas.graph
         terms: dict[Any, int] = {}
 
-        def add(measure: object, factor: int) -> None:
+        def add_term(measure: object, factor: int) -> None:
             if isinstance(measure, Sum):
                 for coefficient, part in measure.terms:
-                    add(part, g.mul(factor, self.formulas.expression(coefficient)))
+                    add_term(part, g.mul(factor, self.formulas.expression(coefficient)))
                 return
             if isinstance(measure, Angle):
                 for body, own in ((measure.b, factor), (measure.a, g.neg(factor))):
                     if body != GROUND:
                         terms[body] = g.add(terms.get(body, g.zero), own)
                 return
-            content = self.of(measure)
+            content = self.content_of(measure)
             terms[content] = g.add(terms.get(content, g.zero), factor)
 
-        add(value, g.one)
+        add_term(value, g.one)
         nonzero = {content: factor for content, factor in terms.items() if factor != g.zero}
         if list(nonzero.values()) == [g.one] and not isinstance(next(iter(nonzero)), str):
             return next(iter(nonzero))

@@ -11,11 +11,11 @@ from typing import Any, NamedTuple
 
 from symgen.base.vocabulary.expressions import Number
 from symgen.base.vocabulary.measures import Direction, Dot, Holonomic, Sum
-from symgen.base.vocabulary.rotations import matrix, rotate
+from symgen.base.vocabulary.rotations import rotate, rotation_matrix_of
 from symgen.describe.mechanism import Joint, Mechanism, SpatialBody
 from symgen.describe.parts.kinds import JOINTS
-from symgen.describe.parts.topology import articulation_of
-from symgen.describe.remembered import remembered
+from symgen.describe.parts.topology import articulation_of_joint
+from symgen.describe.remembered import compute_once
 
 
 class Arm(NamedTuple):
@@ -40,7 +40,11 @@ class SidedJoint(NamedTuple):
         q : sequence of float, or Array of shape (nq, k)
             Coordinates of all bodies, closed: numbers, or those of many starts.
         """
-        return sum(x * y for a, b in self.pairs for x, y in zip(_in_ground(a, q), _in_ground(b, q), strict=True))
+        return sum(
+            x * y
+            for a, b in self.pairs
+            for x, y in zip(_direction_in_ground(a, q), _direction_in_ground(b, q), strict=True)
+        )
 
 
 def wrong_sides(mechanism: Mechanism, q: Sequence[float]) -> Iterator[tuple[str, bool]]:
@@ -56,13 +60,13 @@ def wrong_sides(mechanism: Mechanism, q: Sequence[float]) -> Iterator[tuple[str,
     q : sequence of float
         Coordinates of all bodies, closed.
     """
-    for side in sides_of(mechanism):
+    for side in sided_joints(mechanism):
         if side.cosine(q) < 0.0:
             yield side.joint, side.held
 
 
-@remembered
-def sides_of(mechanism: Mechanism) -> tuple[SidedJoint, ...]:
+@compute_once
+def sided_joints(mechanism: Mechanism) -> tuple[SidedJoint, ...]:
     """Return the joints with directions that point the same way; none in the plane."""
     if mechanism.space != "spatial":
         return ()
@@ -72,19 +76,19 @@ def sides_of(mechanism: Mechanism) -> tuple[SidedJoint, ...]:
             places[body.name] = first + 3
         first += len(body.coordinates)
 
-    def arm(direction: Direction) -> Arm:
+    def arm_of_direction(direction: Direction) -> Arm:
         x, y, z = (e.value if isinstance(e, Number) else 0.0 for e in direction.vector)  # in space they are numbers
         return Arm(places.get(direction.body, -1), (x, y, z))
 
     return tuple(
-        SidedJoint(joint.name, held, tuple((arm(a), arm(b)) for a, b in pairs))
+        SidedJoint(joint.name, held, tuple((arm_of_direction(a), arm_of_direction(b)) for a, b in pairs))
         for joint in mechanism.joints
-        for held, pairs in _of_joint(joint)
+        for held, pairs in _side_of_joint(joint)
     )
 
 
-def _of_joint(joint: Joint) -> Iterator[tuple[bool, tuple[tuple[Direction, Direction], ...]]]:
-    articulation = articulation_of(joint)
+def _side_of_joint(joint: Joint) -> Iterator[tuple[bool, tuple[tuple[Direction, Direction], ...]]]:
+    articulation = articulation_of_joint(joint)
     row = joint.rows[-1] if joint.kind == "constant-velocity" else None
     if isinstance(row, Holonomic) and isinstance(row.measure, Sum):
         # half of second . first' - first . second': where the shafts lean, only both products together tell the side
@@ -102,11 +106,11 @@ def _of_joint(joint: Joint) -> Iterator[tuple[bool, tuple[tuple[Direction, Direc
         yield True, ((of_a[0], of_b[0]),)
 
 
-def _in_ground(arm: Arm, q: Any) -> tuple[Any, ...]:
+def _direction_in_ground(arm: Arm, q: Any) -> tuple[Any, ...]:
     """Return the vector of a direction in ground axes."""
     if arm.first < 0:
         return arm.vector
     e = q[arm.first : arm.first + 4]
     length = sum(x * x for x in e) ** 0.5
     a, b, c, d = (x / length for x in e)
-    return rotate(matrix((a, b, c, d)), arm.vector)
+    return rotate(rotation_matrix_of((a, b, c, d)), arm.vector)

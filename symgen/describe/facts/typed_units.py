@@ -1,7 +1,7 @@
 """Units of numbers that people type for a mechanism, as in ``--set`` and ``--start``.
 
 A number for a parameter or an input is in the unit of the file, one for a coordinate or velocity in its SI unit, unless
-a unit is typed behind it.
+a unit is typed after it.
 """
 
 from __future__ import annotations
@@ -9,18 +9,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from symgen.base.units import Amount
-from symgen.describe.formulas.readings import STATE, of_joint
+from symgen.describe.formulas.readings import STATE, readings_of_joint
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import unit_of_column
 
 
 class Typed(float):
-    """A number as typed, with the unit behind it, if any; its value is in that unit."""
+    """A number as typed, with the unit after it, if any; its value is in that unit."""
 
     unit: str = ""
 
     @classmethod
-    def of(cls, amount: Amount) -> Typed:
+    def from_amount(cls, amount: Amount) -> Typed:
         """Return the number of an amount."""
         typed = cls(amount.number)
         typed.unit = amount.unit
@@ -52,13 +52,13 @@ def units_of_number(mechanism: Mechanism, name: str) -> tuple[str, str]:
         of: unit
         for joint in mechanism.joints
         if joint.name == owner
-        for of, (_, unit) in of_joint(joint, STATE).items()
+        for of, (_, unit) in readings_of_joint(joint, STATE).items()
     }
     unit = units.get(label, "")
     return unit, unit
 
 
-def typed_in_si(mechanism: Mechanism, values: Mapping[str, float], where: str) -> dict[str, float]:
+def typed_numbers_in_si(mechanism: Mechanism, values: Mapping[str, float], where: str) -> dict[str, float]:
     """Return numbers by their names in SI units; those that nobody typed are in them already.
 
     Parameters

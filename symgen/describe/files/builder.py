@@ -7,9 +7,9 @@ import re
 from collections.abc import Mapping
 from typing import Any, Self, Unpack
 
-from symgen.base.arguments import shown, text
+from symgen.base.arguments import kind_of_value, text
 from symgen.base.errors import InputError
-from symgen.base.keywords import explicit
+from symgen.base.keywords import spell_out_keywords
 from symgen.describe.files.builder_keys import (
     BodyKeys,
     EventKeys,
@@ -52,7 +52,7 @@ class MechanismBuilder:
     """
 
     def __init__(self, name: str, **keys: Unpack[MechanismKeys]) -> None:
-        self._raw: dict[str, dict[str, Any]] = {"mechanism": {"name": name} | _plain(keys)}
+        self._raw: dict[str, dict[str, Any]] = {"mechanism": {"name": name} | _plain_value(keys)}
 
     def __repr__(self) -> str:
         counts = ", ".join(
@@ -62,7 +62,7 @@ class MechanismBuilder:
 
     def run(self, **keys: Unpack[RunKeys]) -> Self:
         """Set run defaults: ``integrator``, ``verify``, and the times of ``[run]`` in a file [s]."""
-        self._raw["run"] = self._raw.get("run", {}) | _plain(keys)
+        self._raw["run"] = self._raw.get("run", {}) | _plain_value(keys)
         return self
 
     def parameter(
@@ -73,50 +73,50 @@ class MechanismBuilder:
         Reports compare it with the limits ``smallest`` and ``largest``.
         """
         keys = {"value": value, "unit": unit, "note": note, **limits}
-        return self._add("parameters", name, {key: item for key, item in keys.items() if item != ""})
+        return self._add_entry("parameters", name, {key: item for key, item in keys.items() if item != ""})
 
     def input(self, name: str, default: float | str, unit: str = "", note: str = "") -> Self:
         """Add a number from outside, which may change during a run."""
         keys = {"default": default, "unit": unit, "note": note}
-        return self._add("inputs", name, {key: item for key, item in keys.items() if item != ""})
+        return self._add_entry("inputs", name, {key: item for key, item in keys.items() if item != ""})
 
     def table(self, name: str, x: object, y: object, **keys: Unpack[TableKeys]) -> Self:
         """Add a function of one argument by interpolation: ``interpolation``, ``periodic`` as in a file."""
-        return self._add("tables", name, {"x": x, "y": y} | keys)
+        return self._add_entry("tables", name, {"x": x, "y": y} | keys)
 
     def body(self, name: str, **keys: Unpack[BodyKeys]) -> Self:
         """Add a body: ``mass``, ``inertia``, ``points``, ``position``, ``angle``, ... as in a file."""
-        return self._add("bodies", name, {**keys})
+        return self._add_entry("bodies", name, {**keys})
 
     def beam(self, name: str, **keys: object) -> Self:
         """Add a beam: ``start``, ``end``, ``elements``, ``section``, ``material``, ... as in a file."""
-        return self._add("beams", name, keys)
+        return self._add_entry("beams", name, keys)
 
     def joint(self, name: str, type: str, **keys: object) -> Self:
         """Add a joint of a type, with that type's keys."""
-        return self._add("joints", name, {"type": type} | keys)
+        return self._add_entry("joints", name, {"type": type} | keys)
 
     def force(self, name: str, type: str, **keys: object) -> Self:
         """Add a force element of a type, with that type's keys."""
-        return self._add("forces", name, {"type": type} | keys)
+        return self._add_entry("forces", name, {"type": type} | keys)
 
     def event(self, name: str, **keys: Unpack[EventKeys]) -> Self:
         """Add an event: ``when``, ``direction``, ``action``, ``reset`` as in a file."""
-        return self._add("events", name, {**keys})
+        return self._add_entry("events", name, {**keys})
 
     def state(self, name: str, rate: float | str, start: float | str = 0.0, unit: str = "") -> Self:
         """Add a state with a rate of its own, such as the current of a motor, which every formula may read."""
         keys = {"rate": rate, "start": start, "unit": unit}
-        return self._add("states", name, {key: item for key, item in keys.items() if item != ""})
+        return self._add_entry("states", name, {key: item for key, item in keys.items() if item != ""})
 
     def stop(self, name: str, **keys: object) -> Self:
         """Add a stop between any parts, such as a rope: ``gap``, ``restitution`` as in a file."""
-        return self._add("stops", name, keys)
+        return self._add_entry("stops", name, keys)
 
     def output(self, name: str, value: str, unit: str = "", **limits: Unpack[LimitKeys]) -> Self:
         """Add a formula that results report, such as ``"integral(motor.power)"``, with limits as parameters have."""
         keys = {"value": value, "unit": unit, **limits}
-        return self._add("outputs", name, {key: item for key, item in keys.items() if item != ""})
+        return self._add_entry("outputs", name, {key: item for key, item in keys.items() if item != ""})
 
     @property
     def source(self) -> str:
@@ -125,7 +125,7 @@ class MechanismBuilder:
 
     def raw(self) -> dict[str, dict[str, Any]]:
         """Return a copy of the nested dictionary, as read from a file."""
-        copied: dict[str, dict[str, Any]] = _plain(self._raw)
+        copied: dict[str, dict[str, Any]] = _plain_value(self._raw)
         return copied
 
     def build(self) -> Mechanism:
@@ -136,12 +136,12 @@ class MechanismBuilder:
         """Return the text of the file that describes the same mechanism."""
         return to_toml(self.raw())
 
-    def _add(self, section: str, name: str, content: dict[str, Any]) -> Self:
+    def _add_entry(self, section: str, name: str, content: dict[str, Any]) -> Self:
         text(f"{self.source}: {section}", name)
         entries = self._raw.setdefault(section, {})
         if name in entries:
             raise InputError(f"{self.source}: {section}.{name}", "a name used once", f"'{name}' twice")
-        entries[name] = _plain(content)
+        entries[name] = _plain_value(content)
         return self
 
 
@@ -154,19 +154,19 @@ for _method, _keys, _open in (
     (MechanismBuilder.joint, JointKeys, True),
     (MechanismBuilder.force, ForceKeys, True),
 ):
-    explicit(_method, _keys, dict.fromkeys(_keys.__annotations__), _open)
+    spell_out_keywords(_method, _keys, dict.fromkeys(_keys.__annotations__), _open)
 
 
-def _plain(value: object) -> Any:
+def _plain_value(value: object) -> Any:
     """Return `value` as read from a file: tables, lists, texts, numbers (NumPy's too) and truth values."""
     if isinstance(value, Mapping):
-        return {key: _plain(item) for key, item in value.items()}
+        return {key: _plain_value(item) for key, item in value.items()}
     if isinstance(value, str | bool | int):
         return value
     if hasattr(value, "__float__") and not getattr(value, "shape", ()):
         return float(value)
     if hasattr(value, "__iter__"):
-        return [_plain(item) for item in value]
+        return [_plain_value(item) for item in value]
     return value
 
 
@@ -186,36 +186,36 @@ def to_toml(raw: Mapping[str, Any]) -> str:
         if section not in raw:
             continue
         if section in NAMED and section not in ("parameters", "inputs", "outputs"):
-            blocks += [_block(f"{section}.{_key(name)}", content) for name, content in raw[section].items()]
+            blocks += [_toml_table(f"{section}.{_toml_key(name)}", content) for name, content in raw[section].items()]
         else:
-            blocks.append(_block(section, raw[section]))
+            blocks.append(_toml_table(section, raw[section]))
     return "\n".join(blocks)
 
 
-def _block(header: str, content: Mapping[str, Any]) -> str:
-    lines = [f"{_key(key)} = {_value(value)}\n" for key, value in content.items() if value is not None]
+def _toml_table(header: str, content: Mapping[str, Any]) -> str:
+    lines = [f"{_toml_key(key)} = {_toml_value(value)}\n" for key, value in content.items() if value is not None]
     return f"[{header}]\n" + "".join(lines)
 
 
-def _key(key: str) -> str:
-    return key if _BARE.fullmatch(key) else _text(key)
+def _toml_key(key: str) -> str:
+    return key if _BARE.fullmatch(key) else _toml_text(key)
 
 
-def _text(text: str) -> str:
+def _toml_text(text: str) -> str:
     # A JSON string is a TOML basic string, except that TOML wants DEL escaped too.
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
-def _value(value: object) -> str:
+def _toml_value(value: object) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int | float):
         return repr(value)
     if isinstance(value, str):
-        return _text(value)
+        return _toml_text(value)
     if isinstance(value, Mapping):
-        inner = ", ".join(f"{_key(key)} = {_value(item)}" for key, item in value.items() if item is not None)
+        inner = ", ".join(f"{_toml_key(key)} = {_toml_value(item)}" for key, item in value.items() if item is not None)
         return f"{{ {inner} }}" if inner else "{}"
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(_value(item) for item in value) + "]"
-    raise InputError("mechanism file", "texts, numbers, lists and tables", shown(value))
+        return "[" + ", ".join(_toml_value(item) for item in value) + "]"
+    raise InputError("mechanism file", "texts, numbers, lists and tables", kind_of_value(value))

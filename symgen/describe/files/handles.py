@@ -11,8 +11,8 @@ from symgen.base.errors import InputError
 from symgen.base.units import Unit, read_amount, read_unit
 from symgen.base.vocabulary.expressions import Expr, names_in
 from symgen.base.vocabulary.measures import GROUND
-from symgen.describe.files.changes import is_decimal_number
 from symgen.describe.files.places import Path
+from symgen.describe.files.text_changes import is_decimal_number
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.context import Context
@@ -20,7 +20,7 @@ from symgen.describe.parts.scope import CENTRE, Scope
 
 #: Joints whose two points are one point.
 PINS = ("revolute", "rigid")
-#: The number at the beginning of a text with a unit, behind its quotes.
+#: The number at the beginning of a text with a unit, after its quote.
 _IN_TEXT = re.compile(r"[\"']+\s*([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)")
 _STEP = 1e-6
 
@@ -85,7 +85,7 @@ class _Spot(NamedTuple):
     raw: Sequence[Any]
 
 
-def handles(
+def movable_points(
     mechanism: Mechanism, raw: Mapping[str, Any], spans: Spans, text: str, q: Sequence[float]
 ) -> tuple[Handle, ...]:
     """Return the points of a planar mechanism that can be moved; none in space.
@@ -97,16 +97,16 @@ def handles(
     raw : mapping
         The tables of the file.
     spans : mapping
-        Characters of each value, from `symgen.describe.files.places.outline`.
+        Characters of each value, from `symgen.describe.files.places.outline_of_document`.
     text : str
         The text of the file.
     q : sequence of float
         Coordinates of all bodies at the start [m, rad].
     """
-    return () if mechanism.space != "planar" else tuple(_Handles(mechanism, raw, spans, text, q).all())
+    return () if mechanism.space != "planar" else tuple(_Handles(mechanism, raw, spans, text, q).all_handles())
 
 
-def numbers_of_parameters(raw: Mapping[str, Any], spans: Spans, text: str) -> dict[str, tuple[int, int]]:
+def spans_of_parameters(raw: Mapping[str, Any], spans: Spans, text: str) -> dict[str, tuple[int, int]]:
     """Return the characters of the number of each parameter and input that is written as a number."""
     found = dict[str, tuple[int, int]]()
     for section in ("parameters", "inputs"):
@@ -114,12 +114,12 @@ def numbers_of_parameters(raw: Mapping[str, Any], spans: Spans, text: str) -> di
             path: Path = (section, name)
             if isinstance(entry, Mapping):
                 path = (*path, "value" if "value" in entry else "default")
-            if path in spans and (span := _digits(text, spans[path])) is not None:
+            if path in spans and (span := _span_of_number(text, spans[path])) is not None:
                 found[name] = span
     return found
 
 
-def _digits(text: str, span: tuple[int, int]) -> tuple[int, int] | None:
+def _span_of_number(text: str, span: tuple[int, int]) -> tuple[int, int] | None:
     """Return the characters of the number that a value begins with; None for a formula."""
     written = text[span[0] : span[1]]
     if is_decimal_number(written):
@@ -137,10 +137,10 @@ class _Handles:
         self, mechanism: Mechanism, raw: Mapping[str, Any], spans: Spans, text: str, q: Sequence[float]
     ) -> None:
         self.mechanism, self.raw, self.spans, self.text = mechanism, raw, spans, text
-        self.context = Context.of(mechanism)
+        self.context = Context.of_mechanism(mechanism)
         self.values = {p.name: p.value for p in mechanism.parameters}
         self.units = {p.name: float(p.own_unit.factor) for p in mechanism.parameters}
-        self.of_parameters = numbers_of_parameters(raw, spans, text)
+        self.of_parameters = spans_of_parameters(raw, spans, text)
         self.centres = {body.name: body.centre_of_mass for body in mechanism.bodies}
         self.poses: dict[str, tuple[float, float, float]] = {GROUND: (0.0, 0.0, 0.0)}
         at = 0
@@ -149,26 +149,26 @@ class _Handles:
             self.poses[body.name] = (own[0], own[1], own[2])
             at += len(body.coordinates)
 
-    def all(self) -> Iterator[Handle]:
+    def all_handles(self) -> Iterator[Handle]:
         taken = set[Path]()
-        for joint, spots in self.pinned():
+        for joint, spots in self.pins_with_points():
             # a pin of centres of mass has no point that a number places
-            if spots and (handle := self.handle(f"joints.{joint}", "pin", spots)):
+            if spots and (handle := self.make_handle(f"joints.{joint}", "pin", spots)):
                 yield handle
             taken |= {spot.path for spot in spots}
-        for spot in self.spots():
-            if spot.path not in taken and (handle := self.handle(_words(spot.path), "end", [spot])):
+        for spot in self.points_of_entries():
+            if spot.path not in taken and (handle := self.make_handle(_path_in_words(spot.path), "end", [spot])):
                 yield handle
             taken.add(spot.path)
 
-    def pinned(self) -> Iterator[tuple[str, list[_Spot]]]:
+    def pins_with_points(self) -> Iterator[tuple[str, list[_Spot]]]:
         """Yield the pins: the first joint of each, and all points that it and further joints hold together."""
         groups: list[tuple[str, dict[Path, _Spot]]] = []
         for name, entry in self.raw.get("joints", {}).items():
             joint = next((j for j in self.mechanism.joints if j.name == name), None)
             if joint is None or joint.kind not in PINS:
                 continue
-            own = {spot.path: spot for spot in self.ends("joints", name, entry)}
+            own = {spot.path: spot for spot in self.ends_of_entry("joints", name, entry)}
             for group in [g for g in groups if not own.keys().isdisjoint(g[1])]:
                 groups.remove(group)
                 name, own = group[0], {**group[1], **own}
@@ -176,16 +176,16 @@ class _Handles:
         for name, spots in groups:
             yield name, [*spots.values()]
 
-    def spots(self) -> Iterator[_Spot]:
+    def points_of_entries(self) -> Iterator[_Spot]:
         """Yield the points of bodies, and points of joints and forces that have no name."""
         for name, entry in self.raw.get("bodies", {}).items():
             for point, vector in (entry.get("points") or {}).items():
                 yield _Spot(name, ("bodies", name, "points", point), point, vector)
         for section in ("joints", "forces"):
             for name, entry in self.raw.get(section, {}).items():
-                yield from (spot for spot in self.ends(section, name, entry) if not spot.point)
+                yield from (spot for spot in self.ends_of_entry(section, name, entry) if not spot.point)
 
-    def ends(self, section: str, name: str, entry: Mapping[str, Any]) -> Iterator[_Spot]:
+    def ends_of_entry(self, section: str, name: str, entry: Mapping[str, Any]) -> Iterator[_Spot]:
         """Yield the points of an entry that are a point of a body by name or by coordinates."""
         between, at = entry.get("between"), entry.get("at")
         pairs: list[tuple[Any, Any, Path]] = []
@@ -199,10 +199,10 @@ class _Handles:
             elif point != CENTRE and point in self.raw.get("bodies", {}).get(body, {}).get("points", {}):
                 yield _Spot(body, ("bodies", body, "points", point), point, self.raw["bodies"][body]["points"][point])
 
-    def handle(self, name: str, kind: str, spots: Sequence[_Spot]) -> Handle | None:
+    def make_handle(self, name: str, kind: str, spots: Sequence[_Spot]) -> Handle | None:
         """Return the handle of points that lie in one place; None where they have no value."""
         try:
-            vectors = [self.vector(spot) for spot in spots]
+            vectors = [self.vector_of_spot(spot) for spot in spots]
         except InputError:
             return None
         grounded = any(spot.body == GROUND for spot in spots)
@@ -212,21 +212,23 @@ class _Handles:
             kind = "point"
         first = max(range(len(spots)), key=lambda i: spots[i].body != GROUND)
         local = tuple(evaluate(e, self.values) for e in vectors[first])
-        x, y = self.place(spots[first].body, local)
-        followers = self.followers(spots, vectors)
+        x, y = self.place_in_ground(spots[first].body, local)
+        followers = self.numbers_that_follow(spots, vectors)
         if kind == "pivot":  # bodies keep their sizes, and the loop closes around the pivot's new place
             on_ground = [(s, v) for s, v in zip(spots, vectors, strict=True) if s.body == GROUND]
-            followers = self.followers(*zip(*on_ground, strict=True)) or followers
+            followers = self.numbers_that_follow(*zip(*on_ground, strict=True)) or followers
         return Handle(kind, name, x, y, spots[first].body, spots[first].point, (local[0], local[1]), followers)
 
-    def vector(self, spot: _Spot) -> tuple[Expr, ...]:
-        return self.scope(spot).vector("at" if spot.path[0] != "bodies" else f"points.{spot.point}", tuple(spot.raw))
+    def vector_of_spot(self, spot: _Spot) -> tuple[Expr, ...]:
+        return self.scope_of_spot(spot).vector(
+            "at" if spot.path[0] != "bodies" else f"points.{spot.point}", tuple(spot.raw)
+        )
 
-    def scope(self, spot: _Spot) -> Scope:
+    def scope_of_spot(self, spot: _Spot) -> Scope:
         section, name = str(spot.path[0]), str(spot.path[1])
         return Scope(self.context, f"{section}.{name}", name)
 
-    def place(self, body: str, local: Sequence[float]) -> tuple[float, float]:
+    def place_in_ground(self, body: str, local: Sequence[float]) -> tuple[float, float]:
         """Return a point of a body in the ground frame."""
         x, y, angle = self.poses[body]
         centre = [evaluate(e, self.values) for e in self.centres[body]] if body != GROUND else [0.0, 0.0]
@@ -234,13 +236,13 @@ class _Handles:
         dx, dy = local[0] - centre[0], local[1] - centre[1]
         return x + c * dx - s * dy, y + s * dx + c * dy
 
-    def followers(self, spots: Sequence[_Spot], vectors: Sequence[Sequence[Expr]]) -> tuple[Follower, ...]:
+    def numbers_that_follow(self, spots: Sequence[_Spot], vectors: Sequence[Sequence[Expr]]) -> tuple[Follower, ...]:
         """Return the numbers that follow a point: of several coordinates one moves as fits all of them best."""
         slopes: dict[tuple[int, int], list[tuple[float, float, float]]] = {}
         for spot, vector in zip(spots, vectors, strict=True):
             angle = self.poses[spot.body][2]
             for k, expression in enumerate(vector):
-                found = self.number(spot, k, expression)
+                found = self.deciding_number(spot, k, expression)
                 if found is not None and found[1] != 0.0:
                     way = (math.cos(angle), math.sin(angle)) if k == 0 else (-math.sin(angle), math.cos(angle))
                     slopes.setdefault(found[0], []).append((found[1], *way))
@@ -251,13 +253,13 @@ class _Handles:
             result.append(Follower(start, end, float(self.text[start:end].replace("_", "")), right, up))
         return tuple(result)
 
-    def number(self, spot: _Spot, k: int, expression: Expr) -> tuple[tuple[int, int], float] | None:
+    def deciding_number(self, spot: _Spot, k: int, expression: Expr) -> tuple[tuple[int, int], float] | None:
         """Return the characters of the number that decides a coordinate, and metres for a unit of the number."""
         names = sorted(set(names_in(expression)))
         if not names:
             span = self.spans.get((*spot.path, k))
-            digits = None if span is None else _digits(self.text, span)
-            return None if digits is None else (digits, self.factor(spot.raw[k]))
+            digits = None if span is None else _span_of_number(self.text, span)
+            return None if digits is None else (digits, self.metres_of_unit(spot.raw[k]))
         if len(names) > 1 or names[0] not in self.of_parameters:
             return None
         name = names[0]
@@ -268,12 +270,12 @@ class _Handles:
             return None
         return self.of_parameters[name], (sides[0] - sides[1]) / (2.0 * step) * self.units[name]
 
-    def factor(self, value: object) -> float:
+    def metres_of_unit(self, value: object) -> float:
         """Return the metres in a unit of a number as written."""
         amount = read_amount(value) if isinstance(value, str) else None
         unit = read_unit(amount.unit) if amount is not None else None
         return float(unit.factor) if isinstance(unit, Unit) else 1.0
 
 
-def _words(path: Path) -> str:
+def _path_in_words(path: Path) -> str:
     return ".".join(map(str, path))

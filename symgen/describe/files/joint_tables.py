@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 from symgen.base.vocabulary.expressions import ONE, call
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.keys import keys_of_any_joint, rows_of_joint
@@ -14,7 +14,7 @@ from symgen.describe.parts.collected import Errors, Incomplete
 from symgen.describe.parts.fields import Flag, JointStart, Scalar, read_table, read_value
 from symgen.describe.parts.holds import joint_holds
 from symgen.describe.parts.kinds import JOINTS, kind_and_keys
-from symgen.describe.parts.topology import articulation_of
+from symgen.describe.parts.topology import articulation_of_joint
 
 if TYPE_CHECKING:
     from symgen.base.vocabulary.measures import Marker
@@ -59,34 +59,34 @@ class JointTables:
         self._scopes: dict[str, tuple[Scope, Joint]] = {}  # in the order in which joints are resolved
         self._keys = tuple(keys_of_any_joint())
 
-    def joint(self, name: str, where: str) -> Joint:
+    def resolve_joint(self, name: str, where: str) -> Joint:
         """Return the joint `name`, resolved now if another one asks for it first."""
         if name not in self.tables:
-            got = f"the unknown joint {quoted(name)}"
-            raise InputError(where, "the name of a joint", got, nearest(name, self.tables))
+            got = f"the unknown joint {quote(name)}"
+            raise InputError(where, "the name of a joint", got, suggest(name, self.tables))
         if name in self._joints:
-            self.errors.need(name)
+            self.errors.leave_if_wrong(name)
             resolved = self._joints[name]
             if resolved is None:
                 raise InputError(where, "a joint that stands by itself", f"'{name}', which leads back to this one")
             return resolved
         self._joints[name] = None
         self._open += 1
-        with self.errors.apart(name):
+        with self.errors.part_of_description(name):
             if self._open > LONGEST_CHAIN:
                 raise InputError(where, f"joints that refer to each other in at most {LONGEST_CHAIN} steps", "more")
-            self._joints[name] = joint = self._read(name)
+            self._joints[name] = joint = self._read_joint(name)
             self._open -= 1
             return joint
         self._open -= 1
         raise Incomplete
 
-    def _read(self, name: str) -> Joint:
+    def _read_joint(self, name: str) -> Joint:
         """Return the joint `name`, and note what else its table says."""
         where, whole = self.where(f"joints.{name}"), self.tables[name]
         kind, table = kind_and_keys(where, whole, "joint type", *self._keys)
         struct = JOINTS.get(kind, f"{where}.type")
-        scope = self.scope("joints", name, JOINTS.canonical(kind))
+        scope = self.scope("joints", name, JOINTS.resolve_alias(kind))
         scope.check_space(struct.SPACES)
         section = read_table(struct, table, where, ("type", *self._keys))
         joint = section.build(scope)
@@ -98,7 +98,7 @@ class JointTables:
         if "start" in whole:
             self.starts[name] = joint_holds(scope, read_value(JointStart, whole["start"], f"{where}.start"), joint)
         if read_value(Flag, whole.get("cut", False), f"{where}.cut"):
-            if articulation_of(joint) is None:
+            if articulation_of_joint(joint) is None:
                 got = f"a {joint.kind} joint, which has rows in any case"
                 raise InputError(f"{where}.cut", "a joint that can carry a body", got)
             self.cuts.append(name)
@@ -107,11 +107,11 @@ class JointTables:
         self._scopes[name] = scope, joint
         return joint
 
-    def bounded(self, joints: Sequence[Joint]) -> list[BoundedRow]:
+    def bounded_rows(self, joints: Sequence[Joint]) -> list[BoundedRow]:
         """Return the rows with bounds of all joints, and note which joints have their reactions as multipliers."""
         rows, cuts = dict[str, tuple[BoundedRow, ...]](), list[str]()
-        for name, (scope, joint) in self._scopes.items():  # behind all joints, as formulas may read any
-            with self.errors.apart(name):
+        for name, (scope, joint) in self._scopes.items():  # after all joints, as formulas may read any
+            with self.errors.part_of_description(name):
                 rows[name] = tuple(rows_of_joint(scope, joint, self.tables[name]))
             if name in self.cuts or any(row.pressed for row in rows.get(name, ())):
                 cuts.append(name)  # its reaction is a multiplier
@@ -137,6 +137,6 @@ def rotor_of(scope: Scope, joint: Joint, table: Mapping[str, Any]) -> Rotor | No
     )
     if ratio != ONE:
         inertia = call("mul", inertia, call("mul", ratio, ratio))
-    way = articulation_of(joint)
+    way = articulation_of_joint(joint)
     axes = (way.of_a[2], way.of_b[2]) if way is not None and way.turn == "axis" and way.of_a else ()
     return Rotor(joint.name, angles[0], inertia, axes)

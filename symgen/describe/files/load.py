@@ -16,12 +16,12 @@ from pathlib import Path
 from typing import Any
 
 from symgen.base import arguments
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 from symgen.describe.files.origins import Source, errors_in
 from symgen.describe.files.validate import validate
 from symgen.describe.formulas.parser import LONGEST_TEXT
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.parts.own_units import in_si
+from symgen.describe.parts.own_units import entry_in_si
 
 _CATALOGUE = re.compile(r"(?P<name>[a-z][a-z0-9-]*)(:(?P<size>[0-9]{1,9}))?")
 
@@ -32,7 +32,7 @@ LARGEST_FILE = 1_000_000
 MOST_OPERATORS = 50_000
 #: Parameters: each is a name in every module that is emitted.
 MOST_PARAMETERS = 10_000
-#: Parts of a dotted key, and parts behind the second one in all keys together: the parser keeps a kilobyte for each.
+#: Parts of a dotted key, and parts after the second one in all keys together: the parser keeps a kilobyte for each.
 LONGEST_KEY, MOST_PARTS = 8, 50_000
 
 # What may hold a dot that joins no keys (comments and strings) comes first; a string that does not end matches nothing
@@ -63,10 +63,10 @@ def load_mechanism(model: str | os.PathLike[str], parameters: Mapping[str, float
         If the mechanism is unknown or its description is wrong.
     """
     raw, source = read_raw(model)
-    return validate(with_parameters(raw, parameters, source) if parameters else raw, source)
+    return validate(set_parameters(raw, parameters, source) if parameters else raw, source)
 
 
-def with_parameters(raw: Mapping[str, Any], values: Mapping[str, float], source: str) -> dict[str, Any]:
+def set_parameters(raw: Mapping[str, Any], values: Mapping[str, float], source: str) -> dict[str, Any]:
     """Return the description `raw` with other values for some of its parameters.
 
     Parameters
@@ -82,10 +82,10 @@ def with_parameters(raw: Mapping[str, Any], values: Mapping[str, float], source:
     entries = dict(section) if isinstance(section, Mapping) else {}
     for name, value in values.items():
         if name not in entries:
-            got = f"the unknown parameter {quoted(name)}"
-            hint = nearest(name, entries) or "it has no parameters"
+            got = f"the unknown parameter {quote(name)}"
+            hint = suggest(name, entries) or "it has no parameters"
             raise InputError(f"{source}: parameters", "the name of a parameter", got, hint)
-        entries[name] = in_si(entries[name], value)
+        entries[name] = entry_in_si(entries[name], value)
     return {**raw, "parameters": entries}
 
 
@@ -93,7 +93,7 @@ def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
     """Return the nested dictionary of `model`, not yet validated, and the name of its origin for messages."""
     from symgen.describe import catalogue
 
-    arguments.path("model", model)
+    arguments.path_argument("model", model)
     text = os.fspath(model)
     match = _CATALOGUE.fullmatch(text)
     if match and match.group("name") in catalogue.all_names():
@@ -103,17 +103,17 @@ def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
     if _is_file(path):
         return _read_file(path) if path.suffix == ".toml" else _read_other(path)
     if path.suffix == ".toml" or "/" in text or os.sep in text:
-        raise InputError("model", "a catalogue name or the path of a file", f"{quoted(text)}, which is no file")
+        raise InputError("model", "a catalogue name or the path of a file", f"{quote(text)}, which is no file")
     entries = catalogue.all_names()
-    hint = nearest(text.partition(":")[0], entries)
+    hint = suggest(text.partition(":")[0], entries)
     if ":" in text and not hint.startswith("known"):
         hint = f"a size is written as in {catalogue.example_of_size()}"
-    raise InputError("model", "a catalogue name or the path of a file", quoted(text), hint)
+    raise InputError("model", "a catalogue name or the path of a file", quote(text), hint)
 
 
 def _read_file(path: Path) -> tuple[dict[str, Any], Source]:
     """Return the tables of a TOML file."""
-    source = Source.of(path)
+    source = Source.of_file(path)
     text = read_text(path)
     with errors_in(source):
         return parse_toml(text, source), source
@@ -127,7 +127,7 @@ def _read_other(path: Path) -> tuple[dict[str, Any], Source]:
     if other is None:
         return _read_file(path)
     read = read_robot(path, other)
-    return read.raw, Source.of(path, read.folder)
+    return read.raw, Source.of_file(path, read.folder)
 
 
 def _is_file(path: Path) -> bool:
@@ -166,7 +166,7 @@ def parse_toml(text: str, source: str) -> dict[str, Any]:
         digits = sys.get_int_max_str_digits()
         raise InputError(source, f"whole numbers of at most {digits} digits", "a longer one") from None
     except (RecursionError, MemoryError):
-        raise _too_deep(source) from None
+        raise _nesting_error(source) from None
     _check_values(raw, source)
     return raw
 
@@ -189,15 +189,15 @@ def _check_text(text: str, source: str) -> None:
             parts = parts + 1 if after_dot else 1
             if parts > LONGEST_KEY:
                 expected = f"keys of at most {LONGEST_KEY} parts joined by dots"
-                raise InputError(source, expected, f"a longer one {_at(text, token.start())}")
+                raise InputError(source, expected, f"a longer one {_position_in_words(text, token.start())}")
             further += parts > 2
             if further > MOST_PARTS:
                 expected = f"at most {MOST_PARTS} tables inside tables, by dotted keys"
-                raise InputError(source, expected, f"more {_at(text, token.start())}")
+                raise InputError(source, expected, f"more {_position_in_words(text, token.start())}")
         after_dot = kind == "dot"
 
 
-def _at(text: str, position: int) -> str:
+def _position_in_words(text: str, position: int) -> str:
     """Return a position in words, as `tomllib` has it."""
     line = text.rfind("\n", 0, position) + 1
     return f"(at line {text.count(chr(10), 0, position) + 1}, column {position - line + 1})"
@@ -219,8 +219,8 @@ def _check_values(raw: Mapping[str, Any], source: str) -> None:
     while stack:
         value, depth = stack.pop()
         if depth > DEEPEST:
-            raise _too_deep(source)
-        if isinstance(value, str) and len(value) <= LONGEST_TEXT:  # a longer one is refused where it stands
+            raise _nesting_error(source)
+        if isinstance(value, str) and len(value) <= LONGEST_TEXT:  # a longer one is refused where it is read
             operators += sum(map(value.count, "+-*/(<>,"))
         inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
         stack.extend((item, depth + 1) for item in inner)
@@ -228,6 +228,6 @@ def _check_values(raw: Mapping[str, Any], source: str) -> None:
         raise InputError(source, f"formulas of at most {MOST_OPERATORS} operators together", f"{operators}")
 
 
-def _too_deep(source: str) -> InputError:
+def _nesting_error(source: str) -> InputError:
     """Return the error about nesting."""
     return InputError(source, f"tables nested at most {DEEPEST} levels deep", "deeper nesting")

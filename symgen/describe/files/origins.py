@@ -27,7 +27,7 @@ class Source(str):
     file: Path | None = None
 
     @classmethod
-    def of(cls, path: Path, folder: Path | None = None) -> Source:
+    def of_file(cls, path: Path, folder: Path | None = None) -> Source:
         """Return the source of a file; meshes are named from the folder that it is in, unless from another one."""
         source = cls(path.name)
         source.folder = str(path.absolute().parent if folder is None else folder)

@@ -57,7 +57,7 @@ class Place(NamedTuple):
         return (self.key or self.value or TextSpan(1, 1, 0)).line
 
 
-def places(text: str) -> dict[Path, Place]:
+def places_in_document(text: str) -> dict[Path, Place]:
     """Return the place of every table, array and value of a document, by its path.
 
     Parameters
@@ -76,7 +76,7 @@ class Header(NamedTuple):
     path : Path
         The table.
     start, end : int
-        First character of its line, and the one behind its last bracket, counted from 0.
+        First character of its line, and the one after its last bracket, counted from 0.
     """
 
     path: Path
@@ -106,7 +106,7 @@ class Outline(NamedTuple):
     Attributes
     ----------
     values : dict
-        First character of each written value, and the one behind it, by its path.
+        First character of each written value, and the one after it, by its path.
     headers : tuple of Header
         In the order of the text.
     mentions : tuple of Mention
@@ -118,7 +118,7 @@ class Outline(NamedTuple):
     mentions: tuple[Mention, ...]
 
 
-def outline(text: str) -> Outline:
+def outline_of_document(text: str) -> Outline:
     """Return the parts of a document by characters.
 
     Parameters
@@ -142,51 +142,51 @@ class _Scanner:
         self.headers: list[Header] = []
         self.mentions: list[Mention] = []
         table: Path = ()
-        self.blank()
+        self.pass_blank()
         while self.at < len(text):
             if text[self.at] == "[":
-                table = self.header()
+                table = self.pass_header()
             else:
-                self.pair(table)
-            self.blank()
+                self.pass_pair(table)
+            self.pass_blank()
 
-    def span(self, start: int, end: int) -> TextSpan:
+    def span_between(self, start: int, end: int) -> TextSpan:
         line = bisect_right(self._starts, start)
         return TextSpan(line, start - self._starts[line - 1] + 1, end - start)
 
-    def blank(self) -> None:
+    def pass_blank(self) -> None:
         """Pass white space, line ends and comments."""
-        self.at = self.after(_BLANK).end()
+        self.at = self.pass_pattern(_BLANK).end()
 
-    def after(self, pattern: re.Pattern[str]) -> re.Match[str]:
+    def pass_pattern(self, pattern: re.Pattern[str]) -> re.Match[str]:
         match = pattern.match(self.text, self.at)
         assert match is not None, f"no TOML at character {self.at}"
         return match
 
-    def passed(self, character: str) -> bool:
+    def pass_character(self, character: str) -> bool:
         """Return whether `character` is next, and pass it."""
         passed = self.text.startswith(character, self.at)
         self.at += passed
         return passed
 
-    def key(self, table: Path = ()) -> list[tuple[str, TextSpan]]:
+    def pass_key(self, table: Path = ()) -> list[tuple[str, TextSpan]]:
         """Pass a key of `table`; return its parts."""
         parts = list[tuple[str, TextSpan]]()
-        while not parts or self.passed("."):
-            match = self.after(_PART)
+        while not parts or self.pass_character("."):
+            match = self.pass_pattern(_PART)
             part = match[1]
             self.at = match.end()
             if part[0] in "\"'":
                 part = tomllib.loads(f"key = {part}")["key"]
-            parts.append((part, self.span(*match.span(1))))
+            parts.append((part, self.span_between(*match.span(1))))
             self.mentions.append(Mention((*table, *(name for name, _ in parts)), *match.span(1)))
         return parts
 
-    def header(self) -> Path:
+    def pass_header(self) -> Path:
         """Pass the header of a table or of an item; return its path."""
         item, start = self.text.startswith("[[", self.at), self.text.rfind("\n", 0, self.at) + 1
         self.at += 2 if item else 1
-        parts = self.key()
+        parts = self.pass_key()
         self.at += 2 if item else 1
         path: Path = ()
         for i, (part, span) in enumerate(parts):
@@ -200,46 +200,46 @@ class _Scanner:
         self.headers.append(Header(path, start, self.at))
         return path
 
-    def pair(self, table: Path) -> None:
+    def pass_pair(self, table: Path) -> None:
         """Pass a key and its value in `table`."""
         path = table
-        for part, span in (parts := self.key(table)):
+        for part, span in (parts := self.pass_key(table)):
             path = (*path, part)
             self.places.setdefault(path, Place(span, None))
         self.at += 1  # the equals sign
-        self.value(path, parts[-1][1])
+        self.pass_value(path, parts[-1][1])
 
-    def value(self, path: Path, key: TextSpan | None) -> None:
+    def pass_value(self, path: Path, key: TextSpan | None) -> None:
         """Pass a value whose path is `path`."""
-        self.blank()
+        self.pass_blank()
         start = self.at
-        self.places[path] = Place(key, self.span(start, start))  # in front of what it contains
-        if self.passed("["):
-            self.items(path)
-        elif self.passed("{"):
-            self.pairs(path)
+        self.places[path] = Place(key, self.span_between(start, start))  # in front of what it contains
+        if self.pass_character("["):
+            self.pass_items(path)
+        elif self.pass_character("{"):
+            self.pass_inline_table(path)
         else:
-            self.at = self.after(_SCALAR).end()
-        self.places[path] = Place(key, self.span(start, self.at))
+            self.at = self.pass_pattern(_SCALAR).end()
+        self.places[path] = Place(key, self.span_between(start, self.at))
         self.values[path] = (start, self.at)
 
-    def items(self, path: Path) -> None:
+    def pass_items(self, path: Path) -> None:
         """Pass the items of an array, and its bracket."""
         index = 0
-        self.blank()
-        while not self.passed("]"):
-            self.value((*path, index), None)
-            self.separator()
+        self.pass_blank()
+        while not self.pass_character("]"):
+            self.pass_value((*path, index), None)
+            self.pass_separator()
             index += 1
 
-    def pairs(self, path: Path) -> None:
+    def pass_inline_table(self, path: Path) -> None:
         """Pass the pairs of an inline table, and its brace."""
-        self.blank()
-        while not self.passed("}"):
-            self.pair(path)
-            self.separator()
+        self.pass_blank()
+        while not self.pass_character("}"):
+            self.pass_pair(path)
+            self.pass_separator()
 
-    def separator(self) -> None:
-        self.blank()
-        self.passed(",")
-        self.blank()
+    def pass_separator(self) -> None:
+        self.pass_blank()
+        self.pass_character(",")
+        self.pass_blank()

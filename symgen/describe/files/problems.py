@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 
 from symgen.base.errors import InputError
 from symgen.describe.files.load import parse_toml, read_text
-from symgen.describe.files.places import Path, Place, TextSpan, places
-from symgen.describe.files.validate import errors_of
+from symgen.describe.files.places import Path, Place, TextSpan, places_in_document
+from symgen.describe.files.validate import collect_errors
 
 _INDEX = re.compile(r"\[(\d+)\]")
 _END = re.compile(r"[.\[]")
@@ -46,7 +46,7 @@ class Problem(NamedTuple):
         return f"{where}expected {self.expected}, got {self.got}" + (f"; {self.hint}" if self.hint else "")
 
 
-def problems(text: str, source: str) -> tuple[Problem, ...]:
+def problems_of_text(text: str, source: str) -> tuple[Problem, ...]:
     """Return what is wrong in a mechanism file, in the order of its lines; nothing if it is valid.
 
     Of each table (a body, a joint, a parameter, an event) the first thing wrong is reported, and nothing that only
@@ -62,13 +62,16 @@ def problems(text: str, source: str) -> tuple[Problem, ...]:
     try:
         raw = parse_toml(text, source)
     except InputError as error:
-        return (_problem(error, source, _syntax(error)),)
-    found = places(text)
-    described = [_problem(error, source, _place(error, source, raw, found)) for error in errors_of(raw, source)]
+        return (_problem_of_error(error, source, _place_of_syntax_error(error)),)
+    found = places_in_document(text)
+    described = [
+        _problem_of_error(error, source, _place_of_error(error, source, raw, found))
+        for error in collect_errors(raw, source)
+    ]
     return tuple(sorted(described, key=lambda problem: problem.line))
 
 
-def with_line(error: InputError) -> str:
+def sentence_with_line(error: InputError) -> str:
     """Return the sentence of an error, with its line where it is about the text of a file."""
     sentence = str(error)
     if error.file is None or not sentence.startswith(source := error.file.name):
@@ -76,15 +79,15 @@ def with_line(error: InputError) -> str:
     try:
         text = read_text(error.file)
         raw = parse_toml(text, source)
-        place = _place(error, source, raw, places(text))
+        place = _place_of_error(error, source, raw, places_in_document(text))
     except InputError as slip:
         if str(slip) != sentence:  # the file was changed in the meantime
             return sentence
-        place = _syntax(slip)
+        place = _place_of_syntax_error(slip)
     return sentence if place == _NOWHERE else f"{source}:{place.line}{sentence.removeprefix(source)}"
 
 
-def _problem(error: InputError, source: str, place: Place) -> Problem:
+def _problem_of_error(error: InputError, source: str, place: Place) -> Problem:
     return Problem(place.line, _path_in(error, source), error.expected, error.got, error.hint, place)
 
 
@@ -92,25 +95,25 @@ def _path_in(error: InputError, source: str) -> str:
     return "" if error.where == source else error.where.removeprefix(f"{source}: ")
 
 
-def _syntax(error: InputError) -> Place:
+def _place_of_syntax_error(error: InputError) -> Place:
     """Return the place of a syntax error of TOML; for other errors of the text none."""
     match = _AT.search(error.got)
     return _NOWHERE if match is None else Place(TextSpan(int(match[1]), int(match[2]), 0), None)
 
 
-def _place(error: InputError, source: str, raw: Mapping[str, Any], found: Mapping[Path, Place]) -> Place:
+def _place_of_error(error: InputError, source: str, raw: Mapping[str, Any], found: Mapping[Path, Place]) -> Place:
     """Return the place of the innermost part of a file, with its content and its places, that an error leads to."""
     words = _path_in(error, source)
     part = _PART_OF_BEAM.match(words)
     if part is not None and part[1] in raw.get("beams", ()):
         words = f"beams.{part[1]}{part[2]}"
-    path = _followed(raw, words)
+    path = _path_from_words(raw, words)
     if error.key and (*path, error.key) in found:
         path = (*path, error.key)
     return found.get(path, _NOWHERE)
 
 
-def _followed(value: object, words: str) -> Path:
+def _path_from_words(value: object, words: str) -> Path:
     """Return the path of the innermost part of `value` that a path in words leads to; keys may contain dots."""
     path: Path = ()
     while words:

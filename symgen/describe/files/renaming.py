@@ -1,4 +1,4 @@
-"""A name of a mechanism file changed wherever it stands, and tables taken out with what needs them."""
+"""Rename a part of a mechanism file wherever the file names it, or remove tables with what needs them."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 from symgen.describe.bounds.keys import sections_of_files
-from symgen.describe.files.changes import Change, changed_text
 from symgen.describe.files.load import parse_toml
-from symgen.describe.files.places import Outline, Path, outline
-from symgen.describe.files.snippets import blocks_of
-from symgen.describe.files.validate import errors_of
-from symgen.describe.formulas.names import check_identifier
+from symgen.describe.files.places import Outline, Path, outline_of_document
+from symgen.describe.files.snippets import blocks_of_headers
+from symgen.describe.files.text_changes import Change, apply_changes
+from symgen.describe.files.validate import collect_errors
+from symgen.describe.formulas.identifiers import check_identifier
 
 #: Keys whose texts are no formulas, in any table.
 _WORDS = (
@@ -25,7 +25,7 @@ _OF_BODIES = ("between", "body", "reaction", "carrier", "clamp")
 _OF_JOINTS = ("joint", "joints", "of", "pinion", "rack")
 
 
-def renamed_text(text: str, path: str, name: str, source: str) -> str:
+def rename_in_text(text: str, path: str, name: str, source: str) -> str:
     """Return the text of a file in which something has another name, wherever the file names it.
 
     Parameters
@@ -44,21 +44,21 @@ def renamed_text(text: str, path: str, name: str, source: str) -> str:
     InputError
         If there is nothing of that name, the new one is taken or no name, or the file would be wrong.
     """
-    raw, parts = parse_toml(text, source), outline(text)
-    where = _path_of(raw, path)
+    raw, parts = parse_toml(text, source), outline_of_document(text)
+    where = _path_from_text(raw, path)
     check_identifier(name, f"{source}: {path}", "name")
-    siblings = _at(raw, where[:-1])
+    siblings = _value_at_path(raw, where[:-1])
     if name in siblings and name != where[-1]:
-        raise InputError(f"{source}: {path}", "a name that is free", quoted(name))
+        raise InputError(f"{source}: {path}", "a name that is free", quote(name))
     changes = {(m.start, m.end): name for m in parts.mentions if m.path == where}
-    for span, value in _texts(raw, parts, where, name):
+    for span, value in _texts_to_change(raw, parts, where, name):
         changes[span] = value
-    result = changed_text(text, [Change(*span, value) for span, value in changes.items()])
-    _refuse_worse(raw, parse_toml(result, source), source)
+    result = apply_changes(text, [Change(*span, value) for span, value in changes.items()])
+    _refuse_new_problems(raw, parse_toml(result, source), source)
     return result
 
 
-def removed(text: str, path: str, source: str) -> str:
+def remove_from_text(text: str, path: str, source: str) -> str:
     """Return the text of a file without a table, and without the joints and forces that need it.
 
     Parameters
@@ -75,59 +75,61 @@ def removed(text: str, path: str, source: str) -> str:
     InputError
         If there is nothing of that name, or the file would be wrong: something else needs it.
     """
-    raw, parts = parse_toml(text, source), outline(text)
-    gone = [_path_of(raw, path)]
+    raw, parts = parse_toml(text, source), outline_of_document(text)
+    gone = [_path_from_text(raw, path)]
     for entry in gone:  # grows
-        gone += [other for other in _users(raw, entry) if other not in gone]
-    spans = [span for entry in gone for span in _spans(entry, parts, text)]
-    result = changed_text(text, [Change(start, end, "") for start, end in _merged(spans)])
+        gone += [other for other in _users_of_removed(raw, entry) if other not in gone]
+    spans = [span for entry in gone for span in _spans_of_table(entry, parts, text)]
+    result = apply_changes(text, [Change(start, end, "") for start, end in _merge_spans(spans)])
     left = parse_toml(result, source)
     if left.get("bodies") or not raw.get("bodies"):  # with its last body gone, a file is where a drawing begins
-        _refuse_worse(raw, left, source)
+        _refuse_new_problems(raw, left, source)
     return result
 
 
-def _path_of(raw: Mapping[str, Any], path: str) -> Path:
+def _path_from_text(raw: Mapping[str, Any], path: str) -> Path:
     parts = path.split(".")
     value: Any = raw
     for part in parts:
         if not isinstance(value, Mapping) or part not in value:
             known = value if isinstance(value, Mapping) else ()
-            raise InputError(path, "something that the file has", quoted(part), nearest(part, known))
+            raise InputError(path, "something that the file has", quote(part), suggest(part, known))
         value = value[part]
     if len(parts) not in (2, 4) or (len(parts) == 4 and parts[2] != "points") or parts[0] in ("mechanism", "run"):
         raise InputError(path, "an entry of a section, or a point of a body", "another key")
     return tuple(parts)
 
 
-def _at(raw: Any, path: Path) -> Any:
+def _value_at_path(raw: Any, path: Path) -> Any:
     for part in path:
         raw = raw[part]
     return raw
 
 
-def _texts(raw: Mapping[str, Any], parts: Outline, where: Path, name: str) -> Iterator[tuple[tuple[int, int], str]]:
+def _texts_to_change(
+    raw: Mapping[str, Any], parts: Outline, where: Path, name: str
+) -> Iterator[tuple[tuple[int, int], str]]:
     """Yield the characters inside texts and quoted keys that a new name changes, with what they become."""
-    change = _changer(raw, where, name)
+    change = _changer_at_path(raw, where, name)
     for path, (start, end) in parts.values.items():
-        value = _at(raw, path)
+        value = _value_at_path(raw, path)
         if isinstance(value, str) and (new := change(path, value)) != value:
-            yield (start, end), _quoted(new)
+            yield (start, end), _toml_string(new)
     for mention in parts.mentions:
         key = str(mention.path[-1])
-        if len(mention.path) > 2 and "." in key and (new := _formula(where, name)(key)) != key:
-            yield (mention.start, mention.end), _quoted(new)
+        if len(mention.path) > 2 and "." in key and (new := _formula_changer(where, name)(key)) != key:
+            yield (mention.start, mention.end), _toml_string(new)
         elif where[0] == "joints" and mention.path[-2:] == ("terms", where[1]):
             yield (mention.start, mention.end), name
 
 
-def _quoted(text: str) -> str:
+def _toml_string(text: str) -> str:
     escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n").replace("\t", "\\t")
     return f'"{escaped}"' if text.isprintable() or not text.strip() else repr(text)
 
 
-def _formula(where: Path, name: str) -> Callable[[str], str]:
-    """Return what changes a formula: names before a dot, and parameters, which stand alone."""
+def _formula_changer(where: Path, name: str) -> Callable[[str], str]:
+    """Return what changes a formula: names before a dot, and parameters, which have no dot."""
     old = re.escape(str(where[-1]))
     if where[0] in ("bodies", "joints", "forces", "beams", *sections_of_files()) and len(where) == 2:
         pattern = re.compile(rf"(?<![\w.]){old}(?=\.)")
@@ -141,23 +143,23 @@ def _formula(where: Path, name: str) -> Callable[[str], str]:
     return lambda text: pattern.sub(name, text)
 
 
-def _changer(raw: Mapping[str, Any], where: Path, name: str) -> Callable[[Path, str], str]:
+def _changer_at_path(raw: Mapping[str, Any], where: Path, name: str) -> Callable[[Path, str], str]:
     """Return what changes the text at a path."""
-    old, formula = str(where[-1]), _formula(where, name)
+    old, formula = str(where[-1]), _formula_changer(where, name)
 
-    def change(path: Path, text: str) -> str:
+    def change_text_at(path: Path, text: str) -> str:
         key = next((str(part) for part in reversed(path) if isinstance(part, str)), "")
         if where[0] == "bodies" and len(where) == 2 and key in _OF_BODIES:
             return name if text == old else text
         if where[0] == "joints" and key in _OF_JOINTS:
             return name + text[len(old) :] if text == old or text.startswith(f"{old}.") else text
         if key == "at" and isinstance(path[-1], int | str) and not _is_coordinate(path):
-            return name if len(where) == 4 and text == old and _owner(raw, path) == where[1] else text
+            return name if len(where) == 4 and text == old and _owner_of_point(raw, path) == where[1] else text
         if key in _WORDS or (key == "at" and not _is_coordinate(path)) or path[0] == "mechanism":
             return text
         return formula(text)
 
-    return change
+    return change_text_at
 
 
 def _is_coordinate(path: Path) -> bool:
@@ -165,15 +167,15 @@ def _is_coordinate(path: Path) -> bool:
     return len(path) >= 5 and isinstance(path[-1], int) and isinstance(path[-2], int)
 
 
-def _owner(raw: Mapping[str, Any], path: Path) -> object:
+def _owner_of_point(raw: Mapping[str, Any], path: Path) -> object:
     """Return the body of a point that a joint or force names."""
-    entry = _at(raw, path[:2])
+    entry = _value_at_path(raw, path[:2])
     if isinstance(path[-1], int) and isinstance(entry.get("between"), list):
         return entry["between"][path[-1]] if path[-1] < len(entry["between"]) else None
     return entry.get("body")
 
 
-def _users(raw: Mapping[str, Any], gone: Path) -> Iterator[Path]:
+def _users_of_removed(raw: Mapping[str, Any], gone: Path) -> Iterator[Path]:
     """Yield the joints and forces that cannot be without something."""
     if len(gone) != 2 or gone[0] not in ("bodies", "joints"):
         return
@@ -186,22 +188,22 @@ def _users(raw: Mapping[str, Any], gone: Path) -> Iterator[Path]:
                 yield section, name
 
 
-def _spans(gone: Path, parts: Outline, text: str) -> list[tuple[int, int]]:
+def _spans_of_table(gone: Path, parts: Outline, text: str) -> list[tuple[int, int]]:
     """Return the characters of a table: of its headers' blocks with the comments above, else of its line."""
     found = []
-    for header, (start, end) in zip(parts.headers, blocks_of(parts, text), strict=True):
+    for header, (start, end) in zip(parts.headers, blocks_of_headers(parts, text), strict=True):
         if header.path[: len(gone)] == gone:
-            found.append((_with_comments(text, start), _through_line(text, end)))
+            found.append((_start_with_comments(text, start), _end_of_line(text, end)))
     if not found and gone in parts.values:
         mention = next(m for m in parts.mentions if m.path == gone)
         start = text.rfind("\n", 0, mention.start) + 1
         if text[start : mention.start].strip():
             raise InputError(".".join(map(str, gone)), "an entry on lines of its own", "one inside a table on one line")
-        found.append((start, _through_line(text, parts.values[gone][1])))
+        found.append((start, _end_of_line(text, parts.values[gone][1])))
     return found
 
 
-def _with_comments(text: str, start: int) -> int:
+def _start_with_comments(text: str, start: int) -> int:
     """Return where the comments right above a header begin; those at the top of a file stay."""
     at = start
     while at > 0:
@@ -212,15 +214,15 @@ def _with_comments(text: str, start: int) -> int:
     return start
 
 
-def _through_line(text: str, end: int) -> int:
-    """Return the end of a line with one blank line behind it."""
+def _end_of_line(text: str, end: int) -> int:
+    """Return the end of a line with one blank line after it."""
     at = text.find("\n", end)
     at = len(text) if at < 0 else at + 1
     following = text.find("\n", at)
     return following + 1 if following >= 0 and not text[at:following].strip() else at
 
 
-def _merged(spans: list[tuple[int, int]]) -> list[tuple[int, int]]:
+def _merge_spans(spans: list[tuple[int, int]]) -> list[tuple[int, int]]:
     result = list[tuple[int, int]]()
     for start, end in sorted(spans):
         if result and start < result[-1][1]:
@@ -230,7 +232,7 @@ def _merged(spans: list[tuple[int, int]]) -> list[tuple[int, int]]:
     return result
 
 
-def _refuse_worse(before: Mapping[str, Any], after: Mapping[str, Any], source: str) -> None:
+def _refuse_new_problems(before: Mapping[str, Any], after: Mapping[str, Any], source: str) -> None:
     """Refuse a change that makes something wrong.
 
     Raises
@@ -238,6 +240,6 @@ def _refuse_worse(before: Mapping[str, Any], after: Mapping[str, Any], source: s
     InputError
         The first error, where there was none before.
     """
-    if not errors_of(before, source):
-        for error in errors_of(after, source):
+    if not collect_errors(before, source):
+        for error in collect_errors(after, source):
             raise error

@@ -11,7 +11,7 @@ from symgen.describe.files.section_names import NAMED, SECTIONS
 _WIDE = 112
 
 
-def script(raw: Mapping[str, Any]) -> str:
+def script_of_mechanism(raw: Mapping[str, Any]) -> str:
     """Return a script that describes the mechanism of a file and runs it.
 
     Texts of the file are literals in it.
@@ -22,25 +22,25 @@ def script(raw: Mapping[str, Any]) -> str:
         Sections as `symgen.describe.files.load.parse_toml` returns them.
     """
     head = dict(raw["mechanism"])
-    calls = [_call("MechanismBuilder", [head.pop("name")], head)]
+    calls = [_call_text("MechanismBuilder", [head.pop("name")], head)]
     if raw.get("run"):
-        calls.append(_call(".run", [], raw["run"]))
+        calls.append(_call_text(".run", [], raw["run"]))
     for section in (each for each in SECTIONS if each in NAMED and each in raw):
-        calls += [_entry(section, name, content) for name, content in raw[section].items()]
+        calls += [_builder_call(section, name, content) for name, content in raw[section].items()]
     lines = "\n".join(f"    {line}" for call in calls for line in call.split("\n"))
     name = repr(raw["mechanism"]["name"])
     return (
-        f'"""The mechanism {_in_docstring(name)}, built and run."""\n\n'
+        f'"""The mechanism {_text_for_docstring(name)}, built and run."""\n\n'
         f"from symgen import MechanismBuilder, Model\n\nbuilder = (\n{lines}\n)\n\n"
         'result = Model(builder.build()).simulate()\nprint(result.status, result.reason or "")\n'
     )
 
 
-def _in_docstring(literal: str) -> str:
+def _text_for_docstring(literal: str) -> str:
     return literal.replace("\\", "").replace('"', "'")
 
 
-def _entry(section: str, name: str, content: Any) -> str:
+def _builder_call(section: str, name: str, content: Any) -> str:
     """Return the call that adds an entry of a section."""
     method = NAMED[section]
     if section == "outputs" and not isinstance(content, Mapping):
@@ -51,10 +51,10 @@ def _entry(section: str, name: str, content: Any) -> str:
     first = [name]
     if section in ("joints", "forces") and "type" in keys:
         first.append(keys.pop("type"))
-    return _call(f".{method}", first, keys)
+    return _call_text(f".{method}", first, keys)
 
 
-def _call(function: str, first: list[Any], keys: Mapping[str, Any]) -> str:
+def _call_text(function: str, first: list[Any], keys: Mapping[str, Any]) -> str:
     """Return a call, in one line where it fits."""
     named = {key: item for key, item in keys.items() if key.isidentifier() and not keyword.iskeyword(key)}
     other = {key: item for key, item in keys.items() if key not in named}

@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 from symgen.base.vocabulary.measures import GROUND
-from symgen.describe.files.changes import Change
 from symgen.describe.files.places import Outline
+from symgen.describe.files.text_changes import Change
 
 #: Names of the points of a new body.
 _LETTERS = "ABC"
@@ -51,10 +51,10 @@ class Spot(NamedTuple):
         """The point as a file has it: its name, or its coordinates in the frame of its body."""
         if self.body and self.point:
             return f'"{self.point}"'
-        return _vector(self.at if self.body else (self.x, self.y))
+        return _vector_text(self.at if self.body else (self.x, self.y))
 
 
-def snippet(
+def snippet_changes(
     kind: str, spots: Sequence[Spot], raw: Mapping[str, Any], parts: Outline, text: str, angle: float = 0.0
 ) -> tuple[tuple[Change, ...], str]:
     """Return the changes that add something to a file, one for each section, and the path of what they add.
@@ -75,9 +75,16 @@ def snippet(
     InputError
         If it cannot be added there.
     """
-    makers = {"body": _body, "pin": _pin, "slide": _slide, "spring": _spring, "motor": _motor, "load": _load}
+    makers = {
+        "body": _body_snippet,
+        "pin": _pin_snippet,
+        "slide": _slide_snippet,
+        "spring": _spring_snippet,
+        "motor": _motor_snippet,
+        "load": _load_snippet,
+    }
     if kind not in makers:
-        raise InputError("kind", "a part that can be added", quoted(kind), nearest(kind, makers))
+        raise InputError("kind", "a part that can be added", quote(kind), suggest(kind, makers))
     least, most = {"body": (2, 3), "pin": (2, 2), "spring": (2, 2)}.get(kind, (1, 1))
     if not least <= len(spots) <= most:
         count = f"{least} points" if least == most else f"{least} to {most} points"
@@ -85,7 +92,7 @@ def snippet(
     if raw.get("mechanism", {}).get("space", "planar") != "planar":
         raise InputError(kind, "a mechanism in the plane", "one in space", "write its table into the text")
     blocks = makers[kind](_Names(raw), spots, angle if abs(angle) > FINEST else 0.0)
-    return _inserted(blocks, parts, text), blocks[0].path
+    return _insert_tables(blocks, parts, text), blocks[0].path
 
 
 class _Block(NamedTuple):
@@ -102,14 +109,14 @@ class _Names:
         self.raw = raw
         self.used = {str(name) for value in raw.values() if isinstance(value, Mapping) for name in value}
 
-    def free(self, stem: str) -> str:
+    def take_free_name(self, stem: str) -> str:
         """Return the stem with the first number that makes it a free name, which is taken then."""
         number = next(n for n in range(1, len(self.used) + 2) if f"{stem}{n}" not in self.used)
         self.used.add(f"{stem}{number}")
         return f"{stem}{number}"
 
 
-def _body(names: _Names, spots: Sequence[Spot], _: float) -> list[_Block]:
+def _body_snippet(names: _Names, spots: Sequence[Spot], _: float) -> list[_Block]:
     """Return a body through points; where they are points of others, a pin holds them there."""
     corners = [(spot.x, spot.y) for spot in spots]
     sides = [math.dist(a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
@@ -121,61 +128,68 @@ def _body(names: _Names, spots: Sequence[Spot], _: float) -> list[_Block]:
     inertia = sides[0] ** 2 / 12.0 if len(corners) == 2 else math.fsum(s * s for s in sides) / 36.0
     c, s = math.cos(turn), math.sin(turn)
     own = [(c * (a - x) + s * (b - y), c * (b - y) - s * (a - x)) for a, b in corners]
-    points = ", ".join(f"{letter} = {_vector(p)}" for letter, p in zip(_LETTERS, own, strict=False))
-    name = names.free("bar" if len(corners) == 2 else "plate")
-    lines = (f"mass = 1.0\ninertia = {short_number(inertia)}\npoints = {{ {points} }}\nposition = {_vector((x, y))}",)
+    points = ", ".join(f"{letter} = {_vector_text(p)}" for letter, p in zip(_LETTERS, own, strict=False))
+    name = names.take_free_name("bar" if len(corners) == 2 else "plate")
+    lines = (
+        f"mass = 1.0\ninertia = {short_number(inertia)}\npoints = {{ {points} }}\nposition = {_vector_text((x, y))}",
+    )
     blocks = [_Block(f"bodies.{name}", (*lines, f"angle = {short_number(turn)}") if turn else lines)]
     for letter, spot in zip(_LETTERS, spots, strict=False):
         if spot.body:
-            blocks.append(_pinned(names, spot, Spot(spot.x, spot.y, name, letter)))
+            blocks.append(_pin_table(names, spot, Spot(spot.x, spot.y, name, letter)))
     return blocks
 
 
-def _pin(names: _Names, spots: Sequence[Spot], _: float) -> list[_Block]:
+def _pin_snippet(names: _Names, spots: Sequence[Spot], _: float) -> list[_Block]:
     a, b = spots if not spots[0].body or spots[1].body else (spots[1], spots[0])
     if a.owner == b.owner:
         raise InputError("pin", "points of two bodies, or of a body and the ground", f"'{a.owner}' twice")
-    return [_pinned(names, a, b)]
+    return [_pin_table(names, a, b)]
 
 
-def _pinned(names: _Names, a: Spot, b: Spot) -> _Block:
+def _pin_table(names: _Names, a: Spot, b: Spot) -> _Block:
     lines = ('type = "revolute"', f'between = ["{a.owner}", "{b.owner}"]', f"at = [{a.written}, {b.written}]")
-    return _Block(f"joints.{names.free('pin')}", lines)
+    return _Block(f"joints.{names.take_free_name('pin')}", lines)
 
 
-def _slide(names: _Names, spots: Sequence[Spot], angle: float) -> list[_Block]:
+def _slide_snippet(names: _Names, spots: Sequence[Spot], angle: float) -> list[_Block]:
     """Return a slide of a point of a body along x of the ground; the body keeps its angle."""
     (spot,) = spots
     _need_body("slide", spot)
     lines = ['type = "translational"', f'between = ["{GROUND}", "{spot.body}"]']
-    lines += [f"at = [{_vector((spot.x, spot.y))}, {spot.written}]", "axis = [1.0, 0.0]"]
-    return [_Block(f"joints.{names.free('slide')}", (*lines, f"angle = {short_number(angle)}") if angle else (*lines,))]
+    lines += [f"at = [{_vector_text((spot.x, spot.y))}, {spot.written}]", "axis = [1.0, 0.0]"]
+    return [
+        _Block(
+            f"joints.{names.take_free_name('slide')}",
+            (*lines, f"angle = {short_number(angle)}") if angle else (*lines,),
+        )
+    ]
 
 
-def _spring(names: _Names, spots: Sequence[Spot], _: float) -> list[_Block]:
+def _spring_snippet(names: _Names, spots: Sequence[Spot], _: float) -> list[_Block]:
     a, b = spots
     if a.owner == b.owner:
         raise InputError("spring", "points of two bodies, or of a body and the ground", f"'{a.owner}' twice")
     length = math.dist((a.x, a.y), (b.x, b.y))
     lines = ['type = "spring-damper"', f'between = ["{a.owner}", "{b.owner}"]', f"at = [{a.written}, {b.written}]"]
     lines += [f"stiffness = {STIFFNESS}", f"damping = {DAMPING}", f"free_length = {short_number(length)}"]
-    return [_Block(f"forces.{names.free('spring')}", tuple(lines))]
+    return [_Block(f"forces.{names.take_free_name('spring')}", tuple(lines))]
 
 
-def _motor(names: _Names, spots: Sequence[Spot], angle: float) -> list[_Block]:
+def _motor_snippet(names: _Names, spots: Sequence[Spot], angle: float) -> list[_Block]:
     """Return a driver that turns a pin on from where it is at the start."""
     (spot,) = spots
     if not spot.joint or names.raw.get("joints", {}).get(spot.joint, {}).get("type") != "revolute":
         raise InputError("motor", "a pin, which it turns", "another point" if not spot.joint else f"'{spot.joint}'")
     value = f'value = "{short_number(angle)} + {SPEED}*t"' if angle else f'value = "{SPEED}*t"'
-    return [_Block(f"joints.{names.free('motor')}", ('type = "driver"', f'joint = "{spot.joint}"', value))]
+    return [_Block(f"joints.{names.take_free_name('motor')}", ('type = "driver"', f'joint = "{spot.joint}"', value))]
 
 
-def _load(names: _Names, spots: Sequence[Spot], _: float) -> list[_Block]:
+def _load_snippet(names: _Names, spots: Sequence[Spot], _: float) -> list[_Block]:
     (spot,) = spots
     _need_body("load", spot)
     lines = ('type = "force"', f'body = "{spot.body}"', f"at = {spot.written}", f"force = [0.0, {-LOAD}]")
-    return [_Block(f"forces.{names.free('load')}", lines)]
+    return [_Block(f"forces.{names.take_free_name('load')}", lines)]
 
 
 def _need_body(kind: str, spot: Spot) -> None:
@@ -183,9 +197,11 @@ def _need_body(kind: str, spot: Spot) -> None:
         raise InputError(kind, "a point of a body", "a point of the ground")
 
 
-def _inserted(blocks: Sequence[_Block], parts: Outline, text: str) -> tuple[Change, ...]:
-    """Return the changes that put tables behind the last ones of their sections, else at the end of the file."""
-    ends = {str(header.path[0]): end for header, (_, end) in zip(parts.headers, blocks_of(parts, text), strict=True)}
+def _insert_tables(blocks: Sequence[_Block], parts: Outline, text: str) -> tuple[Change, ...]:
+    """Return the changes that put tables after the last ones of their sections, else at the end of the file."""
+    ends = {
+        str(header.path[0]): end for header, (_, end) in zip(parts.headers, blocks_of_headers(parts, text), strict=True)
+    }
     places: dict[int, list[_Block]] = {}
     for block in blocks:
         places.setdefault(ends.get(block.path.partition(".")[0], len(text.rstrip())), []).append(block)
@@ -198,11 +214,11 @@ def _inserted(blocks: Sequence[_Block], parts: Outline, text: str) -> tuple[Chan
     return tuple(changes)
 
 
-def blocks_of(parts: Outline, text: str) -> list[tuple[int, int]]:
+def blocks_of_headers(parts: Outline, text: str) -> list[tuple[int, int]]:
     """Return the characters of the tables that headers begin, without what belongs to the next header or to none.
 
     Comments right above a header belong to it, and so do comments right below a table's last line to the table; blank
-    lines behind a table belong to none.
+    lines after a table belong to none.
 
     Parameters
     ----------
@@ -232,7 +248,7 @@ def short_number(value: float) -> str:
     return repr(0.0 if abs(short) < 1e-12 else short)
 
 
-def _vector(values: Sequence[float]) -> str:
+def _vector_text(values: Sequence[float]) -> str:
     """Return a vector for a file; what is rounding beside its largest component is 0."""
     size = max(map(abs, values))
     return f"[{', '.join(short_number(x if abs(x) > FINEST * size else 0.0) for x in values)}]"

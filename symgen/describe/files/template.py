@@ -5,11 +5,11 @@ from __future__ import annotations
 import textwrap
 from importlib.resources import files
 
-from symgen.describe.formulas.names import check_mechanism_name
+from symgen.describe.formulas.identifiers import check_mechanism_name
 from symgen.describe.parts.kinds import FORCES, JOINTS
 
 
-def template(name: str = "my-mechanism", space: str = "planar") -> str:
+def new_file_text(name: str = "my-mechanism", space: str = "planar") -> str:
     """Return the text of a new mechanism file.
 
     Parameters
@@ -20,13 +20,15 @@ def template(name: str = "my-mechanism", space: str = "planar") -> str:
         Space of the mechanism.
     """
     check_mechanism_name(name, "name")
-    joints = _listed([k for k, kind in JOINTS.items() if space in kind.SPACES and k != "revolute"])
-    forces = _listed([k for k, kind in FORCES.items() if space in kind.SPACES and k != "torsional-spring-damper"])
+    joints = _list_in_comments([k for k, kind in JOINTS.items() if space in kind.SPACES and k != "revolute"])
+    forces = _list_in_comments(
+        [k for k, kind in FORCES.items() if space in kind.SPACES and k != "torsional-spring-damper"]
+    )
     text, common = (files(__package__).joinpath(f"new_{part}.toml").read_text("utf-8") for part in (space, "common"))
     text = text.replace("# COMMON\n", common).replace("NAME", name, 1)
     return text.replace("JOINTS", joints).replace("FORCES", forces)
 
 
-def _listed(kinds: list[str]) -> str:
+def _list_in_comments(kinds: list[str]) -> str:
     """Return names with commas, in lines of comments where one line cannot hold them."""
     return "\n".join(textwrap.wrap(", ".join(kinds), 74, break_on_hyphens=False)).replace("\n", "\n" + " " * 42 + "# ")

@@ -22,7 +22,9 @@ class Sprung(Protocol):
     def potential(self) -> float | str: ...
 
 
-def sprung(scope: Scope, keys: Sprung, label: str, measure: Measure, coordinate: str, free: float | str) -> Effort:
+def effort_of_spring_and_damper(
+    scope: Scope, keys: Sprung, label: str, measure: Measure, coordinate: str, free: float | str
+) -> Effort:
     """Return the effort of a spring, a damper and an actuator.
 
     Parameters
@@ -45,11 +47,14 @@ def sprung(scope: Scope, keys: Sprung, label: str, measure: Measure, coordinate:
     actuator = scope.of_state("actuator", keys.actuator, {coordinate: "s", "rate": "rate"})
     potential = scope.potential("potential", keys.potential, {coordinate: "s"})
     return Effort(
-        label, measure, sum_of_terms(actuator, damper(damping)), sum_of_terms(spring(stiffness, rest), potential)
+        label,
+        measure,
+        sum_of_terms(actuator, damper_force(damping)),
+        sum_of_terms(spring_potential(stiffness, rest), potential),
     )
 
 
-def spring(stiffness: Expr, free: Expr = ZERO) -> Expr:
+def spring_potential(stiffness: Expr, free: Expr = ZERO) -> Expr:
     """Return the potential k (s - s0)^2 / 2."""
     if stiffness == ZERO:
         return ZERO
@@ -57,6 +62,6 @@ def spring(stiffness: Expr, free: Expr = ZERO) -> Expr:
     return call("mul", call("div", stiffness, literal_of(2.0)), call("pow", stretch, literal_of(2.0)))
 
 
-def damper(damping: Expr) -> Expr:
+def damper_force(damping: Expr) -> Expr:
     """Return the force -c s'."""
     return ZERO if damping == ZERO else call("mul", call("neg", damping), Name("rate"))

@@ -10,9 +10,9 @@ import msgspec
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, call, literal_of, product, sum_of_terms
 from symgen.base.vocabulary.measures import Angle, Component, Direction, Dot, Flexure, Marker, Measure, Sum
 from symgen.describe.mechanism import Body, Force
-from symgen.describe.parts.fields import Across, AxisPair, BodyPair, DirectionPair, PointPair, Scalar, words_of
+from symgen.describe.parts.fields import Across, AxisPair, BodyPair, DirectionPair, PointPair, Scalar, value_in_words
 from symgen.describe.parts.scope import Scope
-from symgen.describe.parts.triads import make_triads, triad
+from symgen.describe.parts.triads import make_triads, triad_from_directions
 
 
 class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -74,13 +74,13 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         rest = (length, *(ZERO,) * (2 if scope.spatial else 1), *(product(length, bend) for bend in bends))
         damping = scope.constant("damping", self.damping)
         if scope.value(damping, "damping") < 0.0:
-            raise scope.error("damping", "a time of 0 or more", words_of(self.damping))
+            raise scope.error("damping", "a time of 0 or more", value_in_words(self.damping))
         turn: Expr = ZERO
         if scope.spatial:
-            measures = _in_space(ends, *self._triads(scope, (a, b), bends))
+            measures = _deformation_in_space(ends, *self._triads_in_space(scope, (a, b), bends))
         else:
-            directions = self._directions(scope, (a, b), rest[-1])
-            measures, turn = _in_plane(ends, directions), _turn(scope, directions, rest[-1])
+            directions = self._directions_in_plane(scope, (a, b), rest[-1])
+            measures, turn = _deformation_in_plane(ends, directions), _bend_beyond_angle(scope, directions, rest[-1])
         flexure = Flexure(measures, length, self._compliances(scope), rest, damping, turn)
         return Force(scope.name, scope.kind, (a, b), (), (flexure,))
 
@@ -101,7 +101,9 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
             compliances += [call("div", ONE, part) for part in parts]
         return tuple(compliances)
 
-    def _triads(self, scope: Scope, bodies: tuple[str, str], bends: tuple[Expr, ...]) -> tuple[Directions, Directions]:
+    def _triads_in_space(
+        self, scope: Scope, bodies: tuple[str, str], bends: tuple[Expr, ...]
+    ) -> tuple[Directions, Directions]:
         """Return the axes of the two frames in space: along the beam, then y and z of the section."""
         axes = [axis for axis in self.axis if isinstance(axis, tuple)]
         if self.reference is None or len(axes) != 2:
@@ -110,19 +112,22 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
             a, b = make_triads(scope, bodies, self.axis, self.reference, fixed=True)
             return (a.axis, a.first, a.second), (b.axis, b.first, b.second)
         return tuple(  # type: ignore[return-value]  # two
-            tuple(Direction(body, vector) for vector in triad(scope, "reference", along.vector, side.vector))
+            tuple(
+                Direction(body, vector)
+                for vector in triad_from_directions(scope, "reference", along.vector, side.vector)
+            )
             for body, axis, reference in zip(bodies, axes, self.reference, strict=True)
             for along, side in [(scope.direction("axis", body, axis), scope.direction("reference", body, reference))]
         )
 
-    def _directions(self, scope: Scope, bodies: tuple[str, str], bend: Expr) -> tuple[Directions, Directions]:
+    def _directions_in_plane(self, scope: Scope, bodies: tuple[str, str], bend: Expr) -> tuple[Directions, Directions]:
         """Return the axes of the two frames in the plane."""
         first, second = self.axis[0], self.axis[1] if len(self.axis) == 2 else ()
         if isinstance(first, tuple) and isinstance(second, tuple):
             return scope.axis("axis", bodies[0], first), scope.axis("axis", bodies[1], second)
         along = scope.axis("axis", bodies[0], self.axis)
         turned = sum_of_terms(
-            *(_angle(scope, body, sign) for body, sign in zip(bodies, (1.0, -1.0), strict=True)), bend
+            *(_described_angle(scope, body, sign) for body, sign in zip(bodies, (1.0, -1.0), strict=True)), bend
         )
         cosine, sine = call("cos", turned), call("sin", turned)
         x, y = along[0].vector
@@ -138,12 +143,12 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
 Directions = tuple[Direction, ...]
 
 
-def _in_plane(ends: tuple[Marker, Marker], axes: tuple[Directions, Directions]) -> tuple[Measure, ...]:
+def _deformation_in_plane(ends: tuple[Marker, Marker], axes: tuple[Directions, Directions]) -> tuple[Measure, ...]:
     along = (Sum(tuple((ONE, Component(*ends, e)) for e in pair)) for pair in zip(*axes, strict=True))
     return (*along, Angle(ends[0].body, ends[1].body))
 
 
-def _in_space(ends: tuple[Marker, Marker], u: Directions, v: Directions) -> tuple[Measure, ...]:
+def _deformation_in_space(ends: tuple[Marker, Marker], u: Directions, v: Directions) -> tuple[Measure, ...]:
     along = (Sum(tuple((ONE, Component(*ends, e)) for e in pair)) for pair in zip(u, v, strict=True))
     less = literal_of(-1.0)
     turns = (
@@ -152,17 +157,19 @@ def _in_space(ends: tuple[Marker, Marker], u: Directions, v: Directions) -> tupl
     return (*along, *turns, Sum(tuple((ONE, Dot(a, b)) for a, b in zip(u, v, strict=True))))
 
 
-def _angle(scope: Scope, body: str, sign: float) -> Expr:
+def _described_angle(scope: Scope, body: str, sign: float) -> Expr:
     """Return the angle of a planar body as described, times a sign."""
     described = scope.context.bodies.get(body)
     return product(literal_of(sign), described.angle) if isinstance(described, Body) else ZERO
 
 
-def _turn(scope: Scope, axes: tuple[Directions, Directions], bend: Expr) -> Expr:
+def _bend_beyond_angle(scope: Scope, axes: tuple[Directions, Directions], bend: Expr) -> Expr:
     """Return the bend beyond the angle between the bodies, less whole turns between them as described."""
     turned = [call("atan2", d[0].vector[1], d[0].vector[0]) for d in axes]
     turn = sum_of_terms(turned[1], call("neg", turned[0])) if turned[0] != turned[1] else ZERO
-    described = sum_of_terms(*(_angle(scope, d[0].body, s) for d, s in zip(axes, (-1.0, 1.0), strict=True)), turn)
+    described = sum_of_terms(
+        *(_described_angle(scope, d[0].body, s) for d, s in zip(axes, (-1.0, 1.0), strict=True)), turn
+    )
     around = round((scope.value(described, "axis") - scope.value(bend, "curvature")) / math.tau)
     return sum_of_terms(turn, literal_of(-math.tau * around))
 

@@ -19,9 +19,17 @@ from symgen.base.vocabulary.measures import (
     Sum,
     axes,
 )
-from symgen.describe.forces._parts import damper, spring
+from symgen.describe.forces._parts import damper_force, spring_potential
 from symgen.describe.mechanism import Force
-from symgen.describe.parts.fields import AxisPair, BodyPair, DirectionPair, PointPair, Scalar, SquareMatrix, words_of
+from symgen.describe.parts.fields import (
+    AxisPair,
+    BodyPair,
+    DirectionPair,
+    PointPair,
+    Scalar,
+    SquareMatrix,
+    value_in_words,
+)
 from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.triads import make_triads
 
@@ -82,22 +90,22 @@ class Bushing(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
         own coordinate alone.
         """
         size, labels = 6 if scope.spatial else 3, _LABELS[scope.spatial]
-        k, c = (_matrix(scope, key, getattr(self, key), size) for key in ("stiffness", "damping"))
+        k, c = (_symmetric_matrix(scope, key, getattr(self, key), size) for key in ("stiffness", "damping"))
         turning = any(row[j] != ZERO for m in (k, c) for row in m for j in range(scope.dimension, size))
         a, b = scope.pair("between", self.between, turns=(turning, turning))
-        measures = self._displacements(scope, (a, b), turning)
+        measures = self._displacement_measures(scope, (a, b), turning)
         efforts = []
         for i in range(len(measures)):
             own = [
                 [m[i][i], *(call("neg", m[i][j]) for j in range(size) if j != i and m[i][j] != ZERO)] for m in (k, c)
             ]
-            efforts += _effort(labels[i], measures[i], sum_of_terms(*own[0]), sum_of_terms(*own[1]))
+            efforts += _effort_of_spring(labels[i], measures[i], sum_of_terms(*own[0]), sum_of_terms(*own[1]))
             for j in range(i):
                 both = Sum(((ONE, measures[i]), (ONE, measures[j])))
-                efforts += _effort(f"{labels[j]}_{labels[i]}", both, k[i][j], c[i][j])
+                efforts += _effort_of_spring(f"{labels[j]}_{labels[i]}", both, k[i][j], c[i][j])
         return Force(scope.name, scope.kind, (a, b), tuple(efforts))
 
-    def _displacements(self, scope: Scope, bodies: tuple[str, str], turning: bool) -> tuple[Measure, ...]:
+    def _displacement_measures(self, scope: Scope, bodies: tuple[str, str], turning: bool) -> tuple[Measure, ...]:
         """Return the displacements; rotations only where an effort acts on them."""
         ends = scope.marker("at", bodies[0], self.at[0]), scope.marker("at", bodies[1], self.at[1])
         grounded = self.frame == "ground"
@@ -112,11 +120,11 @@ class Bushing(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
             if turning or not grounded:
                 triads = make_triads(scope, bodies, self.axis or (0.0, 0.0, 1.0), self.reference, fixed=True)
                 u, v = ((t.first, t.second, t.axis) for t in triads)
-                directions, turns = directions if grounded else u, _sines(u, v)
+                directions, turns = directions if grounded else u, _rotation_sines(u, v)
         return (*(Component(*ends, direction) for direction in directions), *(turns if turning else ()))
 
 
-def _sines(u: tuple[Direction, ...], v: tuple[Direction, ...]) -> tuple[Measure, ...]:
+def _rotation_sines(u: tuple[Direction, ...], v: tuple[Direction, ...]) -> tuple[Measure, ...]:
     """Return half the vector of R - R^T of the rotation of one frame against another."""
     half = literal_of(0.5), literal_of(-0.5)
     return tuple(
@@ -125,7 +133,7 @@ def _sines(u: tuple[Direction, ...], v: tuple[Direction, ...]) -> tuple[Measure,
     )
 
 
-def _matrix(
+def _symmetric_matrix(
     scope: Scope, key: str, entries: tuple[float | str | tuple[float | str, ...], ...] | None, size: int
 ) -> _Matrix:
     """Return a symmetric matrix from its diagonal or its rows."""
@@ -137,15 +145,15 @@ def _matrix(
         return tuple(tuple(diagonal[i] if i == j else ZERO for j in range(size)) for i in range(size))
     if len(rows) != size or diagonal or any(len(row) != size for row in rows):
         count = _COUNTS[size]
-        raise scope.error(key, f"{count} numbers or {count} rows of {count}", words_of(entries))
+        raise scope.error(key, f"{count} numbers or {count} rows of {count}", value_in_words(entries))
     return scope.symmetric(key, rows)
 
 
-def _effort(label: str, measure: Measure, stiffness: Expr, damping: Expr) -> list[Effort]:
+def _effort_of_spring(label: str, measure: Measure, stiffness: Expr, damping: Expr) -> list[Effort]:
     """Return the effort of one spring and damper, or none where both are 0."""
     if (stiffness, damping) == (ZERO, ZERO):
         return []
-    return [Effort(label, measure, damper(damping), spring(stiffness))]
+    return [Effort(label, measure, damper_force(damping), spring_potential(stiffness))]
 
 
 KIND = Bushing

@@ -9,7 +9,7 @@ import msgspec
 from symgen.base.vocabulary.expressions import ZERO, Expr, Name, call, product, sum_of_terms
 from symgen.base.vocabulary.measures import GROUND, Component, Effort, Marker, PointSpeed, axes
 from symgen.describe.mechanism import Force as Resolved
-from symgen.describe.parts.fields import BodyName, Point, PotentialVector, StateVector, words_of
+from symgen.describe.parts.fields import BodyName, Point, PotentialVector, StateVector, value_in_words
 from symgen.describe.parts.scope import CENTRE, Scope
 
 
@@ -52,8 +52,8 @@ class Force(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
         point = scope.marker("at", body, self.at)
         for key, vector in (("force", self.force), ("potential", self.potential)):
             if vector is not None and len(vector) != scope.dimension:
-                raise scope.error(key, f"{scope.dimension} components", words_of(vector))
-        magnitudes = self._magnitudes(scope, body)
+                raise scope.error(key, f"{scope.dimension} components", value_in_words(vector))
+        magnitudes = self._component_magnitudes(scope, body)
         turning = axes(body, 3) if scope.spatial and self.frame == "body" else None
         efforts = []
         for i, (label, axis) in enumerate(zip("xyz", axes(GROUND, scope.dimension), strict=False)):
@@ -64,7 +64,7 @@ class Force(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
                 efforts.append(Effort(label, measure, magnitude=magnitudes[i], potential=energy))
         return Resolved(scope.name, scope.kind, (body,), tuple(efforts))
 
-    def _magnitudes(self, scope: Scope, body: str) -> tuple[Expr, ...]:
+    def _component_magnitudes(self, scope: Scope, body: str) -> tuple[Expr, ...]:
         """Return the components in ground axes, in space in the selected axes."""
         if self.force is None:
             return (ZERO,) * scope.dimension

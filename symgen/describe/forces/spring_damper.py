@@ -8,7 +8,7 @@ import msgspec
 
 from symgen.base.vocabulary.expressions import ZERO, Name, call
 from symgen.base.vocabulary.measures import Distance, Effort, HalfSquare
-from symgen.describe.forces._parts import spring, sprung
+from symgen.describe.forces._parts import effort_of_spring_and_damper, spring_potential
 from symgen.describe.mechanism import Force
 from symgen.describe.parts.fields import BodyPair, PointPair, Potential, Scalar, StateFunction, Text
 from symgen.describe.parts.scope import Scope
@@ -60,16 +60,16 @@ class SpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
         if self.joint is not None:
             scope.only("joint", between=self.between, at=self.at, joint=self.joint)
             joint, _, displacement = scope.joint_coordinate(self.joint, self.coordinate, unit="m")
-            effort = sprung(scope, self, "force", displacement, "length", self.free_length)
+            effort = effort_of_spring_and_damper(scope, self, "force", displacement, "length", self.free_length)
             return Force(scope.name, scope.kind, joint.bodies, (effort,))
         scope.only("between", between=self.between, joint=self.joint, coordinate=self.coordinate)
         if self.at is None:
             raise scope.error("at", "the ends, a point of each body", "no such key")
         a, b = scope.pair("between", self.between or ("", ""))
         ends = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
-        effort = sprung(scope, self, "force", Distance(*ends), "length", self.free_length)
+        effort = effort_of_spring_and_damper(scope, self, "force", Distance(*ends), "length", self.free_length)
         stiffness = scope.constant("stiffness", self.stiffness)
-        if effort.magnitude == ZERO and effort.potential == spring(stiffness):
+        if effort.magnitude == ZERO and effort.potential == spring_potential(stiffness):
             # k s^2 / 2 is k times half the square, which has derivatives where the ends meet
             effort = Effort("force", HalfSquare(*ends), potential=call("mul", stiffness, Name("s")))
         return Force(scope.name, scope.kind, (a, b), (effort,))

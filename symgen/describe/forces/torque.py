@@ -9,7 +9,7 @@ import msgspec
 from symgen.base.vocabulary.expressions import ZERO
 from symgen.base.vocabulary.measures import GROUND, Angle, Effort, Measure, Spin, axes
 from symgen.describe.mechanism import Force
-from symgen.describe.parts.fields import BodyName, Potential, StateTorque, Text, words_of
+from symgen.describe.parts.fields import BodyName, Potential, StateTorque, Text, value_in_words
 from symgen.describe.parts.scope import Scope
 
 
@@ -56,22 +56,26 @@ class Torque(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
         if self.joint is not None:
             for key in ("reaction", "frame"):
                 if getattr(self, key) is not None:
-                    raise scope.error(key, "no such key together with joint", words_of(getattr(self, key)))
+                    raise scope.error(key, "no such key together with joint", value_in_words(getattr(self, key)))
             joint, _, angle = scope.joint_coordinate(self.joint, self.coordinate, unit="rad")
-            return Force(scope.name, scope.kind, joint.bodies, (self._along(scope, angle),))
+            return Force(scope.name, scope.kind, joint.bodies, (self._effort_along_angle(scope, angle),))
         body = scope.body("body", self.body or "", turns=True, ground=False)
         reaction = scope.body("reaction", self.reaction or GROUND, turns=True)
         if body == reaction:
             raise scope.error("reaction", "another body than 'body'", f"'{body}' twice")
         if scope.spatial:
-            return Force(scope.name, scope.kind, (body, reaction), self._components(scope, body, reaction))
-        return Force(scope.name, scope.kind, (body, reaction), (self._along(scope, Angle(reaction, body)),))
+            return Force(
+                scope.name, scope.kind, (body, reaction), self._efforts_along_components(scope, body, reaction)
+            )
+        return Force(
+            scope.name, scope.kind, (body, reaction), (self._effort_along_angle(scope, Angle(reaction, body)),)
+        )
 
-    def _along(self, scope: Scope, angle: Measure) -> Effort:
+    def _effort_along_angle(self, scope: Scope, angle: Measure) -> Effort:
         """Return the effort along an angle."""
         torque = 0.0 if self.torque is None else self.torque
         if isinstance(torque, tuple):
-            raise scope.error("torque", "one number or expression", words_of(torque))
+            raise scope.error("torque", "one number or expression", value_in_words(torque))
         return Effort(
             "torque",
             angle,
@@ -79,13 +83,13 @@ class Torque(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
             potential=scope.potential("potential", self.potential or 0.0, {"angle": "s"}),
         )
 
-    def _components(self, scope: Scope, body: str, reaction: str) -> tuple[Effort, ...]:
+    def _efforts_along_components(self, scope: Scope, body: str, reaction: str) -> tuple[Effort, ...]:
         """Return efforts along three components of the angular velocity against the other body."""
         for key in ("coordinate", "potential"):
             if getattr(self, key) is not None:
-                raise scope.error(key, "no such key without joint", words_of(getattr(self, key)))
+                raise scope.error(key, "no such key without joint", value_in_words(getattr(self, key)))
         if not isinstance(self.torque, tuple) or len(self.torque) != 3:
-            got = "no such key" if self.torque is None else words_of(self.torque)
+            got = "no such key" if self.torque is None else value_in_words(self.torque)
             raise scope.error("torque", "three numbers or expressions [x, y, z]", got)
         efforts = []
         directions = axes(body if self.frame == "body" else GROUND, 3)

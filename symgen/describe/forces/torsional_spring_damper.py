@@ -9,9 +9,9 @@ import msgspec
 
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, call, literal_of
 from symgen.base.vocabulary.measures import Angle, Dot, Effort, Measure, Spin, Sum, axes
-from symgen.describe.forces._parts import damper, sprung
+from symgen.describe.forces._parts import damper_force, effort_of_spring_and_damper
 from symgen.describe.mechanism import Force, Joint
-from symgen.describe.parts.fields import BodyPair, Potential, Scalar, StateFunction, Text, words_of
+from symgen.describe.parts.fields import BodyPair, Potential, Scalar, StateFunction, Text, value_in_words
 from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.triads import make_triads
 
@@ -59,22 +59,22 @@ class TorsionalSpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_un
     def build(self, scope: Scope) -> Force:
         """Resolve to an effort along the angle between the bodies, in a spherical joint to efforts of a ball."""
         if scope.spatial and self.joint is not None and scope.joint("joint", self.joint).kind == "spherical":
-            return self._of_ball(scope, scope.joint("joint", self.joint))
-        bodies, angle = self._angle(scope)
-        effort = sprung(scope, self, "torque", angle, "angle", self.free_angle)
+            return self._efforts_of_spherical_joint(scope, scope.joint("joint", self.joint))
+        bodies, angle = self._relative_angle(scope)
+        effort = effort_of_spring_and_damper(scope, self, "torque", angle, "angle", self.free_angle)
         return Force(scope.name, scope.kind, bodies, (effort,))
 
-    def _of_ball(self, scope: Scope, joint: Joint) -> Force:
+    def _efforts_of_spherical_joint(self, scope: Scope, joint: Joint) -> Force:
         """Return dampers along three components of the angular velocity, and a spring along the cosine of the turn."""
         scope.only("joint", between=self.between, joint=self.joint, coordinate=self.coordinate)
         for key in ("free_angle", "actuator", "potential"):
             if getattr(self, key) != 0.0:
-                raise scope.error(key, "no such key for a spherical joint", words_of(getattr(self, key)))
+                raise scope.error(key, "no such key for a spherical joint", value_in_words(getattr(self, key)))
         a, b = (scope.body("joint", body, turns=True) for body in joint.bodies)
         stiffness, damping = scope.constant("stiffness", self.stiffness), scope.constant("damping", self.damping)
         efforts = list[Effort]()
         if damping != ZERO:
-            efforts += [Effort("", Spin(a, b, along), damper(damping)) for along in axes(a, 3)]
+            efforts += [Effort("", Spin(a, b, along), damper_force(damping)) for along in axes(a, 3)]
         if stiffness != ZERO:
             u, v = ((t.first, t.second, t.axis) for t in make_triads(scope, (a, b), (0.0, 0.0, 1.0), fixed=True))
             trace = Sum(tuple((ONE, Dot(*pair)) for pair in zip(u, v, strict=True)))
@@ -82,7 +82,7 @@ class TorsionalSpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_un
             efforts.append(Effort("", trace, potential=call("mul", half, _squared_turn(Name("s")))))
         return Force(scope.name, scope.kind, (a, b), tuple(efforts))
 
-    def _angle(self, scope: Scope) -> tuple[tuple[str, ...], Measure]:
+    def _relative_angle(self, scope: Scope) -> tuple[tuple[str, ...], Measure]:
         if scope.spatial:
             scope.only("joint", between=self.between, joint=self.joint)
             joint, _, angle = scope.joint_coordinate(self.joint or "", self.coordinate, unit="rad")

@@ -62,13 +62,13 @@ def format_of(path: Path) -> str | None:
 
     An end that several formats have, as ``.xml``, is settled by the outermost element.
     """
-    from symgen.describe.formats._xml import outermost
+    from symgen.describe.formats._xml import outermost_tag
 
     suffix = path.suffix.lower()
     names = [name for name, kind in FORMATS.items() if suffix in kind.SUFFIXES]
     if len(names) < 2:
         return names[0] if names else None
-    root = outermost(path)
+    root = outermost_tag(path)
     return next((name for name in names if FORMATS.get(name).ROOT == root), names[0])
 
 
@@ -91,10 +91,10 @@ def read_robot(path: Path, name: str, *, floating: bool = False, stops: bool = F
     InputError
         If the file is not of the format, or says what no mechanism can.
     """
-    from symgen.describe.formats._raw import describe
+    from symgen.describe.formats._raw import describe_robot
 
     robot = FORMATS.get(name).read(path, floating)
-    raw, left_out, folder = describe(robot, f"{path.name} ({name.upper()})", stops)
+    raw, left_out, folder = describe_robot(robot, f"{path.name} ({name.upper()})", stops)
     return Import(raw, left_out, name, folder)
 
 

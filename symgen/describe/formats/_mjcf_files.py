@@ -7,8 +7,15 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from symgen.base.errors import InputError, quoted
-from symgen.describe.formats._frames import UNIT, Pose, matrix_vector, of_quaternion, scaled, transpose
+from symgen.base.errors import InputError, quote
+from symgen.describe.formats._poses import (
+    UNIT,
+    Pose,
+    matrix_transpose,
+    matrix_vector,
+    rotation_from_quaternion,
+    scaled_vector,
+)
 from symgen.describe.formats._xml import read_tree
 from symgen.describe.parts.mesh_files import MeshFiles
 
@@ -28,7 +35,7 @@ _SAME = 1e-12
 
 def check_files(path: Path, tree: ET.Element) -> None:
     """Refuse files elsewhere, and files that include themselves, before MuJoCo opens any."""
-    trees, folder = list(_included(path, tree)), path.resolve().parent
+    trees, folder = list(_elements_with_includes(path, tree)), path.resolve().parent
     settings = dict[str, list[str]]()
     for setting in (x for element in trees for part in ("compiler", "option") for x in element.iter(part)):
         for key, value in setting.items():
@@ -51,10 +58,10 @@ def _check_inner(where: str, folder: Path, name: str, source: str) -> None:
     except (OSError, RuntimeError, ValueError):
         here = False
     if not here:
-        raise InputError(where, f"a place beside or in the folder of {source}", quoted(name))
+        raise InputError(where, f"a place beside or in the folder of {source}", quote(name))
 
 
-def _included(path: Path, tree: ET.Element) -> Iterator[ET.Element]:
+def _elements_with_includes(path: Path, tree: ET.Element) -> Iterator[ET.Element]:
     """Yield the outermost elements of a file and of those that it includes."""
     folder, waiting, count = path.resolve().parent, [(path.resolve(), tree)], 0
     while waiting:
@@ -65,9 +72,9 @@ def _included(path: Path, tree: ET.Element) -> Iterator[ET.Element]:
             name = include.get("file", "")
             inner = (folder / name).resolve()
             if not inner.is_relative_to(folder):
-                raise InputError(f"{path.name}: {include.tag}", f"a file in the folder of {path.name}", quoted(name))
+                raise InputError(f"{path.name}: {include.tag}", f"a file in the folder of {path.name}", quote(name))
             if inner == file or count > _MOST_INCLUDES:
-                got = f"{quoted(name)} in itself" if inner == file else "more"
+                got = f"{quote(name)} in itself" if inner == file else "more"
                 raise InputError(f"{path.name}: {include.tag}", f"at most {_MOST_INCLUDES} files, none in itself", got)
             waiting.append((inner, read_tree(inner)))
 
@@ -91,18 +98,18 @@ class MjcfMeshes(MeshFiles):
         """Return the shape of a geom of the mesh `k` at a place; None where it cannot be drawn."""
         model, mesh, start = self._model, self._meshes[k], int(self._model.mesh_pathadr[k])
         if start < 0:
-            self.lose("they are made without files")
+            self.count_lost_mesh("they are made without files")
             return None
         name = bytes(model.paths)[start:].partition(b"\0")[0].decode("utf-8", "replace")
-        if (file := self.inner(self.folder.parent, self.folder, name)) is None:
+        if (file := self.inner_path(self.folder.parent, self.folder, name)) is None:
             return None
         # a point x of the file is at scale * (R^T (x - r)), with `refpos` and `refquat`, before MuJoCo places it
         x, y, z = (float(s) for s in mesh.scale)
-        back = transpose(of_quaternion(mesh.refquat.tolist()))
+        back = matrix_transpose(rotation_from_quaternion(mesh.refquat.tolist()))
         if back != UNIT and max(x, y, z) - min(x, y, z) > _SAME:
-            self.lose("they are turned, then scaled by several factors")
+            self.count_lost_mesh("they are turned, then scaled by several factors")
             return None
-        a, b, c = matrix_vector(back, scaled(-1.0, tuple(mesh.refpos.tolist())))
-        own = Pose(tuple(model.mesh_pos[k].tolist()), of_quaternion(model.mesh_quat[k].tolist()))
+        a, b, c = matrix_vector(back, scaled_vector(-1.0, tuple(mesh.refpos.tolist())))
+        own = Pose(tuple(model.mesh_pos[k].tolist()), rotation_from_quaternion(model.mesh_quat[k].tolist()))
         inner = Pose((x * a, y * b, z * c), back)
         return {"type": "mesh", "file": file, "scale": (x, y, z), "frame": place @ own.inverse() @ inner}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from symgen.describe.formulas.names import LONGEST, RESERVED
+from symgen.describe.formulas.identifiers import LONGEST, RESERVED
 
 
 class DescriptionNames:
@@ -13,7 +13,7 @@ class DescriptionNames:
     def __init__(self) -> None:
         self._used, self._names = {name.lower() for name in RESERVED}, dict[tuple[str, str], str]()
 
-    def of(self, sort: str, name: str) -> str:
+    def name_for(self, sort: str, name: str) -> str:
         """Return the name of a link, joint or input, always the same one."""
         import keyword
 

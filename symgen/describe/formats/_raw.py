@@ -10,20 +10,20 @@ from typing import Any
 
 from symgen.base.errors import InputError
 from symgen.base.escapes import printable
-from symgen.describe.formats._frames import (
+from symgen.describe.formats._names import DescriptionNames
+from symgen.describe.formats._poses import (
     Matrix,
     Pose,
     Vector,
     axis_rotation,
+    matrix_transpose,
     matrix_vector,
-    perpendicular,
-    plus,
-    quaternion,
-    scaled,
-    transpose,
-    unit,
+    perpendicular_direction,
+    quaternion_of_rotation,
+    scaled_vector,
+    unit_vector,
+    vector_sum,
 )
-from symgen.describe.formats._names import DescriptionNames
 from symgen.describe.formats._robot import (
     GROUND,
     Connection,
@@ -32,10 +32,10 @@ from symgen.describe.formats._robot import (
     Robot,
     RobotActuator,
     RobotLink,
-    turned_inertia,
+    rotate_inertia,
 )
 from symgen.describe.formats._solids import SolidMass, sum_of_solids
-from symgen.describe.formulas.names import LONGEST
+from symgen.describe.formulas.identifiers import LONGEST
 from symgen.describe.parts.bodies import MOST
 
 _ANGLE, _SLIDE = "angle", "displacement"
@@ -43,7 +43,7 @@ _ANGLE, _SLIDE = "angle", "displacement"
 _ROUNDING = 1e-14
 
 
-def describe(robot: Robot, source: str, stops: bool = False) -> tuple[dict[str, Any], tuple[LeftOut, ...], Path]:
+def describe_robot(robot: Robot, source: str, stops: bool = False) -> tuple[dict[str, Any], tuple[LeftOut, ...], Path]:
     """Return the tables of a mechanism file, what they leave out, and the folder that meshes are named from.
 
     Links that fixed joints hold together are one body, with points of the names of the others. A link without mass
@@ -59,7 +59,7 @@ def describe(robot: Robot, source: str, stops: bool = False) -> tuple[dict[str, 
         Whether limits of joints become stops.
     """
     description = _Description(robot, stops)
-    return *description.tables(source), description.folder
+    return *description.all_tables(source), description.folder
 
 
 class _Description:
@@ -68,7 +68,7 @@ class _Description:
     def __init__(self, robot: Robot, stops: bool) -> None:
         self.robot, self.names, self.stops = robot, DescriptionNames(), stops
         self.left_out = list(robot.left_out)
-        self.carriers = self._carriers()
+        self.carriers = self._bodies_of_links()
         self.joints = {c.name: c for c in robot.connections if c.kind not in ("fixed", "floating")}
         self._drop_massless_ends()
         folder = robot.folder.resolve()
@@ -77,7 +77,7 @@ class _Description:
 
     # -- bodies ------------------------------------------------------------------------------------------------------
 
-    def _carriers(self) -> dict[str, str]:
+    def _bodies_of_links(self) -> dict[str, str]:
         """Return link -> the link whose body it belongs to, by fixed joints."""
         below = {c.child: c.parent for c in self.robot.connections if c.kind == "fixed"}
         carriers = dict[str, str]()
@@ -93,7 +93,7 @@ class _Description:
     def _drop_massless_ends(self) -> None:
         """Join links without mass at ends of chains to what carries them, as nothing determines their motion."""
         while True:
-            bodies = self._members()
+            bodies = self._links_of_bodies()
             ends = dict[str, list[Connection]]()
             for c in self.joints.values():
                 for link in {self.carriers[c.parent], self.carriers[c.child]}:
@@ -119,7 +119,7 @@ class _Description:
                     if top == name:
                         self.carriers[link] = carrier
 
-    def _members(self) -> dict[str, list[RobotLink]]:
+    def _links_of_bodies(self) -> dict[str, list[RobotLink]]:
         """Return body -> its links, itself first."""
         members: dict[str, list[RobotLink]] = {}
         for name, link in self.robot.links.items():
@@ -128,39 +128,41 @@ class _Description:
             members[top].insert(0 if name == top else len(members[top]), link)
         return members
 
-    def _mass(self, body: str) -> float:
+    def _mass_of_body(self, body: str) -> float:
         return sum(self.robot.links[link].mass for link, top in self.carriers.items() if top == body and link != GROUND)
 
-    def place(self, body: str) -> Pose:
+    def place_of_body(self, body: str) -> Pose:
         """Return the frame of a body in the ground frame."""
         return Pose() if body == GROUND else self.robot.links[body].place
 
-    def _body(self, name: str, members: list[RobotLink]) -> dict[str, Any]:
-        place, back = self.place(name), self.place(name).inverse()
+    def _body_table(self, name: str, members: list[RobotLink]) -> dict[str, Any]:
+        place, back = self.place_of_body(name), self.place_of_body(name).inverse()
         frames = [back @ link.place for link in members]
         whole = sum_of_solids(
-            SolidMass(link.mass, frame.point(link.centre), turned_inertia(link.inertia, frame.rotation))
+            SolidMass(link.mass, frame.point_in_outer_frame(link.centre), rotate_inertia(link.inertia, frame.rotation))
             for frame, link in zip(frames, members, strict=True)
         )
-        table: dict[str, Any] = {"mass": float(f"{whole.mass:.15g}"), "inertia": _tensor(whole.inertia)}
+        table: dict[str, Any] = {"mass": float(f"{whole.mass:.15g}"), "inertia": _tensor_entries(whole.inertia)}
         if any(whole.centre):
-            table["centre_of_mass"] = _tidy(whole.centre)
+            table["centre_of_mass"] = _tidy_numbers(whole.centre)
         points = dict[str, Any]()
         for link, frame in zip(members, frames, strict=True):
             if link.name != name:
-                points[self.names.of("point", link.name)] = _tidy(frame.origin)
+                points[self.names.name_for("point", link.name)] = _tidy_numbers(frame.origin)
             for point, at in link.points.items():
-                points[self.names.of("point", point)] = _tidy(frame.point(at))
+                points[self.names.name_for("point", point)] = _tidy_numbers(frame.point_in_outer_frame(at))
         if points:
             table["points"] = points
-        table["position"] = _tidy(place.origin)
-        if (e := quaternion(place.rotation)) != (1.0, 0.0, 0.0, 0.0):
-            table["orientation"] = {"quaternion": _tidy(e)}
-        return table | self._looks(name, members, frames)
+        table["position"] = _tidy_numbers(place.origin)
+        if (e := quaternion_of_rotation(place.rotation)) != (1.0, 0.0, 0.0, 0.0):
+            table["orientation"] = {"quaternion": _tidy_numbers(e)}
+        return table | self._shape_table(name, members, frames)
 
-    def _looks(self, name: str, members: list[RobotLink], frames: list[Pose]) -> dict[str, Any]:
+    def _shape_table(self, name: str, members: list[RobotLink], frames: list[Pose]) -> dict[str, Any]:
         """Return the key ``shape`` of links in the frame of their body, or of the ground."""
-        shapes = [x for link, frame in zip(members, frames, strict=True) for x in _shapes(link, frame, self.folder)]
+        shapes = [
+            x for link, frame in zip(members, frames, strict=True) for x in _shapes_of_link(link, frame, self.folder)
+        ]
         if len(shapes) > MOST:
             self.left_out.append(LeftOut("looks", f"{len(shapes) - MOST} of {name}", f"a body has {MOST}", False))
         return {"shape": shapes[:MOST]} if shapes else {}
@@ -170,36 +172,40 @@ class _Description:
     def body_name(self, link: str) -> str:
         """Return the name of the body of a link."""
         top = self.carriers[link]
-        return "ground" if top == GROUND else self.names.of("link", top)
+        return "ground" if top == GROUND else self.names.name_for("link", top)
 
-    def _joint(self, c: Connection) -> dict[str, Any]:
+    def _joint_tables(self, c: Connection) -> dict[str, Any]:
         ends = [self.carriers[c.parent], self.carriers[c.child]]
         if ends[0] == ends[1]:
             raise InputError(f"joint '{c.name}'", "a joint between two bodies", "two links of one body")
         frames = (c.at, c.at if c.other is None else c.other)
-        inner = [self.place(end).inverse() @ frame for end, frame in zip(ends, frames, strict=True)]
+        inner = [self.place_of_body(end).inverse() @ frame for end, frame in zip(ends, frames, strict=True)]
         table: dict[str, Any] = {
             "type": c.kind,
             "between": [self.body_name(c.parent), self.body_name(c.child)],
-            "at": [_tidy(frame.origin) for frame in inner],
+            "at": [_tidy_numbers(frame.origin) for frame in inner],
         }
         if c.kind in ("revolute", "translational", "cylindrical", "planar", "rigid", "screw"):
-            axis = unit(c.axis)
-            table["axis"] = [_tidy(matrix_vector(frame.rotation, axis)) for frame in inner]
-            first = perpendicular(axis)
+            axis = unit_vector(c.axis)
+            table["axis"] = [_tidy_numbers(matrix_vector(frame.rotation, axis)) for frame in inner]
+            first = perpendicular_direction(axis)
             second = first
             if c.kind in ("revolute", "cylindrical") and c.value:  # the angle at the start is `value`
                 second = matrix_vector(axis_rotation(axis, c.value), first)
             pair = [matrix_vector(inner[0].rotation, first), matrix_vector(inner[1].rotation, second)]
-            table["reference"] = [_tidy(x) for x in pair]
+            table["reference"] = [_tidy_numbers(x) for x in pair]
         if c.kind == "universal":
             directions = c.axis, c.second or c.axis
-            table["axes"] = [_tidy(matrix_vector(f.rotation, unit(x))) for f, x in zip(inner, directions, strict=True)]
+            table["axes"] = [
+                _tidy_numbers(matrix_vector(f.rotation, unit_vector(x))) for f, x in zip(inner, directions, strict=True)
+            ]
         if c.kind == "translational" and c.value:
-            table["at"][0] = _tidy(
-                plus(inner[0].origin, matrix_vector(inner[0].rotation, scaled(-c.value, unit(c.axis))))
+            table["at"][0] = _tidy_numbers(
+                vector_sum(
+                    inner[0].origin, matrix_vector(inner[0].rotation, scaled_vector(-c.value, unit_vector(c.axis)))
+                )
             )
-        light = c.kind == "translational" and any(end != GROUND and self._mass(end) == 0.0 for end in ends)
+        light = c.kind == "translational" and any(end != GROUND and self._mass_of_body(end) == 0.0 for end in ends)
         if c.rotor and light:
             self.left_out.append(LeftOut("armature", c.name, "it slides a link without mass", True))
         elif c.rotor and c.kind in ("revolute", "translational"):
@@ -217,27 +223,27 @@ class _Description:
             self.left_out.append(LeftOut("friction", c.name, "a screw joint has several coordinates", True))
         return table
 
-    def _limits(self) -> None:
+    def _note_limits(self) -> None:
         limited = [c.name for c in self.joints.values() if c.lower is not None or c.upper is not None]
         if self.stops:
             limited = [name for name in limited if self.joints[name].kind not in ("revolute", "translational")]
         if limited:
             why = "joints move beyond their ranges" + ("" if self.stops else "; --stops keeps them in")
-            self.left_out.append(LeftOut("limits", _listed(limited), why, True))
+            self.left_out.append(LeftOut("limits", _names_with_count(limited), why, True))
 
     # -- forces ------------------------------------------------------------------------------------------------------
 
-    def _forces(self) -> tuple[dict[str, Any], dict[str, Any]]:
+    def _force_tables(self) -> tuple[dict[str, Any], dict[str, Any]]:
         """Return the tables of forces and inputs."""
         efforts, inputs = dict[str, list[str]](), dict[str, Any]()
         for actuator in self.robot.actuators:
             driven = {name: w for name, w in actuator.weights.items() if name in self.joints and w}
             if not driven:
                 continue
-            name = self.names.of("input", actuator.name)
+            name = self.names.name_for("input", actuator.name)
             if actuator.gain:
                 inputs[name] = {"default": 0.0} | ({"unit": actuator.unit} if actuator.unit else {})
-            for joint, text in self._formulas(actuator, driven, name).items():
+            for joint, text in self._actuator_formulas(actuator, driven, name).items():
                 efforts.setdefault(joint, []).append(text)
         forces = dict[str, Any]()
         for name, c in self.joints.items():
@@ -255,44 +261,49 @@ class _Description:
             if c.rest and c.stiffness and c.kind != "spherical":
                 table["free_length" if straight else "free_angle"] = c.rest
             sort = "spring-damper" if straight else "torsional-spring-damper"
-            forces[self.names.of("drive", name)] = {"type": sort, "joint": self.names.of("joint", name)} | table
+            forces[self.names.name_for("drive", name)] = {
+                "type": sort,
+                "joint": self.names.name_for("joint", name),
+            } | table
         return forces, inputs
 
-    def _formulas(self, actuator: RobotActuator, driven: dict[str, float], name: str) -> dict[str, str]:
+    def _actuator_formulas(self, actuator: RobotActuator, driven: dict[str, float], name: str) -> dict[str, str]:
         """Return joint -> formula of the effort of an actuator."""
         value = name
         if actuator.bounds is not None:
-            value = f"min(max({name}, {_text(actuator.bounds[0])}), {_text(actuator.bounds[1])})"
-        terms = [value if actuator.gain == 1.0 else f"{_text(actuator.gain)}*{value}"] if actuator.gain else []
+            value = f"min(max({name}, {_number_text(actuator.bounds[0])}), {_number_text(actuator.bounds[1])})"
+        terms = [value if actuator.gain == 1.0 else f"{_number_text(actuator.gain)}*{value}"] if actuator.gain else []
         if actuator.offset:
-            terms.append(_text(actuator.offset))
+            terms.append(_number_text(actuator.offset))
         for factor, suffix in ((actuator.along, ""), (actuator.against, ".rate")):
             if factor:
-                terms += [f"{_text(factor * w)}*{self.coordinate(joint)}{suffix}" for joint, w in driven.items()]
+                terms += [
+                    f"{_number_text(factor * w)}*{self.coordinate_name(joint)}{suffix}" for joint, w in driven.items()
+                ]
         whole = " + ".join(terms)
         if actuator.limits is not None:
-            whole = f"min(max({whole}, {_text(actuator.limits[0])}), {_text(actuator.limits[1])})"
+            whole = f"min(max({whole}, {_number_text(actuator.limits[0])}), {_number_text(actuator.limits[1])})"
         elif len(terms) > 1:
             whole = f"({whole})"
-        return {joint: whole if w == 1.0 else f"{_text(w)}*{whole}" for joint, w in driven.items()}
+        return {joint: whole if w == 1.0 else f"{_number_text(w)}*{whole}" for joint, w in driven.items()}
 
-    def coordinate(self, joint: str) -> str:
+    def coordinate_name(self, joint: str) -> str:
         """Return the name of a joint's coordinate in formulas."""
         label = _SLIDE if self.joints[joint].kind == "translational" else _ANGLE
-        return f"{self.names.of('joint', joint)}.{label}"
+        return f"{self.names.name_for('joint', joint)}.{label}"
 
-    def _follower(self, f: CoupledCoordinate) -> dict[str, Any]:
-        terms, polynomial = {self.names.of("joint", f.joint): 1.0}, list(f.polynomial)
+    def _follower_table(self, f: CoupledCoordinate) -> dict[str, Any]:
+        terms, polynomial = {self.names.name_for("joint", f.joint): 1.0}, list(f.polynomial)
         if f.of is None or not any(polynomial[1:]):
             return {"type": "coupling", "terms": terms, "value": polynomial[0]}
         if len(polynomial) == 2:
-            straight = terms | {self.names.of("joint", f.of): -polynomial[1]}
+            straight = terms | {self.names.name_for("joint", f.of): -polynomial[1]}
             return {"type": "coupling", "terms": straight} | ({"value": polynomial[0]} if polynomial[0] else {})
-        return {"type": "coupling", "terms": terms, "of": self.names.of("joint", f.of), "polynomial": polynomial}
+        return {"type": "coupling", "terms": terms, "of": self.names.name_for("joint", f.of), "polynomial": polynomial}
 
     # -- everything --------------------------------------------------------------------------------------------------
 
-    def tables(self, source: str) -> tuple[dict[str, Any], tuple[LeftOut, ...]]:
+    def all_tables(self, source: str) -> tuple[dict[str, Any], tuple[LeftOut, ...]]:
         robot = self.robot
         name = re.sub(r"[^a-z0-9]+", "-", robot.name.lower()).strip("-")[:LONGEST].strip("-")
         raw: dict[str, Any] = {
@@ -303,47 +314,49 @@ class _Description:
                 "gravity": list(robot.gravity),
             }
         }
-        standing = (members := self._members()).pop(GROUND, [])
-        raw["mechanism"] |= self._looks("ground", standing, [link.place for link in standing])
-        raw["bodies"] = {self.names.of("link", top): self._body(top, links) for top, links in members.items()}
+        standing = (members := self._links_of_bodies()).pop(GROUND, [])
+        raw["mechanism"] |= self._shape_table("ground", standing, [link.place for link in standing])
+        raw["bodies"] = {
+            self.names.name_for("link", top): self._body_table(top, links) for top, links in members.items()
+        }
         if not raw["bodies"]:
             raise InputError(source, "a robot with a link that moves", "none", "--floating leaves the base free")
-        joints = {self.names.of("joint", c.name): self._joint(c) for c in self.joints.values()}
+        joints = {self.names.name_for("joint", c.name): self._joint_tables(c) for c in self.joints.values()}
         for f in robot.followers:
             if f.joint in self.joints and (f.of is None or f.of in self.joints):
-                joints[self.names.of("follower", f.name)] = self._follower(f)
-        self._limits()
-        forces, inputs = self._forces()
+                joints[self.names.name_for("follower", f.name)] = self._follower_table(f)
+        self._note_limits()
+        forces, inputs = self._force_tables()
         raw |= {key: x for key, x in (("inputs", inputs), ("joints", joints), ("forces", forces)) if x}
         return raw, tuple(self.left_out)
 
 
-def _text(number: float) -> str:
+def _number_text(number: float) -> str:
     """Return a number as a factor or term of a formula."""
     return repr(number) if number >= 0.0 else f"({number!r})"
 
 
-def _tidy(vector: Iterable[float]) -> list[float]:
+def _tidy_numbers(vector: Iterable[float]) -> list[float]:
     """Return numbers in 15 digits; what is rounding beside the largest is 0."""
     numbers = [float(x) for x in vector]
     least = _ROUNDING * max(map(abs, numbers))
     return [0.0 if abs(x) <= least else float(f"{x:.15g}") for x in numbers]
 
 
-def _tensor(m: Matrix) -> Any:
+def _tensor_entries(m: Matrix) -> Any:
     """Return the entries of a tensor: three where products are rounding, else six."""
     entries = [m[0][0], m[1][1], m[2][2], m[0][1], m[0][2], m[1][2]]
     least = _ROUNDING * max(map(abs, entries))
-    return _tidy(entries if any(abs(x) > least for x in entries[3:]) else entries[:3])
+    return _tidy_numbers(entries if any(abs(x) > least for x in entries[3:]) else entries[:3])
 
 
-def _listed(names: list[str]) -> str:
+def _names_with_count(names: list[str]) -> str:
     """Return some names and how many there are."""
     shown = ", ".join(names[:3])
     return shown if len(names) <= 3 else f"{shown} and {len(names) - 3} more"
 
 
-def _shapes(link: RobotLink, frame: Pose, folder: Path) -> list[dict[str, Any]]:
+def _shapes_of_link(link: RobotLink, frame: Pose, folder: Path) -> list[dict[str, Any]]:
     """Return looks of a link in the frame of its body; meshes are named from a folder."""
     shapes = list[dict[str, Any]]()
     for shape in link.shapes:
@@ -354,29 +367,29 @@ def _shapes(link: RobotLink, frame: Pose, folder: Path) -> list[dict[str, Any]]:
             continue
         own: Pose = frame @ shape["frame"]
         colour = {"colour": shape["colour"]} if "colour" in shape else {}
-        at = {"at": _tidy(own.origin)}
+        at = {"at": _tidy_numbers(own.origin)}
         if shape["type"] == "sphere":
             shapes.append({"type": "sphere", "radius": shape["radius"]} | at | colour)
         elif shape["type"] == "cylinder":
-            axis = _tidy(transpose(own.rotation)[2])
+            axis = _tidy_numbers(matrix_transpose(own.rotation)[2])
             sizes = {"radius": shape["radius"], "length": shape["length"], "axis": axis}
             shapes.append({"type": "cylinder"} | sizes | at | colour)
         elif shape["type"] == "mesh":
-            turn = {"orientation": {"quaternion": _tidy(quaternion(own.rotation))}}
+            turn = {"orientation": {"quaternion": _tidy_numbers(quaternion_of_rotation(own.rotation))}}
             file = shape["file"].relative_to(folder).as_posix()
-            shapes.append({"type": "mesh", "file": file, "scale": _tidy(shape["scale"])} | at | turn | colour)
+            shapes.append({"type": "mesh", "file": file, "scale": _tidy_numbers(shape["scale"])} | at | turn | colour)
         else:
-            shapes.append(_box(shape["size"], own) | colour)
+            shapes.append(_box_shape(shape["size"], own) | colour)
     return shapes
 
 
-def _box(size: Vector, own: Pose) -> dict[str, Any]:
+def _box_shape(size: Vector, own: Pose) -> dict[str, Any]:
     """Return a box: by its size where its edges are along the body's axes, else by its edges."""
     rows: Matrix = own.rotation
     if all(min(abs(abs(x) - 1.0), abs(x)) < 1e-6 for row in rows for x in row):
         sizes = [sum(abs(x) * s for x, s in zip(row, size, strict=True)) for row in rows]
-        return {"type": "box", "size": _tidy(sizes), "at": _tidy(own.origin)}
+        return {"type": "box", "size": _tidy_numbers(sizes), "at": _tidy_numbers(own.origin)}
     x, y, z = (s / 2.0 for s in size)
     path = "--- +-- ++- -+- --- --+ +-+ +-- +-+ +++ ++- +++ -++ -+- -++ --+"
     corners = [tuple(s * (1.0 if c == "+" else -1.0) for s, c in zip((x, y, z), w, strict=True)) for w in path.split()]
-    return {"type": "polyline", "points": [_tidy(own.point((a, b, c))) for a, b, c in corners]}
+    return {"type": "polyline", "points": [_tidy_numbers(own.point_in_outer_frame((a, b, c))) for a, b, c in corners]}

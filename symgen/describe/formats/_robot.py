@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-from symgen.describe.formats._frames import ORIGIN, Matrix, Pose, Vector, times, transpose
+from symgen.describe.formats._poses import ORIGIN, Matrix, Pose, Vector, matrix_product, matrix_transpose
 
 #: The ground among links: a name that no link has.
 GROUND = ""
@@ -190,7 +190,7 @@ class Robot:
 _EFFORTS: dict[str, tuple[str, str]] = {"revolute": ("torque", "N m"), "translational": ("force", "N")}
 
 
-def follow_coupled(followers: list[CoupledCoordinate], connections: Mapping[str, Connection]) -> None:
+def set_follower_starts(followers: list[CoupledCoordinate], connections: Mapping[str, Connection]) -> None:
     """Set the values at the start of joints that follow others, whose own values stay; rings are left as they are."""
     waiting = {f.joint: f for f in followers if f.of is not None}
     while ready := [f for f in waiting.values() if f.of not in waiting]:
@@ -200,7 +200,7 @@ def follow_coupled(followers: list[CoupledCoordinate], connections: Mapping[str,
             del waiting[f.joint]
 
 
-def actuators_of(connections: list[Connection], followers: list[CoupledCoordinate]) -> list[RobotActuator]:
+def inputs_for_joints(connections: list[Connection], followers: list[CoupledCoordinate]) -> list[RobotActuator]:
     """Return an input for each joint that turns or slides and follows no other."""
     led = {f.joint for f in followers}
     return [
@@ -210,6 +210,6 @@ def actuators_of(connections: list[Connection], followers: list[CoupledCoordinat
     ]
 
 
-def turned_inertia(inertia: Matrix, rotation: Matrix) -> Matrix:
+def rotate_inertia(inertia: Matrix, rotation: Matrix) -> Matrix:
     """Return a tensor along the outer axes of a rotation."""
-    return times(times(rotation, inertia), transpose(rotation))
+    return matrix_product(matrix_product(rotation, inertia), matrix_transpose(rotation))

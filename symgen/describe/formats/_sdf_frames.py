@@ -6,10 +6,10 @@ import xml.etree.ElementTree as ET
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from symgen.base.errors import InputError, nearest, quoted
-from symgen.describe.formats._frames import Pose, of_quaternion, of_rpy
+from symgen.base.errors import InputError, quote, suggest
+from symgen.describe.formats._poses import Pose, rotation_from_quaternion, rotation_from_rpy
 from symgen.describe.formats._robot import GROUND
-from symgen.describe.formats._xml import decimals
+from symgen.describe.formats._xml import read_decimals
 
 MODEL, WORLD = "__model__", "world"
 
@@ -39,19 +39,21 @@ class SdfFrames:
         self.placed = {WORLD: PlacedFrame("", Pose(), WORLD)}
         self.places = {WORLD: Pose()}
 
-    def add(self, name: str, placed: PlacedFrame, where: str) -> None:
+    def add_frame(self, name: str, placed: PlacedFrame, where: str) -> None:
         """Note a frame."""
         if name in self.placed:
-            raise InputError(where, "a name used once", f"{quoted(name)} twice")
+            raise InputError(where, "a name used once", f"{quote(name)} twice")
         self.placed[name] = placed
 
     def add_element(
         self, element: ET.Element, name: str, prefix: str, otherwise: str, attached: str, where: str
     ) -> None:
         """Note the frame of an element, whose pose is in a frame that it names, or `otherwise`."""
-        self.add(name, PlacedFrame(self.base(element, prefix, otherwise), self.pose(element), attached), where)
+        self.add_frame(
+            name, PlacedFrame(self.base_of_pose(element, prefix, otherwise), self.pose(element), attached), where
+        )
 
-    def base(self, element: ET.Element, prefix: str, otherwise: str) -> str:
+    def base_of_pose(self, element: ET.Element, prefix: str, otherwise: str) -> str:
         """Return the frame that the pose of an element is in."""
         pose = element.find("pose")
         name = "" if pose is None else pose.get("relative_to", pose.get("frame", ""))
@@ -62,28 +64,28 @@ class SdfFrames:
         pose = element.find("pose")
         if pose is None:
             return Pose()
-        where = f"{self.source}: pose of {quoted(element.get('name', element.tag))}"
+        where = f"{self.source}: pose of {quote(element.get('name', element.tag))}"
         if base == WORLD and pose.get("relative_to", WORLD) != WORLD:
-            raise InputError(where, "a pose in the world", quoted(pose.get("relative_to", "")))
+            raise InputError(where, "a pose in the world", quote(pose.get("relative_to", "")))
         text, factor = pose.text or "", 1.0
         if not text.strip():
             return Pose()
         if pose.get("rotation_format", "euler_rpy") == "quat_xyzw":
-            x, y, z, *e = decimals(where, text, 7)
+            x, y, z, *e = read_decimals(where, text, 7)
             if not any(e):
                 raise InputError(where, "a quaternion other than 0 0 0 0", "0 0 0 0")
-            return Pose((x, y, z), of_quaternion((e[3], *e[:3])))
+            return Pose((x, y, z), rotation_from_quaternion((e[3], *e[:3])))
         if pose.get("degrees", "false") in ("true", "1"):
             factor = 0.017453292519943295
-        x, y, z, *angles = decimals(where, text, 6)
-        return Pose((x, y, z), of_rpy([factor * angle for angle in angles]))
+        x, y, z, *angles = read_decimals(where, text, 6)
+        return Pose((x, y, z), rotation_from_rpy([factor * angle for angle in angles]))
 
-    def found(self, name: str, where: str) -> str:
+    def resolve_name(self, name: str, where: str) -> str:
         """Return the name of a frame; a model is its own frame."""
         if name not in self.placed and f"{name}::{MODEL}" in self.placed:
             name = f"{name}::{MODEL}"
         if name not in self.placed:
-            raise InputError(where, "the name of a frame", quoted(name), nearest(name, self.placed))
+            raise InputError(where, "the name of a frame", quote(name), suggest(name, self.placed))
         return name
 
     def place(self, name: str) -> Pose:
@@ -91,22 +93,22 @@ class SdfFrames:
         chain, at = list[str](), name
         while at not in self.places:
             if at in chain:
-                raise InputError(f"{self.source}: frame {quoted(at)}", "poses in chains", "a ring of them")
+                raise InputError(f"{self.source}: frame {quote(at)}", "poses in chains", "a ring of them")
             chain.append(at)
-            at = self.found(self.placed[at].base, f"{self.source}: pose of {quoted(at)}, relative_to")
+            at = self.resolve_name(self.placed[at].base, f"{self.source}: pose of {quote(at)}, relative_to")
         for at in reversed(chain):
-            base = self.found(self.placed[at].base, self.source)
+            base = self.resolve_name(self.placed[at].base, self.source)
             self.places[at] = self.places[base] @ self.placed[at].pose
         return self.places[name]
 
     def link_of(self, name: str, where: str) -> str:
         """Return the link that a frame moves with; empty for the ground."""
-        passed, at = set[str](), self.found(name, where)
+        passed, at = set[str](), self.resolve_name(name, where)
         while at not in self.links:
             if at == WORLD:
                 return GROUND
             if at in passed or not self.placed[at].attached:
-                raise InputError(where, "a frame that a link carries", quoted(name))
+                raise InputError(where, "a frame that a link carries", quote(name))
             passed.add(at)
-            at = self.found(self.placed[at].attached, where)
+            at = self.resolve_name(self.placed[at].attached, where)
         return at

@@ -7,10 +7,10 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from symgen.base.errors import InputError, quoted
-from symgen.describe.formats._frames import Vector, matrix_vector, scalar_product, unit
+from symgen.base.errors import InputError, quote
+from symgen.describe.formats._poses import Vector, matrix_vector, scalar_product, unit_vector
 from symgen.describe.formats._robot import GROUND, Connection, CoupledCoordinate
-from symgen.describe.formats._xml import inner_number
+from symgen.describe.formats._xml import read_inner_number
 
 #: Types that are no connection alone: two axes with a part without mass between, and wheels of two other joints.
 TWO_AXES, GEARBOX = "revolute2", "gearbox"
@@ -25,17 +25,17 @@ def read_axis(connection: Connection, axis: ET.Element | None, where: str, sort:
     if axis is None:
         return
     dynamics, limit = axis.find("dynamics"), axis.find("limit")
-    connection.damping = inner_number(where, dynamics, "damping")
-    connection.friction = inner_number(where, dynamics, "friction")
-    connection.stiffness = inner_number(where, dynamics, "spring_stiffness")
-    connection.rest = inner_number(where, dynamics, "spring_reference")
-    lower, upper = (inner_number(where, limit, key, side) for key, side in (("lower", -1e16), ("upper", 1e16)))
+    connection.damping = read_inner_number(where, dynamics, "damping")
+    connection.friction = read_inner_number(where, dynamics, "friction")
+    connection.stiffness = read_inner_number(where, dynamics, "spring_stiffness")
+    connection.rest = read_inner_number(where, dynamics, "spring_reference")
+    lower, upper = (read_inner_number(where, limit, key, side) for key, side in (("lower", -1e16), ("upper", 1e16)))
     if sort != "continuous" and lower < upper:
         connection.lower = lower if lower > -1e15 else None
         connection.upper = upper if upper < 1e15 else None
 
 
-def pitch_of(element: ET.Element, where: str) -> float:
+def screw_pitch(element: ET.Element, where: str) -> float:
     """Return the displacement along a thread in a turn [m], positive of a right-handed one.
 
     The older key has rad/m of a left-handed thread; the newer one counts where both are there.
@@ -46,8 +46,8 @@ def pitch_of(element: ET.Element, where: str) -> float:
         If a thread of the older key has no pitch.
     """
     if element.find("screw_thread_pitch") is not None or element.find("thread_pitch") is None:
-        return inner_number(where, element, "screw_thread_pitch", 1.0)
-    turns = inner_number(where, element, "thread_pitch", 1.0)
+        return read_inner_number(where, element, "screw_thread_pitch", 1.0)
+    turns = read_inner_number(where, element, "thread_pitch", 1.0)
     if turns == 0.0:
         raise InputError(f"{where}, thread_pitch", "a number of rad/m other than 0", "0")
     return -2.0 * math.pi / turns
@@ -79,7 +79,7 @@ class Gearbox:
     ratio: float
 
 
-def follower_of(gear: Gearbox, connections: Iterable[Connection]) -> CoupledCoordinate:
+def gearbox_coupling(gear: Gearbox, connections: Iterable[Connection]) -> CoupledCoordinate:
     """Return the coupling of the two joints that hold the wheels of a gearbox on its carrier.
 
     Raises
@@ -89,31 +89,31 @@ def follower_of(gear: Gearbox, connections: Iterable[Connection]) -> CoupledCoor
     """
     connections = list(connections)
     below = {c.child: c.parent for c in connections if c.kind == "fixed"}
-    carrier = _top(gear.carrier, below)
+    carrier = _carrying_link(gear.carrier, below)
     found = list[tuple[Connection, float]]()
     for end, axis in zip(gear.ends, gear.axes, strict=True):
-        turning = next(_turning(connections, below, carrier, _top(end, below), axis), None)
+        turning = next(_joints_that_turn(connections, below, carrier, _carrying_link(end, below), axis), None)
         if turning is None:
-            expected = f"revolute joints of both links with {quoted(gear.carrier)} about the axes of the gearbox"
-            raise InputError(gear.where, expected, f"none of {quoted(end)}")
+            expected = f"revolute joints of both links with {quote(gear.carrier)} about the axes of the gearbox"
+            raise InputError(gear.where, expected, f"none of {quote(end)}")
         found.append(turning)
     (first, way), (second, other) = found
     return CoupledCoordinate(f"{gear.name}_mesh", second.name, first.name, (0.0, -gear.ratio * way * other))
 
 
-def _top(link: str, below: dict[str, str]) -> str:
+def _carrying_link(link: str, below: dict[str, str]) -> str:
     """Return the link whose body a link belongs to, by fixed joints."""
     while link in below and link != GROUND:
         link = below[link]
     return link
 
 
-def _turning(
+def _joints_that_turn(
     connections: Iterable[Connection], below: dict[str, str], carrier: str, link: str, axis: Vector
 ) -> Iterator[tuple[Connection, float]]:
     """Yield joints that turn a link against a carrier about an axis, with 1, or -1 where their angle counts back."""
     for c in connections:
-        ends = _top(c.parent, below), _top(c.child, below)
-        cosine = scalar_product(unit(matrix_vector(c.at.rotation, c.axis)), unit(axis))
+        ends = _carrying_link(c.parent, below), _carrying_link(c.child, below)
+        cosine = scalar_product(unit_vector(matrix_vector(c.at.rotation, c.axis)), unit_vector(axis))
         if c.kind == "revolute" and set(ends) == {carrier, link} and abs(cosine) > _IN_LINE:
             yield c, math.copysign(1.0, cosine) * (1.0 if ends[0] == carrier else -1.0)

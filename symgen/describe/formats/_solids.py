@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from symgen.describe.formats._frames import ORIGIN, Matrix, Vector, plus, scalar_product, scaled
+from symgen.describe.formats._poses import ORIGIN, Matrix, Vector, scalar_product, scaled_vector, vector_sum
 
 
 @dataclass(frozen=True)
@@ -17,9 +17,9 @@ class SolidMass:
     centre: Vector
     inertia: Matrix
 
-    def times(self, factor: float) -> SolidMass:
+    def with_density(self, factor: float) -> SolidMass:
         """Return the solid with another density."""
-        a, b, c = (scaled(factor, row) for row in self.inertia)
+        a, b, c = (scaled_vector(factor, row) for row in self.inertia)
         return SolidMass(factor * self.mass, self.centre, (a, b, c))
 
 
@@ -29,10 +29,10 @@ def sum_of_solids(solids: Iterable[SolidMass]) -> SolidMass:
     mass, centre = sum(solid.mass for solid in solids), ORIGIN
     if mass > 0.0:
         for solid in solids:
-            centre = plus(centre, scaled(solid.mass / mass, solid.centre))
+            centre = vector_sum(centre, scaled_vector(solid.mass / mass, solid.centre))
     inertia = [[0.0] * 3 for _ in range(3)]
     for solid in solids:
-        arm = plus(solid.centre, scaled(-1.0, centre))
+        arm = vector_sum(solid.centre, scaled_vector(-1.0, centre))
         for i in range(3):
             for j in range(3):
                 far = scalar_product(arm, arm) * (i == j) - arm[i] * arm[j]
@@ -41,33 +41,33 @@ def sum_of_solids(solids: Iterable[SolidMass]) -> SolidMass:
     return SolidMass(mass, centre, ((a, b, c), (d, e, f), (g, h, k)))
 
 
-def _solid(mass: float, x: float, y: float, z: float) -> SolidMass:
+def _solid_of_moments(mass: float, x: float, y: float, z: float) -> SolidMass:
     return SolidMass(mass, ORIGIN, ((x, 0.0, 0.0), (0.0, y, 0.0), (0.0, 0.0, z)))
 
 
-def box(size: Vector) -> SolidMass:
+def solid_box(size: Vector) -> SolidMass:
     """Return a box of density 1."""
     a, b, c = size
     m = a * b * c
-    return _solid(m, m * (b * b + c * c) / 12.0, m * (a * a + c * c) / 12.0, m * (a * a + b * b) / 12.0)
+    return _solid_of_moments(m, m * (b * b + c * c) / 12.0, m * (a * a + c * c) / 12.0, m * (a * a + b * b) / 12.0)
 
 
-def ellipsoid(radii: Vector) -> SolidMass:
+def solid_ellipsoid(radii: Vector) -> SolidMass:
     """Return an ellipsoid of density 1."""
     a, b, c = radii
     m = 4.0 / 3.0 * math.pi * a * b * c
-    return _solid(m, m * (b * b + c * c) / 5.0, m * (a * a + c * c) / 5.0, m * (a * a + b * b) / 5.0)
+    return _solid_of_moments(m, m * (b * b + c * c) / 5.0, m * (a * a + c * c) / 5.0, m * (a * a + b * b) / 5.0)
 
 
-def cylinder(radius: float, length: float) -> SolidMass:
+def solid_cylinder(radius: float, length: float) -> SolidMass:
     """Return a cylinder of density 1, along z."""
     m = math.pi * radius**2 * length
     across = m * (3.0 * radius**2 + length**2) / 12.0
-    return _solid(m, across, across, m * radius**2 / 2.0)
+    return _solid_of_moments(m, across, across, m * radius**2 / 2.0)
 
 
-def capsule(radius: float, length: float) -> SolidMass:
+def solid_capsule(radius: float, length: float) -> SolidMass:
     """Return a cylinder of density 1 along z with hemispheres at its ends."""
-    middle, m = cylinder(radius, length), 4.0 / 3.0 * math.pi * radius**3
+    middle, m = solid_cylinder(radius, length), 4.0 / 3.0 * math.pi * radius**3
     across = middle.inertia[0][0] + m * (0.4 * radius**2 + length**2 / 4.0 + 3.0 * length * radius / 8.0)
-    return _solid(middle.mass + m, across, across, middle.inertia[2][2] + 0.4 * m * radius**2)
+    return _solid_of_moments(middle.mass + m, across, across, middle.inertia[2][2] + 0.4 * m * radius**2)

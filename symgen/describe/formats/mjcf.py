@@ -6,9 +6,9 @@ import warnings
 from pathlib import Path
 from typing import Any, ClassVar
 
-from symgen.base.errors import InputError, quoted
-from symgen.describe.formats._frames import Matrix, Pose, Vector, of_quaternion
+from symgen.base.errors import InputError, quote
 from symgen.describe.formats._mjcf_files import MjcfMeshes, check_files
+from symgen.describe.formats._poses import Matrix, Pose, Vector, rotation_from_quaternion
 from symgen.describe.formats._robot import (
     GROUND,
     Connection,
@@ -18,11 +18,11 @@ from symgen.describe.formats._robot import (
     Robot,
     RobotActuator,
     RobotLink,
-    turned_inertia,
+    rotate_inertia,
 )
 from symgen.describe.formats._xml import read_tree
 
-#: Last of the groups of shapes that MuJoCo shows; what collides is behind them.
+#: Last of the groups of shapes that MuJoCo shows; what collides is in later ones.
 _LAST_SEEN = 2
 
 
@@ -49,7 +49,7 @@ class Mjcf:
                 model = spec.compile()
         except (ValueError, RuntimeError) as error:
             slip = " ".join(str(error).replace(str(path.resolve().parent), ".").split())
-            raise InputError(path.name, "a file that MuJoCo compiles", quoted(slip)) from None
+            raise InputError(path.name, "a file that MuJoCo compiles", quote(slip)) from None
         name = tree.get("model", path.stem)
         return _Reader(mujoco, model, path.name, name, MjcfMeshes(spec, model, path.parent)).robot()
 
@@ -64,44 +64,49 @@ class _Reader:
         self.left_out, self.meshes = list[LeftOut](), meshes
         self.connections, self.led = list[Connection](), dict[int, Connection]()
 
-    def _name(self, sort: str, number: int) -> str:
+    def _name_of_object(self, sort: str, number: int) -> str:
         name = self.mujoco.mj_id2name(self.model, getattr(self.mujoco.mjtObj, f"mjOBJ_{sort.upper()}"), number)
         return name or f"{sort}{number}"
 
     def robot(self) -> Robot:
         model = self.model
-        links = {self._name("body", i): self._link(i) for i in range(1, model.nbody)}
+        links = {self._name_of_object("body", i): self._read_link(i) for i in range(1, model.nbody)}
         for i in range(1, model.nbody):
-            self._joints(i, links)
-        followers = self._equalities()
-        actuators = [a for i in range(model.nu) if (a := self._actuator(i)) is not None]
-        actuators += [a for i in range(model.ntendon) if (a := self._spring(i)) is not None]
-        self._leave_out()
-        gravity = (0.0, 0.0, 0.0) if self._disabled("GRAVITY") else _vector(model.opt.gravity)
+            self._add_joints_of_body(i, links)
+        followers = self._read_equalities()
+        actuators = [a for i in range(model.nu) if (a := self._read_actuator(i)) is not None]
+        actuators += [a for i in range(model.ntendon) if (a := self._read_tendon_spring(i)) is not None]
+        self._list_left_out()
+        gravity = (0.0, 0.0, 0.0) if self._is_disabled("GRAVITY") else _as_vector(model.opt.gravity)
         return Robot(
             self.name, links, self.connections, followers, actuators, gravity, self.left_out, self.meshes.folder
         )
 
-    def _disabled(self, flag: str) -> bool:
+    def _is_disabled(self, flag: str) -> bool:
         return bool(int(self.model.opt.disableflags) & int(getattr(self.mujoco.mjtDisableBit, f"mjDSBL_{flag}")))
 
     # -- bodies ------------------------------------------------------------------------------------------------------
 
-    def _frame(self, body: int) -> Pose:
-        return Pose(_vector(self.data.xpos[body]), of_quaternion(self.data.xquat[body].tolist()))
+    def _frame_of_body(self, body: int) -> Pose:
+        return Pose(_as_vector(self.data.xpos[body]), rotation_from_quaternion(self.data.xquat[body].tolist()))
 
-    def _link(self, i: int) -> RobotLink:
+    def _read_link(self, i: int) -> RobotLink:
         model = self.model
-        x, y, z = _vector(model.body_inertia[i])
+        x, y, z = _as_vector(model.body_inertia[i])
         principal: Matrix = ((x, 0.0, 0.0), (0.0, y, 0.0), (0.0, 0.0, z))
-        link = RobotLink(self._name("body", i), self._frame(i), float(model.body_mass[i]), _vector(model.body_ipos[i]))
-        link.inertia = turned_inertia(principal, of_quaternion(model.body_iquat[i].tolist()))
+        link = RobotLink(
+            self._name_of_object("body", i),
+            self._frame_of_body(i),
+            float(model.body_mass[i]),
+            _as_vector(model.body_ipos[i]),
+        )
+        link.inertia = rotate_inertia(principal, rotation_from_quaternion(model.body_iquat[i].tolist()))
         sites = [k for k in range(model.nsite) if model.site_bodyid[k] == i]
-        link.points = {self._name("site", k): _vector(model.site_pos[k]) for k in sites}
-        link.shapes = [s for k in self._looks(i) for s in self._shape(k)]
+        link.points = {self._name_of_object("site", k): _as_vector(model.site_pos[k]) for k in sites}
+        link.shapes = [s for k in self._read_looks(i) for s in self._read_geom(k)]
         return link
 
-    def _looks(self, i: int) -> list[int]:
+    def _read_looks(self, i: int) -> list[int]:
         """Return the geoms of a body that MuJoCo shows; those that collide are hidden by meshes for the eye."""
         model = self.model
         geoms = [k for k in range(model.ngeom) if model.geom_bodyid[k] == i]
@@ -110,10 +115,10 @@ class _Reader:
         mesh = int(self.mujoco.mjtGeom.mjGEOM_MESH)
         return idle if any(int(model.geom_type[k]) == mesh for k in idle) else seen
 
-    def _shape(self, k: int) -> list[dict[str, Any]]:
+    def _read_geom(self, k: int) -> list[dict[str, Any]]:
         model, sorts = self.model, self.mujoco.mjtGeom
-        frame = Pose(_vector(model.geom_pos[k]), of_quaternion(model.geom_quat[k].tolist()))
-        a, b, c = _vector(model.geom_size[k])
+        frame = Pose(_as_vector(model.geom_pos[k]), rotation_from_quaternion(model.geom_quat[k].tolist()))
+        a, b, c = _as_vector(model.geom_size[k])
         red, green, blue = (f"{round(255 * min(max(x, 0.0), 1.0)):02x}" for x in model.geom_rgba[k].tolist()[:3])
         look: dict[str, Any] = {"frame": frame, "colour": f"#{red}{green}{blue}"}
         sort = int(model.geom_type[k])
@@ -130,11 +135,11 @@ class _Reader:
 
     # -- joints ------------------------------------------------------------------------------------------------------
 
-    def _joints(self, i: int, links: dict[str, RobotLink]) -> None:
-        """Add the joints of a body; between several of them stand links without mass."""
+    def _add_joints_of_body(self, i: int, links: dict[str, RobotLink]) -> None:
+        """Add the joints of a body, with links without mass between several of them."""
         model = self.model
-        child, above = self._name("body", i), int(model.body_parentid[i])
-        parent = GROUND if above == 0 else self._name("body", above)
+        child, above = self._name_of_object("body", i), int(model.body_parentid[i])
+        parent = GROUND if above == 0 else self._name_of_object("body", above)
         numbers = range(int(model.body_jntadr[i]), int(model.body_jntadr[i]) + int(model.body_jntnum[i]))
         if not numbers:
             if int(model.body_mocapid[i]) >= 0:
@@ -143,19 +148,19 @@ class _Reader:
             return
         for k in numbers:
             last = k == numbers[-1]
-            below = child if last else f"{child}_{self._name('joint', k)}"
+            below = child if last else f"{child}_{self._name_of_object('joint', k)}"
             if not last:
                 links[below] = RobotLink(below, links[child].place)
-            connection = self._joint(k, parent, below, links[child].place)
+            connection = self._read_joint(k, parent, below, links[child].place)
             if connection is not None:
                 self.connections.append(connection)
                 self.led[k] = connection
             parent = below
 
-    def _joint(self, k: int, parent: str, child: str, place: Pose) -> Connection | None:
+    def _read_joint(self, k: int, parent: str, child: str, place: Pose) -> Connection | None:
         model, sorts = self.model, self.mujoco.mjtJoint
         sort, dof, at = int(model.jnt_type[k]), int(model.jnt_dofadr[k]), int(model.jnt_qposadr[k])
-        name = self._name("joint", k)
+        name = self._name_of_object("joint", k)
         damping, friction = float(model.dof_damping[dof]), float(model.dof_frictionloss[dof])
         if sort == int(sorts.mjJNT_FREE):
             if damping or friction or float(model.dof_armature[dof]):
@@ -168,10 +173,10 @@ class _Reader:
             for what, value in (("friction", friction), ("armature", float(model.dof_armature[dof]))):
                 if value:
                     self.left_out.append(LeftOut(what, name, "a ball joint has three directions", True))
-        frame = Pose(_vector(self.data.xanchor[k]), place.rotation)
-        c = Connection(name, kind, parent, child, frame, axis=_vector(model.jnt_axis[k]))
-        c.damping = 0.0 if self._disabled("DAMPER") else damping
-        c.stiffness = 0.0 if self._disabled("SPRING") else float(model.jnt_stiffness[k])
+        frame = Pose(_as_vector(self.data.xanchor[k]), place.rotation)
+        c = Connection(name, kind, parent, child, frame, axis=_as_vector(model.jnt_axis[k]))
+        c.damping = 0.0 if self._is_disabled("DAMPER") else damping
+        c.stiffness = 0.0 if self._is_disabled("SPRING") else float(model.jnt_stiffness[k])
         if kind != "spherical":
             c.value, c.rest = float(model.qpos0[at]), float(model.qpos_spring[at])
             c.friction, c.rotor = friction, float(model.dof_armature[dof])
@@ -181,39 +186,41 @@ class _Reader:
 
     # -- equalities --------------------------------------------------------------------------------------------------
 
-    def _equalities(self) -> list[CoupledCoordinate]:
+    def _read_equalities(self) -> list[CoupledCoordinate]:
         followers, sorts = list[CoupledCoordinate](), self.mujoco.mjtEq
         for k in range(self.model.neq):
-            sort, name = int(self.model.eq_type[k]), self._name("equality", k)
+            sort, name = int(self.model.eq_type[k]), self._name_of_object("equality", k)
             if not self.model.eq_active0[k]:
                 self.left_out.append(LeftOut("an equality", name, "it is not active", False))
             elif sort in (int(sorts.mjEQ_CONNECT), int(sorts.mjEQ_WELD)):
-                self._tie(k, name, sort == int(sorts.mjEQ_WELD))
+                self._add_tie(k, name, sort == int(sorts.mjEQ_WELD))
             elif sort == int(sorts.mjEQ_JOINT):
-                followers.append(self._polynomial(k, name))
+                followers.append(self._read_polynomial(k, name))
             else:
                 self.left_out.append(LeftOut("an equality", name, "it is neither connect, weld nor joint", True))
         return followers
 
-    def _tie(self, k: int, name: str, weld: bool) -> None:
+    def _add_tie(self, k: int, name: str, weld: bool) -> None:
         """Add a ball joint or a weld between two bodies, or between the bodies of two sites."""
         model, data = self.model, self.model.eq_data[k].tolist()
         ends = [int(model.eq_obj1id[k]), int(model.eq_obj2id[k])]
         if int(model.eq_objtype[k]) == int(self.mujoco.mjtObj.mjOBJ_SITE):
-            local = [Pose(_vector(model.site_pos[s]), of_quaternion(model.site_quat[s].tolist())) for s in ends]
+            local = [
+                Pose(_as_vector(model.site_pos[s]), rotation_from_quaternion(model.site_quat[s].tolist())) for s in ends
+            ]
             ends = [int(model.site_bodyid[s]) for s in ends]
         elif weld:
-            relative = Pose((data[3], data[4], data[5]), of_quaternion(data[6:10]))
+            relative = Pose((data[3], data[4], data[5]), rotation_from_quaternion(data[6:10]))
             anchor = Pose((data[0], data[1], data[2]))
             local = [relative @ anchor, anchor]
         else:
             local = [Pose((data[0], data[1], data[2])), Pose((data[3], data[4], data[5]))]
-        frames = [self._frame(body) @ frame for body, frame in zip(ends, local, strict=True)]
-        names = [GROUND if body == 0 else self._name("body", body) for body in ends]
+        frames = [self._frame_of_body(body) @ frame for body, frame in zip(ends, local, strict=True)]
+        names = [GROUND if body == 0 else self._name_of_object("body", body) for body in ends]
         kind: Kind = "rigid" if weld else "spherical"
         self.connections.append(Connection(name, kind, names[0], names[1], frames[0], frames[1]))
 
-    def _polynomial(self, k: int, name: str) -> CoupledCoordinate:
+    def _read_polynomial(self, k: int, name: str) -> CoupledCoordinate:
         """Return y - y0 = p(x - x0) as a polynomial of x."""
         model = self.model
         joint, other = int(model.eq_obj1id[k]), int(model.eq_obj2id[k])
@@ -223,26 +230,29 @@ class _Reader:
         start = 0.0 if other < 0 else float(model.qpos0[int(model.jnt_qposadr[other])])
         shifted: list[float] = []
         for a in reversed(coefficients):  # p(x - x0), from the highest power down (Horner)
-            shifted = [a, *shifted] if not shifted else _shifted(shifted, start, a)
+            shifted = [a, *shifted] if not shifted else _shift_polynomial(shifted, start, a)
         shifted[0] += float(model.qpos0[int(model.jnt_qposadr[joint])])
         while len(shifted) > 1 and shifted[-1] == 0.0:
             shifted.pop()
         return CoupledCoordinate(
-            name, self._name("joint", joint), None if other < 0 else self._name("joint", other), tuple(shifted)
+            name,
+            self._name_of_object("joint", joint),
+            None if other < 0 else self._name_of_object("joint", other),
+            tuple(shifted),
         )
 
     # -- actuators ---------------------------------------------------------------------------------------------------
 
-    def _actuator(self, i: int) -> RobotActuator | None:
+    def _read_actuator(self, i: int) -> RobotActuator | None:
         model, m = self.model, self.mujoco
-        name = self._name("actuator", i)
+        name = self._name_of_object("actuator", i)
         gear, at = float(model.actuator_gear[i][0]), int(model.actuator_trnid[i][0])
         sort = int(model.actuator_trntype[i])
         weights = dict[str, float]()
         if sort in (int(m.mjtTrn.mjTRN_JOINT), int(m.mjtTrn.mjTRN_JOINTINPARENT)):
-            weights = {self._name("joint", at): gear} if self._straight(at) else {}
+            weights = {self._name_of_object("joint", at): gear} if self._is_hinge_or_slide(at) else {}
         elif sort == int(m.mjtTrn.mjTRN_TENDON):
-            weights = {name: gear * w for name, w in self._tendon(at).items()}
+            weights = {name: gear * w for name, w in self._read_tendon(at).items()}
         plain = int(model.actuator_dyntype[i]) == int(m.mjtDyn.mjDYN_NONE)
         fixed = int(model.actuator_gaintype[i]) == int(m.mjtGain.mjGAIN_FIXED)
         bias = int(model.actuator_biastype[i])
@@ -252,44 +262,44 @@ class _Reader:
             self.left_out.append(LeftOut("an actuator", name, why, False))
             return None
         offset, along, against = model.actuator_biasprm[i].tolist()[:3] if affine else (0.0, 0.0, 0.0)
-        bounds = _pair(model.actuator_ctrlrange[i]) if model.actuator_ctrllimited[i] else None
-        limits = _pair(model.actuator_forcerange[i]) if model.actuator_forcelimited[i] else None
+        bounds = _as_pair(model.actuator_ctrlrange[i]) if model.actuator_ctrllimited[i] else None
+        limits = _as_pair(model.actuator_forcerange[i]) if model.actuator_forcelimited[i] else None
         gain = float(model.actuator_gainprm[i][0])
         return RobotActuator(name, weights, gain, offset, along, against, bounds, limits)
 
-    def _tendon(self, i: int) -> dict[str, float]:
+    def _read_tendon(self, i: int) -> dict[str, float]:
         """Return joint -> coefficient of a fixed tendon; empty for another one."""
         model = self.model
         wraps = range(int(model.tendon_adr[i]), int(model.tendon_adr[i]) + int(model.tendon_num[i]))
         if any(int(model.wrap_type[w]) != int(self.mujoco.mjtWrap.mjWRAP_JOINT) for w in wraps):
             return {}
-        return {self._name("joint", int(model.wrap_objid[w])): float(model.wrap_prm[w]) for w in wraps}
+        return {self._name_of_object("joint", int(model.wrap_objid[w])): float(model.wrap_prm[w]) for w in wraps}
 
-    def _spring(self, i: int) -> RobotActuator | None:
+    def _read_tendon_spring(self, i: int) -> RobotActuator | None:
         """Return the spring and damper of a fixed tendon, as an effort without an input."""
         model = self.model
-        stiffness = 0.0 if self._disabled("SPRING") else float(model.tendon_stiffness[i])
-        damping = 0.0 if self._disabled("DAMPER") else float(model.tendon_damping[i])
+        stiffness = 0.0 if self._is_disabled("SPRING") else float(model.tendon_stiffness[i])
+        damping = 0.0 if self._is_disabled("DAMPER") else float(model.tendon_damping[i])
         if not stiffness and not damping:
             return None
-        weights, (low, high) = self._tendon(i), _pair(model.tendon_lengthspring[i])
+        weights, (low, high) = self._read_tendon(i), _as_pair(model.tendon_lengthspring[i])
         if not weights or (stiffness and low != high):
             why = "its length is no sum of coordinates" if not weights else "it is slack between two lengths"
-            self.left_out.append(LeftOut("a spring of a tendon", self._name("tendon", i), why, True))
+            self.left_out.append(LeftOut("a spring of a tendon", self._name_of_object("tendon", i), why, True))
             return None
-        name = f"{self._name('tendon', i)}_spring"
+        name = f"{self._name_of_object('tendon', i)}_spring"
         return RobotActuator(name, weights, 0.0, stiffness * low, -stiffness, -damping)
 
-    def _straight(self, joint: int) -> bool:
+    def _is_hinge_or_slide(self, joint: int) -> bool:
         sorts = self.mujoco.mjtJoint
         return int(self.model.jnt_type[joint]) in (int(sorts.mjJNT_HINGE), int(sorts.mjJNT_SLIDE))
 
     # -- the rest ----------------------------------------------------------------------------------------------------
 
-    def _leave_out(self) -> None:
+    def _list_left_out(self) -> None:
         model, option = self.model, self.model.opt
         touching = sum(1 for k in range(model.ngeom) if model.geom_contype[k] or model.geom_conaffinity[k])
-        if touching > 1 and not self._disabled("CONTACT"):
+        if touching > 1 and not self._is_disabled("CONTACT"):
             self.left_out.append(LeftOut("contacts", f"{touching} geoms", "bodies pass through each other", True))
         limited = sum(1 for k in range(model.ntendon) if model.tendon_limited[k])
         rough = sum(1 for k in range(model.ntendon) if model.tendon_frictionloss[k] or model.tendon_armature[k])
@@ -303,7 +313,7 @@ class _Reader:
                 )
         if option.density or option.viscosity or any(option.wind):
             self.left_out.append(LeftOut("a fluid", "option", "bodies move in a vacuum", True))
-        for why, count in self.meshes.left_out():
+        for why, count in self.meshes.reasons_of_lost():
             self.left_out.append(LeftOut("meshes", f"{count} in pictures", why, False))
         if model.nflex:
             self.left_out.append(LeftOut("flexible parts", f"{model.nflex}", "symgen has beams", True))
@@ -317,7 +327,7 @@ class _Reader:
             self.left_out.append(LeftOut("key frames", f"{model.nkey}", "the motion starts from the model", False))
 
 
-def _shifted(higher: list[float], start: float, constant: float) -> list[float]:
+def _shift_polynomial(higher: list[float], start: float, constant: float) -> list[float]:
     """Return (x - start) higher(x) + constant."""
     product = [0.0, *higher]
     for i, a in enumerate(higher):
@@ -326,12 +336,12 @@ def _shifted(higher: list[float], start: float, constant: float) -> list[float]:
     return product
 
 
-def _vector(numbers: Any) -> Vector:
+def _as_vector(numbers: Any) -> Vector:
     x, y, z = (float(n) for n in numbers)
     return x, y, z
 
 
-def _pair(numbers: Any) -> tuple[float, float]:
+def _as_pair(numbers: Any) -> tuple[float, float]:
     low, high = (float(n) for n in numbers)
     return low, high
 

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import ClassVar
 
-from symgen.base.errors import InputError, nearest, quoted
-from symgen.describe.formats._frames import Pose, Vector, matrix_vector, transpose
-from symgen.describe.formats._reader import RobotReader, tensor
+from symgen.base.errors import InputError, quote, suggest
+from symgen.describe.formats._poses import Pose, Vector, matrix_transpose, matrix_vector
+from symgen.describe.formats._reader import RobotReader, tensor_of_entries
 from symgen.describe.formats._robot import (
     GROUND,
     Connection,
@@ -18,13 +18,28 @@ from symgen.describe.formats._robot import (
     LeftOut,
     Robot,
     RobotLink,
-    actuators_of,
-    turned_inertia,
+    inputs_for_joints,
+    rotate_inertia,
 )
 from symgen.describe.formats._sdf_frames import MODEL, WORLD, PlacedFrame, SdfFrames
-from symgen.describe.formats._sdf_joints import GEARBOX, TWO_AXES, UP, Gearbox, follower_of, pitch_of, read_axis
-from symgen.describe.formats._solids import SolidMass, box, capsule, cylinder, ellipsoid, sum_of_solids
-from symgen.describe.formats._xml import colour_of, inner_flag, inner_number, inner_text, positive, three_sizes, triple
+from symgen.describe.formats._sdf_joints import GEARBOX, TWO_AXES, UP, Gearbox, gearbox_coupling, read_axis, screw_pitch
+from symgen.describe.formats._solids import (
+    SolidMass,
+    solid_box,
+    solid_capsule,
+    solid_cylinder,
+    solid_ellipsoid,
+    sum_of_solids,
+)
+from symgen.describe.formats._xml import (
+    read_colour,
+    read_inner_flag,
+    read_inner_number,
+    read_inner_text,
+    read_positive,
+    read_sizes,
+    read_triple,
+)
 
 _KINDS: dict[str, Kind] = {
     "fixed": "fixed",
@@ -65,7 +80,7 @@ class _Reader(RobotReader):
 
     def __init__(self, path: Path) -> None:
         super().__init__(path)
-        self.version = self._version(self.tree.get("version", ""))
+        self.version = self._version_numbers(self.tree.get("version", ""))
         self.links = dict[str, RobotLink]()
         self.frames = SdfFrames(self.source, self.links)
         self.elements = list[tuple[str, ET.Element]]()  # joints, each with the prefix of its model
@@ -73,7 +88,7 @@ class _Reader(RobotReader):
 
     def text(self, element: ET.Element, key: str) -> str:
         """Return the text of an inner element."""
-        return inner_text(element, key)
+        return read_inner_text(element, key)
 
     def frame(self, where: str, element: ET.Element) -> Pose:
         """Return the pose of a look."""
@@ -82,8 +97,8 @@ class _Reader(RobotReader):
     def colour(self, where: str, look: ET.Element) -> str:
         """Return the colour of a material."""
         for key in ("diffuse", "ambient"):
-            if text := inner_text(look, f"material/{key}"):
-                return colour_of(f"{where}, {key}", " ".join([*text.split()[:3], "1"]))
+            if text := read_inner_text(look, f"material/{key}"):
+                return read_colour(f"{where}, {key}", " ".join([*text.split()[:3], "1"]))
         return ""
 
     def robot(self) -> Robot:
@@ -96,134 +111,138 @@ class _Reader(RobotReader):
             raise InputError(self.source, "a file with a model", "none")
         for element in self.tree.iter("include"):
             hint = "insert the file: gz sdf -p FILE"
-            raise InputError(f"{self.source}: include", "one file", quoted(inner_text(element, "uri")), hint)
+            raise InputError(f"{self.source}: include", "one file", quote(read_inner_text(element, "uri")), hint)
         for model in models:
             own = self.name(model)
             prefix = "" if len(models) == 1 else f"{own}::"
-            self._model(model, prefix, WORLD, self.frames.pose(model, "", WORLD), False)
+            self._read_model(model, prefix, WORLD, self.frames.pose(model, "", WORLD), False)
         for name, link in self.links.items():
             link.place = self.frames.place(name)
         connections, followers, gears = list[Connection](), list[CoupledCoordinate](), list[Gearbox]()
         for prefix, element in self.elements:
             if element.get("type", "") == GEARBOX:
-                gears.append(self._gearbox(element, prefix))
+                gears.append(self._read_gearbox(element, prefix))
             else:
-                connections += self._joint(element, prefix)
+                connections += self._read_joint(element, prefix)
         names = [c.name for c in connections]
         for prefix, element in self.elements:
-            followers += self._mimic(element, prefix, names)
-        connections = self._fixed(connections)
-        followers += [follower_of(gear, connections) for gear in gears]
-        self._leave_out()
-        gravity = inner_text(outer, "gravity")
+            followers += self._read_mimic(element, prefix, names)
+        connections = self._fixed_joints_from_ground(connections)
+        followers += [gearbox_coupling(gear, connections) for gear in gears]
+        self._list_left_out()
+        gravity = read_inner_text(outer, "gravity")
         return Robot(
             self.name(models[0]),
             self.links,
             connections,
             followers,
-            actuators_of(connections, followers),
-            triple(f"{self.source}: gravity", gravity) if gravity else (0.0, 0.0, -9.8),
+            inputs_for_joints(connections, followers),
+            read_triple(f"{self.source}: gravity", gravity) if gravity else (0.0, 0.0, -9.8),
             self.left_out,
             self.folder,
         )
 
     # -- frames ------------------------------------------------------------------------------------------------------
 
-    def _model(self, model: ET.Element, prefix: str, base: str, pose: Pose, static: bool) -> None:
+    def _read_model(self, model: ET.Element, prefix: str, base: str, pose: Pose, static: bool) -> None:
         """Note the frames of a model, its links and joints, and the models in it."""
-        where = f"{self.source}: model {quoted(self.name(model))}"
+        where = f"{self.source}: model {quote(self.name(model))}"
         if model.get("placement_frame"):
             raise InputError(where, "a model placed by its own frame", "a placement_frame", "write its pose instead")
-        own, static = f"{prefix}{MODEL}", static or inner_flag(model, "static")
+        own, static = f"{prefix}{MODEL}", static or read_inner_flag(model, "static")
         links = [prefix + self.name(link) for link in model.findall("link")]
         inner = [(nested, f"{prefix}{self.name(nested)}") for nested in model.findall("model")]
         canonical = model.get("canonical_link", "")
         attached = prefix + canonical if canonical else next(iter(links), "")
         if not attached and inner:
             attached = f"{inner[0][1]}::{MODEL}"
-        self.frames.add(own, PlacedFrame(base, pose, attached), where)
+        self.frames.add_frame(own, PlacedFrame(base, pose, attached), where)
         for link in model.findall("link"):
             name = prefix + self.name(link)
             self.frames.add_element(link, name, prefix, own, name, where)
-            self.links[name] = self._link(link, name)
+            self.links[name] = self._read_link(link, name)
             self.static += [name] * static
         for frame in model.findall("frame"):
             to = frame.get("attached_to", "")
             to = prefix + to if to else own
             self.frames.add_element(frame, prefix + self.name(frame), prefix, to, to, where)
         for joint in model.findall("joint"):
-            child = inner_text(joint, "child")
+            child = read_inner_text(joint, "child")
             to = WORLD if child == WORLD else prefix + child
             self.frames.add_element(joint, prefix + self.name(joint), prefix, to, to, where)
             self.elements.append((prefix, joint))
         for nested, name in inner:
-            self._model(nested, f"{name}::", self.frames.base(nested, prefix, own), self.frames.pose(nested), static)
+            self._read_model(
+                nested, f"{name}::", self.frames.base_of_pose(nested, prefix, own), self.frames.pose(nested), static
+            )
 
     # -- links -------------------------------------------------------------------------------------------------------
 
-    def _link(self, element: ET.Element, name: str) -> RobotLink:
-        where = f"{self.source}: link {quoted(name)}"
+    def _read_link(self, element: ET.Element, name: str) -> RobotLink:
+        where = f"{self.source}: link {quote(name)}"
         link, inertial = RobotLink(name), element.find("inertial")
         if inertial is not None and inertial.get("auto", "false") in ("true", "1"):
-            solid = self._from_shapes(element, inertial, where)
+            solid = self._inertia_of_shapes(element, inertial, where)
         else:  # what a file leaves out is 1 there
             at = Pose() if inertial is None else self.frames.pose(inertial)
-            mass = inner_number(where, inertial, "mass", 1.0)
+            mass = read_inner_number(where, inertial, "mass", 1.0)
             inertia = None if inertial is None else inertial.find("inertia")
-            own = tensor(lambda key: inner_number(where, inertia, key, 1.0 if key[1] == key[2] else 0.0))
-            solid = SolidMass(mass, at.origin, turned_inertia(own, at.rotation))
+            own = tensor_of_entries(
+                lambda key: read_inner_number(where, inertia, key, 1.0 if key[1] == key[2] else 0.0)
+            )
+            solid = SolidMass(mass, at.origin, rotate_inertia(own, at.rotation))
         if solid.mass < 0.0:
             raise InputError(f"{where}, mass", "a mass of 0 or above", repr(solid.mass))
         link.mass, link.centre, link.inertia = solid.mass, solid.centre, solid.inertia
-        link.shapes = self.looks(where, element)
-        if inner_text(element, "gravity") in ("false", "0"):
+        link.shapes = self.read_looks(where, element)
+        if read_inner_text(element, "gravity") in ("false", "0"):
             self.left_out.append(LeftOut("a link without gravity", name, "gravity acts on all bodies", True))
         return link
 
-    def _from_shapes(self, element: ET.Element, inertial: ET.Element, where: str) -> SolidMass:
+    def _inertia_of_shapes(self, element: ET.Element, inertial: ET.Element, where: str) -> SolidMass:
         """Return the inertia of the shapes of all collisions."""
-        usual, solids = inner_number(where, inertial, "density", _DENSITY), list[SolidMass]()
+        usual, solids = read_inner_number(where, inertial, "density", _DENSITY), list[SolidMass]()
         for collision in element.findall("collision"):
-            at = f"{where}, collision {quoted(collision.get('name', ''))}"
-            density = inner_number(at, collision, "density", usual)
-            solid, pose = self._solid(collision, at), self.frames.pose(collision)
-            tensor = turned_inertia(solid.inertia, pose.rotation)
-            solids.append(SolidMass(solid.mass, pose.point(solid.centre), tensor).times(density))
+            at = f"{where}, collision {quote(collision.get('name', ''))}"
+            density = read_inner_number(at, collision, "density", usual)
+            solid, pose = self._solid_of_collision(collision, at), self.frames.pose(collision)
+            tensor = rotate_inertia(solid.inertia, pose.rotation)
+            solids.append(SolidMass(solid.mass, pose.point_in_outer_frame(solid.centre), tensor).with_density(density))
         if not solids:
             raise InputError(f"{where}, inertial auto", "a link with collisions", "none")
         whole = sum_of_solids(solids)
-        mass = inner_number(where, inertial, "mass", whole.mass)
-        return whole.times(mass / whole.mass)
+        mass = read_inner_number(where, inertial, "mass", whole.mass)
+        return whole.with_density(mass / whole.mass)
 
-    def _solid(self, collision: ET.Element, where: str) -> SolidMass:
+    def _solid_of_collision(self, collision: ET.Element, where: str) -> SolidMass:
         """Return the solid of a collision, of density 1."""
         for part in collision.iterfind("geometry/*"):
             at = f"{where}, {part.tag}"
             if part.tag == "box":
-                return box(three_sizes(at, inner_text(part, "size")))
+                return solid_box(read_sizes(at, read_inner_text(part, "size")))
             if part.tag == "ellipsoid":
-                return ellipsoid(three_sizes(at, inner_text(part, "radii")))
+                return solid_ellipsoid(read_sizes(at, read_inner_text(part, "radii")))
             if part.tag in ("sphere", "cylinder", "capsule"):
-                radius = positive(at, part, "radius")
+                radius = read_positive(at, part, "radius")
                 if part.tag == "sphere":
-                    return ellipsoid((radius,) * 3)
-                length = positive(at, part, "length")
-                return (cylinder if part.tag == "cylinder" else capsule)(radius, length)
+                    return solid_ellipsoid((radius,) * 3)
+                length = read_positive(at, part, "length")
+                return (solid_cylinder if part.tag == "cylinder" else solid_capsule)(radius, length)
             solids = "box, sphere, cylinder, capsule or ellipsoid"
-            raise InputError(f"{where}, inertial auto", solids, quoted(part.tag), "write mass and inertia")
+            raise InputError(f"{where}, inertial auto", solids, quote(part.tag), "write mass and inertia")
         raise InputError(where, "a collision with a shape", "none")
 
     # -- joints ------------------------------------------------------------------------------------------------------
 
-    def _joint(self, element: ET.Element, prefix: str) -> list[Connection]:
+    def _read_joint(self, element: ET.Element, prefix: str) -> list[Connection]:
         """Return the connection of a joint; of two axes one after the other two, with a link without mass between."""
         name = prefix + self.name(element)
-        where = f"{self.source}: joint {quoted(name)}"
+        where = f"{self.source}: joint {quote(name)}"
         sort = element.get("type", "")
         if sort not in (known := (*_KINDS, TWO_AXES, GEARBOX)):
-            raise InputError(f"{where}, type", f"one of {', '.join(known)}", quoted(sort), nearest(sort, known))
-        parent, child = self._ends(element, prefix, where)
-        axes = [self._axis(element, tag, name, prefix, where) for tag in ("axis", "axis2")]
+            raise InputError(f"{where}, type", f"one of {', '.join(known)}", quote(sort), suggest(sort, known))
+        parent, child = self._read_joint_ends(element, prefix, where)
+        axes = [self._read_axis(element, tag, name, prefix, where) for tag in ("axis", "axis2")]
         if sort in (TWO_AXES, "universal") and None in axes:
             raise InputError(where, f"two axes of a {sort} joint", "less")
         at = self.frames.place(name)
@@ -239,64 +258,66 @@ class _Reader(RobotReader):
             return pair
         connection = Connection(name, _KINDS[sort], parent, child, at, axis=axes[0] or UP, second=axes[1])
         if sort == "screw":
-            connection.pitch = pitch_of(element, where)
+            connection.pitch = screw_pitch(element, where)
         if connection.kind in ("revolute", "translational", "screw"):
             read_axis(connection, element.find("axis"), where, sort)
         return [connection]
 
-    def _ends(self, element: ET.Element, prefix: str, where: str) -> tuple[str, str]:
+    def _read_joint_ends(self, element: ET.Element, prefix: str, where: str) -> tuple[str, str]:
         """Return the links of a joint."""
         parent, child = (
             self.frames.link_of(WORLD if text == WORLD else prefix + text, f"{where}, {tag}")
-            for tag, text in ((tag, inner_text(element, tag)) for tag in ("parent", "child"))
+            for tag, text in ((tag, read_inner_text(element, tag)) for tag in ("parent", "child"))
         )
         return parent, child
 
-    def _gearbox(self, element: ET.Element, prefix: str) -> Gearbox:
+    def _read_gearbox(self, element: ET.Element, prefix: str) -> Gearbox:
         """Return a gearbox: two links that turn against a third one, about axes in the ground frame."""
         name = prefix + self.name(element)
-        where, place = f"{self.source}: joint {quoted(name)}", self.frames.place(name)
-        axes = [self._axis(element, tag, name, prefix, where) for tag in ("axis", "axis2")]
+        where, place = f"{self.source}: joint {quote(name)}", self.frames.place(name)
+        axes = [self._read_axis(element, tag, name, prefix, where) for tag in ("axis", "axis2")]
         turned = [matrix_vector(place.rotation, axis) for axis in axes if axis is not None]
         if len(turned) < 2:
             raise InputError(where, "two axes of a gearbox", "less")
-        reference = inner_text(element, "gearbox_reference_body")
+        reference = read_inner_text(element, "gearbox_reference_body")
         if not reference:
             raise InputError(where, "the element gearbox_reference_body", "none")
         carrier = self.frames.link_of(WORLD if reference == WORLD else prefix + reference, f"{where}, reference body")
-        ratio = inner_number(where, element, "gearbox_ratio", 1.0)
-        return Gearbox(name, where, carrier, self._ends(element, prefix, where), (turned[0], turned[1]), ratio)
+        ratio = read_inner_number(where, element, "gearbox_ratio", 1.0)
+        return Gearbox(
+            name, where, carrier, self._read_joint_ends(element, prefix, where), (turned[0], turned[1]), ratio
+        )
 
-    def _axis(self, element: ET.Element, tag: str, name: str, prefix: str, where: str) -> Vector | None:
+    def _read_axis(self, element: ET.Element, tag: str, name: str, prefix: str, where: str) -> Vector | None:
         """Return an axis in the frame of the joint."""
         axis = element.find(tag)
         if axis is None:
             return None
         xyz, where = axis.find("xyz"), f"{where}, {tag}"
-        direction = triple(where, (xyz.text or "" if xyz is not None else "") or "0 0 1")
+        direction = read_triple(where, (xyz.text or "" if xyz is not None else "") or "0 0 1")
         if not any(direction):
             raise InputError(where, "an axis other than 0 0 0", "0 0 0")
         frame = "" if xyz is None else xyz.get("expressed_in", "")
-        if inner_flag(axis, "use_parent_model_frame") or self.version < (1, 5):
+        if read_inner_flag(axis, "use_parent_model_frame") or self.version < (1, 5):
             frame = frame or MODEL
         if not frame:
             return direction
-        own = self.frames.place(self.frames.found(prefix + frame, f"{where}, expressed_in"))
-        return matrix_vector(transpose(self.frames.place(name).rotation), matrix_vector(own.rotation, direction))
+        own = self.frames.place(self.frames.resolve_name(prefix + frame, f"{where}, expressed_in"))
+        return matrix_vector(matrix_transpose(self.frames.place(name).rotation), matrix_vector(own.rotation, direction))
 
-    def _mimic(self, element: ET.Element, prefix: str, names: list[str]) -> Iterator[CoupledCoordinate]:
+    def _read_mimic(self, element: ET.Element, prefix: str, names: list[str]) -> Iterator[CoupledCoordinate]:
         mimic = element.find("axis/mimic")
         if mimic is None or _KINDS.get(element.get("type", "")) not in ("revolute", "translational"):
             return
         name = prefix + self.name(element)
-        where = f"{self.source}: joint {quoted(name)}, mimic"
+        where = f"{self.source}: joint {quote(name)}, mimic"
         leader = prefix + mimic.get("joint", "")
         if leader not in names or leader == name:
-            raise InputError(where, "the name of another joint", quoted(leader), nearest(leader, names))
-        ratio, offset, zero = (inner_number(where, mimic, key) for key in ("multiplier", "offset", "reference"))
+            raise InputError(where, "the name of another joint", quote(leader), suggest(leader, names))
+        ratio, offset, zero = (read_inner_number(where, mimic, key) for key in ("multiplier", "offset", "reference"))
         yield CoupledCoordinate(f"{name}_mimic", name, leader, (offset - ratio * zero, ratio))
 
-    def _fixed(self, connections: list[Connection]) -> list[Connection]:
+    def _fixed_joints_from_ground(self, connections: list[Connection]) -> list[Connection]:
         """Return the joints, fixed ones away from the ground: each link has one that holds it; others close a ring."""
         beside = dict[str, list[Connection]]()
         fixed = [c for c in connections if c.kind == "fixed"]
@@ -320,16 +341,20 @@ class _Reader(RobotReader):
 
     # -- the rest ----------------------------------------------------------------------------------------------------
 
-    def _version(self, text: str) -> tuple[int, ...]:
+    def _version_numbers(self, text: str) -> tuple[int, ...]:
         parts = text.split(".")
         if not all(part.isdecimal() for part in parts) or len(parts) != 2:
-            raise InputError(f"{self.source}: sdf, version", "a version such as 1.9", quoted(text))
+            raise InputError(f"{self.source}: sdf, version", "a version such as 1.9", quote(text))
         return tuple(map(int, parts))
 
-    def _leave_out(self) -> None:
+    def _list_left_out(self) -> None:
         self.leave_out(
             sum(1 for link in self.tree.iter("link") if link.find("collision") is not None),
-            sum(1 for limit in self.tree.iter("limit") if inner_text(limit, "effort") or inner_text(limit, "velocity")),
+            sum(
+                1
+                for limit in self.tree.iter("limit")
+                if read_inner_text(limit, "effort") or read_inner_text(limit, "velocity")
+            ),
         )
         for tag, why in _SILENT.items():
             if count := sum(1 for _ in self.tree.iter(tag)):

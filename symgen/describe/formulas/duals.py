@@ -1,7 +1,7 @@
 """Formulas with directions: numbers that carry their derivatives by chosen parameters, for starts and parameters.
 
 They are `symgen.describe.formulas.start.Numbers`, so the described start is written once. Rules are those of emitted
-code: the slopes in `symgen.base.vocabulary.functions`, and one side at a kink.
+code: the slopes in `symgen.base.vocabulary.elementary_functions`, and one side at a kink.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from symgen.base.errors import InputError
+from symgen.base.vocabulary.elementary_functions import ELEMENTARY
 from symgen.base.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading, table_of
-from symgen.base.vocabulary.functions import ELEMENTARY
-from symgen.describe.formulas.evaluate import derived, evaluate
+from symgen.describe.formulas.evaluate import dependent_parameters, evaluate
 from symgen.describe.mechanism import Mechanism
 
 #: Derivatives, one for each direction.
@@ -41,44 +41,44 @@ class Dual:
         return self.value
 
     def __add__(self, other: Any) -> Dual:
-        b = dual(other)
-        return Dual(self.value + b.value, combined(1.0, self, 1.0, b))
+        b = as_dual(other)
+        return Dual(self.value + b.value, combine_derivatives(1.0, self, 1.0, b))
 
     def __sub__(self, other: Any) -> Dual:
-        b = dual(other)
-        return Dual(self.value - b.value, combined(1.0, self, -1.0, b))
+        b = as_dual(other)
+        return Dual(self.value - b.value, combine_derivatives(1.0, self, -1.0, b))
 
     def __mul__(self, other: Any) -> Dual:
-        b = dual(other)
-        return Dual(self.value * b.value, combined(b.value, self, self.value, b))
+        b = as_dual(other)
+        return Dual(self.value * b.value, combine_derivatives(b.value, self, self.value, b))
 
     def __truediv__(self, other: Any) -> Dual:
-        b = dual(other)
+        b = as_dual(other)
         value = self.value / b.value
-        return Dual(value, combined(1.0 / b.value, self, -value / b.value, b))
+        return Dual(value, combine_derivatives(1.0 / b.value, self, -value / b.value, b))
 
     def __neg__(self) -> Dual:
         return Dual(-self.value, tuple(-x for x in self.slopes))
 
     def __radd__(self, other: Any) -> Dual:
-        return dual(other) + self
+        return as_dual(other) + self
 
     def __rsub__(self, other: Any) -> Dual:
-        return dual(other) - self
+        return as_dual(other) - self
 
     def __rmul__(self, other: Any) -> Dual:
-        return dual(other) * self
+        return as_dual(other) * self
 
     def __gt__(self, other: Any) -> bool:
         return self.value > float(other)
 
 
-def dual(x: Any) -> Dual:
+def as_dual(x: Any) -> Dual:
     """Return a number as one with derivatives."""
     return x if isinstance(x, Dual) else Dual(float(x))
 
 
-def combined(p: float, a: Dual, q: float, b: Dual) -> Slopes:
+def combine_derivatives(p: float, a: Dual, q: float, b: Dual) -> Slopes:
     """Return the derivatives of p a + q b."""
     if not a.slopes or not b.slopes:
         return tuple(p * x for x in a.slopes) or tuple(q * x for x in b.slopes)
@@ -126,11 +126,11 @@ class Duals:
         value = evaluate(expression, own, where)
         return Dual(value, self._formula(expression, where).slopes)
 
-    def apply(self, function: str, *arguments: Any) -> Dual:
+    def apply_function(self, function: str, *arguments: Any) -> Dual:
         """Return a function of formulas."""
-        return applied(function, [dual(a) for a in arguments])
+        return apply_to_duals(function, [as_dual(a) for a in arguments])
 
-    def above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Dual:
+    def check_above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Dual:
         """Return `x`.
 
         Raises
@@ -140,7 +140,7 @@ class Duals:
         """
         if not float(x) > float(limit):
             raise InputError(where, expected, got)
-        return dual(x)
+        return as_dual(x)
 
     def _formula(self, e: Expr, where: str) -> Dual:
         if isinstance(e, Number):
@@ -153,10 +153,10 @@ class Duals:
             return self._formula(yes if self._formula(test, where).value else no, where)
         if table_of(e.function) is not None:
             raise InputError(where, "a formula without tables, as sensitivities of a start follow it", e.function)
-        return applied(e.function, [self._formula(a, where) for a in e.arguments])
+        return apply_to_duals(e.function, [self._formula(a, where) for a in e.arguments])
 
 
-def applied(function: str, arguments: Sequence[Dual]) -> Dual:
+def apply_to_duals(function: str, arguments: Sequence[Dual]) -> Dual:
     """Return a function of numbers with derivatives."""
     a, b = arguments[0], arguments[1] if len(arguments) > 1 else Dual(0.0)
     if function == "where":
@@ -168,10 +168,10 @@ def applied(function: str, arguments: Sequence[Dual]) -> Dual:
         return Dual(value)
     if function in ("min", "max", "both", "either"):
         return Dual(value, (a if value == a.value else b).slopes)
-    return Dual(value, combined(*_pairs(function, a, b, value)))
+    return Dual(value, combine_derivatives(*_slopes_with_arguments(function, a, b, value)))
 
 
-def _pairs(function: str, a: Dual, b: Dual, value: float) -> tuple[float, Dual, float, Dual]:
+def _slopes_with_arguments(function: str, a: Dual, b: Dual, value: float) -> tuple[float, Dual, float, Dual]:
     """Return the slopes of a function by its arguments, each before the argument."""
     x, y, g = a.value, b.value, _Floats()
     if function == "neg":
@@ -208,7 +208,7 @@ def parameter_duals(
     """
     own = {name: tuple(float(other == name) for other in by) for name in by}
     duals = {name: Dual(value, own.get(name, ())) for name, value in values.items()}
-    for name, formula in derived(mechanism.parameters, {**changed, **own}):
+    for name, formula in dependent_parameters(mechanism.parameters, {**changed, **own}):
         duals[name] = Dual(values[name], Duals(duals).value(formula, f"parameter '{name}'").slopes)
     return duals
 

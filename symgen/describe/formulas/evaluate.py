@@ -7,12 +7,12 @@ from collections.abc import Container, Iterable, Mapping
 from graphlib import CycleError, TopologicalSorter
 
 from symgen.base import arguments
-from symgen.base.errors import InputError, nearest
+from symgen.base.errors import InputError, suggest
 from symgen.base.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading, names_in, table_of
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.formulas.start import Scalars
 from symgen.describe.mechanism import Mechanism, Parameter
-from symgen.describe.tables import Table
+from symgen.describe.table_functions import Table
 
 #: Exception of an evaluation -> description of the error.
 _FAULTS: dict[type[Exception], str] = {ZeroDivisionError: "divides by zero", OverflowError: "is too large"}
@@ -43,7 +43,7 @@ def evaluate(
         return expression.value
     if isinstance(expression, Name | Reading):
         if expression.name not in values:
-            hint = nearest(expression.name, values)
+            hint = suggest(expression.name, values)
             raise InputError(where, "a value for every name", f"none for '{expression.name}'", hint)
         return float(values[expression.name])
     if expression.function == "where":
@@ -51,7 +51,7 @@ def evaluate(
         condition, yes, no = expression.arguments
         return evaluate(yes if evaluate(condition, values, where, tables) else no, values, where, tables)
     if expression.function in ("and", "or"):
-        return _joined(expression, values, where, tables)
+        return _join_conditions(expression, values, where, tables)
     operands = [evaluate(argument, values, where, tables) for argument in expression.arguments]
     try:
         if (table := table_of(expression.function)) is not None:
@@ -59,13 +59,13 @@ def evaluate(
         else:
             value = FUNCTIONS[expression.function][1](*operands)
     except (ArithmeticError, ValueError) as error:
-        raise _undefined(expression, operands, where, _FAULTS.get(type(error), "is not defined")) from None
+        raise _undefined_error(expression, operands, where, _FAULTS.get(type(error), "is not defined")) from None
     if isinstance(value, complex) or not math.isfinite(value):
-        raise _undefined(expression, operands, where, "is not a finite real number")
+        raise _undefined_error(expression, operands, where, "is not a finite real number")
     return float(value)
 
 
-def scalars(values: Mapping[str, float]) -> Scalars:
+def scalar_values(values: Mapping[str, float]) -> Scalars:
     """Return the numbers of one run with these values of the parameters."""
     return Scalars(lambda expression, where: evaluate(expression, values, where))
 
@@ -82,21 +82,27 @@ def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None =
     for name, value in arguments.mapping("parameters", changed, "numbers by the names of parameters").items():
         if name not in values:
             expected = f"a parameter of {mechanism.name}"
-            raise InputError(f"parameter '{name}'", expected, "none of that name", nearest(name, values))
+            raise InputError(f"parameter '{name}'", expected, "none of that name", suggest(name, values))
         values[name] = arguments.number(f"parameter '{name}'", value)
     if changed:
-        for name, formula in derived(mechanism.parameters, changed):
+        for name, formula in dependent_parameters(mechanism.parameters, changed):
             values[name] = evaluate(formula, values, f"parameter '{name}'")
     return values
 
 
 def independent_values(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
     """Return the parameter values from which the others follow: of formulas only those that are set."""
-    following = {name for name, formula in derived(mechanism.parameters) if evaluate(formula, values) == values[name]}
+    following = {
+        name
+        for name, formula in dependent_parameters(mechanism.parameters)
+        if evaluate(formula, values) == values[name]
+    }
     return {name: value for name, value in values.items() if name not in following}
 
 
-def _joined(expression: Call, values: Mapping[str, float], where: str, tables: Mapping[str, Table] | None) -> float:
+def _join_conditions(
+    expression: Call, values: Mapping[str, float], where: str, tables: Mapping[str, Table] | None
+) -> float:
     """Return 1 where both, or one, of two conditions hold, else 0; one may be undefined if the other decides."""
     deciding, undefined = expression.function == "or", None
     for argument in expression.arguments:
@@ -110,7 +116,7 @@ def _joined(expression: Call, values: Mapping[str, float], where: str, tables: M
     return float(not deciding)
 
 
-def _undefined(expression: Call, operands: list[float], where: str, why: str) -> InputError:
+def _undefined_error(expression: Call, operands: list[float], where: str, why: str) -> InputError:
     at = Call(expression.function, tuple(Number(a) for a in operands))
     text, shown = to_text(expression), to_text(at)
     got = f"'{text}', which {why}" if text == shown else f"'{text}' = {shown}, which {why}"
@@ -122,7 +128,7 @@ _LISTED = 8
 
 
 def evaluation_order(formulas: Mapping[str, Expr | None], where: str) -> list[str]:
-    """Return names, each behind those that its formula depends on, else in their own order.
+    """Return names, each after those that its formula depends on, else in their own order.
 
     Parameters
     ----------
@@ -160,8 +166,8 @@ def evaluation_order(formulas: Mapping[str, Expr | None], where: str) -> list[st
     return list(ordered)
 
 
-def derived(parameters: Iterable[Parameter], values: Container[str] = ()) -> list[tuple[str, Expr]]:
-    """Return name and formula of dependent parameters, each behind those it depends on.
+def dependent_parameters(parameters: Iterable[Parameter], values: Container[str] = ()) -> list[tuple[str, Expr]]:
+    """Return name and formula of dependent parameters, each after those it depends on.
 
     Parameters
     ----------

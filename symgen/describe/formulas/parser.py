@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 from symgen.base.units import Unit, read_unit
 from symgen.base.vocabulary.expressions import (
     FUNCTIONS,
@@ -26,10 +26,10 @@ from symgen.base.vocabulary.expressions import (
     Reading,
     call,
     literal_of,
-    readings,
+    readings_in,
 )
 from symgen.base.vocabulary.measures import Integral
-from symgen.describe.formulas.names import CALLABLE, INTEGRAL
+from symgen.describe.formulas.identifiers import CALLABLE, INTEGRAL
 
 if TYPE_CHECKING:
     from symgen.describe.formulas.readings import Readings
@@ -98,7 +98,7 @@ class FormulaNames(msgspec.Struct, frozen=True):
     integrals: bool = False
     hints: Mapping[str, str] = {}
 
-    def beside(self, what: str, plain: Mapping[str, str]) -> FormulaNames:
+    def with_other_names(self, what: str, plain: Mapping[str, str]) -> FormulaNames:
         """Return other plain names with the same `elsewhere` and `hints`."""
         return FormulaNames(what, plain, elsewhere=self.elsewhere, hints=self.hints)
 
@@ -117,7 +117,7 @@ def parse(text: str, names: FormulaNames, where: str, conditions: bool = False) 
     conditions : bool
         Whether the formula may be true or false instead of a number.
     """
-    return _Reader(names, where).read(text, conditions)
+    return _Reader(names, where).read_formula(text, conditions)
 
 
 class _Reader:
@@ -126,38 +126,42 @@ class _Reader:
     def __init__(self, names: FormulaNames, where: str) -> None:
         self.names, self.where, self.nodes = names, where, 0
 
-    def fail(self, got: str, hint: str = "", expected: str = "") -> InputError:
+    def formula_error(self, got: str, hint: str = "", expected: str = "") -> InputError:
         return InputError(self.where, expected or self.names.what, got, hint)
 
-    def read(self, text: str, conditions: bool) -> Expr:
+    def read_formula(self, text: str, conditions: bool) -> Expr:
         if len(text) > LONGEST_TEXT:
-            raise self.fail(f"{len(text)} characters", expected=f"a formula of at most {LONGEST_TEXT} characters")
+            raise self.formula_error(
+                f"{len(text)} characters", expected=f"a formula of at most {LONGEST_TEXT} characters"
+            )
         if not text.strip():
-            raise self.fail("an empty text")
+            raise self.formula_error("an empty text")
         text = _NODE.sub(r"._\1", text)
-        self.scan(text)
+        self.scan_text(text)
         try:
             # A formula may span lines in the file; Python's grammar would take the line end for the formula's.
             tree = ast.parse(re.sub(r"\s", " ", text).strip(), mode="eval")
         except SyntaxError as error:
             near = f" near column {error.offset}" if (error.offset or 0) > 1 else ""
-            raise self.fail(f"{quoted(text)}, which is incomplete or has a syntax error{near}", _units(text)) from None
+            raise self.formula_error(
+                f"{quote(text)}, which is incomplete or has a syntax error{near}", _hint_on_units(text)
+            ) from None
         except (MemoryError, RecursionError, ValueError):
-            raise self.too_deep() from None
+            raise self.too_deep_error() from None
         condition = conditions and _is_condition(tree.body)
-        result = self.condition(tree.body, 0) if condition else self.quantity(tree.body, 0)
-        if _depth(result) > DEEPEST:
-            raise self.too_deep()
+        result = self.convert_condition(tree.body, 0) if condition else self.convert_quantity(tree.body, 0)
+        if _depth_of_tree(result) > DEEPEST:
+            raise self.too_deep_error()
         return result
 
-    def too_long(self) -> InputError:
-        return self.fail("more", expected=f"a formula of at most {MOST_NODES} terms")
+    def too_long_error(self) -> InputError:
+        return self.formula_error("more", expected=f"a formula of at most {MOST_NODES} terms")
 
-    def too_deep(self) -> InputError:
+    def too_deep_error(self) -> InputError:
         expected = f"a formula nested at most {DEEPEST} levels deep"
-        return self.fail("deeper nesting", "long sums nest as well: group their terms in brackets", expected)
+        return self.formula_error("deeper nesting", "long sums nest as well: group their terms in brackets", expected)
 
-    def scan(self, text: str) -> None:
+    def scan_text(self, text: str) -> None:
         """Refuse every character and word that has no place in a formula."""
         position = brackets = 0
         while position < len(text):
@@ -166,185 +170,203 @@ class _Reader:
                 sign = text[position]
                 if sign in "0123456789.":
                     wrong = re.split(r"[^A-Za-z0-9_.]", text[position:], maxsplit=1)[0]
-                    raise self.fail(f"{quoted(wrong)}, which is not a number, at column {position + 1}", _units(text))
-                hint = _HINTS.get(sign, "") or _units(text)
-                raise self.fail(f"the character {quoted(sign)} at column {position + 1}", hint)
+                    raise self.formula_error(
+                        f"{quote(wrong)}, which is not a number, at column {position + 1}", _hint_on_units(text)
+                    )
+                hint = _HINTS.get(sign, "") or _hint_on_units(text)
+                raise self.formula_error(f"the character {quote(sign)} at column {position + 1}", hint)
             brackets += {"(": 1, ")": -1}.get(token.group(), 0)
             if brackets > DEEPEST:
-                raise self.too_deep()
+                raise self.too_deep_error()
             if token.group("number") and not math.isfinite(float(token.group())):
-                raise self.fail("a number beyond 1.8e308")
+                raise self.formula_error("a number beyond 1.8e308")
             word = token.group("word")
             if word and keyword.iskeyword(word) and word not in _WORDS:
-                raise self.fail(f"the word '{word}' at column {position + 1}")
+                raise self.formula_error(f"the word '{word}' at column {position + 1}")
             position = token.end()
         if "//" in text:
-            raise self.fail(f"'//' at column {text.index('//') + 1}", "a division is written /")
+            raise self.formula_error(f"'//' at column {text.index('//') + 1}", "a division is written /")
 
-    def convert(self, node: ast.expr, depth: int) -> Expr:
+    def convert_node(self, node: ast.expr, depth: int) -> Expr:
         """Translate one node of Python's tree; all other nodes are refused."""
         self.nodes += 1
         if depth > DEEPEST:
-            raise self.too_deep()
+            raise self.too_deep_error()
         if self.nodes > MOST_NODES:
-            raise self.too_long()
+            raise self.too_long_error()
         match node:
             case ast.Constant(value=int() | float() as value) if not isinstance(value, bool):
                 return Number(float(value))
             case ast.Name(id=name):
-                return self.name(name)
-            case ast.Attribute() if (path := _path(node)) is not None:
-                return self.dotted(path)
+                return self.convert_name(name)
+            case ast.Attribute() if (path := _dotted_path(node)) is not None:
+                return self.convert_dotted_name(path)
             case ast.UnaryOp(op=ast.UAdd(), operand=operand):
-                return self.quantity(operand, depth)
+                return self.convert_quantity(operand, depth)
             case ast.UnaryOp(op=ast.USub(), operand=operand):
-                return self.apply("neg", self.quantity(operand, depth))
+                return self.folded_call("neg", self.convert_quantity(operand, depth))
             case ast.UnaryOp(op=ast.Not(), operand=operand):
-                return self.apply("not", self.condition(operand, depth))
+                return self.folded_call("not", self.convert_condition(operand, depth))
             case ast.BinOp(left=left, op=operator, right=right) if type(operator) in _BINARY:
-                return self.binary(_BINARY[type(operator)], self.quantity(left, depth), self.quantity(right, depth))
+                return self.convert_binary(
+                    _BINARY[type(operator)], self.convert_quantity(left, depth), self.convert_quantity(right, depth)
+                )
             case ast.BoolOp(op=operator, values=values):
                 word = "and" if isinstance(operator, ast.And) else "or"
-                return self.chain(word, [self.condition(value, depth) for value in values])
+                return self.fold_chain(word, [self.convert_condition(value, depth) for value in values])
             case ast.Compare(left=left, ops=operators, comparators=others) if all(
                 type(o) in _COMPARE for o in operators
             ):
-                sides = [self.quantity(left, depth)]
+                sides = [self.convert_quantity(left, depth)]
                 for other in others:
                     before = self.nodes
-                    sides.append(self.quantity(other, depth))
+                    sides.append(self.convert_quantity(other, depth))
                     if other is not others[-1]:
                         self.nodes += self.nodes - before  # is part of two comparisons
                 pairs = zip(operators, sides, sides[1:], strict=False)
-                return self.chain("and", [self.apply(_COMPARE[type(o)], a, b) for o, a, b in pairs])
+                return self.fold_chain("and", [self.folded_call(_COMPARE[type(o)], a, b) for o, a, b in pairs])
             case ast.IfExp(test=test, body=yes, orelse=no):
-                return where(self.condition(test, depth), self.quantity(yes, depth), self.quantity(no, depth))
+                return fold_choice(
+                    self.convert_condition(test, depth),
+                    self.convert_quantity(yes, depth),
+                    self.convert_quantity(no, depth),
+                )
             case ast.Call(func=ast.Name(id=function), args=arguments, keywords=[]):
-                return self.function(function, arguments, depth)
-        raise self.fail(f"{quoted(ast.unparse(node))}, which is no formula")
+                return self.convert_function(function, arguments, depth)
+        raise self.formula_error(f"{quote(ast.unparse(node))}, which is no formula")
 
-    def quantity(self, node: ast.expr, depth: int) -> Expr:
+    def convert_quantity(self, node: ast.expr, depth: int) -> Expr:
         """Translate a node whose value must be a number."""
         if _is_condition(node):
-            text = quoted(ast.unparse(node))
-            raise self.fail(f"the condition {text} in place of a number", "write '1 if ... else 0'")
-        return self.convert(node, depth + 1)
+            text = quote(ast.unparse(node))
+            raise self.formula_error(f"the condition {text} in place of a number", "write '1 if ... else 0'")
+        return self.convert_node(node, depth + 1)
 
-    def condition(self, node: ast.expr, depth: int) -> Expr:
+    def convert_condition(self, node: ast.expr, depth: int) -> Expr:
         """Translate a node whose value must be true or false; constant conditions become the literals 1 and 0."""
         if not _is_condition(node):
-            raise self.fail(f"{quoted(ast.unparse(node))} in place of a condition", "a condition has <, <=, > or >=")
-        return self.convert(node, depth + 1)
+            raise self.formula_error(
+                f"{quote(ast.unparse(node))} in place of a condition", "a condition has <, <=, > or >="
+            )
+        return self.convert_node(node, depth + 1)
 
-    def name(self, name: str) -> Expr:
+    def convert_name(self, name: str) -> Expr:
         if name == "pi":
             return Number(math.pi)
         if name in self.names.plain:
             return Name(self.names.plain[name])
         if name in self.names.elsewhere:
-            raise self.fail(f"'{name}', which has no meaning here", self.names.hints.get(name, ""))
+            raise self.formula_error(f"'{name}', which has no meaning here", self.names.hints.get(name, ""))
         if name in CALLABLE or name in self.names.tables:
-            raise self.fail(f"the function '{name}' without its argument", f"write {name}(...)")
+            raise self.formula_error(f"the function '{name}' without its argument", f"write {name}(...)")
         if name in self.names.coordinates:
             listed = ", ".join(f"{name}.{c}" for c in self.names.coordinates[name])
-            raise self.fail(f"the body '{name}' in place of a number", f"it has {listed}")
-        raise self.fail(f"the unknown name {quoted(name)}", nearest(name, [*self.names.plain, "pi"]))
+            raise self.formula_error(f"the body '{name}' in place of a number", f"it has {listed}")
+        raise self.formula_error(f"the unknown name {quote(name)}", suggest(name, [*self.names.plain, "pi"]))
 
-    def dotted(self, path: tuple[str, ...]) -> Expr:
+    def convert_dotted_name(self, path: tuple[str, ...]) -> Expr:
         """Return a body's coordinate, or another quantity with a dotted name."""
         text, readings = ".".join(path), self.names.readings
-        if (node := ".".join(path[:2])) in self.names.coordinates or (readings is not None and readings.has(node)):
+        if (node := ".".join(path[:2])) in self.names.coordinates or (
+            readings is not None and readings.has_force(node)
+        ):
             path = (node, *path[2:])  # a node or an element of a beam
         owner = path[0]
         own = self.names.coordinates.get(owner, ())
         if len(path) == 2 and path[1] in own:
             return Name(text)
         if not self.names.coordinates and readings is None:
-            raise self.fail(f"'{text}', which has no meaning here")
-        owners = self.names.coordinates if readings is None else dict.fromkeys(readings.owners())
+            raise self.formula_error(f"'{text}', which has no meaning here")
+        owners = self.names.coordinates if readings is None else dict.fromkeys(readings.names_of_owners())
         if owner not in owners:
             what = "body" if readings is None else "body or joint"
-            raise self.fail(f"the unknown {what} {quoted(owner)}", nearest(owner, owners))
-        reading = None if readings is None else readings.find(path, self.where)
+            raise self.formula_error(f"the unknown {what} {quote(owner)}", suggest(owner, owners))
+        reading = None if readings is None else readings.find_meaning(path, self.where)
         if reading is not None:
             return reading
         if readings is not None and len(path) == 2 and path[1] in readings.speeds_of(owner):
-            raise self.fail(f"'{text}', a velocity")
+            raise self.formula_error(f"'{text}', a velocity")
         names = (*own, *(() if readings is None else readings.names_of(owner, self.where)))
-        what = f"{quoted('.'.join(path[1:]))}, which {'body ' if own else ''}'{owner}' does not have"
+        what = f"{quote('.'.join(path[1:]))}, which {'body ' if own else ''}'{owner}' does not have"
         listed = f"it has {', '.join(names)}" if names else "it has nothing to read"
-        raise self.fail(what, listed if len(names) <= 20 else nearest(text, [f"{owner}.{k}" for k in names]))
+        raise self.formula_error(what, listed if len(names) <= 20 else suggest(text, [f"{owner}.{k}" for k in names]))
 
-    def binary(self, function: str, left: Expr, right: Expr) -> Expr:
+    def convert_binary(self, function: str, left: Expr, right: Expr) -> Expr:
         if function == "pow" and isinstance(right, Number) and abs(right.value) > LARGEST_EXPONENT:
             limit = f"an exponent between -{LARGEST_EXPONENT:.0f} and {LARGEST_EXPONENT:.0f}"
-            raise self.fail(f"{right.value!r}", expected=limit)
-        return self.apply(function, left, right)
+            raise self.formula_error(f"{right.value!r}", expected=limit)
+        return self.folded_call(function, left, right)
 
-    def apply(self, function: str, *arguments: Expr) -> Expr:
+    def folded_call(self, function: str, *arguments: Expr) -> Expr:
         """Return the call, folded where its arguments are literals, refused where they have no finite value."""
-        result = logic(function, arguments) if function in ("and", "or", "not") else call(function, *arguments)
+        result = fold_logic(function, arguments) if function in ("and", "or", "not") else call(function, *arguments)
         if isinstance(result, Call) and all(isinstance(a, Number) for a in result.arguments):
             from symgen.describe.formulas.formula_text import to_text
 
-            raise self.fail(f"'{to_text(result)}', which has no finite value")
+            raise self.formula_error(f"'{to_text(result)}', which has no finite value")
         return result
 
-    def chain(self, function: str, operands: list[Expr]) -> Expr:
+    def fold_chain(self, function: str, operands: list[Expr]) -> Expr:
         result = operands[0]
         for operand in operands[1:]:
-            result = self.apply(function, result, operand)
+            result = self.folded_call(function, result, operand)
         return result
 
-    def function(self, function: str, nodes: list[ast.expr], depth: int) -> Expr:
+    def convert_function(self, function: str, nodes: list[ast.expr], depth: int) -> Expr:
         if function in self.names.tables:
-            self.count(function, nodes, 1)
-            return Call(self.names.tables[function], (self.quantity(nodes[0], depth),))
+            self.check_argument_count(function, nodes, 1)
+            return Call(self.names.tables[function], (self.convert_quantity(nodes[0], depth),))
         if function == INTEGRAL and self.names.integrals:
-            self.count(function, nodes, 1)
-            return self.integral(nodes[0], depth)
+            self.check_argument_count(function, nodes, 1)
+            return self.convert_integral(nodes[0], depth)
         if function not in CALLABLE:
             if function in self.names.elsewhere:
                 hint = self.names.hints.get(function, "")
-                raise self.fail(f"the table '{function}', which has no meaning here", hint)
-            raise self.fail(
-                f"the unknown function {quoted(function)}", nearest(function, [*CALLABLE, *self.names.tables])
+                raise self.formula_error(f"the table '{function}', which has no meaning here", hint)
+            raise self.formula_error(
+                f"the unknown function {quote(function)}", suggest(function, [*CALLABLE, *self.names.tables])
             )
         if function == "piecewise":
-            return self.piecewise(nodes, depth)
+            return self.convert_piecewise(nodes, depth)
         if function in ("min", "max"):
             if len(nodes) < 2:
-                raise self.fail(f"{function}() with {len(nodes)}", expected="two arguments or more")
+                raise self.formula_error(f"{function}() with {len(nodes)}", expected="two arguments or more")
         else:
-            self.count(function, nodes, FUNCTIONS[function][0])
-        arguments = [self.quantity(node, depth) for node in nodes]
-        return self.chain(function, arguments) if function in ("min", "max") else self.apply(function, *arguments)
+            self.check_argument_count(function, nodes, FUNCTIONS[function][0])
+        arguments = [self.convert_quantity(node, depth) for node in nodes]
+        return (
+            self.fold_chain(function, arguments)
+            if function in ("min", "max")
+            else self.folded_call(function, *arguments)
+        )
 
-    def integral(self, node: ast.expr, depth: int) -> Expr:
+    def convert_integral(self, node: ast.expr, depth: int) -> Expr:
         """Return the reading of an integral over time."""
-        integrand = self.quantity(node, depth)
-        if any(isinstance(r.source, Integral) for r in readings(integrand)):
-            raise self.fail("an integral of an integral", "give the inner one an integrand of its own")
+        integrand = self.convert_quantity(node, depth)
+        if any(isinstance(r.source, Integral) for r in readings_in(integrand)):
+            raise self.formula_error("an integral of an integral", "give the inner one an integrand of its own")
         from symgen.describe.formulas.formula_text import to_text
 
         return Reading(f"{INTEGRAL}({to_text(integrand)})", Integral(integrand))
 
-    def count(self, function: str, nodes: list[ast.expr], number: int) -> None:
+    def check_argument_count(self, function: str, nodes: list[ast.expr], number: int) -> None:
         if len(nodes) != number:
             expected = "one argument" if number == 1 else f"{number} arguments"
-            raise self.fail(f"{function}() with {len(nodes)}", expected=expected)
+            raise self.formula_error(f"{function}() with {len(nodes)}", expected=expected)
 
-    def piecewise(self, nodes: list[ast.expr], depth: int) -> Expr:
+    def convert_piecewise(self, nodes: list[ast.expr], depth: int) -> Expr:
         if len(nodes) < 3 or len(nodes) % 2 == 0:
             expected = "piecewise(condition, value, ..., value otherwise)"
-            raise self.fail(f"{len(nodes)} arguments", expected=expected)
-        result = self.quantity(nodes[-1], depth)
+            raise self.formula_error(f"{len(nodes)} arguments", expected=expected)
+        result = self.convert_quantity(nodes[-1], depth)
         for i in range(len(nodes) - 3, -1, -2):
-            result = where(self.condition(nodes[i], depth), self.quantity(nodes[i + 1], depth), result)
+            result = fold_choice(
+                self.convert_condition(nodes[i], depth), self.convert_quantity(nodes[i + 1], depth), result
+            )
         return result
 
 
-def _path(node: ast.expr) -> tuple[str, ...] | None:
+def _dotted_path(node: ast.expr) -> tuple[str, ...] | None:
     """Return the parts of a dotted name, None where another expression precedes a dot."""
     parts: list[str] = []
     while isinstance(node, ast.Attribute):
@@ -359,14 +381,14 @@ def _is_condition(node: ast.expr) -> bool:
     return negated or isinstance(node, ast.Compare | ast.BoolOp)
 
 
-def where(condition: Expr, yes: Expr, no: Expr) -> Expr:
+def fold_choice(condition: Expr, yes: Expr, no: Expr) -> Expr:
     """Return the choice, already made where the condition is a literal."""
     if isinstance(condition, Number):
         return yes if condition.value else no
     return call("where", condition, yes, no)
 
 
-def logic(function: str, operands: tuple[Expr, ...]) -> Expr:
+def fold_logic(function: str, operands: tuple[Expr, ...]) -> Expr:
     """Return and, or, not with literal operands folded away: a condition in a tree is never a literal."""
     if function == "not":
         return call("not", operands[0])
@@ -378,7 +400,7 @@ def logic(function: str, operands: tuple[Expr, ...]) -> Expr:
     return call(function, left, right)
 
 
-def _depth(expression: Expr) -> int:
+def _depth_of_tree(expression: Expr) -> int:
     deepest, stack = 0, [(expression, 1)]
     while stack:
         node, depth = stack.pop()
@@ -388,7 +410,7 @@ def _depth(expression: Expr) -> int:
     return deepest
 
 
-def _units(text: str) -> str:
+def _hint_on_units(text: str) -> str:
     """Return a hint where a number in a formula has a unit."""
     words = (match[1] for match in _WITH_UNIT.finditer(text))
     unit = next((word for word in words if isinstance(read_unit(word), Unit)), "")

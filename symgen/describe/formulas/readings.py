@@ -34,8 +34,8 @@ from symgen.base.vocabulary.expressions import (
     Reading,
     call,
     literal_of,
-    moving,
-    readings,
+    moving_quantities,
+    readings_in,
     sum_of_terms,
 )
 from symgen.base.vocabulary.measures import (
@@ -82,11 +82,11 @@ SPACE = (
     ("N", "Qy", "Qz", "T", "My", "Mz"),
 )
 
-#: Names behind an owner's -> quantity and unit.
+#: Names after an owner's -> quantity and unit.
 Table = dict[str, tuple[Expr, str]]
 
 
-def of_point(name: str, marker: Marker, dimension: int, order: int) -> Table:
+def readings_of_point(name: str, marker: Marker, dimension: int, order: int) -> Table:
     """Return a point's coordinates and their derivatives up to an order; `name` is the point's with its body's."""
     origin, table = Marker(GROUND, (ZERO,) * dimension), Table()
     for derivative, (letter, unit) in enumerate(list(ORDERS.items())[: order + 1]):
@@ -96,7 +96,7 @@ def of_point(name: str, marker: Marker, dimension: int, order: int) -> Table:
     return table
 
 
-def of_axis(name: str, axis: Direction) -> Table:
+def readings_of_axis(name: str, axis: Direction) -> Table:
     """Return the components of an axis of a body in the ground frame, and their rates; `name` is the axis' own."""
     table = Table()
     for letter, direction in zip("xyz", axes(GROUND, 3), strict=True):
@@ -105,7 +105,7 @@ def of_axis(name: str, axis: Direction) -> Table:
     return table
 
 
-def of_joint(joint: Joint, order: int) -> Table:
+def readings_of_joint(joint: Joint, order: int) -> Table:
     """Return the coordinates of a joint with their rates; of a driver, its driven coordinate and its effort."""
     row = joint.rows[0] if joint.kind == "driver" else None
     coordinates = joint.coordinates
@@ -114,11 +114,11 @@ def of_joint(joint: Joint, order: int) -> Table:
     table = Table()
     for label, measure in coordinates:
         unit = joint.unit(label)
-        table |= _with_rate(joint.name, label, measure, unit)
+        table |= _value_and_rate(joint.name, label, measure, unit)
         if len(coordinates) == 1:
             table["rate"] = Reading(f"{joint.name}.rate", measure, 1), f"{unit}/s"
     if order == OUTPUT and row is None:
-        table |= of_reaction(joint)
+        table |= readings_of_reaction(joint)
     if isinstance(row, Holonomic) and order == OUTPUT:
         driven = Driven(f"{joint.name}.{row.label}", row.measure)
         table["effort"] = Reading(f"{joint.name}.effort", driven), "N m" if row.unit == "rad" else "N"
@@ -126,7 +126,7 @@ def of_joint(joint: Joint, order: int) -> Table:
     return table
 
 
-def of_reaction(joint: Joint) -> Table:
+def readings_of_reaction(joint: Joint) -> Table:
     """Return the size of the force on the first body of a joint, and its components where rows are along fixed axes.
 
     Joints whose rows of forces are components of a vector between two points, along axes of one frame, have one: their
@@ -148,22 +148,22 @@ def of_reaction(joint: Joint) -> Table:
     return table
 
 
-def of_force(force: Force, order: int) -> Table:
+def readings_of_force(force: Force, order: int) -> Table:
     """Return the measure of a force along one measure, and at outputs its effort."""
     table, name = Table(), force.name
-    efforts = tuple(map(_along_length, force.efforts))
+    efforts = tuple(map(_effort_along_length, force.efforts))
     single = efforts[0] if len(efforts) == 1 else None
-    word = "" if single is None else _extent(single.measure)
+    word = "" if single is None else _name_of_measure(single.measure)
     if single is not None and word:
         unit = "m" if word == "length" else "rad"
         table[word] = Reading(f"{name}.{word}", single.measure), unit
         table["rate"] = Reading(f"{name}.rate", single.measure, 1), f"{unit}/s"
     for flexure in force.flexures:
-        table |= _of_flexure(name, flexure)
+        table |= _readings_of_flexure(name, flexure)
     if order == OUTPUT and (efforts or force.flexures):
         components: dict[str, list[Effort]] = {}
         for effort in efforts:
-            for component in _components(effort, word):
+            for component in _names_of_components(effort, word):
                 components.setdefault(component, []).append(effort)
         for component, parts in components.items():
             unit = "N m" if is_turning(parts[0].measure) else "N"
@@ -172,7 +172,7 @@ def of_force(force: Force, order: int) -> Table:
     return table
 
 
-def _of_flexure(name: str, flexure: Flexure) -> Table:
+def _readings_of_flexure(name: str, flexure: Flexure) -> Table:
     """Return the strain in the middle of a beam element, and the force and moment of the section there."""
     strains, stresses = PLANE if len(flexure.compliances) == 3 else SPACE
     bends = len(strains) // 2
@@ -184,12 +184,12 @@ def _of_flexure(name: str, flexure: Flexure) -> Table:
     return table
 
 
-def _with_rate(owner: str, label: str, measure: Source, unit: str) -> Table:
+def _value_and_rate(owner: str, label: str, measure: Source, unit: str) -> Table:
     name = f"{owner}.{label}"
     return {label: (Reading(name, measure), unit), f"{label}.rate": (Reading(f"{name}.rate", measure, 1), f"{unit}/s")}
 
 
-def _along_length(effort: Effort) -> Effort:
+def _effort_along_length(effort: Effort) -> Effort:
     """Return an effort along half the square of a length, U = k s, as one along the length, U = k s^2 / 2."""
     if not isinstance(effort.measure, HalfSquare) or not isinstance(effort.potential, Call):
         return effort
@@ -199,14 +199,14 @@ def _along_length(effort: Effort) -> Effort:
     return Effort(effort.label, length, potential=call("mul", call("div", stiffness, literal_of(2.0)), squared))
 
 
-def _extent(measure: Source) -> str:
+def _name_of_measure(measure: Source) -> str:
     """Return the name of the measure of a force, empty where it has none."""
     return (
         "length" if isinstance(measure, Distance | FormulaMeasure) else "angle" if isinstance(measure, AnyAngle) else ""
     )
 
 
-def _components(effort: Effort, extent: str) -> list[str]:
+def _names_of_components(effort: Effort, extent: str) -> list[str]:
     """Return names of the total of an effort: force or torque along a measure, or components along axes."""
     if not effort.label:
         return []
@@ -222,7 +222,7 @@ def is_turning(measure: Source) -> bool:
     if isinstance(measure, Sum):
         return is_turning(measure.terms[0][1])
     if isinstance(measure, FormulaMeasure):
-        return all(is_turning(r.source) for r in readings(measure.of))
+        return all(is_turning(r.source) for r in readings_in(measure.of))
     return isinstance(measure, AnyAngle | Spin | Dot)
 
 
@@ -230,7 +230,7 @@ def is_angle(of: Expr) -> bool:
     """Whether all moving quantities in a formula are angles and axes."""
     turning = (
         is_turning(e.source) if isinstance(e, Reading) else e.name.rpartition(".")[2][0] in ("t", "o", "w")
-        for e in moving(of)
+        for e in moving_quantities(of)
     )
     return all(turning)
 
@@ -254,14 +254,14 @@ class Readings:
     def _losses(self) -> Mapping[str, Reading]:
         return self._context.losses if self._order == OUTPUT else {}
 
-    def owners(self) -> Iterator[str]:
+    def names_of_owners(self) -> Iterator[str]:
         """Yield the names of all bodies, joints, forces and rows with bounds that have readings."""
         yield from self._context.bodies
         yield from self._context.joint_names
         yield from self._context.forces
         yield from (name.partition(".")[0] for name in self._losses)
 
-    def has(self, name: str) -> bool:
+    def has_force(self, name: str) -> bool:
         """Return whether a force has this name."""
         return name in self._context.forces
 
@@ -274,11 +274,11 @@ class Readings:
         """Return the readings of a body, joint or force besides a body's own coordinates."""
         if owner in self._context.bodies:
             points = self._context.points[owner]
-            return tuple(f"{p}.{label}" for p in points for label in self._of_point(owner, p))
+            return tuple(f"{p}.{label}" for p in points for label in self._point_readings(owner, p))
         lost = (name.partition(".") for name in self._losses)
-        return (*self._of_element(owner, where), *(label for head, _, label in lost if head == owner))
+        return (*self._element_readings(owner, where), *(label for head, _, label in lost if head == owner))
 
-    def find(self, path: tuple[str, ...], where: str) -> Expr | None:
+    def find_meaning(self, path: tuple[str, ...], where: str) -> Expr | None:
         """Return the meaning of a dotted name, None where it has none.
 
         Parameters
@@ -288,38 +288,38 @@ class Readings:
         where : str
             File and key, for messages about joints that are resolved on the way.
         """
-        entry = self.entry(path, where)
+        entry = self.meaning_with_unit(path, where)
         return None if entry is None else entry[0]
 
-    def entry(self, path: tuple[str, ...], where: str) -> tuple[Expr, str] | None:
-        """Return the meaning of a dotted name, see `find`, with its unit."""
+    def meaning_with_unit(self, path: tuple[str, ...], where: str) -> tuple[Expr, str] | None:
+        """Return the meaning of a dotted name, see `find_meaning`, with its unit."""
         owner, *words = path
         if (name := ".".join(path)) in self._losses:
             return self._losses[name], "J"
         if owner not in self._context.bodies:
-            return self._of_element(owner, where).get(".".join(words))
+            return self._element_readings(owner, where).get(".".join(words))
         if len(words) == 2 and words[0] in self._context.points[owner]:
-            return self._of_point(owner, words[0]).get(words[1])
+            return self._point_readings(owner, words[0]).get(words[1])
         if len(words) == 2 and words[0] in AXES and self._dimension == 3 and not self._context.bodies[owner].is_point:
             axis = axes(owner, 3)[AXES.index(words[0])]
-            return of_axis(f"{owner}.{words[0]}", axis).get(words[1])
+            return readings_of_axis(f"{owner}.{words[0]}", axis).get(words[1])
         return None
 
-    def _of_point(self, body: str, point: str) -> Table:
+    def _point_readings(self, body: str, point: str) -> Table:
         marker = Marker(body, self._context.points[body][point])
-        return of_point(f"{body}.{point}", marker, self._dimension, self._order)
+        return readings_of_point(f"{body}.{point}", marker, self._dimension, self._order)
 
-    def _of_element(self, owner: str, where: str) -> Table:
+    def _element_readings(self, owner: str, where: str) -> Table:
         if owner in self._context.joint_names:
             joint = self._context.joint(owner, where)
-            table = of_joint(joint, self._order)
+            table = readings_of_joint(joint, self._order)
             if any(name.startswith(f"{owner}.") for name in self._losses) and any(
                 joint.unit(label) == "m" for label, _ in joint.coordinates
             ):
                 # what a row with bounds exerts along the joint is a part of the reaction that its rows do not have
                 table = {label: entry for label, entry in table.items() if label not in REACTION}
             return table
-        return of_force(self._context.forces[owner], self._order) if owner in self._context.forces else {}
+        return readings_of_force(self._context.forces[owner], self._order) if owner in self._context.forces else {}
 
 
 class Column(NamedTuple):
@@ -330,65 +330,72 @@ class Column(NamedTuple):
     formula: Expr
 
 
-def points(mechanism: Mechanism) -> tuple[Column, ...]:
+def columns_of_points(mechanism: Mechanism) -> tuple[Column, ...]:
     """Return coordinates, velocities and accelerations of all named points: ``arm.tip.x``, ``.vx``, ``.ax``."""
     dimension = len(mechanism.gravity)
     return tuple(
         column
         for body in mechanism.bodies
         for point, place in body.points
-        for column in _columns(of_point(f"{body.name}.{point}", Marker(body.name, place), dimension, OUTPUT))
+        for column in _columns_of_table(
+            readings_of_point(f"{body.name}.{point}", Marker(body.name, place), dimension, OUTPUT)
+        )
     )
 
 
-def elements(mechanism: Mechanism) -> tuple[Column, ...]:
+def columns_of_elements(mechanism: Mechanism) -> tuple[Column, ...]:
     """Return measures, forces and power of force elements and drivers: ``spring.length``, ``.force``, ``.power``."""
-    drivers = (column for j in mechanism.joints if j.kind == "driver" for column in _driver(of_joint(j, OUTPUT)))
-    return (*of_force_elements(mechanism), *drivers)
+    drivers = (
+        column
+        for j in mechanism.joints
+        if j.kind == "driver"
+        for column in _columns_of_driver(readings_of_joint(j, OUTPUT))
+    )
+    return (*columns_of_force_elements(mechanism), *drivers)
 
 
-def of_force_elements(mechanism: Mechanism) -> tuple[Column, ...]:
+def columns_of_force_elements(mechanism: Mechanism) -> tuple[Column, ...]:
     """Return measures, forces and power of force elements."""
-    return tuple(column for force in mechanism.forces for column in _columns(of_force(force, OUTPUT)))
+    return tuple(column for force in mechanism.forces for column in _columns_of_table(readings_of_force(force, OUTPUT)))
 
 
-def outputs(mechanism: Mechanism) -> tuple[Column, ...]:
+def columns_of_outputs(mechanism: Mechanism) -> tuple[Column, ...]:
     """Return the states of the file's own, and the formulas of ``[outputs]``."""
     states = (Column(x.name, x.unit, Name(x.name)) for x in mechanism.states)
     return (*states, *(Column(o.name, o.unit, o.value) for o in mechanism.outputs))
 
 
-def rows_read(value: Expr) -> set[str]:
+def rows_read_by_output(value: Expr) -> set[str]:
     """Return the rows whose efforts a formula of outputs reads, in integrals as well."""
     rows = set[str]()
-    for reading in readings(value):
+    for reading in readings_in(value):
         if isinstance(reading.source, Driven):
             rows.add(reading.source.row)
         elif isinstance(reading.source, Integral):
-            rows |= rows_read(reading.source.of)
+            rows |= rows_read_by_output(reading.source.of)
     return rows
 
 
-def integrals(mechanism: Mechanism) -> dict[Integral, int]:
+def integrals_of_outputs(mechanism: Mechanism) -> dict[Integral, int]:
     """Return the integrals in outputs, numbered in their order, each once."""
-    sources = (r.source for output in mechanism.outputs for r in readings(output.value))
+    sources = (r.source for output in mechanism.outputs for r in readings_in(output.value))
     return {source: i for i, source in enumerate(dict.fromkeys(s for s in sources if isinstance(s, Integral)))}
 
 
-def integrated(mechanism: Mechanism) -> tuple[Any, ...]:
+def integrands_of_run(mechanism: Mechanism) -> tuple[Any, ...]:
     """Return the integrands of a run: joints, forces, and the rates of states with the formulas of integrals."""
-    rates = *(x.rate for x in mechanism.states), *(integral.of for integral in integrals(mechanism))
+    rates = *(x.rate for x in mechanism.states), *(integral.of for integral in integrals_of_outputs(mechanism))
     return mechanism.joints, mechanism.forces, rates
 
 
-def _columns(table: Table) -> Iterator[Column]:
+def _columns_of_table(table: Table) -> Iterator[Column]:
     return (Column(each.name, unit, each) for each, unit in table.values() if isinstance(each, Reading))
 
 
-def _driver(table: Table) -> Iterator[Column]:
+def _columns_of_driver(table: Table) -> Iterator[Column]:
     """Yield the columns of a driver: its only coordinate's rate has its short name."""
-    return _columns({label: entry for label, entry in table.items() if not label.endswith(".rate")})
+    return _columns_of_table({label: entry for label, entry in table.items() if not label.endswith(".rate")})
 
 
 #: Table of a result -> its columns.
-TABLES = {"points": points, "elements": elements, "outputs": outputs}
+TABLES = {"points": columns_of_points, "elements": columns_of_elements, "outputs": columns_of_outputs}

@@ -11,13 +11,13 @@ from symgen.describe.parts.triads import Triad, make_triad
 _MINUS = literal_of(-1.0)
 
 
-def coincident(a: Marker, b: Marker) -> tuple[Holonomic, ...]:
+def rows_of_coincident_points(a: Marker, b: Marker) -> tuple[Holonomic, ...]:
     """Rows that hold two points together, ``x``, ``y``, in space ``z``: forces on the first body in ground axes."""
     along = zip("xyz", axes(GROUND, len(a.point)), strict=False)
     return tuple(Holonomic(label, Component(a, b, axis)) for label, axis in along)
 
 
-def parallel(a: Triad, b: Triad) -> tuple[Holonomic, ...]:
+def rows_of_parallel_axes(a: Triad, b: Triad) -> tuple[Holonomic, ...]:
     """Rows that hold two axes parallel, ``first``, ``second``: torques on the first body about its triad's directions.
 
     With the axes u parallel, the rates of ``-second . u_b`` and ``first . u_b`` are the components of the relative
@@ -29,12 +29,12 @@ def parallel(a: Triad, b: Triad) -> tuple[Holonomic, ...]:
     )
 
 
-def not_turned(a: Triad, b: Triad) -> Holonomic:
+def row_against_turning(a: Triad, b: Triad) -> Holonomic:
     """Row that keeps the first directions together, ``angle``: torque on the first body about the axis."""
     return Holonomic("angle", Dot(a.second, b.first), unit="rad")
 
 
-def on_axis(a: Marker, b: Marker, triad: Triad) -> tuple[Holonomic, ...]:
+def rows_of_point_on_axis(a: Marker, b: Marker, triad: Triad) -> tuple[Holonomic, ...]:
     """Rows that keep point b on the axis of a through point a, ``across1``, ``across2``: forces across the axis."""
     return (
         Holonomic("across1", Component(a, b, triad.first)),
@@ -57,7 +57,7 @@ def plane_of_ground(
     return scope.marker("on", GROUND, on), plane, (opposite[0], opposite[1])
 
 
-def angle(a: Triad, b: Triad) -> Turn:
+def angle_about_axis(a: Triad, b: Triad) -> Turn:
     """Angle that the second body has turned about the axis, from the first body's first direction."""
     return Turn(a.first, a.second, b.first)
 
@@ -65,14 +65,14 @@ def angle(a: Triad, b: Triad) -> Turn:
 # -- points and frames of a joint from its rows ------------------------------------------------------------------------
 
 
-def markers(joint: Joint) -> tuple[Marker, Marker]:
+def markers_of_joint(joint: Joint) -> tuple[Marker, Marker]:
     """Return the points that a joint holds together, or on a line or plane of each other."""
     first = joint.rows[0]
     assert isinstance(first, Holonomic) and isinstance(first.measure, Component), "the first row is of two points"
     return first.measure.a, first.measure.b
 
 
-def third(pair: tuple[Direction, Direction]) -> Direction:
+def third_direction(pair: tuple[Direction, Direction]) -> Direction:
     """Return the direction that makes a right-handed frame of two perpendicular ones."""
     (ax, ay, az), (bx, by, bz) = (d.vector for d in pair)
     products = ((ay, bz, az, by), (az, bx, ax, bz), (ax, by, ay, bx))
@@ -86,8 +86,8 @@ def _determinant(a: Expr, b: Expr, c: Expr, d: Expr) -> Expr:
     return call("sub", call("mul", a, b), call("mul", c, d))
 
 
-def frames(joint: Joint) -> tuple[tuple[Direction, ...], tuple[Direction, ...]]:
-    """Return the frames of a joint whose axes are parallel: `parallel`, with an angle or with `not_turned`."""
+def frames_of_joint(joint: Joint) -> tuple[tuple[Direction, ...], tuple[Direction, ...]]:
+    """Return the frames of a joint whose axes are parallel, with an angle or with `row_against_turning`."""
     rows = {row.label: row.measure for row in joint.rows if isinstance(row, Holonomic)}
     across, first = rows["first"], rows["second"]
     assert isinstance(across, Sum) and isinstance(first, Dot), "parallel axes are two products of directions"
@@ -102,4 +102,4 @@ def frames(joint: Joint) -> tuple[tuple[Direction, ...], tuple[Direction, ...]]:
     assert isinstance(second, Dot), "parallel axes are two products of directions"
     of_a, axis = (first.u, second.u), first.v
     # axis x first = second
-    return (*of_a, third(of_a)), (of_b, third((axis, of_b)), axis)
+    return (*of_a, third_direction(of_a)), (of_b, third_direction((axis, of_b)), axis)

@@ -7,7 +7,7 @@ from typing import ClassVar
 from symgen.base.vocabulary.expressions import literal_of
 from symgen.base.vocabulary.measures import Dot, Holonomic, Sum
 from symgen.describe.joints._paired import Paired
-from symgen.describe.joints._space import coincident
+from symgen.describe.joints._space import rows_of_coincident_points
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import AxisPair, DirectionPair
 from symgen.describe.parts.scope import Scope
@@ -50,7 +50,7 @@ class ConstantVelocity(Paired, frozen=True, kw_only=True, forbid_unknown_fields=
         of_a, of_b = make_triads(scope, bodies, self.axis, self.reference, fixed=True)
         half = literal_of(0.5), literal_of(-0.5)
         twist = Sum(((half[0], Dot(of_a.second, of_b.first)), (half[1], Dot(of_a.first, of_b.second))))
-        rows = (*coincident(*centres), Holonomic("twist", twist, unit="rad"))
+        rows = (*rows_of_coincident_points(*centres), Holonomic("twist", twist, unit="rad"))
         return Joint(scope.name, scope.kind, bodies, rows)
 
 

@@ -50,7 +50,7 @@ class Coupling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
             raise scope.error("", "the keys of and polynomial together", got)
         bodies, terms, units = list[str](), list[tuple[Expr, Measure]](), list[str]()
         for name, factor in self.terms.items():
-            joint, label, measure = self._coordinate(scope, f"terms.{name}", name)
+            joint, label, measure = self._read_coordinate(scope, f"terms.{name}", name)
             if any(measure == other for _, other in terms):
                 raise scope.error("terms", "different coordinates", f"'{joint.name}.{label}' twice")
             bodies += joint.bodies
@@ -60,20 +60,20 @@ class Coupling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
             if self.polynomial is not None and len(self.polynomial) > MOST_COEFFICIENTS:
                 expected = f"at most {MOST_COEFFICIENTS} coefficients"
                 raise scope.error("polynomial", expected, f"{len(self.polynomial)}")
-            joint, label, measure = self._coordinate(scope, "of", self.of)
+            joint, label, measure = self._read_coordinate(scope, "of", self.of)
             bodies += joint.bodies
             coefficients = [scope.constant("polynomial", c) for c in self.polynomial or ()]
-            powers = FormulaMeasure(_horner(coefficients, Reading(f"{joint.name}.{label}", measure)))
+            powers = FormulaMeasure(_horner_polynomial(coefficients, Reading(f"{joint.name}.{label}", measure)))
             terms.append((literal_of(-1.0), powers))
         row = Holonomic("coupling", Sum(tuple(terms)), scope.of_time("value", self.value), units[0])
         return Joint(scope.name, scope.kind, tuple(dict.fromkeys(bodies)), (row,))
 
-    def _coordinate(self, scope: Scope, key: str, name: str) -> tuple[Joint, str, Measure]:
+    def _read_coordinate(self, scope: Scope, key: str, name: str) -> tuple[Joint, str, Measure]:
         joint, _, label = name.partition(".")
         return scope.joint_coordinate(joint, label or None, (key, key))
 
 
-def _horner(coefficients: list[Expr], x: Expr) -> Expr:
+def _horner_polynomial(coefficients: list[Expr], x: Expr) -> Expr:
     """Return a polynomial with its constant first."""
     value = coefficients[-1]
     for c in reversed(coefficients[:-1]):

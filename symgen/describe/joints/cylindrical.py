@@ -6,7 +6,13 @@ from typing import ClassVar
 
 from symgen.base.vocabulary.measures import Component
 from symgen.describe.joints._paired import Axial
-from symgen.describe.joints._space import angle, frames, markers, on_axis, parallel
+from symgen.describe.joints._space import (
+    angle_about_axis,
+    frames_of_joint,
+    markers_of_joint,
+    rows_of_parallel_axes,
+    rows_of_point_on_axis,
+)
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.triads import make_triads
@@ -29,15 +35,15 @@ class Cylindrical(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True):
         """Resolve to two distances from the axis and two angles."""
         bodies, points = self.ends(scope)
         triads = make_triads(scope, bodies, self.axis, self.reference)
-        rows = (*on_axis(*points, triads[0]), *parallel(*triads))
-        reported = (("displacement", Component(*points, triads[0].axis)), ("angle", angle(*triads)))
+        rows = (*rows_of_point_on_axis(*points, triads[0]), *rows_of_parallel_axes(*triads))
+        reported = (("displacement", Component(*points, triads[0].axis)), ("angle", angle_about_axis(*triads)))
         return Joint(scope.name, scope.kind, bodies, rows, reported)
 
     @staticmethod
     def articulate(joint: Joint) -> Articulation:
         """Return how the second body moves against the first."""
-        of_a, of_b = frames(joint)
-        return Articulation(*markers(joint), "axis", (of_a[2],), of_a, of_b)
+        of_a, of_b = frames_of_joint(joint)
+        return Articulation(*markers_of_joint(joint), "axis", (of_a[2],), of_a, of_b)
 
 
 KIND = Cylindrical

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 import msgspec
 
-from symgen.base.errors import quoted
+from symgen.base.errors import quote
 from symgen.base.vocabulary.expressions import ZERO
 from symgen.base.vocabulary.measures import GROUND, Angle, Component, Holonomic, Marker, Measure, axes
 from symgen.describe.mechanism import Joint
@@ -50,23 +50,23 @@ class Driver(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
         if (self.joint is None) == (self.body is None):
             got = "neither" if self.joint is None else "both"
             raise scope.error("", "either the key joint or the key body", got)
-        bodies, measure, unit = self._of_joint(scope) if self.joint is not None else self._of_body(scope)
+        bodies, measure, unit = self._drive_joint(scope) if self.joint is not None else self._drive_body(scope)
         row = Holonomic("driver", measure, scope.of_time("value", self.value), unit)
         return Joint(scope.name, scope.kind, bodies, (row,))
 
-    def _of_joint(self, scope: Scope) -> tuple[tuple[str, ...], Measure, str]:
+    def _drive_joint(self, scope: Scope) -> tuple[tuple[str, ...], Measure, str]:
         if self.point is not None:
             raise scope.error("point", "no such key, as a joint is driven", "a point")
         joint, label, measure = scope.joint_coordinate(self.joint or "", self.coordinate)
         return joint.bodies, measure, Joint.unit(label)
 
-    def _of_body(self, scope: Scope) -> tuple[tuple[str, ...], Measure, str]:
+    def _drive_body(self, scope: Scope) -> tuple[tuple[str, ...], Measure, str]:
         body = scope.body("body", self.body or "", ground=False)
         coordinates = ("x", "y", "z") if scope.spatial else ("x", "y")
         if not scope.spatial and scope.turns(body) and self.point is None:
             coordinates = ("x", "y", "theta")
         if self.coordinate not in coordinates:
-            got = "no such key" if self.coordinate is None else quoted(self.coordinate)
+            got = "no such key" if self.coordinate is None else quote(self.coordinate)
             raise scope.error("coordinate", " or ".join(f"'{name}'" for name in coordinates), got)
         if self.coordinate == "theta":
             return (GROUND, body), Angle(GROUND, body), "rad"

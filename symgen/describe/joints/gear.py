@@ -59,20 +59,20 @@ class Gear(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     def build(self, scope: Scope) -> Joint:
         """Resolve to a weighted sum of two angles."""
         if scope.spatial:
-            return self._on_joints(scope)
+            return self._couple_joints(scope)
         scope.only("between", between=self.between, joints=self.joints, coordinates=self.coordinates)
         a, b = scope.pair("between", self.between or ("", ""), turns=(True, True))
         carrier = scope.body("carrier", self.carrier or GROUND, turns=True)
         if carrier in (a, b):
             raise scope.error("carrier", "a body that is neither wheel", f"'{carrier}'")
-        weight_a, weight_b, unit = self._weights(scope)
+        weight_a, weight_b, unit = self._weights_of_angles(scope)
         measure = Sum(((weight_a, Angle(a, carrier)), (weight_b, Angle(b, carrier))))
         # The angles run from wheel to carrier, as everywhere from the first body on, so the constant changes sign.
         value = call("neg", scope.constant("offset", self.offset))
         bodies = (a, b) if carrier == GROUND else (a, b, carrier)
         return Joint(scope.name, scope.kind, bodies, (Holonomic("mesh", measure, value, unit),))
 
-    def _on_joints(self, scope: Scope) -> Joint:
+    def _couple_joints(self, scope: Scope) -> Joint:
         scope.only("joints", joints=self.joints, between=self.between, carrier=self.carrier)
         names, labels = self.joints or ("", ""), self.coordinates or (None, None)
         angular = "rad" if self.radii is not None else ""
@@ -83,14 +83,14 @@ class Gear(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         (first, label_a, turn_a), (second, label_b, turn_b) = coordinates
         if (first.name, label_a) == (second.name, label_b):
             raise scope.error("joints", "two different coordinates", f"'{first.name}.{label_a}' twice")
-        weight_a, weight_b, unit = self._weights(scope)
+        weight_a, weight_b, unit = self._weights_of_angles(scope)
         measure = Sum(((weight_a, turn_a), (weight_b, turn_b)))
         bodies = tuple(dict.fromkeys((*first.bodies, *second.bodies)))
         unit = Joint.unit(label_a) if self.radii is None else unit
         row = Holonomic("mesh", measure, scope.constant("offset", self.offset), unit)
         return Joint(scope.name, scope.kind, bodies, (row,))
 
-    def _weights(self, scope: Scope) -> tuple[Expr, Expr, str]:
+    def _weights_of_angles(self, scope: Scope) -> tuple[Expr, Expr, str]:
         """Return the weights of the angles, and the unit of the sum."""
         if (self.radii is None) == (self.ratio is None):
             raise scope.error("", "either the key radii or the key ratio", "neither" if self.ratio is None else "both")

@@ -64,14 +64,14 @@ class KnifeEdge(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
         body = scope.body("body", self.body, turns=True, ground=False)
         point = scope.marker("at", body, self.at)
         if scope.spatial:
-            return self._on_plane(scope, body, point)
+            return self._rows_on_plane(scope, body, point)
         scope.only(normal=self.normal, on=self.on)
         _, left = scope.axis("axis", body, self.axis)
         # To the right, so that the force on the body, -D^T lambda, points to the left.
         right = Direction(body, (call("neg", left.vector[0]), call("neg", left.vector[1])))
         return Joint(scope.name, scope.kind, (body,), (Nonholonomic("normal", PointSpeed(point, right)),))
 
-    def _on_plane(self, scope: Scope, body: str, point: Marker) -> Joint:
+    def _rows_on_plane(self, scope: Scope, body: str, point: Marker) -> Joint:
         scope.only("normal", normal=self.normal)
         origin, plane, _ = plane_of_ground(scope, self.on or (0.0, 0.0, 0.0), self.normal or (), None)
         blade = make_triad(scope, body, self.axis).axis

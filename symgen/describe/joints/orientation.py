@@ -7,7 +7,7 @@ from typing import ClassVar
 import msgspec
 
 from symgen.base.vocabulary.measures import Angle, Holonomic
-from symgen.describe.joints._space import frames, not_turned, parallel
+from symgen.describe.joints._space import frames_of_joint, row_against_turning, rows_of_parallel_axes
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import AxisPair, BodyPair, DirectionPair, Scalar
 from symgen.describe.parts.scope import Scope
@@ -33,7 +33,7 @@ class FixedOrientation(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     and ``.angle``, as of a rigid joint.
     """
 
-    frames = staticmethod(frames)
+    frames = staticmethod(frames_of_joint)
     SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
     between: BodyPair
@@ -47,7 +47,9 @@ class FixedOrientation(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         if scope.spatial:
             scope.only(angle=self.angle)
             triads = make_triads(scope, bodies, self.axis or (0.0, 0.0, 1.0), self.reference, fixed=True)
-            return Joint(scope.name, scope.kind, bodies, (*parallel(*triads), not_turned(*triads)))
+            return Joint(
+                scope.name, scope.kind, bodies, (*rows_of_parallel_axes(*triads), row_against_turning(*triads))
+            )
         scope.only(axis=self.axis, reference=self.reference)
         held = Holonomic("angle", Angle(*bodies), scope.constant("angle", self.angle or 0.0), "rad")
         return Joint(scope.name, scope.kind, bodies, (held,))

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 import msgspec
 
-from symgen.describe.joints._space import angle, frames, parallel
+from symgen.describe.joints._space import angle_about_axis, frames_of_joint, rows_of_parallel_axes
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import AxisPair, BodyPair, DirectionPair
 from symgen.describe.parts.scope import Scope
@@ -30,7 +30,7 @@ class ParallelAxes(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     Two rows, ``NAME.first`` and ``.second`` [N m]: torques on the first body across the axis. Reports ``NAME.angle``.
     """
 
-    frames = staticmethod(frames)
+    frames = staticmethod(frames_of_joint)
     SPACES: ClassVar[tuple[str, ...]] = ("spatial",)
 
     between: BodyPair
@@ -41,7 +41,9 @@ class ParallelAxes(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
         """Resolve to two products of directions."""
         bodies = scope.pair("between", self.between, turns=(True, True))
         triads = make_triads(scope, bodies, self.axis, self.reference)
-        return Joint(scope.name, scope.kind, bodies, parallel(*triads), (("angle", angle(*triads)),))
+        return Joint(
+            scope.name, scope.kind, bodies, rows_of_parallel_axes(*triads), (("angle", angle_about_axis(*triads)),)
+        )
 
 
 KIND = ParallelAxes

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from symgen.base.vocabulary.measures import Angle, Component, Holonomic
 from symgen.describe.joints._paired import Paired
-from symgen.describe.joints._space import on_axis
+from symgen.describe.joints._space import rows_of_point_on_axis
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import Axis
 from symgen.describe.parts.scope import Scope
@@ -44,7 +44,7 @@ class PinInSlot(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
         if scope.spatial:
             triad = make_triad(scope, b, self.axis)
             displacement = Component(slot, pin, triad.axis)
-            rows = on_axis(pin, slot, triad)
+            rows = rows_of_point_on_axis(pin, slot, triad)
             return Joint(scope.name, scope.kind, (a, b), rows, (("displacement", displacement),))
         along, normal = scope.axis("axis", b, self.axis)
         angle = (("angle", Angle(a, b)),) if scope.turns(a) else ()

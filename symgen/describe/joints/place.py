@@ -53,10 +53,10 @@ class PointPlace(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
             if value is not None and not (self.angle and scope.spatial):
                 raise scope.error(key, "no such key but in space with angle = true", "a direction")
         if self.angle:
-            coordinates.append(("angle", Bearing(*ends, *self._across(scope, ends[0]))))
+            coordinates.append(("angle", Bearing(*ends, *self._directions_across(scope, ends[0]))))
         return Joint(scope.name, scope.kind, bodies, (), tuple(coordinates))
 
-    def _across(self, scope: Scope, origin: Marker) -> tuple[Direction, Direction]:
+    def _directions_across(self, scope: Scope, origin: Marker) -> tuple[Direction, Direction]:
         """Return the directions at the angles 0 and 90 degrees."""
         if not scope.spatial:
             zero, quarter = axes(origin.body, 2)

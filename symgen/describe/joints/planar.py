@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from symgen.base.vocabulary.measures import Component, Holonomic
 from symgen.describe.joints._paired import Paired
-from symgen.describe.joints._space import angle, frames, markers, parallel
+from symgen.describe.joints._space import angle_about_axis, frames_of_joint, markers_of_joint, rows_of_parallel_axes
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import AxisPair, DirectionPair
 from symgen.describe.parts.scope import Scope
@@ -45,15 +45,15 @@ class Planar(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
         """Resolve to the distance from the plane and two angles."""
         bodies, ends = self.ends(scope)
         a, b = make_triads(scope, bodies, self.normal, self.reference, ("normal", "reference"))
-        rows = (Holonomic("normal", Component(*ends, a.axis)), *parallel(a, b))
+        rows = (Holonomic("normal", Component(*ends, a.axis)), *rows_of_parallel_axes(a, b))
         slides = ("displacement1", Component(*ends, a.first)), ("displacement2", Component(*ends, a.second))
-        return Joint(scope.name, scope.kind, bodies, rows, (*slides, ("angle", angle(a, b))))
+        return Joint(scope.name, scope.kind, bodies, rows, (*slides, ("angle", angle_about_axis(a, b))))
 
     @staticmethod
     def articulate(joint: Joint) -> Articulation:
         """Return how the second body moves against the first."""
-        of_a, of_b = frames(joint)
-        return Articulation(*markers(joint), "axis", of_a[:2], of_a, of_b)
+        of_a, of_b = frames_of_joint(joint)
+        return Articulation(*markers_of_joint(joint), "axis", of_a[:2], of_a, of_b)
 
 
 KIND = Planar

@@ -6,7 +6,13 @@ from typing import ClassVar
 
 from symgen.base.vocabulary.measures import Angle
 from symgen.describe.joints._paired import Paired
-from symgen.describe.joints._space import angle, coincident, frames, markers, parallel
+from symgen.describe.joints._space import (
+    angle_about_axis,
+    frames_of_joint,
+    markers_of_joint,
+    rows_of_coincident_points,
+    rows_of_parallel_axes,
+)
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import AxisPair, DirectionPair
 from symgen.describe.parts.scope import Scope
@@ -45,26 +51,26 @@ class Revolute(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     def build(self, scope: Scope) -> Joint:
         """Resolve to the components of the vector between the points, and in space to two angles."""
         if scope.spatial:
-            return self._spatial(scope)
+            return self._build_in_space(scope)
         scope.only(axis=self.axis, reference=self.reference)
         (a, b), pins = self.ends(scope, turns=(False, False))
         coordinates = (("angle", Angle(a, b)),) if scope.turns(a) and scope.turns(b) else ()
-        return Joint(scope.name, scope.kind, (a, b), coincident(*pins), coordinates)
+        return Joint(scope.name, scope.kind, (a, b), rows_of_coincident_points(*pins), coordinates)
 
-    def _spatial(self, scope: Scope) -> Joint:
+    def _build_in_space(self, scope: Scope) -> Joint:
         if self.axis is None:
             raise scope.error("axis", "an axis, as a revolute joint in space has one", "no such key")
         bodies, pins = self.ends(scope)
         triads = make_triads(scope, bodies, self.axis, self.reference)
-        rows = (*coincident(*pins), *parallel(*triads))
-        return Joint(scope.name, scope.kind, bodies, rows, (("angle", angle(*triads)),))
+        rows = (*rows_of_coincident_points(*pins), *rows_of_parallel_axes(*triads))
+        return Joint(scope.name, scope.kind, bodies, rows, (("angle", angle_about_axis(*triads)),))
 
     @staticmethod
     def articulate(joint: Joint) -> Articulation:
         """Return how the second body moves against the first."""
         if len(joint.rows) < 5:
-            return Articulation(*markers(joint), turn="axis")
-        return Articulation(*markers(joint), "axis", (), *frames(joint))
+            return Articulation(*markers_of_joint(joint), turn="axis")
+        return Articulation(*markers_of_joint(joint), "axis", (), *frames_of_joint(joint))
 
 
 KIND = Revolute

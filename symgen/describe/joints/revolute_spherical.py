@@ -22,7 +22,7 @@ class RevoluteSpherical(Paired, frozen=True, kw_only=True, forbid_unknown_fields
     at : pair of points
         Where the link meets the axis of the pin, on the first body, and the centre of the ball, on the second.
     axis : direction
-        Of the pin, in the frame of the first body; the link stands across it. Its length does not matter.
+        Of the pin, in the frame of the first body; the link is perpendicular to it. Its length does not matter.
     length : scalar
         Of the link [m], above 0.
     reference : direction

@@ -6,7 +6,13 @@ from typing import ClassVar
 
 from symgen.base.vocabulary.measures import Angle, Holonomic
 from symgen.describe.joints._paired import Paired
-from symgen.describe.joints._space import coincident, frames, markers, not_turned, parallel
+from symgen.describe.joints._space import (
+    frames_of_joint,
+    markers_of_joint,
+    row_against_turning,
+    rows_of_coincident_points,
+    rows_of_parallel_axes,
+)
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import AxisPair, DirectionPair, Scalar
 from symgen.describe.parts.scope import Scope
@@ -50,18 +56,18 @@ class Rigid(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
         if scope.spatial:
             scope.only(angle=self.angle)
             triads = make_triads(scope, bodies, self.axis or (0.0, 0.0, 1.0), self.reference, fixed=True)
-            rows = (*coincident(*welds), *parallel(*triads), not_turned(*triads))
+            rows = (*rows_of_coincident_points(*welds), *rows_of_parallel_axes(*triads), row_against_turning(*triads))
             return Joint(scope.name, scope.kind, bodies, rows)
         scope.only(axis=self.axis, reference=self.reference)
         held = Holonomic("angle", Angle(*bodies), scope.constant("angle", self.angle or 0.0), "rad")
-        return Joint(scope.name, scope.kind, bodies, (*coincident(*welds), held))
+        return Joint(scope.name, scope.kind, bodies, (*rows_of_coincident_points(*welds), held))
 
     @staticmethod
     def articulate(joint: Joint) -> Articulation:
         """Return how the second body moves against the first."""
         if len(joint.rows) < 6:
-            return Articulation(*markers(joint), angle=joint.rows[2].value)
-        return Articulation(*markers(joint), "fixed", (), *frames(joint))
+            return Articulation(*markers_of_joint(joint), angle=joint.rows[2].value)
+        return Articulation(*markers_of_joint(joint), "fixed", (), *frames_of_joint(joint))
 
 
 KIND = Rigid

@@ -8,8 +8,8 @@ from typing import ClassVar
 
 import msgspec
 
-from symgen.base.errors import quoted
-from symgen.base.vocabulary.expressions import Call, Expr, Name, Reading, moving
+from symgen.base.errors import quote
+from symgen.base.vocabulary.expressions import Call, Expr, Name, Reading, moving_quantities
 from symgen.base.vocabulary.measures import (
     GROUND,
     Angle,
@@ -21,10 +21,10 @@ from symgen.base.vocabulary.measures import (
     Nonholonomic,
     Row,
     Spin,
-    parts,
+    nested_parts,
 )
 from symgen.describe.formulas.formula_text import to_text
-from symgen.describe.formulas.names import check_identifier
+from symgen.describe.formulas.identifiers import check_identifier
 from symgen.describe.formulas.readings import is_angle
 from symgen.describe.mechanism import Joint, is_speed
 from symgen.describe.parts.fields import BodyNames, Rows, StateFunction, Text, read_table
@@ -72,19 +72,19 @@ class FormulaRows(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to formulas as measures and velocities."""
-        rows = tuple(self._row(scope, i, raw) for i, raw in enumerate(self.rows))
+        rows = tuple(self._read_row(scope, i, raw) for i, raw in enumerate(self.rows))
         labels = [row.label for row in rows]
         for label in labels:
             if labels.count(label) > 1:
                 raise scope.error("rows", "labels used once", f"'{label}' {labels.count(label)} times")
-        read_bodies = tied(*rows)
+        read_bodies = tied_bodies(*rows)
         bodies = read_bodies if self.between is None else tuple(scope.body("between", name) for name in self.between)
         for body in read_bodies:
             if body not in bodies:
                 raise scope.error("between", f"all bodies of the rows, {', '.join(read_bodies)}", f"none of '{body}'")
         return Joint(scope.name, scope.kind, tuple(dict.fromkeys(bodies)), rows)
 
-    def _row(self, scope: Scope, i: int, raw: object) -> Row:
+    def _read_row(self, scope: Scope, i: int, raw: object) -> Row:
         key = f"rows[{i}]"
         keys = read_table(RowKeys, raw, scope.where(key))
         if (keys.position is None) == (keys.velocity is None):
@@ -94,14 +94,14 @@ class FormulaRows(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
         per_second = "" if keys.velocity is None else "/s"
         units = [f"{unit}{per_second}" for unit in UNITS]
         if keys.unit and keys.unit not in units:
-            raise scope.error(f"{key}.unit", " or ".join(f"'{unit}'" for unit in units), quoted(keys.unit))
+            raise scope.error(f"{key}.unit", " or ".join(f"'{unit}'" for unit in units), quote(keys.unit))
         if keys.position is not None:
             of = scope.of_row(f"{key}.position", keys.position, speeds=False)
             return Holonomic(label, FormulaMeasure(of), unit=keys.unit or units[is_angle(of)])
         of = scope.of_row(f"{key}.velocity", keys.velocity or 0.0, speeds=True)
-        term = _nonlinear(of)
-        if term is not None or not _degree(of):
-            got = "a formula without velocities" if term is None else f"the term {quoted(to_text(term))}"
+        term = _nonlinear_part(of)
+        if term is not None or not _degree_in_velocities(of):
+            got = "a formula without velocities" if term is None else f"the term {quote(to_text(term))}"
             raise scope.error(f"{key}.velocity", "a formula that is linear in velocities", got)
         return Nonholonomic(label, FormulaSpeed(of), unit=keys.unit or units[is_angle(of)])
 
@@ -110,13 +110,13 @@ def _is_rate(e: Name | Reading) -> bool:
     return e.order > 0 if isinstance(e, Reading) else is_speed(e.name)
 
 
-def _degree(e: Expr) -> float:
+def _degree_in_velocities(e: Expr) -> float:
     """Return the degree of a formula in velocities, infinite if it is not a polynomial in them."""
     if isinstance(e, Name | Reading):
-        return float(e in moving(e) and _is_rate(e))
+        return float(e in moving_quantities(e) and _is_rate(e))
     if not isinstance(e, Call):
         return 0.0
-    degrees = [_degree(a) for a in e.arguments]
+    degrees = [_degree_in_velocities(a) for a in e.arguments]
     if e.function == "mul":
         return sum(degrees)
     first, last = _LINEAR.get(e.function, (0, 0))
@@ -124,21 +124,21 @@ def _degree(e: Expr) -> float:
     return math.inf if any(fixed) else max(free, default=0.0)
 
 
-def _nonlinear(e: Expr) -> Expr | None:
+def _nonlinear_part(e: Expr) -> Expr | None:
     """Return the smallest part of a formula that is not linear in velocities, None where all of it is."""
-    if _degree(e) <= 1.0 or not isinstance(e, Call):
+    if _degree_in_velocities(e) <= 1.0 or not isinstance(e, Call):
         return None
-    return next((part for a in e.arguments if (part := _nonlinear(a)) is not None), e)
+    return next((part for a in e.arguments if (part := _nonlinear_part(a)) is not None), e)
 
 
-def tied(*rows: Row) -> tuple[str, ...]:
+def tied_bodies(*rows: Row) -> tuple[str, ...]:
     """Return the bodies that rows read, in the order in which they do."""
-    return tuple(dict.fromkeys(b for row in rows for b in _bodies(row) if b != GROUND))
+    return tuple(dict.fromkeys(b for row in rows for b in _bodies_of_row(row) if b != GROUND))
 
 
-def _bodies(row: Row) -> Iterator[str]:
+def _bodies_of_row(row: Row) -> Iterator[str]:
     """Yield the bodies that a row reads."""
-    for part in parts(row):
+    for part in nested_parts(row):
         if isinstance(part, Name) and "." in part.name:
             yield part.name.rpartition(".")[0]
         elif isinstance(part, Marker | Direction):

@@ -8,7 +8,13 @@ from typing import ClassVar
 from symgen.base.vocabulary.expressions import ONE, call, literal_of
 from symgen.base.vocabulary.measures import Component, Holonomic, Sum
 from symgen.describe.joints._paired import Axial
-from symgen.describe.joints._space import angle, frames, markers, on_axis, parallel
+from symgen.describe.joints._space import (
+    angle_about_axis,
+    frames_of_joint,
+    markers_of_joint,
+    rows_of_parallel_axes,
+    rows_of_point_on_axis,
+)
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import Scalar
 from symgen.describe.parts.scope import Scope
@@ -42,10 +48,10 @@ class Screw(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True):
         """Resolve to the rows of a cylindrical joint and one that ties its two coordinates together."""
         bodies, points = self.ends(scope)
         triads = make_triads(scope, bodies, self.axis, self.reference)
-        displacement, turn = Component(*points, triads[0].axis), angle(*triads)
+        displacement, turn = Component(*points, triads[0].axis), angle_about_axis(*triads)
         slope = call("div", scope.constant("pitch", self.pitch), literal_of(-2.0 * math.pi))
         thread = Holonomic("screw", Sum(((ONE, displacement), (slope, turn))), scope.constant("offset", self.offset))
-        rows = (*on_axis(*points, triads[0]), *parallel(*triads), thread)
+        rows = (*rows_of_point_on_axis(*points, triads[0]), *rows_of_parallel_axes(*triads), thread)
         return Joint(scope.name, scope.kind, bodies, rows, (("displacement", displacement), ("angle", turn)))
 
     @staticmethod
@@ -54,7 +60,7 @@ class Screw(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True):
         thread = joint.rows[-1]
         assert isinstance(thread, Holonomic) and isinstance(thread.measure, Sum), "a thread ties two coordinates"
         slope = call("neg", thread.measure.terms[1][0])
-        return Articulation(*markers(joint), "axis", (), *frames(joint), screw=(slope, thread.value))
+        return Articulation(*markers_of_joint(joint), "axis", (), *frames_of_joint(joint), screw=(slope, thread.value))
 
 
 KIND = Screw

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from symgen.describe.joints._paired import Paired
-from symgen.describe.joints._space import coincident, markers
+from symgen.describe.joints._space import markers_of_joint, rows_of_coincident_points
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.scope import Scope
 from symgen.describe.spanning_tree import Articulation
@@ -31,12 +31,12 @@ class Spherical(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     def build(self, scope: Scope) -> Joint:
         """Resolve to the three components of the vector between the points."""
         bodies, centres = self.ends(scope, turns=(False, False))
-        return Joint(scope.name, scope.kind, bodies, coincident(*centres))
+        return Joint(scope.name, scope.kind, bodies, rows_of_coincident_points(*centres))
 
     @staticmethod
     def articulate(joint: Joint) -> Articulation:
         """Return how the second body moves against the first."""
-        return Articulation(*markers(joint), "ball")
+        return Articulation(*markers_of_joint(joint), "ball")
 
 
 KIND = Spherical

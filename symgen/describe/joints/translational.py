@@ -6,7 +6,13 @@ from typing import ClassVar
 
 from symgen.base.vocabulary.measures import Angle, Component, Holonomic
 from symgen.describe.joints._paired import Axial
-from symgen.describe.joints._space import frames, markers, not_turned, on_axis, parallel
+from symgen.describe.joints._space import (
+    frames_of_joint,
+    markers_of_joint,
+    row_against_turning,
+    rows_of_parallel_axes,
+    rows_of_point_on_axis,
+)
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import Scalar
 from symgen.describe.parts.scope import Scope
@@ -44,7 +50,11 @@ class Translational(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True
             scope.only(angle=self.angle)
             triads = make_triads(scope, bodies, self.axis, self.reference, fixed=True)
             along = triads[0].axis
-            rows = (*on_axis(*points, triads[0]), *parallel(*triads), not_turned(*triads))
+            rows = (
+                *rows_of_point_on_axis(*points, triads[0]),
+                *rows_of_parallel_axes(*triads),
+                row_against_turning(*triads),
+            )
         else:
             scope.only(reference=self.reference)
             along, normal = scope.axis("axis", bodies[0], self.axis)
@@ -59,8 +69,8 @@ class Translational(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True
         assert isinstance(displacement, Component), "a displacement is a component"
         slides = (displacement.along,)
         if len(joint.rows) < 5:
-            return Articulation(*markers(joint), "fixed", slides, angle=joint.rows[1].value)
-        return Articulation(*markers(joint), "fixed", slides, *frames(joint))
+            return Articulation(*markers_of_joint(joint), "fixed", slides, angle=joint.rows[1].value)
+        return Articulation(*markers_of_joint(joint), "fixed", slides, *frames_of_joint(joint))
 
 
 KIND = Translational

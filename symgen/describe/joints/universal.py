@@ -7,7 +7,7 @@ from typing import ClassVar
 from symgen.base.vocabulary.expressions import literal_of
 from symgen.base.vocabulary.measures import Dot, Holonomic, Sum, Turn
 from symgen.describe.joints._paired import Paired
-from symgen.describe.joints._space import coincident, markers, third
+from symgen.describe.joints._space import markers_of_joint, rows_of_coincident_points, third_direction
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import DirectionPair
 from symgen.describe.parts.scope import Scope
@@ -47,7 +47,7 @@ class Universal(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
         """Resolve to the components of the vector between the points and the product of the axes."""
         bodies, centres = self.ends(scope)
         a, b = make_cross(scope, bodies, self.axes, self.reference)
-        rows = (*coincident(*centres), Holonomic("cross", Dot(a.axis, b.axis), unit="rad"))
+        rows = (*rows_of_coincident_points(*centres), Holonomic("cross", Dot(a.axis, b.axis), unit="rad"))
         # seen from the second body the cross turns backwards
         back = Sum(((literal_of(-1.0), Turn(b.first, b.second, a.axis)),))
         return Joint(
@@ -62,7 +62,13 @@ class Universal(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
         of_b = turns[1].terms[0][1] if isinstance(turns[1], Sum) else None
         assert isinstance(of_a, Turn) and isinstance(of_b, Turn), "both coordinates are angles"
         frame_a, frame_b = (of_a.zero, of_a.quarter), (of_b.zero, of_b.quarter)
-        return Articulation(*markers(joint), "cross", (), (*frame_a, third(frame_a)), (*frame_b, third(frame_b)))
+        return Articulation(
+            *markers_of_joint(joint),
+            "cross",
+            (),
+            (*frame_a, third_direction(frame_a)),
+            (*frame_b, third_direction(frame_b)),
+        )
 
 
 KIND = Universal

@@ -6,15 +6,15 @@ import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from symgen.base.errors import nearest, quoted
+from symgen.base.errors import quote, suggest
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, call, literal_of, product, sum_of_terms
 from symgen.base.vocabulary.measures import GROUND
-from symgen.base.vocabulary.rotations import CONVENTIONS, IDENTITY, Matrix, Orientation, matrix
-from symgen.describe.formulas.names import check_identifier
+from symgen.base.vocabulary.rotations import CONVENTIONS, IDENTITY, Matrix, Orientation, rotation_matrix_of
+from symgen.describe.formulas.identifiers import check_identifier
 from symgen.describe.formulas.start import Scalars, euler_parameters
 from symgen.describe.mechanism import Body, Shape, SpatialBody, Vec
-from symgen.describe.parts.fields import read_table, words_of
-from symgen.describe.parts.mesh_files import SUFFIXES, is_inner
+from symgen.describe.parts.fields import read_table, value_in_words
+from symgen.describe.parts.mesh_files import SUFFIXES, is_inner_path
 from symgen.describe.parts.scope import CENTRE
 from symgen.describe.parts.sections import BodySection, OrientationSection, ShapeSection, SpatialBodySection
 
@@ -29,7 +29,7 @@ def planar_body(scope: Scope, raw: object) -> Body:
     """Return the planar body that a table describes."""
     section = read_table(BodySection, _without_shape(raw), scope.where(""))
     _check_type(scope, section, ("inertia", "angle", "angular_velocity", "points", "centre_of_mass"))
-    position, centre, velocity, points = _common(scope, section)
+    position, centre, velocity, points = _read_common_keys(scope, section)
     return Body(
         name=scope.name,
         mass=scope.constant("mass", section.mass, positive=True, or_zero=True),
@@ -50,18 +50,18 @@ def spatial_body(scope: Scope, raw: object) -> SpatialBody:
     section = read_table(SpatialBodySection, _without_shape(raw), scope.where(""))
     keys = ("inertia", "inertia_at", "inertia_axes", "orientation", "angular_velocity", "points", "centre_of_mass")
     _check_type(scope, section, keys)
-    position, centre, velocity, points = _common(scope, section)
+    position, centre, velocity, points = _read_common_keys(scope, section)
     mass = scope.constant("mass", section.mass, positive=True, or_zero=True)
     return SpatialBody(
         name=scope.name,
         mass=mass,
-        inertia=None if section.inertia is None else _inertia(scope, section, mass, centre, dict(points)),
+        inertia=None if section.inertia is None else _read_inertia(scope, section, mass, centre, dict(points)),
         centre_of_mass=centre,
         points=points,
         position=position,
-        orientation=_orientation(scope, "orientation", section.orientation),
+        orientation=_read_orientation(scope, "orientation", section.orientation),
         velocity=velocity,
-        angular_velocity=_optional(scope, "angular_velocity", section.angular_velocity),
+        angular_velocity=_optional_vector(scope, "angular_velocity", section.angular_velocity),
     )
 
 
@@ -74,7 +74,7 @@ def _check_type(scope: Scope, section: BodySection | SpatialBodySection, keys: t
     if section.type == "point":
         for key in keys:
             if getattr(section, key) is not None:
-                raise scope.error(key, "no such key, as a point mass has none", words_of(getattr(section, key)))
+                raise scope.error(key, "no such key, as a point mass has none", value_in_words(getattr(section, key)))
     elif section.inertia is None:
         hint = 'a body without one is written type = "point"'
         raise scope.error("inertia", "the inertia about the centre of mass", "no such key", hint)
@@ -83,7 +83,7 @@ def _check_type(scope: Scope, section: BodySection | SpatialBodySection, keys: t
 _Common = tuple[Vec, Vec, tuple[Expr | None, ...], tuple[tuple[str, Vec], ...]]
 
 
-def _common(scope: Scope, section: BodySection | SpatialBodySection) -> _Common:
+def _read_common_keys(scope: Scope, section: BodySection | SpatialBodySection) -> _Common:
     """Return position, centre of mass, velocity and points."""
     nothing = (0.0,) * scope.dimension
     points = []
@@ -95,19 +95,19 @@ def _common(scope: Scope, section: BodySection | SpatialBodySection) -> _Common:
     return (
         scope.vector("position", nothing if section.position is None else section.position),
         scope.vector("centre_of_mass", nothing if section.centre_of_mass is None else section.centre_of_mass),
-        _optional(scope, "velocity", section.velocity),
+        _optional_vector(scope, "velocity", section.velocity),
         tuple(points),
     )
 
 
-def _optional(scope: Scope, key: str, vector: tuple[float | str, ...] | None) -> tuple[Expr | None, ...]:
+def _optional_vector(scope: Scope, key: str, vector: tuple[float | str, ...] | None) -> tuple[Expr | None, ...]:
     return (None,) * scope.dimension if vector is None else scope.vector(key, vector)
 
 
 # -- orientation and inertia in space --------------------------------------------------------------------------------
 
 
-def _orientation(scope: Scope, key: str, section: OrientationSection | None) -> Orientation:
+def _read_orientation(scope: Scope, key: str, section: OrientationSection | None) -> Orientation:
     if section is None:
         return IDENTITY
     ways = ("quaternion", "rotation_vector", "euler_angles", "x_axis", "start")
@@ -119,20 +119,20 @@ def _orientation(scope: Scope, key: str, section: OrientationSection | None) -> 
     needs = {"euler_angles": ("convention",), "x_axis": ("y_axis",), "start": ("end", "y_axis")}.get(way, ())
     for other in ("convention", "y_axis", "end"):
         if (getattr(section, other) is None) == (other in needs):
-            got = "no such key" if other in needs else words_of(getattr(section, other))
+            got = "no such key" if other in needs else value_in_words(getattr(section, other))
             raise scope.error(f"{key}.{other}", "a value" if other in needs else f"no such key beside {way}", got)
     if way == "quaternion":
         four = section.quaternion or ()
         if len(four) != 4 or any(isinstance(e, tuple) for e in four):
-            raise scope.error(f"{key}.quaternion", "four numbers [e0, e1, e2, e3]", words_of(four))
+            raise scope.error(f"{key}.quaternion", "four numbers [e0, e1, e2, e3]", value_in_words(four))
         values = tuple(scope.constant(f"{key}.quaternion", e) for e in four if not isinstance(e, tuple))
     else:
         parts = [(way, getattr(section, way)), *((n, getattr(section, n)) for n in needs if n != "convention")]
         values = tuple(e for name, part in parts for e in scope.vector(f"{key}.{name}", part))
     convention = section.convention or ""
     if way == "euler_angles" and convention not in CONVENTIONS:
-        got = quoted(convention)
-        raise scope.error(f"{key}.convention", "three axes such as 'zxz'", got, nearest(convention, CONVENTIONS))
+        got = quote(convention)
+        raise scope.error(f"{key}.convention", "three axes such as 'zxz'", got, suggest(convention, CONVENTIONS))
     kind = {"x_axis": "axes", "start": "line"}.get(way, way.replace("_", "-"))
     orientation = Orientation(kind, values, convention)
     # says at once, and not at the first run, if it stands for nothing
@@ -140,14 +140,16 @@ def _orientation(scope: Scope, key: str, section: OrientationSection | None) -> 
     return orientation
 
 
-def _inertia(scope: Scope, section: SpatialBodySection, mass: Expr, centre: Vec, points: dict[str, Vec]) -> Tensor:
+def _read_inertia(scope: Scope, section: SpatialBodySection, mass: Expr, centre: Vec, points: dict[str, Vec]) -> Tensor:
     """Return the tensor about the centre of mass in body axes."""
-    tensor = _entries(scope, section.inertia or ())
+    tensor = _tensor_entries(scope, section.inertia or ())
     if section.inertia_axes is not None:
-        tensor = turned(tensor, matrix(_numeric(scope, "inertia_axes", section.inertia_axes)))
+        tensor = rotate_tensor(
+            tensor, rotation_matrix_of(_numeric_orientation(scope, "inertia_axes", section.inertia_axes))
+        )
     if section.inertia_at is not None:
-        ends = zip(_point(scope, section.inertia_at, points, centre), centre, strict=True)
-        tensor = shifted(tensor, mass, tuple(call("sub", x, y) for x, y in ends))
+        ends = zip(_read_point(scope, section.inertia_at, points, centre), centre, strict=True)
+        tensor = shift_tensor(tensor, mass, tuple(call("sub", x, y) for x, y in ends))
     for name, entry in zip(("Ixx", "Iyy", "Izz"), tensor, strict=False):
         value = scope.value(entry, "inertia")
         if not value > 0 and entry != ZERO:
@@ -164,7 +166,7 @@ def _check_definite(scope: Scope, tensor: Tensor) -> None:
         raise scope.error("inertia", "a positive definite tensor about the centre of mass", "one that is not")
 
 
-def _entries(scope: Scope, entries: tuple[float | str | tuple[float | str, ...], ...]) -> Tensor:
+def _tensor_entries(scope: Scope, entries: tuple[float | str | tuple[float | str, ...], ...]) -> Tensor:
     rows = [e for e in entries if isinstance(e, tuple)]
     flat = [scope.constant("inertia", e) for e in entries if not isinstance(e, tuple)]
     if not rows and len(flat) == 3:
@@ -175,48 +177,57 @@ def _entries(scope: Scope, entries: tuple[float | str | tuple[float | str, ...],
         m = scope.symmetric("inertia", rows)
         return m[0][0], m[1][1], m[2][2], m[0][1], m[0][2], m[1][2]
     expected = "[Ixx, Iyy, Izz], [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] or three rows of three"
-    raise scope.error("inertia", expected, words_of(entries))
+    raise scope.error("inertia", expected, value_in_words(entries))
 
 
-def _point(scope: Scope, point: str | tuple[float | str, ...], points: dict[str, Vec], centre: Vec) -> Vec:
+def _read_point(scope: Scope, point: str | tuple[float | str, ...], points: dict[str, Vec], centre: Vec) -> Vec:
     if not isinstance(point, str):
         return scope.vector("inertia_at", point)
     if point != CENTRE and point not in points:
-        hint = nearest(point, [*points, CENTRE])
-        raise scope.error("inertia_at", "the name of a point", f"{quoted(point)}, which is none", hint)
+        hint = suggest(point, [*points, CENTRE])
+        raise scope.error("inertia_at", "the name of a point", f"{quote(point)}, which is none", hint)
     return centre if point == CENTRE else points[point]
 
 
-def _numeric(scope: Scope, key: str, section: OrientationSection | None) -> tuple[float, float, float, float]:
+def _numeric_orientation(
+    scope: Scope, key: str, section: OrientationSection | None
+) -> tuple[float, float, float, float]:
     """Return the Euler parameters of an orientation that is given in numbers."""
-    axes = _orientation(scope, key, section)
+    axes = _read_orientation(scope, key, section)
     if not axes.is_numeric:
         raise scope.error(key, "numbers, no expressions of parameters", "an expression")
     return euler_parameters(axes, Scalars(lambda x, _: scope.value(x, key)), scope.where(key))
 
 
-def turned(tensor: Tensor, a: Matrix) -> Tensor:
+def rotate_tensor(tensor: Tensor, a: Matrix) -> Tensor:
     """Return A I A^T."""
     xx, yy, zz, xy, xz, yz = tensor
     rows = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
 
-    def entry(i: int, j: int) -> Expr:
+    def tensor_entry(i: int, j: int) -> Expr:
         pairs = [(k, n) for k in range(3) for n in range(3) if a[i][k] * a[j][n] != 0.0]
         return sum_of_terms(*(product(literal_of(a[i][k] * a[j][n]), rows[k][n]) for k, n in pairs))
 
-    return entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)
+    return (
+        tensor_entry(0, 0),
+        tensor_entry(1, 1),
+        tensor_entry(2, 2),
+        tensor_entry(0, 1),
+        tensor_entry(0, 2),
+        tensor_entry(1, 2),
+    )
 
 
-def shifted(tensor: Tensor, mass: Expr, d: Vec) -> Tensor:
+def shift_tensor(tensor: Tensor, mass: Expr, d: Vec) -> Tensor:
     """Return the tensor about the centre of mass, given about a point at distance d from it (Huygens, Steiner)."""
 
-    def entry(i: int, j: int) -> Expr:
+    def tensor_entry(i: int, j: int) -> Expr:
         if i == j:
             return product(mass, sum_of_terms(*(product(d[k], d[k]) for k in range(3) if k != i)))
         return call("neg", product(mass, d[i], d[j]))
 
     pairs = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
-    changes = [entry(i, j) for i, j in pairs]
+    changes = [tensor_entry(i, j) for i, j in pairs]
     a, b, c, e, f, g = (
         value if change in (ZERO, literal_of(-0.0)) else call("sub", value, change)
         for value, change in zip(tensor, changes, strict=True)
@@ -238,24 +249,24 @@ MOST, MOST_POINTS = 100, 2000
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 
-def shapes_of(scope: Scope, raw: object) -> tuple[Shape, ...]:
+def read_shapes(scope: Scope, raw: object) -> tuple[Shape, ...]:
     """Return the shapes of a scope's body, from the key ``shape`` of its table: one or a list."""
     shapes = raw.get("shape", ()) if isinstance(raw, Mapping) else ()
     several = isinstance(shapes, list | tuple)
     tables = shapes if several else (shapes,)
     if len(tables) > MOST:
         raise scope.error("shape", f"at most {MOST} shapes", str(len(tables)))
-    return tuple(_shape(scope, table, f"shape[{i}]" if several else "shape") for i, table in enumerate(tables))
+    return tuple(_read_shape(scope, table, f"shape[{i}]" if several else "shape") for i, table in enumerate(tables))
 
 
-def _at(scope: Scope, key: str, at: str | tuple[float | str, ...]) -> Vec:
+def _middle_of_shape(scope: Scope, key: str, at: str | tuple[float | str, ...]) -> Vec:
     """Return the middle of a shape: of the ground, which has no centre of mass, by default its origin."""
     if scope.name == GROUND and at == CENTRE:
         return (ZERO,) * scope.dimension
     return scope.marker(key, scope.name, at).point
 
 
-def _shape(scope: Scope, raw: object, key: str) -> Shape:
+def _read_shape(scope: Scope, raw: object, key: str) -> Shape:
     section = read_table(ShapeSection, raw, scope.where(key))
     necessary, possible = KEYS[section.type]
     keys = set(raw) - {"type", "colour"} if isinstance(raw, Mapping) else set()
@@ -267,33 +278,35 @@ def _shape(scope: Scope, raw: object, key: str) -> Shape:
         if name not in keys:
             raise scope.error(f"{key}.{name}", f"a value, as a {section.type} needs it", "no such key")
     for name in sorted(keys - {*necessary, *possible}):
-        raise scope.error(f"{key}.{name}", f"no such key for a {section.type} here", words_of(getattr(section, name)))
+        raise scope.error(
+            f"{key}.{name}", f"no such key for a {section.type} here", value_in_words(getattr(section, name))
+        )
     if section.colour and not _COLOUR.fullmatch(section.colour):
-        raise scope.error(f"{key}.colour", "a colour such as '#3a7bd5'", quoted(section.colour))
+        raise scope.error(f"{key}.colour", "a colour such as '#3a7bd5'", quote(section.colour))
     if section.type == "mesh":
         if not scope.spatial:
-            raise scope.error(f"{key}.type", "another shape, as meshes are drawn in space", quoted(section.type))
-        if not is_inner(section.file):
+            raise scope.error(f"{key}.type", "another shape, as meshes are drawn in space", quote(section.type))
+        if not is_inner_path(section.file):
             expected = f"a relative path of a {' or '.join(SUFFIXES)} file below the folder of the mechanism file"
-            raise scope.error(f"{key}.file", expected, quoted(section.file))
+            raise scope.error(f"{key}.file", expected, quote(section.file))
     points = section.points or ()
     if section.type == "polyline" and not 2 <= len(points) <= MOST_POINTS:
         raise scope.error(f"{key}.points", f"2 to {MOST_POINTS} points", str(len(points)))
     sizes = section.size or ()
     if section.size is not None and len(sizes) != scope.dimension:
-        raise scope.error(f"{key}.size", f"{scope.dimension} lengths", words_of(section.size))
+        raise scope.error(f"{key}.size", f"{scope.dimension} lengths", value_in_words(section.size))
     numbers = [*(("size", e) for e in sizes), ("radius", section.radius), ("length", section.length)]
     up = (ZERO,) * (scope.dimension - 1) + (ONE,)
     return Shape(
         section.type,
         points=tuple(scope.vector(f"{key}.points", point) for point in points),
         closed=section.closed,
-        at=_at(scope, f"{key}.at", section.at),
+        at=_middle_of_shape(scope, f"{key}.at", section.at),
         sizes=tuple(scope.constant(f"{key}.{name}", e, positive=True) for name, e in numbers if e is not None),
         axis=up if section.axis is None else scope.direction(f"{key}.axis", scope.name, section.axis).vector,
         colour=section.colour.lower(),
         file=section.file,
         folder=getattr(scope.context.source, "folder", "") if section.file else "",
         scale=() if section.scale is None else scope.vector(f"{key}.scale", section.scale),
-        turn=_numeric(scope, f"{key}.orientation", section.orientation),
+        turn=_numeric_orientation(scope, f"{key}.orientation", section.orientation),
     )

@@ -35,8 +35,8 @@ class Errors:
         self._all = all_of_them
         self._wrong = set[str]()  # names of bodies, joints, parameters, ... that could not be read
 
-    def apart(self, *names: str) -> AbstractContextManager[None, bool]:
-        """Return the context of a part; where errors are collected, reading goes on behind it.
+    def part_of_description(self, *names: str) -> AbstractContextManager[None, bool]:
+        """Return the context of a part; where errors are collected, reading goes on after it.
 
         Parameters
         ----------
@@ -45,17 +45,17 @@ class Errors:
         """
         return _Apart(self, names) if self._all else _PASSED_ON
 
-    def need(self, *names: str) -> None:
+    def leave_if_wrong(self, *names: str) -> None:
         """Leave the part being read if one of `names` stands for something wrong."""
         if not self._wrong.isdisjoint(names):
             raise Incomplete
 
-    def check(self) -> None:
+    def leave_if_any(self) -> None:
         """Leave the description if a part of it is wrong."""
         if self.found:
             raise Incomplete
 
-    def note(self, error: InputError | Incomplete, names: tuple[str, ...]) -> None:
+    def keep_error(self, error: InputError | Incomplete, names: tuple[str, ...]) -> None:
         """Keep an error unless it quotes a name that stands for something wrong; `names` do so from now on."""
         if isinstance(error, InputError) and self._wrong.isdisjoint(_QUOTED.findall(error.got)):
             self.found.setdefault(str(error), error)
@@ -73,7 +73,7 @@ class _Apart(AbstractContextManager[None, bool]):
     ) -> bool:
         if self.errors is None or not isinstance(error, InputError | Incomplete):
             return False
-        self.errors.note(error, self.names)
+        self.errors.keep_error(error, self.names)
         return True
 
 

@@ -31,7 +31,7 @@ FORMS: Mapping[str, str] = MappingProxyType(
         "transmission": "transmission.{key}",
     }
 )
-#: Heads of columns behind which the rest may be that of a column of a body.
+#: Heads of columns, after which the rest may be a column of a body.
 _HEADS = ("multiplier", "transmission")
 
 

@@ -10,7 +10,7 @@ import msgspec
 from symgen.base.vocabulary.expressions import Reading
 from symgen.describe.formulas.parser import FormulaNames
 from symgen.describe.mechanism import AnyBody, Force, Joint, Mechanism, Vec
-from symgen.describe.tables import Table
+from symgen.describe.table_functions import Table
 
 
 class Context(msgspec.Struct, frozen=True, dict=True):
@@ -32,9 +32,9 @@ class Context(msgspec.Struct, frozen=True, dict=True):
     losses: Mapping[str, Reading] = {}  # energy lost at rows with bounds, which outputs may read
 
     @classmethod
-    def of(cls, mechanism: Mechanism, source: str = "") -> Context:
+    def of_mechanism(cls, mechanism: Mechanism, source: str = "") -> Context:
         """Return the context of a complete mechanism, for later formulas."""
-        from symgen.describe.bounds.losses import losses  # which needs scopes
+        from symgen.describe.bounds.losses import losses_by_name  # which needs scopes
 
         joints = {joint.name: joint for joint in mechanism.joints}
         return cls(
@@ -48,7 +48,7 @@ class Context(msgspec.Struct, frozen=True, dict=True):
             {force.name: force for force in mechanism.forces},
             mechanism.inputs,
             tuple(state.name for state in mechanism.states),
-            losses(mechanism.bounded),
+            losses_by_name(mechanism.bounded),
         )
 
     @cached_property
@@ -86,7 +86,7 @@ class Context(msgspec.Struct, frozen=True, dict=True):
 
     @property
     def _changing(self) -> dict[str, str]:
-        """Hints on inputs and states where they may not stand."""
+        """Hints on inputs and states where a formula may not have them."""
         hints = dict.fromkeys(self.state_names, "only forces, torques, rates of states and outputs may use a state")
         return hints | dict.fromkeys(self.inputs, "only forces, torques and actuators may use an input")
 

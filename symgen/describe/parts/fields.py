@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal, TypeVar, cast, get_args, get_origin
 import msgspec
 from msgspec import Meta
 
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 from symgen.base.units import si_hint
 
 Text = Annotated[str, Meta(description="a text")]
@@ -144,17 +144,17 @@ T = TypeVar("T")
 _AT = re.compile(r" - at `\$(.*)`$")
 
 
-def words_of(value: object) -> str:
+def value_in_words(value: object) -> str:
     """Return a short text of a file's value for a message."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, Mapping):
         return "a table" if value else "an empty table"
     if isinstance(value, list | tuple):
-        text = "[" + ", ".join(words_of(item) for item in value[:30]) + "]"
+        text = "[" + ", ".join(value_in_words(item) for item in value[:30]) + "]"
         return text if len(text) <= 60 else f"a list of {len(value)}"
     if isinstance(value, str):
-        return quoted(value)
+        return quote(value)
     if isinstance(value, int) and abs(value) > 1e18:
         return "an integer beyond 1e18"
     if isinstance(value, int | float):
@@ -177,13 +177,13 @@ def read_table(kind: type[T], raw: object, where: str, further: tuple[str, ...] 
         Further keys, read elsewhere, that the message should list.
     """
     if not isinstance(raw, Mapping):
-        raise InputError(where, "a table", words_of(raw))
-    fields = _fields(cast(type[msgspec.Struct], kind))
+        raise InputError(where, "a table", value_in_words(raw))
+    fields = _fields_by_name(cast(type[msgspec.Struct], kind))
     for key in raw:
         if key not in fields:
             names = [*further, *fields]
-            hint = nearest(str(key), names)
-            got = f"the unknown key {quoted(key)}"
+            hint = suggest(str(key), names)
+            got = f"the unknown key {quote(key)}"
             hint = "" if hint.startswith("known") else hint
             raise InputError(where, f"the keys {', '.join(names)}", got, hint, str(key))
     for key, field in fields.items():
@@ -193,7 +193,7 @@ def read_table(kind: type[T], raw: object, where: str, further: tuple[str, ...] 
 
 
 @cache  # one entry for each section and kind; msgspec evaluates every annotation
-def _fields(kind: type[msgspec.Struct]) -> dict[str, msgspec.structs.FieldInfo]:
+def _fields_by_name(kind: type[msgspec.Struct]) -> dict[str, msgspec.structs.FieldInfo]:
     return {field.name: field for field in msgspec.structs.fields(kind)}
 
 
@@ -202,16 +202,16 @@ def read_value(type_: object, value: object, where: str) -> Any:
     try:
         return msgspec.convert(value, type_)
     except (msgspec.ValidationError, OverflowError) as error:
-        items = _items(type_)
+        items = _type_of_entries(type_)
         if items is not None and isinstance(value, Mapping):
             for key, item in value.items():
                 read_value(items, item, f"{where}.{key}")
         path = _AT.search(str(error))
-        part = _follow(value, path.group(1) if path else "")
-        raise InputError(where, describe_type(type_), words_of(part), si_hint(part)) from None
+        part = _value_at_path(value, path.group(1) if path else "")
+        raise InputError(where, describe_type(type_), value_in_words(part), si_hint(part)) from None
 
 
-def _items(type_: object) -> Any:
+def _type_of_entries(type_: object) -> Any:
     """Return the type of the entries where the type is a table of freely named entries, else None."""
     for part in (type_, *get_args(type_)):
         inner = getattr(part, "__origin__", part) if hasattr(part, "__metadata__") else part
@@ -220,7 +220,7 @@ def _items(type_: object) -> Any:
     return None
 
 
-def _follow(value: object, path: str) -> object:
+def _value_at_path(value: object, path: str) -> object:
     """Return the part of `value` that a path such as ``[0][1]`` leads to, or `value` where it leads nowhere."""
     part: Any = value
     for index in re.findall(r"\[(\d+)\]", path):

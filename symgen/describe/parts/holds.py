@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 from symgen.base.vocabulary.expressions import Number
 from symgen.base.vocabulary.measures import GROUND, Angle
 from symgen.describe.mechanism import AnyBody, Hold, Joint, Mechanism, SpatialBody
-from symgen.describe.remembered import remembered
+from symgen.describe.remembered import compute_once
 
 if TYPE_CHECKING:
     from symgen.describe.parts.scope import Scope
@@ -38,7 +38,7 @@ def body_holds(scope: Scope, raw: Mapping[str, Any], body: AnyBody) -> tuple[Hol
     words = [value] if isinstance(value, str) else described if value is True else list(value or ())
     for word in words:
         if word not in _WORDS:
-            raise scope.error("hold", "true, or 'position', 'angle', 'velocity'", quoted(word), nearest(word, _WORDS))
+            raise scope.error("hold", "true, or 'position', 'angle', 'velocity'", quote(word), suggest(word, _WORDS))
         if word not in described:
             keys = " or ".join(key for key in _WORDS[word] if key != ("angle" if scope.spatial else ORIENTATION))
             raise scope.error("hold", f"something that the body describes ({keys})", f"'{word}' without such a key")
@@ -51,12 +51,15 @@ def body_holds(scope: Scope, raw: Mapping[str, Any], body: AnyBody) -> tuple[Hol
         names.append(ORIENTATION if isinstance(body, SpatialBody) else "theta")
     if "velocity" in words:
         names += [
-            name for key, part in zip(_WORDS["velocity"], _speeds(body), strict=True) if key in raw for name in part
+            name
+            for key, part in zip(_WORDS["velocity"], _velocity_names(body), strict=True)
+            if key in raw
+            for name in part
         ]
     return tuple(Hold(f"{body.name}.{name}") for name in names)
 
 
-def _speeds(body: AnyBody) -> tuple[tuple[str, ...], tuple[str, ...]]:
+def _velocity_names(body: AnyBody) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return the names of the velocities of the centre of mass, and of the angular ones."""
     turning = sum(name[0] in "ow" for name in body.speeds)
     moving = len(body.speeds) - turning
@@ -71,25 +74,25 @@ def joint_holds(scope: Scope, values: Mapping[str, float | str], joint: Joint) -
     InputError
         If a key is not a coordinate of the joint.
     """
-    coordinates = {name.partition(".")[2]: whole for name, whole in _of_joint(joint).items()}
+    coordinates = {name.partition(".")[2]: whole for name, whole in _joint_quantity_names(joint).items()}
     if not coordinates:
         raise scope.error("start", "a joint that has coordinates", f"a {joint.kind} joint, which has none")
     for key in values:
         if key not in coordinates:
             raise scope.error(
-                "start", f"coordinates of the joint ({', '.join(coordinates)})", quoted(key), nearest(key, coordinates)
+                "start", f"coordinates of the joint ({', '.join(coordinates)})", quote(key), suggest(key, coordinates)
             )
     return tuple(Hold(coordinates[key], scope.constant(f"start.{key}", value)) for key, value in values.items())
 
 
-def _of_joint(joint: Joint) -> dict[str, str]:
+def _joint_quantity_names(joint: Joint) -> dict[str, str]:
     """Return the full and short names of a joint's coordinates and rates, each with its full name."""
     names = [f"{joint.name}.{label}" for label, _ in joint.coordinates]
     whole_names = {whole: whole for name in names for whole in (name, f"{name}.rate")}
     return whole_names | ({f"{joint.name}.rate": f"{names[0]}.rate"} if len(names) == 1 else {})
 
 
-def _as_body(joint: Joint) -> dict[str, str]:
+def _joint_quantities_of_bodies(joint: Joint) -> dict[str, str]:
     """Return those joint coordinates and rates that are coordinates and velocities of bodies."""
     same = dict[str, str]()
     for label, measure in joint.coordinates:
@@ -99,36 +102,38 @@ def _as_body(joint: Joint) -> dict[str, str]:
     return same
 
 
-def joint_names(mechanism: Mechanism) -> dict[str, str]:
+def joint_quantity_names(mechanism: Mechanism) -> dict[str, str]:
     """Return the names of joint coordinates and their rates, each with its canonical name.
 
     Short names map to full ones, and those of coordinates or velocities of a body to the body's names.
     """
     canonical = dict[str, str]()
     for joint in mechanism.joints:
-        same = _as_body(joint)
-        canonical |= {name: same.get(whole, whole) for name, whole in _of_joint(joint).items()}
+        same = _joint_quantities_of_bodies(joint)
+        canonical |= {name: same.get(whole, whole) for name, whole in _joint_quantity_names(joint).items()}
     return canonical
 
 
-@remembered
-def _names(mechanism: Mechanism) -> tuple[dict[str, str], dict[str, str], dict[str, str]]:
+@compute_once
+def _holdable_names(mechanism: Mechanism) -> tuple[dict[str, str], dict[str, str], dict[str, str]]:
     """Return the full names that a start may hold, names of bodies alone, and joint coordinates that bodies have."""
     bodies = {f"{b.name}.{n}": f"{b.name}.{n}" for b in mechanism.bodies for n in (*b.coordinates, *b.speeds)}
     joints, same = dict[str, str](), dict[str, str]()
     for joint in mechanism.joints:
-        joints |= _of_joint(joint)
-        same |= _as_body(joint)
+        joints |= _joint_quantity_names(joint)
+        same |= _joint_quantities_of_bodies(joint)
     return bodies | joints | {x.name: x.name for x in mechanism.states}, bodies, same
 
 
-def hold_name(mechanism: Mechanism, name: str) -> str:
-    """Return the one name under which `holds_of` keeps a quantity."""
-    coordinates, _, same = _names(mechanism)
+def canonical_hold_name(mechanism: Mechanism, name: str) -> str:
+    """Return the one name under which `read_holds` keeps a quantity."""
+    coordinates, _, same = _holdable_names(mechanism)
     return same.get(coordinates[name], coordinates[name])
 
 
-def holds_of(mechanism: Mechanism, where: str = "start", values: Mapping[str, float] | None = None) -> tuple[Hold, ...]:
+def read_holds(
+    mechanism: Mechanism, where: str = "start", values: Mapping[str, float] | None = None
+) -> tuple[Hold, ...]:
     """Return all quantities that a start keeps, each under one name.
 
     Parameters
@@ -145,9 +150,9 @@ def holds_of(mechanism: Mechanism, where: str = "start", values: Mapping[str, fl
     InputError
         If a name is unknown (the message names the nearest one), or two names mean one quantity.
     """
-    coordinates, bodies, same = _names(mechanism)
+    coordinates, bodies, same = _holdable_names(mechanism)
 
-    def gathered(pairs: Iterable[tuple[str, Hold]]) -> dict[str, Hold]:
+    def holds_by_name(pairs: Iterable[tuple[str, Hold]]) -> dict[str, Hold]:
         unique: dict[str, tuple[str, Hold]] = {}
         for name, hold in pairs:
             one = same.get(hold.name, hold.name)
@@ -160,7 +165,7 @@ def holds_of(mechanism: Mechanism, where: str = "start", values: Mapping[str, fl
         if name not in coordinates:
             state = ", or a state," if mechanism.states else ""
             expected = f"a coordinate or velocity of a body or joint{state} of {mechanism.name}"
-            raise InputError(f"{where} '{name}'", expected, "none of that name", nearest(name, coordinates))
+            raise InputError(f"{where} '{name}'", expected, "none of that name", suggest(name, coordinates))
         if name in bodies and name.rpartition(".")[2] in _EULER:
             raise InputError(
                 f"{where} '{name}'",
@@ -168,7 +173,7 @@ def holds_of(mechanism: Mechanism, where: str = "start", values: Mapping[str, fl
                 "an Euler parameter",
                 "give the coordinate of a joint, or hold the orientation that the file describes",
             )
-    own = gathered((hold.name, hold) for hold in mechanism.holds)
+    own = holds_by_name((hold.name, hold) for hold in mechanism.holds)
     return tuple(
-        (own | gathered((n, Hold(coordinates[n], Number(float(x)))) for n, x in (values or {}).items())).values()
+        (own | holds_by_name((n, Hold(coordinates[n], Number(float(x)))) for n, x in (values or {}).items())).values()
     )

@@ -1,4 +1,4 @@
-"""SI units of the quantities that keys of a mechanism file stand for, as far as the keys alone tell.
+"""SI units of the quantities that keys of a mechanism file set, as far as the keys alone tell.
 
 Keys of joints and forces have their units in the texts that describe them.
 """
@@ -58,11 +58,11 @@ def unit_of_key(section: str, key: str, kind: str = "") -> str:
     """
     if section in ("joints", "forces"):
         kinds = JOINTS if section == "joints" else FORCES
-        return "m" if key == "at" else _units_of(kinds.get(kind, section)).get(key, "")
+        return "m" if key == "at" else _units_of_kind(kinds.get(kind, section)).get(key, "")
     return _OF_BODIES.get(key, "") if section in ("mechanism", "bodies") else ""
 
 
-def quantity_of(path: str, key: str, kind: str, coordinates: Mapping[str, str]) -> str:
+def unit_of_number(path: str, key: str, kind: str, coordinates: Mapping[str, str]) -> str:
     """Return the SI unit of a number in a file, as `unit_of_key`, for keys in tables of tables too.
 
     Parameters
@@ -77,7 +77,7 @@ def quantity_of(path: str, key: str, kind: str, coordinates: Mapping[str, str]) 
     section, parts = path.partition(".")[0], re.sub(r"\[\d+\]", "", key).split(".")
     inner = len(parts) > 1 and parts[-1] in _ALONG  # of a row with bounds
     if section == "joints" and (parts[0] == "start" or inner) and coordinates:
-        return _along(parts, coordinates)
+        return _unit_along_coordinate(parts, coordinates)
     if section in _FURTHER and parts[-1] in _FURTHER[section] and (section == "beams" or parts[0] not in _OF_BODIES):
         return _FURTHER[section][parts[-1]]
     if section == "states" and key == "start":
@@ -87,7 +87,7 @@ def quantity_of(path: str, key: str, kind: str, coordinates: Mapping[str, str]) 
     return unit_of_key(section, parts[0], kind)
 
 
-def _along(parts: list[str], coordinates: Mapping[str, str]) -> str:
+def _unit_along_coordinate(parts: list[str], coordinates: Mapping[str, str]) -> str:
     """Return the unit of a number along one of a joint's coordinates."""
     label = parts[1] if len(parts) > 1 and parts[1] in coordinates else next(iter(coordinates))
     unit = coordinates[label]
@@ -97,12 +97,12 @@ def _along(parts: list[str], coordinates: Mapping[str, str]) -> str:
 
 
 @functools.cache
-def _units_of(kind: type[Any]) -> dict[str, str]:
+def _units_of_kind(kind: type[Any]) -> dict[str, str]:
     """Return the units of keys of a joint or a force, as the texts on its keys have these in brackets."""
-    from symgen.describe.files.schema import described  # which needs the sections, and these scopes
+    from symgen.describe.files.json_schema import key_texts  # which needs the sections, and these scopes
 
     units = dict[str, str]()
-    for names, text in re.findall(r"^(\w+(?:, \w+)*) : .*\n((?:    .*\n?)+)", described(kind), re.MULTILINE):
+    for names, text in re.findall(r"^(\w+(?:, \w+)*) : .*\n((?:    .*\n?)+)", key_texts(kind), re.MULTILINE):
         keys, own = names.split(", "), re.findall(r"\[([^\]]+)\]", text)
         if len(keys) == len(own) and not any(" or " in unit or " with " in unit for unit in own):
             units |= dict(zip(keys, own, strict=True))

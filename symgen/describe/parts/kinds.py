@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from symgen.base.errors import InputError
 from symgen.base.registry import Registry
-from symgen.describe.parts.fields import words_of
+from symgen.describe.parts.fields import value_in_words
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Force, Joint
@@ -50,9 +50,9 @@ FORCES: Registry[type[ForceKind]] = Registry("symgen.describe.forces", "force ty
 def kind_and_keys(where: str, table: object, what: str, *common: str) -> tuple[str, dict[str, Any]]:
     """Return the type of a joint or force and the keys of its kind: those but the type and `common` ones."""
     if not isinstance(table, Mapping):
-        raise InputError(where, "a table", words_of(table))
+        raise InputError(where, "a table", value_in_words(table))
     kind = table.get("type")
     if not isinstance(kind, str):
-        got = "no such key" if kind is None else words_of(kind)
+        got = "no such key" if kind is None else value_in_words(kind)
         raise InputError(f"{where}.type", f"a {what}", got)
     return kind, {key: value for key, value in table.items() if key not in ("type", *common)}

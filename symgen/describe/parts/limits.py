@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from symgen.base.errors import InputError, quoted
+from symgen.base.errors import InputError, quote
 from symgen.base.units import Unit, read_amount, unit_of
 from symgen.base.vocabulary.expressions import Expr, Number
 from symgen.describe.formulas.parser import FormulaNames, parse
@@ -25,7 +25,7 @@ class LimitedSection(Protocol):
         """The upper limit."""
 
 
-def limits_of(
+def read_limits_of_entry(
     name: str, section: LimitedSection, unit: Unit, allowed: FormulaNames, where: str, *, si: bool
 ) -> tuple[OperatingLimit, ...]:
     """Return the limits of an entry; none where it has no such key.
@@ -46,7 +46,7 @@ def limits_of(
         Whether values of the entry are kept in SI units, as those of parameters are.
     """
     ends = [
-        None if value is None else _end(value, unit, allowed, f"{where}.{key}", si)
+        None if value is None else _read_end(value, unit, allowed, f"{where}.{key}", si)
         for key, value in (("smallest", section.smallest), ("largest", section.largest))
     ]
     if ends == [None, None]:
@@ -57,7 +57,7 @@ def limits_of(
     return (OperatingLimit(name, low, high),)
 
 
-def _end(value: float | str, unit: Unit, allowed: FormulaNames, where: str, si: bool) -> Expr:
+def _read_end(value: float | str, unit: Unit, allowed: FormulaNames, where: str, si: bool) -> Expr:
     if si:
         number, formula, _ = parameter_value(value, unit.text, allowed, where)
         return Number(number) if formula is None else formula
@@ -69,6 +69,6 @@ def _end(value: float | str, unit: Unit, allowed: FormulaNames, where: str, si: 
     own = unit_of(amount.unit, where, quantity=unit.si if unit.text else "")
     if not unit.text and not own.is_si:
         raise InputError(
-            where, f"a number, or one in SI units such as {own.si}, as the entry has no unit", quoted(value)
+            where, f"a number, or one in SI units such as {own.si}, as the entry has no unit", quote(value)
         )
-    return Number(unit.of_si(own.to_si(amount.number)))
+    return Number(unit.from_si(own.to_si(amount.number)))

@@ -19,7 +19,7 @@ _UNREADABLE = "only STL and OBJ files are drawn"
 _NAME, _LARGEST_PACKAGE = re.compile(rb"<package\b.*?<name>\s*([^<\s]+)\s*</name>", re.DOTALL), 100_000
 
 
-def is_inner(name: str) -> bool:
+def is_inner_path(name: str) -> bool:
     """Return whether a text is the relative path of a mesh in or below a folder, by itself alone."""
     path = PurePosixPath(name)
     plain = name.isprintable() and not set(name) & set('\\:"') and not path.is_absolute() and ".." not in path.parts
@@ -28,7 +28,7 @@ def is_inner(name: str) -> bool:
 
 def mesh_file(folder: str | Path, name: str) -> Path | None:
     """Return the path of a file in or below a folder, links followed; None where there is none."""
-    if not is_inner(name):
+    if not is_inner_path(name):
         return None
     try:
         outer = Path(folder).resolve()
@@ -58,39 +58,39 @@ class MeshFiles:
         for scheme in ("package://", "model://"):
             if uri.startswith(scheme):
                 name, _, rest = uri.removeprefix(scheme).lstrip("/").partition("/")
-                root = self._package(name) or self.folder
-                return self.inner(root, root, rest)
-        return self.inner(self._package() or self.folder, self.folder, uri)
+                root = self._package_root(name) or self.folder
+                return self.inner_path(root, root, rest)
+        return self.inner_path(self._package_root() or self.folder, self.folder, uri)
 
-    def inner(self, root: Path, folder: Path, name: str) -> Path | None:
+    def inner_path(self, root: Path, folder: Path, name: str) -> Path | None:
         """Return the path of a mesh that is named from a folder and is in or below `root`, links followed."""
         try:
             path = (folder / name).resolve()
             here = path.is_relative_to(root) and path.is_file()
         except (OSError, RuntimeError, ValueError):  # a name too long, or links in a circle
             here = False
-        if here and is_inner(path.relative_to(path.anchor).as_posix()):
+        if here and is_inner_path(path.relative_to(path.anchor).as_posix()):
             return path
-        self.lose(_ELSEWHERE if PurePosixPath(name).suffix.lower() in SUFFIXES else _UNREADABLE)
+        self.count_lost_mesh(_ELSEWHERE if PurePosixPath(name).suffix.lower() in SUFFIXES else _UNREADABLE)
         return None
 
-    def lose(self, why: str) -> None:
+    def count_lost_mesh(self, why: str) -> None:
         """Count a mesh that is not drawn."""
         self._lost[why] = self._lost.get(why, 0) + 1
 
-    def left_out(self) -> list[tuple[str, int]]:
+    def reasons_of_lost(self) -> list[tuple[str, int]]:
         """Return the reasons why meshes are not drawn, and how many there are of each."""
         return list(self._lost.items())
 
-    def _package(self, name: str = "") -> Path | None:
+    def _package_root(self, name: str = "") -> Path | None:
         """Return the root of the package of a name, or of the nearest one, that the file is in."""
         for folder in (self.folder, *self.folder.parents[:-1]):
-            if (name and folder.name == name) or _package_name(folder / "package.xml", name):
+            if (name and folder.name == name) or _describes_package(folder / "package.xml", name):
                 return folder
         return None
 
 
-def _package_name(path: Path, name: str) -> bool:
+def _describes_package(path: Path, name: str) -> bool:
     """Return whether a file describes a package, of this name where there is one."""
     try:
         with path.open("rb") as file:
@@ -120,7 +120,7 @@ def with_mesh_folder(raw: Mapping[str, Any], source: Path, target: Path) -> tupl
                 continue
             path, folder = (source / shape["file"]).resolve(), target.resolve()
             file = path.relative_to(folder).as_posix() if path.is_relative_to(folder) else ""
-            if is_inner(file):
+            if is_inner_path(file):
                 shapes.append({**shape, "file": file})
             else:
                 lost += 1

@@ -8,10 +8,10 @@ from symgen.base.errors import InputError
 from symgen.describe.mechanism import Defaults
 from symgen.describe.parts.fields import read_table
 from symgen.describe.parts.sections import RunSection, TableSection
-from symgen.describe.tables import Table
+from symgen.describe.table_functions import Table
 
 
-def read_points(name: str, raw: object, where: str) -> Table:
+def read_table_function(name: str, raw: object, where: str) -> Table:
     """Return the function that the table `name` defines by points."""
     section = read_table(TableSection, raw, where)
     if len(section.x) < 2:
@@ -44,7 +44,7 @@ def read_points(name: str, raw: object, where: str) -> Table:
     return table
 
 
-def read_defaults(raw: object, where: str, source: str) -> Defaults:
+def read_run_defaults(raw: object, where: str, source: str) -> Defaults:
     """Return the defaults of runs; `source` says where the data of the mechanism come from."""
     run = read_table(RunSection, raw, where)
     for key in ("until", "step", "output_step", "max_step", "predictable_until"):

@@ -6,8 +6,8 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from symgen.base.errors import InputError, quoted
-from symgen.base.units import Unit, known, read_amount, read_unit, unit_of
+from symgen.base.errors import InputError, quote
+from symgen.base.units import Unit, known_unit, read_amount, read_unit, unit_of
 from symgen.base.vocabulary.expressions import Call, Expr, Name, Number, Reading, names_in
 from symgen.base.vocabulary.quantities import Quantity
 from symgen.describe.formulas.evaluate import evaluate
@@ -43,11 +43,9 @@ def parameter_value(
     elif isinstance(value, str):
         expression = parse(value, allowed, where)
         if any(names_in(expression)):
-            if not unit.is_si and (literal := _added(expression)) is not None:
+            if not unit.is_si and (literal := _added_number(expression)) is not None:
                 hint = f"make {literal!r} a parameter with its unit"
-                raise InputError(
-                    where, "a formula of values in SI units, as names stand for these", quoted(value), hint
-                )
+                raise InputError(where, "a formula of values in SI units, as names stand for these", quote(value), hint)
             return 0.0, expression, unit
         number = unit.to_si(evaluate(expression, {}, where))
     else:
@@ -57,19 +55,19 @@ def parameter_value(
     return number, None, unit
 
 
-def _added(e: Expr) -> float | None:
+def _added_number(e: Expr) -> float | None:
     """Return a number that a formula adds to something, which then has the unit of its value; None without one."""
     if not isinstance(e, Call) or e.function not in ("add", "sub"):
         return None
     for argument in e.arguments:
         if isinstance(argument, Number):
             return argument.value
-        if (inner := _added(argument)) is not None:
+        if (inner := _added_number(argument)) is not None:
             return inner
     return None
 
 
-def in_si(entry: object, value: float) -> object:
+def entry_in_si(entry: object, value: float) -> object:
     """Return the entry of a parameter in a description with another value, in SI units."""
     table = entry if isinstance(entry, Mapping) else {"value": entry}
     text, before = table.get("unit", ""), table.get("value")
@@ -101,13 +99,13 @@ def check_own_unit(scope: Scope, value: Expr, unit: Unit) -> None:
     own = _unit_of_quantity(scope, value) if unit.text else ""
     if not own or not isinstance(value, Name | Reading):
         return
-    si = known(own)
+    si = known_unit(own)
     if not unit.fits(si):
-        raise scope.error("unit", f"{own}, the unit of {value.name}", quoted(unit.text))
+        raise scope.error("unit", f"{own}, the unit of {value.name}", quote(unit.text))
     if not unit.is_si:
-        factor = unit.of_si(1.0)
+        factor = unit.from_si(1.0)
         hint = f'the formula of the number in {unit.text} is "{factor:.12g}*{value.name}"'
-        raise scope.error("unit", f"{own}, the unit of {value.name}", quoted(unit.text), hint)
+        raise scope.error("unit", f"{own}, the unit of {value.name}", quote(unit.text), hint)
 
 
 def _unit_of_quantity(scope: Scope, value: Expr) -> str:
@@ -116,6 +114,6 @@ def _unit_of_quantity(scope: Scope, value: Expr) -> str:
         owner, _, label = value.name.rpartition(".")
         return unit_of_column(label) if owner in scope.context.bodies else ""
     if isinstance(value, Reading):
-        entry = Readings(scope.context, OUTPUT).entry(tuple(value.name.split(".")), scope.where(""))
+        entry = Readings(scope.context, OUTPUT).meaning_with_unit(tuple(value.name.split(".")), scope.where(""))
         return "" if entry is None else entry[1]
     return ""

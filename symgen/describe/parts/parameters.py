@@ -9,12 +9,12 @@ import msgspec
 
 from symgen.base.vocabulary.expressions import names_in
 from symgen.describe.formulas.evaluate import evaluate, evaluation_order
-from symgen.describe.formulas.names import line
+from symgen.describe.formulas.identifiers import one_line
 from symgen.describe.formulas.parser import FormulaNames
 from symgen.describe.mechanism import OperatingLimit, Parameter
 from symgen.describe.parts.collected import Errors
 from symgen.describe.parts.fields import Scalar, read_table, read_value
-from symgen.describe.parts.limits import limits_of
+from symgen.describe.parts.limits import read_limits_of_entry
 from symgen.describe.parts.own_units import parameter_value
 from symgen.describe.parts.sections import InputSection, ParameterSection
 
@@ -43,43 +43,43 @@ class Parameters:
         self.limits = list[OperatingLimit]()
         self.names = FormulaNames("a number or an expression of parameters", plain, elsewhere=elsewhere)
 
-    def where(self, section: str, name: str) -> str:
+    def place_in_file(self, section: str, name: str) -> str:
         """Return file and key for a message."""
         return f"{self.source}: {section}.{name}"
 
-    def read(self) -> tuple[Parameter, ...]:
+    def read_all(self) -> tuple[Parameter, ...]:
         """Return the parameters in the order of the file, then the inputs, formulas worked out with the defaults."""
         parameters = dict[str, Parameter]()
         for section, entries in self.sections.items():
             for name, raw in entries.items():
-                with self.errors.apart(name):
-                    parameters[name] = self.parameter(section, name, raw)
-        return self.evaluated(parameters)
+                with self.errors.part_of_description(name):
+                    parameters[name] = self.read_parameter(section, name, raw)
+        return self.evaluate_formulas(parameters)
 
-    def evaluated(self, parameters: Mapping[str, Parameter]) -> tuple[Parameter, ...]:
+    def evaluate_formulas(self, parameters: Mapping[str, Parameter]) -> tuple[Parameter, ...]:
         """Return `parameters` with the values of their formulas."""
         formulas = {name: parameter.formula for name, parameter in parameters.items()}
         order, values = [name for name, formula in formulas.items() if formula is None], dict[str, float]()
-        with self.errors.apart(*(name for name, formula in formulas.items() if formula is not None)):
+        with self.errors.part_of_description(*(name for name, formula in formulas.items() if formula is not None)):
             order = evaluation_order(formulas, f"{self.source}: parameters")
         for name in order:
             formula = formulas[name]
             if formula is None:
                 values[name] = parameters[name].value
                 continue
-            with self.errors.apart(name):
-                self.errors.need(*names_in(formula))
+            with self.errors.part_of_description(name):
+                self.errors.leave_if_wrong(*names_in(formula))
                 section = "inputs" if name in self.sections["inputs"] else "parameters"
-                values[name] = evaluate(formula, values, self.where(section, name))
+                values[name] = evaluate(formula, values, self.place_in_file(section, name))
         return tuple(
             msgspec.structs.replace(parameter, value=values[name]) if parameter.formula is not None else parameter
             for name, parameter in parameters.items()
             if name in values
         )
 
-    def parameter(self, section: str, name: str, raw: object) -> Parameter:
+    def read_parameter(self, section: str, name: str, raw: object) -> Parameter:
         """Return a parameter or an input; one with a formula of others has no value yet."""
-        where, text, note = self.where(section, name), "", ""
+        where, text, note = self.place_in_file(section, name), "", ""
         limited: ParameterSection | None = None
         value: float | str
         if not isinstance(raw, Mapping):
@@ -93,5 +93,5 @@ class Parameters:
         number, formula, unit = parameter_value(value, text, self.names, where)
         shown = "" if unit.is_si else unit.text
         if limited is not None:
-            self.limits += limits_of(name, limited, unit, self.names, where, si=True)
-        return Parameter(name, number, unit.si, line(note), formula, section == "inputs", shown)
+            self.limits += read_limits_of_entry(name, limited, unit, self.names, where, si=True)
+        return Parameter(name, number, unit.si, one_line(note), formula, section == "inputs", shown)

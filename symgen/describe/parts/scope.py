@@ -7,17 +7,25 @@ import re
 from collections import ChainMap
 from collections.abc import Mapping, Sequence
 
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 from symgen.base.units import read_amount
-from symgen.base.vocabulary.expressions import ZERO, Expr, Number, call, dot, moving, readings
+from symgen.base.vocabulary.expressions import (
+    ZERO,
+    Expr,
+    Number,
+    call,
+    moving_quantities,
+    readings_in,
+    scalar_product_of,
+)
 from symgen.base.vocabulary.measures import GROUND, Direction, Marker, Measure
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.formulas.readings import OUTPUT, Readings
 from symgen.describe.mechanism import ACCELERATIONS, Joint, Vec
 from symgen.describe.parts.context import Context
-from symgen.describe.parts.fields import words_of
-from symgen.describe.parts.key_units import quantity_of
+from symgen.describe.parts.fields import value_in_words
+from symgen.describe.parts.key_units import unit_of_number
 
 #: The name by which a file means a body's centre of mass.
 CENTRE = "centre"
@@ -70,7 +78,7 @@ class Scope:
                 expected = (
                     f"a value, as '{self.kind}' needs it in {space}" if key in keys else f"no such key in {space}"
                 )
-                raise self.error(key, expected, "no such key" if value is None else words_of(value))
+                raise self.error(key, expected, "no such key" if value is None else value_in_words(value))
 
     def where(self, key: str) -> str:
         """Return file and key for a message."""
@@ -90,7 +98,7 @@ class Scope:
             return name
         if name not in self.context.bodies:
             names = [*self.context.bodies, GROUND] if ground else list(self.context.bodies)
-            raise self.error(key, "the name of a body", f"the unknown body {quoted(name)}", nearest(name, names))
+            raise self.error(key, "the name of a body", f"the unknown body {quote(name)}", suggest(name, names))
         if turns and self.context.bodies[name].is_point:
             raise self.error(key, f"a body with an angle for '{self.kind}'", f"the point mass '{name}'")
         return name
@@ -112,13 +120,13 @@ class Scope:
             return self._free_marker(key, body, self.vector(key, point))
         if body == GROUND:
             listed = "[x, y, z]" if self.spatial else "[x, y]"
-            raise self.error(key, f"coordinates {listed} of a point of the ground", quoted(point))
+            raise self.error(key, f"coordinates {listed} of a point of the ground", quote(point))
         points = self.context.points[body]
         if point == CENTRE:
             return Marker(body, self.context.bodies[body].centre_of_mass)
         if point not in points:
-            got = f"{quoted(point)}, which is no point of '{body}'"
-            raise self.error(key, "the name of a point", got, nearest(point, [*points, CENTRE]))
+            got = f"{quote(point)}, which is no point of '{body}'"
+            raise self.error(key, "the name of a point", got, suggest(point, [*points, CENTRE]))
         return Marker(body, points[point])
 
     def _free_marker(self, key: str, body: str, point: Vec) -> Marker:
@@ -134,7 +142,7 @@ class Scope:
         """Return the direction in the plane fixed in `body` and its left-hand normal, both of length 1."""
         plain = tuple(e for e in vector if not isinstance(e, tuple))
         if len(plain) < len(vector):
-            raise self.error(key, "one direction [x, y]", words_of(vector))
+            raise self.error(key, "one direction [x, y]", value_in_words(vector))
         along = self.direction(key, body, plain)
         x, y = along.vector
         return along, Direction(body, (call("neg", y), x))
@@ -144,7 +152,7 @@ class Scope:
         parts = self.vector(key, vector)
         numbers = [e.value for e in parts if isinstance(e, Number)]
         size = math.hypot(*numbers) if len(numbers) == len(parts) else 0.0
-        length = Number(size) if size > 0.0 else call("sqrt", dot(parts, parts))
+        length = Number(size) if size > 0.0 else call("sqrt", scalar_product_of(parts, parts))
         if not self.value(length, key) > 0:
             raise self.error(key, "a direction", "a vector of length 0")
         return Direction(body, tuple(call("div", e, length) for e in parts))
@@ -170,7 +178,7 @@ class Scope:
                 raise self.error(keys[1], f"one of {', '.join(coordinates)}", "no such key")
             label = next(iter(coordinates))
         if label not in coordinates:
-            raise self.error(keys[1], f"{what} of joint '{name}'", quoted(label), nearest(label, coordinates))
+            raise self.error(keys[1], f"{what} of joint '{name}'", quote(label), suggest(label, coordinates))
         return joint, label, coordinates[label]
 
     # Formulas ------------------------------------------------------------------------------------------------------
@@ -180,7 +188,7 @@ class Scope:
 
         With `positive` it must be above 0; with `or_zero` as well, it may be the number 0, but not an expression.
         """
-        expression = self._expression(key, value, self.context.constants)
+        expression = self._parse_expression(key, value, self.context.constants)
         size = self.value(expression, key)
         if positive and not size > 0 and not (or_zero and expression == ZERO):
             raise self.error(key, "a value above 0", repr(size))
@@ -191,7 +199,9 @@ class Scope:
         if len(components) != self.dimension:
             what = "three numbers or expressions of parameters [x, y, z]"
             raise self.error(
-                key, what if self.spatial else "two numbers or expressions of parameters [x, y]", words_of(components)
+                key,
+                what if self.spatial else "two numbers or expressions of parameters [x, y]",
+                value_in_words(components),
             )
         return tuple(self.constant(key, e) for e in components)
 
@@ -204,11 +214,11 @@ class Scope:
         alike: bool = False,
         positive: bool = False,
     ) -> Vec:
-        """Return `count` numbers or expressions of parameters; with `alike` one that is no list stands for each."""
+        """Return `count` numbers or expressions of parameters; with `alike` a single one counts for each."""
         parts = value if isinstance(value, tuple) else (value,) * (count if alike else 1)
         if len(parts) != count:
             expected = f"{count} numbers or expressions of parameters" if count > 1 else "one number or expression"
-            raise self.error(key, expected, words_of(value))
+            raise self.error(key, expected, value_in_words(value))
         return tuple(self.constant(key, part, positive=positive) for part in parts)
 
     def optional(self, key: str, value: float | str | None) -> Expr | None:
@@ -217,7 +227,7 @@ class Scope:
 
     def of_time(self, key: str, value: float | str) -> Expr:
         """Return a number or an expression of t and parameters, with smooth tables: it must have two derivatives."""
-        return self._expression(key, value, self.context.times)
+        return self._parse_expression(key, value, self.context.times)
 
     def of_row(self, key: str, value: float | str, speeds: bool, inputs: bool = False, *, moves: bool = True) -> Expr:
         """Return an expression of t, parameters and positions, and with `speeds` velocities, with smooth tables.
@@ -237,13 +247,13 @@ class Scope:
             readings=Readings(self.context),
             hints=times.hints,
         )
-        expression = self._expression(key, value, names)
-        for reading in readings(expression):
+        expression = self._parse_expression(key, value, names)
+        for reading in readings_in(expression):
             if reading.order and not speeds:
                 raise self.error(
                     key, names.what, f"'{reading.name}', a velocity", "a row of velocities is { velocity = ... }"
                 )
-        if moves and not moving(expression):
+        if moves and not moving_quantities(expression):
             raise self.error(key, names.what, "one in which nothing moves")
         return expression
 
@@ -256,7 +266,7 @@ class Scope:
         coordinates of joints, and their rates (`symgen.describe.formulas.readings`). With `conditions` it may be true
         or false instead.
         """
-        own = self._own(key, value, words)
+        own = self._check_own_words(key, value, words)
         listed = "".join(f", {word}" for word in own)
         kind = "a condition" if conditions else "a number"
         what = f"{kind} or an expression of t{listed}, parameters and body coordinates"
@@ -264,7 +274,7 @@ class Scope:
         names = FormulaNames(
             what, plain, self.context.coordinates, self.context.functions, readings=Readings(self.context)
         )
-        return self._expression(key, value, names, conditions)
+        return self._parse_expression(key, value, names, conditions)
 
     def of_motion(self, key: str, value: float | str) -> Expr:
         """Return a number or an expression of t, parameters and all quantities available at outputs."""
@@ -275,14 +285,14 @@ class Scope:
         }
         readings = Readings(self.context, OUTPUT)
         names = FormulaNames(what, self.context.states, own, self.context.functions, readings=readings, integrals=True)
-        return self._expression(key, value, names)
+        return self._parse_expression(key, value, names)
 
     def potential(self, key: str, value: float | str, words: Mapping[str, str]) -> Expr:
         """Return an expression of parameters and the element's own coordinate."""
-        own = self._own(key, value, words)
+        own = self._check_own_words(key, value, words)
         what = f"an expression of parameters and {', '.join(own)}"
         plain = ChainMap(own, self.context.constants.plain)  # type: ignore[arg-type]  # the second one is only read
-        return self._expression(key, value, self.context.constants.beside(what, plain))
+        return self._parse_expression(key, value, self.context.constants.with_other_names(what, plain))
 
     def symmetric(self, key: str, rows: Sequence[Sequence[float | str]]) -> tuple[tuple[Expr, ...], ...]:
         """Return the rows of a matrix; of two entries that differ by rounding the upper one counts.
@@ -306,22 +316,22 @@ class Scope:
         """Return the number with the parameters' defaults."""
         return evaluate(expression, self.context.values, self.where(key))
 
-    def _own(self, key: str, value: float | str, words: Mapping[str, str] | None) -> dict[str, str]:
+    def _check_own_words(self, key: str, value: float | str, words: Mapping[str, str] | None) -> dict[str, str]:
         """Return the element's own words, refusing a formula in which one of them could also mean a parameter."""
         own = dict(words or {})
         for word in own:
-            if word in self.context.states and isinstance(value, str) and _mentions(value, word):
+            if word in self.context.states and isinstance(value, str) and _mentions_word(value, word):
                 kinds = {"input": self.context.inputs, "state": self.context.state_names}
                 what = next((kind for kind, names in kinds.items() if word in names), "parameter")
                 got = f"'{word}', which is {'an' if what == 'input' else 'a'} {what} too"
                 raise self.error(key, f"'{word}' to mean the element's own", got, f"rename the {what}")
         return own
 
-    def _expression(self, key: str, value: float | str, names: FormulaNames, conditions: bool = False) -> Expr:
+    def _parse_expression(self, key: str, value: float | str, names: FormulaNames, conditions: bool = False) -> Expr:
         if isinstance(value, str):
             amount = read_amount(value)
             if amount is not None and amount.unit and amount.unit not in names.plain:
-                quantity = quantity_of(self.path, key, self.kind, self.coordinates)
+                quantity = unit_of_number(self.path, key, self.kind, self.coordinates)
                 return Number(amount.in_si(self.where(key), quantity))
             return parse(value, names, self.where(key), conditions)
         if not math.isfinite(value):
@@ -329,5 +339,5 @@ class Scope:
         return Number(float(value))
 
 
-def _mentions(text: str, word: str) -> bool:
+def _mentions_word(text: str, word: str) -> bool:
     return re.search(rf"(?<![A-Za-z0-9_.]){word}(?![A-Za-z0-9_])", text) is not None

@@ -23,7 +23,7 @@ from symgen.describe.parts.fields import (
 
 
 class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """What the mechanism is called and where it stands.
+    """The name of the mechanism and its space.
 
     Parameters
     ----------

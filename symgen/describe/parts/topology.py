@@ -10,10 +10,10 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 
-from symgen.base.vocabulary.expressions import Number, readings
+from symgen.base.vocabulary.expressions import Number, readings_in
 from symgen.base.vocabulary.measures import GROUND, Angle, Driven, Holonomic, Measure, Sum
 from symgen.base.vocabulary.quantities import Quantity
-from symgen.describe.formulas.readings import integrals
+from symgen.describe.formulas.readings import integrals_of_outputs
 from symgen.describe.mechanism import ACCELERATIONS, Joint, Mechanism, SpatialBody
 from symgen.describe.parts.kinds import JOINTS
 from symgen.describe.spanning_tree import Articulation, Link, Prescribed, Topology
@@ -31,17 +31,17 @@ def unit_of_column(label: str) -> str:
     return f"{UNITS[speed]}^2" if speed else UNITS.get(label, "")
 
 
-def articulation_of(joint: Joint) -> Articulation | None:
+def articulation_of_joint(joint: Joint) -> Articulation | None:
     """Return the relative motion of a joint's bodies, None for a kind with rows only."""
     articulate = getattr(JOINTS.get(joint.kind), "articulate", None)
     return None if articulate is None else articulate(joint)
 
 
-def edges_of(mechanism: Mechanism) -> dict[str, Articulation]:
+def possible_edges(mechanism: Mechanism) -> dict[str, Articulation]:
     """Return the joints that can be part of a tree, with their relative motions."""
     edges = dict[str, Articulation]()
     for joint in mechanism.joints:
-        articulation = articulation_of(joint)
+        articulation = articulation_of_joint(joint)
         if articulation is not None and articulation.a.body != articulation.b.body:
             edges[joint.name] = articulation
     return edges
@@ -61,52 +61,54 @@ def spanning_tree(mechanism: Mechanism, cut: Sequence[str] = ()) -> Topology:
     -----
     Bodies that no joint of the tree reaches are free; of several choices the first in the file is taken.
     """
-    edges = {name: a for name, a in edges_of(mechanism).items() if name not in cut}
+    edges = {name: a for name, a in possible_edges(mechanism).items() if name not in cut}
     points = {body.name for body in mechanism.bodies if body.is_point}
     links, reached = list[Link](), {GROUND}
 
-    def grow(waiting: list[str]) -> None:
+    def grow_tree(waiting: list[str]) -> None:
         while waiting:
             at = waiting.pop(0)
             for name, articulation in edges.items():
-                for link in _ways(name, articulation, at):
-                    if link.body not in reached and _suits(link, points, mechanism.space == "spatial"):
+                for link in _links_from(name, articulation, at):
+                    if link.body not in reached and _can_hang_on(link, points, mechanism.space == "spatial"):
                         reached.add(link.body)
                         links.append(link)
                         waiting.append(link.body)
 
-    grow([GROUND])
+    grow_tree([GROUND])
     for body in mechanism.bodies:
         if body.name not in reached:
             reached.add(body.name)
             links.append(Link(body.name))
-            grow([body.name])
+            grow_tree([body.name])
     tree = Topology(tuple(links))
-    prescribed = _prescribed(mechanism, tree)
+    prescribed = _prescribed_coordinates(mechanism, tree)
     used = {*(link.joint for link in links), *(x.driver for x in prescribed)}
     rest = tuple(joint.name for joint in mechanism.joints if joint.rows and joint.name not in used)
     return Topology(tree.links, rest, prescribed)
 
 
-def _prescribed(mechanism: Mechanism, tree: Topology) -> tuple[Prescribed, ...]:
+def _prescribed_coordinates(mechanism: Mechanism, tree: Topology) -> tuple[Prescribed, ...]:
     """Return the values of drivers for the coordinates of a tree; at least one coordinate stays in the state.
 
     A driver whose effort is integrated keeps its row: its multiplier is wanted at every evaluation.
     """
     places = dict[Measure, tuple[str, str, float]]()
     for link in tree.links:
-        lengths, angles = labels_of(mechanism, link)
+        lengths, angles = labels_of_link(mechanism, link)
         coordinates = dict(mechanism.joint_named(link.joint).coordinates) if link.joint else {}
         for label in (*lengths, *angles):
             if label in coordinates:
-                places |= {m: (link.body, label, sign) for m, sign in _alike(coordinates[label])}
+                places |= {m: (link.body, label, sign) for m, sign in _equal_measures(coordinates[label])}
         body = mechanism.body(link.body)
         if angles and not isinstance(body, SpatialBody):
             places.setdefault(Angle(GROUND, link.body), (link.body, "theta", 1.0))
     prescribed, keys = list[Prescribed](), set[str]()
-    integrated = {r.source.row for x in integrals(mechanism) for r in readings(x.of) if isinstance(r.source, Driven)}
+    integrated = {
+        r.source.row for x in integrals_of_outputs(mechanism) for r in readings_in(x.of) if isinstance(r.source, Driven)
+    }
     for rotor in mechanism.rotors:  # a driver of such a coordinate exerts what the rotor takes: it keeps its row
-        for measure, _ in _alike(rotor.angle):
+        for measure, _ in _equal_measures(rotor.angle):
             places.pop(measure, None)
     for joint in mechanism.joints:
         row = joint.rows[0] if len(joint.rows) == 1 and not joint.coordinates else None
@@ -120,14 +122,14 @@ def _prescribed(mechanism: Mechanism, tree: Topology) -> tuple[Prescribed, ...]:
     return tuple(prescribed[: max(0, velocities - 1)])
 
 
-def _alike(measure: Measure) -> Iterator[tuple[Measure, float]]:
+def _equal_measures(measure: Measure) -> Iterator[tuple[Measure, float]]:
     """Yield a measure with sign 1 and, if it is the negative of another measure, that one with sign -1."""
     yield measure, 1.0
     if isinstance(measure, Sum) and len(measure.terms) == 1 and measure.terms[0][0] == Number(-1.0):
         yield measure.terms[0][1], -1.0
 
 
-def _ways(name: str, articulation: Articulation, at: str) -> Iterator[Link]:
+def _links_from(name: str, articulation: Articulation, at: str) -> Iterator[Link]:
     """Yield the links of a joint from a body."""
     if articulation.a.body == at:
         yield Link(articulation.b.body, name, at, True, articulation)
@@ -135,7 +137,7 @@ def _ways(name: str, articulation: Articulation, at: str) -> Iterator[Link]:
         yield Link(articulation.a.body, name, at, False, articulation)
 
 
-def _suits(link: Link, points: set[str], spatial: bool) -> bool:
+def _can_hang_on(link: Link, points: set[str], spatial: bool) -> bool:
     """Whether a body can hang on a joint: a point mass has no angle, so it carries nothing and only pins hold it."""
     articulation = link.articulation
     assert articulation is not None, "a link of a joint knows how it moves"
@@ -147,11 +149,11 @@ def _suits(link: Link, points: set[str], spatial: bool) -> bool:
     return link.forward or not articulation.slides or articulation.turn == "fixed" or len(articulation.slides) == 1
 
 
-def loops_of(mechanism: Mechanism, topology: Topology) -> tuple[tuple[str, ...], ...]:
+def joints_of_loops(mechanism: Mechanism, topology: Topology) -> tuple[tuple[str, ...], ...]:
     """Return for each cut joint with an articulation the joints of the tree in its loop."""
     links = {link.body: link for link in topology.links}
 
-    def path(body: str) -> list[str]:
+    def path_to_ground(body: str) -> list[str]:
         way = list[str]()
         while body != GROUND and links[body].joint:
             way.append(links[body].joint)
@@ -159,9 +161,9 @@ def loops_of(mechanism: Mechanism, topology: Topology) -> tuple[tuple[str, ...],
         return way
 
     loops = list[tuple[str, ...]]()
-    for name, articulation in edges_of(mechanism).items():
+    for name, articulation in possible_edges(mechanism).items():
         if name in topology.cut:
-            a, b = path(articulation.a.body), path(articulation.b.body)
+            a, b = path_to_ground(articulation.a.body), path_to_ground(articulation.b.body)
             loops.append(tuple([j for j in a if j not in b] + [j for j in b if j not in a]))
     return tuple(loops)
 
@@ -173,10 +175,10 @@ def with_joint_coordinates(mechanism: Mechanism, topology: Topology) -> Mechanis
     return msgspec.structs.replace(mechanism, joints=joints, topology=topology)
 
 
-def labels_of(mechanism: Mechanism, link: Link) -> tuple[list[str], list[str]]:
+def labels_of_link(mechanism: Mechanism, link: Link) -> tuple[list[str], list[str]]:
     """Return the labels of a link's displacements and of its angles, as its joint reports them.
 
-    In the plane an angle is that of the body itself, whose joint may report none where a point mass hangs on it.
+    In the plane the angle is the body's own, as a joint on which a point mass hangs may report none.
     """
     articulation, body = link.articulation, mechanism.body(link.body)
     if articulation is None:
@@ -201,7 +203,9 @@ def state_names(mechanism: Mechanism, topology: Topology) -> tuple[list[tuple[st
             v += [(f"{body.name}.{c}", UNITS[c]) for c in body.speeds]
             continue
         turns = articulation.turn != "fixed" and not body.is_point
-        lengths, angles = ([x for x in part if (body.name, x) not in prescribed] for part in labels_of(mechanism, link))
+        lengths, angles = (
+            [x for x in part if (body.name, x) not in prescribed] for part in labels_of_link(mechanism, link)
+        )
         q += [(f"{link.joint}.{label}", "m") for label in lengths]
         v += [(f"{link.joint}.{label}.rate", "m/s") for label in lengths]
         if not turns:
@@ -242,5 +246,5 @@ def state_measures(mechanism: Mechanism, topology: Topology) -> dict[Measure, tu
         for label, measure in mechanism.joint_named(link.joint).coordinates:
             name = f"{link.joint}.{label}"
             if name in q:
-                places |= {m: (q[name], v[f"{name}.rate"], sign) for m, sign in _alike(measure)}
+                places |= {m: (q[name], v[f"{name}.rate"], sign) for m, sign in _equal_measures(measure)}
     return places

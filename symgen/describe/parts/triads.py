@@ -16,17 +16,17 @@ from symgen.base.vocabulary.expressions import (
     Number,
     call,
     difference,
-    dot,
     literal_of,
     product,
+    scalar_product_of,
     vector_product,
 )
 from symgen.base.vocabulary.measures import GROUND, Direction
-from symgen.base.vocabulary.rotations import matrix, rotate, rotate_back
-from symgen.describe.formulas.evaluate import scalars
+from symgen.base.vocabulary.rotations import rotate, rotate_back, rotation_matrix_of
+from symgen.describe.formulas.evaluate import scalar_values
 from symgen.describe.formulas.start import euler_parameters
 from symgen.describe.mechanism import SpatialBody, Vec
-from symgen.describe.parts.fields import words_of
+from symgen.describe.parts.fields import value_in_words
 
 if TYPE_CHECKING:
     from symgen.describe.parts.scope import Scope
@@ -77,30 +77,30 @@ def make_triads(
     """
     a, b = bodies
     if len(axis) == 2 and isinstance(axis[0], tuple) and isinstance(axis[1], tuple):
-        along_a, along_b = _unit(scope, keys[0], axis[0]), _unit(scope, keys[0], axis[1])
+        along_a, along_b = _unit_vector(scope, keys[0], axis[0]), _unit_vector(scope, keys[0], axis[1])
     elif len(axis) == 3 and not any(isinstance(e, tuple) for e in axis):
-        along_a = _unit(scope, keys[0], tuple(e for e in axis if not isinstance(e, tuple)))
-        along_b = _carried(scope, keys[0], a, b, along_a)
+        along_a = _unit_vector(scope, keys[0], tuple(e for e in axis if not isinstance(e, tuple)))
+        along_b = _direction_in_other_body(scope, keys[0], a, b, along_a)
     else:
         expected = "a direction [x, y, z] in the first body's frame, or two, one in the frame of each body"
-        raise scope.error(keys[0], expected, words_of(axis))
+        raise scope.error(keys[0], expected, value_in_words(axis))
     if reference is not None:
-        first_a = _across(scope, keys[1], _unit(scope, keys[1], reference[0]), along_a)
-        first_b = _across(scope, keys[1], _unit(scope, keys[1], reference[1]), along_b)
+        first_a = _part_across_axis(scope, keys[1], _unit_vector(scope, keys[1], reference[0]), along_a)
+        first_b = _part_across_axis(scope, keys[1], _unit_vector(scope, keys[1], reference[1]), along_b)
     else:
-        first_a = _any_across(along_a)
-        guess = _swung(scope, keys[0], (a, b), (first_a, along_a), along_b)
+        first_a = _any_direction_across(along_a)
+        guess = _swing_direction(scope, keys[0], (a, b), (first_a, along_a), along_b)
         if guess is not None:
-            first_b = _across(scope, keys[0], guess, along_b)
+            first_b = _part_across_axis(scope, keys[0], guess, along_b)
         elif fixed:
             expected = "two directions that coincide, as the start does not say how the bodies are turned"
             raise scope.error(keys[1], expected, "no such key")
         else:
-            first_b = _any_across(along_b)
-    return _triad(a, first_a, along_a), _triad(b, first_b, along_b)
+            first_b = _any_direction_across(along_b)
+    return _right_handed_triad(a, first_a, along_a), _right_handed_triad(b, first_b, along_b)
 
 
-def triad(scope: Scope, key: str, along: Vec, side: Vec) -> tuple[Vec, Vec, Vec]:
+def triad_from_directions(scope: Scope, key: str, along: Vec, side: Vec) -> tuple[Vec, Vec, Vec]:
     """Return three axes, all of them expressions of parameters: x along a direction of length 1, y on a side of it.
 
     Raises
@@ -108,8 +108,8 @@ def triad(scope: Scope, key: str, along: Vec, side: Vec) -> tuple[Vec, Vec, Vec]
     InputError
         About a key, if the side is parallel to x.
     """
-    rest = tuple(difference(s, product(dot(side, along), a)) for s, a in zip(side, along, strict=True))
-    size = call("sqrt", dot(rest, rest))
+    rest = tuple(difference(s, product(scalar_product_of(side, along), a)) for s, a in zip(side, along, strict=True))
+    size = call("sqrt", scalar_product_of(rest, rest))
     if not scope.value(size, key) > 1e-6:
         raise scope.error(key, "a direction across the beam", "one along it")
     across = tuple(_tidy_entry(e if e == ZERO else call("div", e, size)) for e in rest)
@@ -130,11 +130,13 @@ def make_triad(
     """Return a triad of one body about an axis given in its frame, its first direction near `reference`, if given."""
     key = keys[0]
     if any(isinstance(e, tuple) for e in axis):
-        raise scope.error(key, f"one direction [x, y, z] in the frame of '{body}'", words_of(axis))
-    along = _unit(scope, key, tuple(e for e in axis if not isinstance(e, tuple)))
+        raise scope.error(key, f"one direction [x, y, z] in the frame of '{body}'", value_in_words(axis))
+    along = _unit_vector(scope, key, tuple(e for e in axis if not isinstance(e, tuple)))
     if reference is None:
-        return _triad(body, _any_across(along), along)
-    return _triad(body, _across(scope, keys[1], _unit(scope, keys[1], reference), along), along)
+        return _right_handed_triad(body, _any_direction_across(along), along)
+    return _right_handed_triad(
+        body, _part_across_axis(scope, keys[1], _unit_vector(scope, keys[1], reference), along), along
+    )
 
 
 def make_cross(
@@ -150,21 +152,21 @@ def make_cross(
     """
     triads = []
     for i, (body, other) in enumerate((bodies, bodies[::-1])):
-        along = _unit(scope, "axes", axes[i])
+        along = _unit_vector(scope, "axes", axes[i])
         if reference is not None:
-            first = _across(scope, "reference", _unit(scope, "reference", reference[i]), along)
+            first = _part_across_axis(scope, "reference", _unit_vector(scope, "reference", reference[i]), along)
         elif _is_numeric(scope, body) and _is_numeric(scope, other):
-            towards = _carried(scope, "axes", other, body, _unit(scope, "axes", axes[1 - i]))
-            if abs(_dot(towards, along)) > 0.99:
+            towards = _direction_in_other_body(scope, "axes", other, body, _unit_vector(scope, "axes", axes[1 - i]))
+            if abs(_scalar_product(towards, along)) > 0.99:
                 raise scope.error("axes", "two axes that cross", "two that start parallel")
-            first = _across(scope, "axes", towards, along)
+            first = _part_across_axis(scope, "axes", towards, along)
         else:
-            first = _any_across(along)
-        triads.append(_triad(body, first, along))
+            first = _any_direction_across(along)
+        triads.append(_right_handed_triad(body, first, along))
     return triads[0], triads[1]
 
 
-def _unit(scope: Scope, key: str, vector: tuple[float | str, ...]) -> _Triple:
+def _unit_vector(scope: Scope, key: str, vector: tuple[float | str, ...]) -> _Triple:
     parts = scope.direction(key, GROUND, vector).vector
     if not all(isinstance(e, Number) for e in parts):
         raise scope.error(key, "numbers, no expressions of parameters", "an expression")
@@ -178,7 +180,7 @@ def _is_numeric(scope: Scope, body: str) -> bool:
     return body == GROUND or (isinstance(described, SpatialBody) and described.orientation.is_numeric)
 
 
-def _carried(scope: Scope, key: str, a: str, b: str, vector: _Triple) -> _Triple:
+def _direction_in_other_body(scope: Scope, key: str, a: str, b: str, vector: _Triple) -> _Triple:
     """Return a direction of body `a` in the frame of body `b`, as both start."""
     for body in (a, b):
         if not _is_numeric(scope, body):
@@ -188,12 +190,12 @@ def _carried(scope: Scope, key: str, a: str, b: str, vector: _Triple) -> _Triple
         described = scope.context.bodies.get(body)
         if isinstance(described, SpatialBody):
             where = f"{scope.context.source}: bodies.{body}.orientation"
-            turned = euler_parameters(described.orientation, scalars(scope.context.values), where)
-            vector = turn(matrix(turned), vector)
-    return _tidy(vector)
+            turned = euler_parameters(described.orientation, scalar_values(scope.context.values), where)
+            vector = turn(rotation_matrix_of(turned), vector)
+    return _tidy_vector(vector)
 
 
-def _swung(
+def _swing_direction(
     scope: Scope, key: str, bodies: tuple[str, str], directions: tuple[_Triple, _Triple], axis: _Triple
 ) -> _Triple | None:
     """Return the first of two directions of a body in another one's frame, turned as brings the second to its axis.
@@ -202,48 +204,48 @@ def _swung(
     """
     if not all(_is_numeric(scope, body) for body in bodies):
         return None
-    x, along = (_carried(scope, key, *bodies, vector) for vector in directions)
-    lean = 1.0 + _dot(along, axis)
+    x, along = (_direction_in_other_body(scope, key, *bodies, vector) for vector in directions)
+    lean = 1.0 + _scalar_product(along, axis)
     if lean < 1e-3:
         return None
-    part = _dot(x, axis) / lean
+    part = _scalar_product(x, axis) / lean
     return x[0] - part * (along[0] + axis[0]), x[1] - part * (along[1] + axis[1]), x[2] - part * (along[2] + axis[2])
 
 
-def _across(scope: Scope, key: str, vector: _Triple, axis: _Triple) -> _Triple:
+def _part_across_axis(scope: Scope, key: str, vector: _Triple, axis: _Triple) -> _Triple:
     """Return the part of a vector that is perpendicular to the axis, of length 1."""
-    rest, size = _perpendicular(vector, axis)
+    rest, size = _perpendicular_part(vector, axis)
     if not size > 1e-6:
         raise scope.error(key, "a direction across the axis", "one along it")
     return rest
 
 
-def _any_across(axis: _Triple) -> _Triple:
+def _any_direction_across(axis: _Triple) -> _Triple:
     """Return a direction perpendicular to the axis: the next axis of the frame, made perpendicular."""
     k = max(range(3), key=lambda i: abs(axis[i]))
     x, y, z = (float(i == (k + 1) % 3) for i in range(3))
-    return _perpendicular((x, y, z), axis)[0]
+    return _perpendicular_part((x, y, z), axis)[0]
 
 
-def _perpendicular(vector: _Triple, axis: _Triple) -> tuple[_Triple, float]:
+def _perpendicular_part(vector: _Triple, axis: _Triple) -> tuple[_Triple, float]:
     """Return the part of a vector that is perpendicular to the axis, of length 1, and its length before."""
-    part = _dot(vector, axis)
+    part = _scalar_product(vector, axis)
     x, y, z = (v - part * a for v, a in zip(vector, axis, strict=True))
     size = math.hypot(x, y, z)
-    return _tidy((x / (size or 1.0), y / (size or 1.0), z / (size or 1.0))), size
+    return _tidy_vector((x / (size or 1.0), y / (size or 1.0), z / (size or 1.0))), size
 
 
-def _triad(body: str, first: _Triple, axis: _Triple) -> Triad:
+def _right_handed_triad(body: str, first: _Triple, axis: _Triple) -> Triad:
     (a, b, c), (d, e, f) = axis, first
-    second = _tidy((b * f - c * e, c * d - a * f, a * e - b * d))
+    second = _tidy_vector((b * f - c * e, c * d - a * f, a * e - b * d))
     return Triad(*(Direction(body, tuple(literal_of(x) for x in v)) for v in (first, second, axis)))
 
 
-def _dot(a: _Triple, b: _Triple) -> float:
+def _scalar_product(a: _Triple, b: _Triple) -> float:
     return sum(x * y for x, y in zip(a, b, strict=True))
 
 
-def _tidy(v: _Triple) -> _Triple:
+def _tidy_vector(v: _Triple) -> _Triple:
     """Return the vector without what is rounding of 0 or 1, so that nothing is emitted for it."""
     x, y, z = map(_tidy_number, v)
     return x, y, z

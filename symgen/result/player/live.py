@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.base.latest import latest
+from symgen.base.latest import get_or_make
 from symgen.compile.native.formula_lines import JAVASCRIPT, NotInLines
-from symgen.compile.native.javascript import HELPERS, LOOP_HELPERS, javascript
+from symgen.compile.native.javascript_code import HELPERS, LOOP_HELPERS, javascript_functions
 from symgen.compile.native.read import Foreign
 from symgen.describe.drawing.scene import Array
 from symgen.describe.mechanism import Parameter
@@ -124,8 +124,8 @@ def live_part(
     if run is not None:
         whole = run_with_modes(acting or mechanism, run, compiled, start.datum or (), foresees=True)
     try:
-        script = _script(mechanism, described)
-        code, size = _code(
+        script = _script_of_dependents(mechanism, described)
+        code, size = _page_functions(
             acting or mechanism,
             compiled,
             whole,
@@ -138,13 +138,15 @@ def live_part(
     if size > MOST[spatial]:
         return None, f"{NONE}: {size} characters are more than the {MOST[spatial]} that a page may have"
     constants = {*still, *dict(mechanism.input_formulas)}
-    spec = _spec(mechanism, compiled, start, step, joint, constants)
+    spec = _page_data(mechanism, compiled, start, step, joint, constants)
     if whole is not None:
         spec["modes"] = modes_data(acting or mechanism, whole)
     return Live(f"{HELPERS}{code}\n{script}", spec), ""
 
 
-def _code(mechanism: Mechanism, compiled: CompiledModel, run: PrintedRun | None, assembly: Assembly) -> tuple[str, int]:
+def _page_functions(
+    mechanism: Mechanism, compiled: CompiledModel, run: PrintedRun | None, assembly: Assembly
+) -> tuple[str, int]:
     """Return emitted functions and functions of the runtime for starts and events.
 
     Returns
@@ -168,15 +170,15 @@ def _code(mechanism: Mechanism, compiled: CompiledModel, run: PrintedRun | None,
             printed.add_foresight(run)
     elif events is not None:
         printed.add_steps(compiled, events, ("take_steps",))
-    if drivers := _drivers(mechanism):
+    if drivers := _driving_joints(mechanism):
         printed.add_lock(compiled, drivers)
-    return latest(_texts, printed.key, lambda: _text(printed), MOST_TEXTS)
+    return get_or_make(_texts, printed.key, lambda: _text_of_functions(printed), MOST_TEXTS)
 
 
-def _text(printed: Printed) -> tuple[str, int]:
+def _text_of_functions(printed: Printed) -> tuple[str, int]:
     """Return the text of all functions, and the characters of the emitted ones."""
     own = {name: function for name, function in printed.emitted.items() if name != FINDER}
-    return f"{LOOP_HELPERS}{javascript(printed.emitted, printed.bound())}", len(javascript(own))
+    return f"{LOOP_HELPERS}{javascript_functions(printed.emitted, printed.bound())}", len(javascript_functions(own))
 
 
 def modes_data(mechanism: Mechanism, run: PrintedRun) -> dict[str, Any]:
@@ -205,13 +207,13 @@ def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]
     if not hasattr(compiled.law_module, "rhs"):
         return None, "the method has none"
     try:
-        code = HELPERS + javascript(checked(compiled, ("rhs", "confirm", "masses")))
+        code = HELPERS + javascript_functions(checked(compiled, ("rhs", "confirm", "masses")))
     except Foreign as error:
         return None, f"its code has {error}"
     return Live(code, _rates_spec(compiled, start)), ""
 
 
-def _script(mechanism: Mechanism, described: bool) -> str:
+def _script_of_dependents(mechanism: Mechanism, described: bool) -> str:
     """Return the values that follow from parameters: derived ones, and the start as far as it is described."""
     formulas = [
         f"if (!independent.has({place})) {{ {' '.join(lines)} }}"
@@ -240,18 +242,18 @@ def _rates_spec(compiled: CompiledModel, start: Start) -> dict[str, Any]:
     }
 
 
-def _written(parameter: Parameter) -> dict[str, Any]:
+def _unit_with_factor(parameter: Parameter) -> dict[str, Any]:
     """Return the unit of the file with its factor to SI units, where it is another."""
     unit = parameter.own_unit
     return {"shown": {"unit": unit.text, "factor": float(unit.factor)}} if parameter.shown else {}
 
 
-def _drivers(mechanism: Mechanism) -> set[str]:
+def _driving_joints(mechanism: Mechanism) -> set[str]:
     """Return the joints that drive."""
     return {joint.name for joint in mechanism.joints if joint.kind == DRIVER}
 
 
-def _spec(
+def _page_data(
     mechanism: Mechanism,
     compiled: CompiledModel,
     start: Start,
@@ -260,7 +262,7 @@ def _spec(
     constants: Collection[str],
 ) -> dict[str, Any]:
     info, rates = compiled.info, _rates_spec(compiled, start)
-    drivers = _drivers(mechanism)
+    drivers = _driving_joints(mechanism)
     sections = {
         name: info.sections[name][0] for name in ("jacobian", "residual", "nu", "change", "gauge", "mass", "pivot")
     }
@@ -289,7 +291,7 @@ def _spec(
             {
                 **entry,
                 "follows": bool(own.formula),
-                **_written(own),
+                **_unit_with_factor(own),
                 **({"still": True} if own.name in constants else {}),
             }
             for entry, own in zip(rates["parameters"], mechanism.parameters, strict=False)

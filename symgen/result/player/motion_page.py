@@ -14,23 +14,23 @@ from typing import Any
 
 import numpy as np
 
-from symgen.base.arguments import path as argument_path
+from symgen.base.arguments import path_argument as argument_path
 from symgen.base.escapes import script_json
 from symgen.base.files import check_path, write_whole
 from symgen.describe.drawing.mechanism_scene import build_scene
 from symgen.describe.drawing.paper import View
 from symgen.describe.drawing.scene import Array, Disc, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
 from symgen.describe.drawing.traced import traced_points
-from symgen.describe.drawing.viewpoint import viewpoint
+from symgen.describe.drawing.viewpoint import choose_viewpoint
 from symgen.result.player.live import Live
 from symgen.result.player.recording import (
     Recording,
+    drop_further,
+    encode_shorts,
+    fit_further,
     frames_within,
     is_coarse,
-    packed,
-    shorts,
-    with_further,
-    without_further,
+    pack_recording,
 )
 
 #: The ending of pages, which need no library.
@@ -43,7 +43,7 @@ SCRIPTS = {False: ("draw.js", "plots.js", "player.js"), True: ("solid.js", "draw
 
 
 @lru_cache(maxsize=8)
-def _web(name: str) -> str:
+def _read_web_part(name: str) -> str:
     """Return a part of the page."""
     text = (Path(__file__).parent / "web" / name).read_text(encoding="utf-8")
     if not name.endswith(".js"):
@@ -53,7 +53,9 @@ def _web(name: str) -> str:
     return "".join(f"{line}\n" for line in lines if line and not line.startswith("//"))
 
 
-def page(recording: Recording, live: Live | None = None, note: str = "", second: Recording | None = None) -> Page:
+def motion_page(
+    recording: Recording, live: Live | None = None, note: str = "", second: Recording | None = None
+) -> Page:
     """Return the page of a motion.
 
     Parameters
@@ -69,9 +71,14 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
     """
     spatial = recording.mechanism.space == "spatial"
     data = page_data(recording, live, note, second)
-    text = _web("page.html")
-    script = _script(live, spatial)
-    parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": script_json(data), "SCRIPT": script}
+    text = _read_web_part("page.html")
+    script = _page_script(live, spatial)
+    parts = {
+        "TITLE": escape(data["title"]),
+        "STYLE": _read_web_part("style.css"),
+        "DATA": script_json(data),
+        "SCRIPT": script,
+    }
     for name, part in parts.items():
         text = text.replace(f"<!--{name}-->", part, 1) if name != "TITLE" else text.replace("<!--TITLE-->", part)
     return Page(text, recording.mechanism.name, live is not None)
@@ -107,8 +114,8 @@ def page_data(
     data: dict[str, Any] = {
         "title": recording.mechanism.title or recording.mechanism.name,
         "name": recording.mechanism.name,
-        "scene": scene_data(scene, viewpoint(scene, recording.q[0])),
-        "points": _points(recording),
+        "scene": scene_data(scene, choose_viewpoint(scene, recording.q[0])),
+        "points": _traced_points(recording),
         "names": [f"{b.name}.{c}" for b in recording.mechanism.bodies for c in b.coordinates],
         "live": None if live is None else live.spec,
         "note": note,
@@ -118,23 +125,25 @@ def page_data(
     pins = scene.pins
     data["motions"] = []
     for each in motions:
-        played = without_further(each)
+        played = drop_further(each)
         coarse = is_coarse(played, share, len(pins))
         keep = frames_within(played, share, coarse, len(pins))
-        shown, missing = with_further(each, len(keep), MOST_PLOTS[spatial] // len(motions))
+        shown, missing = fit_further(each, len(keep), MOST_PLOTS[spatial] // len(motions))
         if missing:
             words = f"no plots of {', '.join(dict.fromkeys(missing))}: the page would be too large"
             data["note"] = "; ".join(dict.fromkeys([*filter(None, [data["note"]]), words]))
-        data["motions"].append(packed(shown, keep, coarse) | (_gaps(scene, each.q[keep]) if gaps else {}))
+        data["motions"].append(
+            pack_recording(shown, keep, coarse) | (_gap_exponents(scene, each.q[keep]) if gaps else {})
+        )
     return data
 
 
-def _gaps(scene: Scene, q: Array) -> dict[str, Any]:
+def _gap_exponents(scene: Scene, q: Array) -> dict[str, Any]:
     """Return the gaps of pins as powers of ten: positions of 32 bits would hide them."""
     if not scene.pins:
         return {}
     gaps = np.array([scene.gaps(row) for row in q])
-    return {"gaps": {"names": [item.name for item in scene.pins], **shorts(np.log10(np.maximum(gaps, 1e-17)))}}
+    return {"gaps": {"names": [item.name for item in scene.pins], **encode_shorts(np.log10(np.maximum(gaps, 1e-17)))}}
 
 
 #: The policy in the file of pages, which load nothing.
@@ -153,12 +162,12 @@ def editing_page(data: str, pane: str, style: str, script: str, nonce: str) -> s
     nonce : str
         The word by which the policy of its server knows styles and scripts of the page.
     """
-    text, own = _POLICY.sub("", _web("page.html")), "".join(_web(name) for name in SCRIPTS[True])
+    text, own = _POLICY.sub("", _read_web_part("page.html")), "".join(_read_web_part(name) for name in SCRIPTS[True])
     nothing = "const emitted = null, makeLive = null, observed = null;"
     text = text.replace("<style>", f'<style nonce="{nonce}">').replace("<script>", f'<script nonce="{nonce}">')
     text = text.replace("<body>\n", f'<body class="editing">\n{pane}')
     parts = {
-        "STYLE": _web("style.css") + style,
+        "STYLE": _read_web_part("style.css") + style,
         "DATA": data,
         "SCRIPT": f"(() => {{\n'use strict';\n{nothing}\n{own}{script}}})();",
     }
@@ -169,38 +178,38 @@ def editing_page(data: str, pane: str, style: str, script: str, nonce: str) -> s
 
 def live_script(live: Live) -> str:
     """Return a function's body that returns what a page works out other motions with."""
-    columns = f"const observed = {live.columns};\n{_web('columns.js')}"
+    columns = f"const observed = {live.columns};\n{_read_web_part('columns.js')}"
     return f"'use strict';\n{model_script(live)}{columns}return {{ emitted, makeLive, observed, makeColumns }};"
 
 
-def _script(live: Live | None, spatial: bool) -> str:
-    own = "".join(_web(name) for name in SCRIPTS[spatial])
+def _page_script(live: Live | None, spatial: bool) -> str:
+    own = "".join(_read_web_part(name) for name in SCRIPTS[spatial])
     if live is None:
         return f"(() => {{\n'use strict';\nconst emitted = null, makeLive = null, observed = null;\n{own}}})();"
-    observed = f"const observed = {live.columns};\n{_web('columns.js')}"
+    observed = f"const observed = {live.columns};\n{_read_web_part('columns.js')}"
     return f"(() => {{\n'use strict';\n{model_script(live)}{observed}{own}}})();"
 
 
-def _emitted(live: Live, functions: str, *further: str) -> str:
+def _emitted_object(live: Live, functions: str, *further: str) -> str:
     """Return emitted code as an object of the functions that it has, and what evaluates them.
 
     The code is a function's body, so that none of its names is one of the page's.
     """
     names = [n for n in functions.split() if f"function {n}(" in live.code or f"const {n} =" in live.code]
     given = f"return {{ {', '.join([*names, *further])} }};"
-    return f"const emitted = (() => {{\n{live.code}{given}\n}})();\n{_web('rates.js')}"
+    return f"const emitted = (() => {{\n{live.code}{given}\n}})();\n{_read_web_part('rates.js')}"
 
 
 def model_script(live: Live) -> str:
     """Return a script that defines ``emitted``, the functions of a mechanism, and ``makeLive``, which runs them."""
     functions = "rhs accept geometry masses prepareModel prepareLaw derive describe confirm move bodies"
     functions += " begin_row close_row take_steps start_run foresee_run advance_run find_lock newMemory"
-    return f"{_emitted(live, functions)}{_web('live.js')}"
+    return f"{_emitted_object(live, functions)}{_read_web_part('live.js')}"
 
 
 def rates_script(live: Live) -> str:
     """Return a script that is a function: the rates of a state, given time, state and parameters."""
-    code = _emitted(live, "confirm rhs masses prepareModel prepareLaw", "derive: () => {}")
+    code = _emitted_object(live, "confirm rhs masses prepareModel prepareLaw", "derive: () => {}")
     return f"(() => {{\n'use strict';\n{code}return makeRates({script_json(live.spec)}, emitted).rates;\n}})()"
 
 
@@ -210,37 +219,37 @@ def scene_data(scene: Scene, view: View) -> dict[str, Any]:
     size = 3 if scene.spatial else 2
     grid = 10.0 ** math.floor(math.log10(scene.unit / 200.0))
 
-    def point(p: Sequence[float]) -> list[float]:
+    def rounded_point(p: Sequence[float]) -> list[float]:
         near = [float(f"{round(x / grid) * grid:.9g}") for x in p[:size]]
         return [int(x) if x == int(x) else x for x in near]
 
     shared: dict[tuple[float, ...], int] = {}
 
-    def flat(points: Sequence[Point]) -> int:
+    def number_of_points(points: Sequence[Point]) -> int:
         """Return the number of a list of points; bodies that look alike share theirs."""
-        return shared.setdefault(tuple(x for p in points for x in point(p)), len(shared))
+        return shared.setdefault(tuple(x for p in points for x in rounded_point(p)), len(shared))
 
-    def mark(m: Mark) -> list[Any]:
+    def mark_data(m: Mark) -> list[Any]:
         look = looks.setdefault(m.look, len(looks))
         if isinstance(m, Line):
-            return ["L", look, m.body, int(m.closed), flat(m.points)]
+            return ["L", look, m.body, int(m.closed), number_of_points(m.points)]
         if isinstance(m, Disc):
-            return ["D", look, m.body, point(m.at), float(f"{m.radius:.6g}"), int(m.mass)]
+            return ["D", look, m.body, rounded_point(m.at), float(f"{m.radius:.6g}"), int(m.mass)]
         if isinstance(m, Tube):
-            return ["T", look, m.body, point(m.a), point(m.b), float(f"{m.radius:.6g}")]
+            return ["T", look, m.body, rounded_point(m.a), rounded_point(m.b), float(f"{m.radius:.6g}")]
         if isinstance(m, Solid):
-            return ["S", look, m.body, [flat(face) for face in m.faces]]
+            return ["S", look, m.body, [number_of_points(face) for face in m.faces]]
         assert isinstance(m, Stretch), "all kinds of marks are known"
-        return ["X", look, m.kind, m.body, point(m.at), m.other, point(m.to)]
+        return ["X", look, m.kind, m.body, rounded_point(m.at), m.other, rounded_point(m.to)]
 
     items = [
         {
             "role": item.role,
             "name": item.name,
             "kind": item.kind,
-            "marks": [mark(m) for m in item.marks],
-            "ends": [[body, point(at)] for body, at in item.ends],
-            **({} if item.label is None else {"label": [item.label[0], point(item.label[1])]}),
+            "marks": [mark_data(m) for m in item.marks],
+            "ends": [[body, rounded_point(at)] for body, at in item.ends],
+            **({} if item.label is None else {"label": [item.label[0], rounded_point(item.label[1])]}),
         }
         for item in scene.items
     ]
@@ -250,14 +259,14 @@ def scene_data(scene: Scene, view: View) -> dict[str, Any]:
         "up": list(scene.up),
         "unit": scene.unit,
         "frames": [[frame.name, frame.first, frame.size] for frame in scene.frames],
-        **({"carried": [[c.body, point(c.at), c.turned] for c in scene.carried]} if scene.carried else {}),
+        **({"carried": [[c.body, rounded_point(c.at), c.turned] for c in scene.carried]} if scene.carried else {}),
         "looks": [list(astuple(look)) for look in looks],
         "lists": [list(points) for points in shared],
         "items": items,
     }
 
 
-def _points(recording: Recording) -> list[list[Any]]:
+def _traced_points(recording: Recording) -> list[list[Any]]:
     """Return the points whose traces a page can draw."""
     size = 3 if recording.mechanism.space == "spatial" else 2
     return [

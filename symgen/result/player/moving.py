@@ -17,9 +17,9 @@ import numpy as np
 from symgen.base.errors import InputError
 from symgen.base.files import check_path, write_whole
 from symgen.describe.drawing.mechanism_scene import build_scene
-from symgen.describe.drawing.paper import Drawn, on_paper
-from symgen.describe.drawing.pictures import fitted, paint
-from symgen.describe.drawing.viewpoint import viewpoint
+from symgen.describe.drawing.paper import Drawn, items_on_paper
+from symgen.describe.drawing.pictures import fit_picture, paint_on_figure
+from symgen.describe.drawing.viewpoint import choose_viewpoint
 from symgen.result.player.recording import Recording
 
 if TYPE_CHECKING:
@@ -70,9 +70,9 @@ def write_film(path: Path, recording: Recording) -> Path:
     film = path.suffix.lower() == ".mp4"
     count = int(min(MOST_OF_FILM if film else MOST, max(2, round(span * RATE)), len(recording.t)))
     pause = max(20.0, 1000.0 * (span if film else min(span, LONGEST)) / count)
-    pictures = _pictures(recording, count)
+    pictures = _frames_of_film(recording, count)
     if film:
-        return write_whole(path, lambda file: file.write(_encoded(pictures, 1000.0 / pause)))
+        return write_whole(path, lambda file: file.write(_encode_mp4(pictures, 1000.0 / pause)))
     from PIL import Image
 
     frames = [picture.convert("P", palette=Image.Palette.ADAPTIVE, colors=64) for picture in pictures]
@@ -80,34 +80,34 @@ def write_film(path: Path, recording: Recording) -> Path:
     ends = np.round(0.1 * pause * np.arange(count + 1))
     pauses = [10 * int(x) for x in np.diff(ends)]
 
-    def write(file: io.BytesIO) -> None:
+    def write_gif(file: io.BytesIO) -> None:
         frames[0].save(file, format="GIF", save_all=True, append_images=frames[1:], duration=pauses, loop=0)
 
-    return write_whole(path, write)
+    return write_whole(path, write_gif)
 
 
-def _pictures(recording: Recording, count: int) -> Iterator[Image.Image]:
+def _frames_of_film(recording: Recording, count: int) -> Iterator[Image.Image]:
     """Yield pictures of one size, evenly spread over the motion."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg as Canvas
     from matplotlib.figure import Figure
     from PIL import Image
 
     scene = build_scene(recording.mechanism, recording.q, recording.values)
-    view = viewpoint(scene, recording.q[0])
+    view = choose_viewpoint(scene, recording.q[0])
     times = np.linspace(recording.t[0], recording.t[-1], count)
     rows = [recording.q[int(np.argmin(np.abs(recording.t - time)))] for time in times]
-    pages = [on_paper(scene, row, view) for row in rows]
+    pages = [items_on_paper(scene, row, view) for row in rows]
     everything: list[Drawn] = [each for drawn in pages for each in drawn]
-    frame = fitted(everything)
+    frame = fit_picture(everything)
     for drawn in pages:
         figure = Figure(dpi=DPI)
         canvas: Any = Canvas(figure)  # its methods have no types
-        paint(figure, frame, drawn)
+        paint_on_figure(figure, frame, drawn)
         canvas.draw()
         yield Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
 
 
-def _encoded(pictures: Iterator[Image.Image], rate: float) -> bytes:
+def _encode_mp4(pictures: Iterator[Image.Image], rate: float) -> bytes:
     """Return pictures as MP4; sizes are even, as most players want them."""
     first = next(pictures)
     size = f"{first.width}x{first.height}"

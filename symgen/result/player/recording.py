@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.base.digits import cleaned, scale_of
+from symgen.base.digits import clean, scale_of
 from symgen.describe.drawing.scene import Array
 from symgen.result.labelled import largest_magnitudes
 
@@ -121,7 +121,7 @@ class Recording:
     moments: tuple[RecordedEvent, ...] = ()
 
 
-def parts_of(title: str, names: Sequence[str]) -> Iterator[tuple[str, slice]]:
+def groups_by_unit(title: str, names: Sequence[str]) -> Iterator[tuple[str, slice]]:
     """Yield titles and columns of the groups for columns of one unit; titles of several name their first and last."""
     for i in range(0, min(len(names), MOST_OF_UNIT), LONGEST_KEY):
         some = slice(i, i + LONGEST_KEY)
@@ -135,7 +135,7 @@ def position_groups(mechanism: Mechanism, q: Array) -> list[PlottedGroup]:
     names = [(f"{b.name}.{c}", c) for b in mechanism.bodies for c in b.coordinates]
     for meaning, unit, axes in (("position", "m", ("x", "y", "z")), ("angle", "rad", ("theta",))):
         columns = [i for i, (_, c) in enumerate(names) if c in axes]
-        for title, some in parts_of(meaning, [names[i][0] for i in columns]):
+        for title, some in groups_by_unit(meaning, [names[i][0] for i in columns]):
             chosen = columns[some]
             own = tuple(names[i][0] for i in chosen)
             scale = scale_of(largest_magnitudes(q[:, columns]), unit)
@@ -157,21 +157,23 @@ def is_coarse(recording: Recording, room: int, further: int = 0) -> bool:
     further : int
         Columns of 16 bits beside those of the recording.
     """
-    return FEWEST * _characters(recording, False, further) > room
+    return FEWEST * _characters_of_frame(recording, False, further) > room
 
 
-def _characters(recording: Recording, coarse: bool, further: int) -> float:
+def _characters_of_frame(recording: Recording, coarse: bool, further: int) -> float:
     """Return the characters of a frame."""
-    wide = sum((4 if exact and not coarse else 2) * int(part.shape[1]) for part, exact in _parts(recording))
+    wide = sum(
+        (4 if exact and not coarse else 2) * int(part.shape[1]) for part, exact in _columns_with_width(recording)
+    )
     return (wide + 2 * further) * 4 / 3
 
 
-def without_further(recording: Recording) -> Recording:
+def drop_further(recording: Recording) -> Recording:
     """Return a recording without its optional groups."""
     return replace(recording, groups=tuple(group for group in recording.groups if not group.further))
 
 
-def with_further(recording: Recording, frames: int, room: int) -> tuple[Recording, list[str]]:
+def fit_further(recording: Recording, frames: int, room: int) -> tuple[Recording, list[str]]:
     """Return a recording with the further groups that fit, and the titles of the others.
 
     Parameters
@@ -208,12 +210,12 @@ def frames_within(recording: Recording, room: int, coarse: bool = False, further
     further : int
         Columns of 16 bits beside those of the recording.
     """
-    a_frame = _characters(recording, coarse, further)
+    a_frame = _characters_of_frame(recording, coarse, further)
     count = int(min(max(room / max(a_frame, 1.0), FEWEST), MOST, len(recording.t)))
     return np.unique(np.linspace(0, len(recording.t) - 1, count).round().astype(int))
 
 
-def _parts(recording: Recording) -> Iterator[tuple[Array, bool]]:
+def _columns_with_width(recording: Recording) -> Iterator[tuple[Array, bool]]:
     """Yield all columns, with whether they keep 32 bits."""
     k = len(recording.t)
     yield recording.t.reshape(k, 1), True
@@ -226,11 +228,11 @@ def _parts(recording: Recording) -> Iterator[tuple[Array, bool]]:
             yield further.reshape(k, -1), False
 
 
-def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str, Any]:
-    """Return the part of a recording that a page reads; arrays are columns behind each other in base 64."""
+def pack_recording(recording: Recording, keep: Array, coarse: bool = False) -> dict[str, Any]:
+    """Return the part of a recording that a page reads; arrays are columns one after the other in base 64."""
     data: dict[str, Any] = {
-        "t": floats(recording.t[keep, None]),
-        "q": shorts(recording.q[keep]) if coarse else floats(recording.q[keep]),
+        "t": encode_floats(recording.t[keep, None]),
+        "q": encode_shorts(recording.q[keep]) if coarse else encode_floats(recording.q[keep]),
         "count": len(keep),
         "facts": [list(fact) for fact in recording.facts],
         "status": recording.status,
@@ -242,7 +244,7 @@ def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str,
                 "log": group.logarithmic,
                 "section": group.section,
                 "scale": float(f"{group.scale:.7g}"),
-                **({"places": list(group.places)} if group.places else _plotted(group, keep)),
+                **({"places": list(group.places)} if group.places else _columns_to_plot(group, keep)),
             }
             for group in recording.groups
         ],
@@ -253,27 +255,27 @@ def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str,
         ("pulls", recording.pulls, recording.pulling),
     ):
         if values is not None and len(owners):
-            data[name] = {"names": list(owners), **shorts(values[keep].reshape(len(keep), -1))}
+            data[name] = {"names": list(owners), **encode_shorts(values[keep].reshape(len(keep), -1))}
     return data
 
 
-def _plotted(group: PlottedGroup, keep: Array) -> dict[str, Any]:
+def _columns_to_plot(group: PlottedGroup, keep: Array) -> dict[str, Any]:
     """Return the columns of a group; of a further one every so many frames, and the last."""
     every = -(-len(keep) // SAMPLES) if group.further else 1
     values = group.values[keep[np.minimum(np.arange(0, len(keep) + every - 1, every), len(keep) - 1)]]
     if group.logarithmic:
         values = np.log10(np.maximum(np.abs(values), 1e-17))
     else:
-        values = cleaned(values, max(group.scale, scale_of(largest_magnitudes(group.values), group.unit)))
-    return {"every": every, **shorts(values)}
+        values = clean(values, max(group.scale, scale_of(largest_magnitudes(group.values), group.unit)))
+    return {"every": every, **encode_shorts(values)}
 
 
-def floats(values: Array) -> str:
+def encode_floats(values: Array) -> str:
     """Return columns as 32-bit numbers in base 64."""
     return base64.b64encode(np.ascontiguousarray(values.T, dtype="<f4").tobytes()).decode()
 
 
-def shorts(values: Array) -> dict[str, Any]:
+def encode_shorts(values: Array) -> dict[str, Any]:
     """Return columns as 16-bit numbers in base 64, each between its smallest and largest value."""
     finite = np.where(np.isfinite(values), values, np.nan)
     with np.errstate(all="ignore"):
@@ -282,8 +284,8 @@ def shorts(values: Array) -> dict[str, Any]:
     span = np.where(high > low, high - low, 1.0)
     scaled = np.where(np.isfinite(values), np.round((np.nan_to_num(values) - low) / span * 65534.0), 65535.0)
     data = base64.b64encode(np.ascontiguousarray(scaled.T, dtype="<u2").tobytes()).decode()
-    return {"low": _digits(low), "span": _digits(span), "data": data}
+    return {"low": _round_values(low), "span": _round_values(span), "data": data}
 
 
-def _digits(values: Sequence[float] | Array) -> list[float]:
+def _round_values(values: Sequence[float] | Array) -> list[float]:
     return [float(f"{x:.7g}") for x in values]

@@ -44,20 +44,22 @@ class Box:
     width: float = 0.0
 
 
-def name(text: str, whole: bool = False) -> Box:
+def name_box(text: str, whole: bool = False) -> Box:
     """Return a name of the file, a letter of the notation or a shared term as it is typeset; `whole`: without index."""
-    letter, index = (text, "") if whole else letter_of(text)
+    letter, index = (text, "") if whole else letter_and_index(text)
     wide = _LETTER * (1 if letter in GREEK or len(letter) == 1 else 0.9 * len(letter))
     return Box("name", text=letter, index=index, width=wide + _SMALL * len(index) + 0.1)
 
 
-def apart(names: Iterable[str]) -> dict[str, Box]:
+def boxes_apart(names: Iterable[str]) -> dict[str, Box]:
     """Return names of one kind as they are typeset; if both ``l1`` and ``l_1`` are names, the first is whole."""
     every = set(names)
-    return {text: name(text, whole=re.sub(r"^([A-Za-z])(\d+)$", r"\1_\2", text) in every - {text}) for text in every}
+    return {
+        text: name_box(text, whole=re.sub(r"^([A-Za-z])(\d+)$", r"\1_\2", text) in every - {text}) for text in every
+    }
 
 
-def letter_of(text: str) -> tuple[str, str]:
+def letter_and_index(text: str) -> tuple[str, str]:
     """Return the letter that a name is typeset with, and its index."""
     body, _, quantity = text.rpartition(".")
     if not body:
@@ -75,17 +77,17 @@ def letter_of(text: str) -> tuple[str, str]:
 def literal_box(value: float, exact: bool = False) -> Box:
     """Return a literal: whole, a small fraction, or rounded to six digits; with all digits where `exact`."""
     if value == int(value) and abs(value) < (1e15 if exact else 1e9):
-        return _digits(str(int(value)))
+        return _width_of_digits(str(int(value)))
     if exact:
-        return _digits(repr(value))
+        return _width_of_digits(repr(value))
     near = Fraction(value).limit_denominator(99)
     exact = abs(float(near) - value) <= 4e-16 * abs(value)
     if exact and abs(near.numerator) < 1000 and near.denominator not in _DECIMAL:
-        return fraction(literal_box(float(near.numerator)), literal_box(float(near.denominator)))
-    return _digits(f"{value:.6g}")
+        return fraction_box(literal_box(float(near.numerator)), literal_box(float(near.denominator)))
+    return _width_of_digits(f"{value:.6g}")
 
 
-def _digits(text: str) -> Box:
+def _width_of_digits(text: str) -> Box:
     mantissa, exponent, power = text.partition("e")
     wide = _DIGIT * len(mantissa) + (2.0 + _SMALL * len(power) if exponent else 0.0)
     return Box("number", text=text, width=wide)
@@ -96,39 +98,39 @@ def is_literal(box: Box) -> bool:
     return box.kind == "number" or (box.kind == "over" and all(p.kind == "number" for p in box.parts))
 
 
-def atoms(box: Box) -> int:
+def count_atoms(box: Box) -> int:
     """Return the number of names and literals of a box."""
-    return sum(map(atoms, box.parts)) if box.parts else 1
+    return sum(map(count_atoms, box.parts)) if box.parts else 1
 
 
-def sign(text: str) -> Box:
+def sign_box(text: str) -> Box:
     """Return an operator or relation."""
     return Box("sign", text=text, width=_SIGN)
 
 
-def row(*parts: Box) -> Box:
+def row_box(*parts: Box) -> Box:
     """Return boxes side by side."""
     return Box("row", parts, width=sum(p.width for p in parts) + 0.17 * max(0, len(parts) - 1))
 
 
-def bracket(inside: Box) -> Box:
+def bracket_box(inside: Box) -> Box:
     """Return a box in brackets."""
     return Box("bracket", (inside,), width=inside.width + 1.1)
 
 
-def fraction(above: Box, below: Box) -> Box:
+def fraction_box(above: Box, below: Box) -> Box:
     """Return a fraction."""
     return Box("over", (above, below), width=max(above.width, below.width) + 0.3)
 
 
-def power(base: Box, exponent: Box) -> Box:
-    """Return a power; of what has an index, the exponent stands behind it."""
+def power_box(base: Box, exponent: Box) -> Box:
+    """Return a power; where the base has an index, the exponent follows it."""
     return Box("power", (base, exponent), width=base.width + 0.75 * exponent.width)
 
 
-def transposed_matrix(base: Box) -> Box:
+def transposed_box(base: Box) -> Box:
     """Return the transposed of a matrix."""
-    return power(base, name("T"))
+    return power_box(base, name_box("T"))
 
 
 def function_box(function: str, arguments: Sequence[Box], python: str = "") -> Box:
@@ -144,13 +146,13 @@ def matrix_box(entries: Sequence[Sequence[Box]]) -> Box:
     return Box("matrix", flat, text=str(len(widths)), width=sum(widths, 1.5) + len(widths))
 
 
-def cases(pieces: Sequence[tuple[Box, Box | None]]) -> Box:
+def cases_box(pieces: Sequence[tuple[Box, Box | None]]) -> Box:
     """Return values with their conditions; None: otherwise."""
     flat = [p if p is not None else Box("name", text="otherwise", width=4.5) for pair in pieces for p in pair]
     wide = max(value.width for value, _ in pieces) + max((c.width if c else 4.5) for _, c in pieces) + 2.5
     return Box("cases", tuple(flat), width=wide)
 
 
-def dotted(base: Box) -> Box:
+def rate_box(base: Box) -> Box:
     """Return the rate of a quantity."""
     return Box("dot", (base,), width=base.width)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import sympy as sp
 
-from symgen.describe.bounds.modes import coordinate_of, number_of, two_sided
+from symgen.describe.bounds.bounded_modes import coordinate_of, name_of_number, two_sided_rows
 
 if TYPE_CHECKING:
     from symgen.result.reading.symbolic_equations import SymbolicEquations
@@ -32,13 +32,13 @@ def free_modes(equations: SymbolicEquations, libraries: Sequence[Any]) -> Callab
     places = [list(equations.modes).index(name) for name in rates]
     compute = sp.lambdify(equations.arguments[:-1], list(rates.values()), libraries)
 
-    def sliding(*values: object) -> list[float]:
+    def modes_in_motion(*values: object) -> list[float]:
         numbers = list(still)
         for place, rate in zip(places, compute(*values), strict=True):
             numbers[place] = float(np.sign(rate))
         return numbers
 
-    return sliding
+    return modes_in_motion
 
 
 def _held_by_joints(equations: SymbolicEquations) -> set[str]:
@@ -50,6 +50,6 @@ def _rates_in_motion(equations: SymbolicEquations) -> Mapping[str, Any]:
     """Return the rates of coordinates along rows with two bounds, by the names of the numbers with their signs."""
     mechanism = equations.mechanism
     return {
-        number_of(row, "sign").name: equations.joint_rates[coordinate_of(mechanism, row)]
-        for row in two_sided(mechanism)
+        name_of_number(row, "sign").name: equations.joint_rates[coordinate_of(mechanism, row)]
+        for row in two_sided_rows(mechanism)
     }

@@ -10,43 +10,43 @@ from typing import TYPE_CHECKING
 from symgen.result.reading.boxes import Box
 from symgen.result.reading.notations import mathml
 from symgen.result.reading.sheet import Equation
-from symgen.result.reading.typeset import broken
+from symgen.result.reading.typeset import break_lines
 
 if TYPE_CHECKING:
     from symgen.derive.formulate.equations import Equations
 
 
-def attribute(text: str) -> str:
+def attribute_text(text: str) -> str:
     """Return a text as an attribute's value."""
     return escape(text, quote=True)
 
 
-def shortened(text: str) -> str:
+def shorten_code(text: str) -> str:
     """Return a line of code, its end left out where it is long."""
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def prose(text: str) -> str:
+def prose_html(text: str) -> str:
     """Return a sentence of the code as a page shows it: words in backticks as code, powers and transposes raised."""
     shown = re.sub(r"(`+)(.+?)\1", r"<code>\2</code>", escape(text, quote=False))
     raised = re.sub(r"(?<=[\w)])\^(-?\d+|[T+])(?![\w])", r"<sup>\1</sup>", shown)
     return raised.replace("<sup>-", "<sup>−")
 
 
-def small(text: str) -> str:
+def small_html(text: str) -> str:
     """Return a remark."""
-    return f'<p class="small">{prose(text)}</p>'
+    return f'<p class="small">{prose_html(text)}</p>'
 
 
-def section(ident: str, title: str, parts: Iterable[str]) -> str:
+def section_html(ident: str, title: str, parts: Iterable[str]) -> str:
     """Return a section with its heading."""
     return f'<section id="{ident}"><h2>{escape(title)}</h2>\n' + "\n".join(parts) + "\n</section>"
 
 
-def fold(head: str, inside: str, is_open: bool = False, ident: str = "", marked: bool = False) -> str:
+def folded_html(head: str, inside: str, is_open: bool = False, ident: str = "", marked: bool = False) -> str:
     """Return a folded part; `head` is HTML where `marked`, or has MathML in it."""
-    text = head if marked or "<math" in head else prose(head)
-    name = f' id="{attribute(ident)}"' if ident else ""
+    text = head if marked or "<math" in head else prose_html(head)
+    name = f' id="{attribute_text(ident)}"' if ident else ""
     start = f"<details{name}{' open' if is_open else ''}><summary>{text}</summary>"
     return f'{start}<div class="fold">{inside}</div></details>'
 
@@ -61,7 +61,7 @@ def html_table(lines: Sequence[Sequence[str]], numbers: int = 0) -> str:
     return f"<table>{''.join(rows)}</table>"
 
 
-def math(box: Box) -> str:
+def formula_html(box: Box) -> str:
     """Return a formula."""
     return f"<math>{mathml(box)}</math>"
 
@@ -73,9 +73,9 @@ def vector_equation(text: str) -> str:
     return re.sub(r"\b([ervu]|ω|θ)(?:_([xyz]))?\(", r"<b>\1</b><sub>\2</sub>(", shown).replace("<sub></sub>", "")
 
 
-def equation(line: Equation, tail: str = "") -> str:
+def equation_html(line: Equation, tail: str = "") -> str:
     """Return an equation, broken where it is long."""
-    lines = broken(line.right, 62.0 - line.left.width, 62.0)
+    lines = break_lines(line.right, 62.0 - line.left.width, 62.0)
     parts = []
     for i, boxes in enumerate(lines):
         inside = "".join(map(mathml, boxes))
@@ -87,9 +87,9 @@ def equation(line: Equation, tail: str = "") -> str:
     return f'<div class="equation">{"".join(parts)}</div>'
 
 
-def equations(lines: Iterable[Equation]) -> str:
+def equations_html(lines: Iterable[Equation]) -> str:
     """Return equations one below the other."""
-    return "\n".join(map(equation, lines))
+    return "\n".join(map(equation_html, lines))
 
 
 #: Largest number of entries that each have a title with their place.
@@ -97,13 +97,13 @@ NAMED = 2500
 _FILLS = {"x": "#1f5fa8", "1": "#b9c7d8", "f": "#c4622d"}
 
 
-def of_jacobian(equations: Equations) -> dict[tuple[int, int], str]:
+def pattern_of_jacobian(equations: Equations) -> dict[tuple[int, int], str]:
     """Return the entries of D: ``x`` varies, ``1`` is constant, of any value."""
     g = equations.graph
     return {(i, j): "x" if g.value(n) is None else "1" for i, r in enumerate(equations.rows) for j, n in r.entries}
 
 
-def of_factor(equations: Equations, order: Sequence[int]) -> dict[tuple[int, int], str]:
+def pattern_of_factor(equations: Equations, order: Sequence[int]) -> dict[tuple[int, int], str]:
     """Return the entries of the factor L of D G D^T: ``x`` of the matrix, ``f`` filled in.
 
     Parameters
@@ -127,7 +127,7 @@ def of_factor(equations: Equations, order: Sequence[int]) -> dict[tuple[int, int
     return entries
 
 
-def picture(
+def pattern_svg(
     entries: Mapping[tuple[int, int], str], rows: Sequence[str], columns: Sequence[str], title: str, links: bool = False
 ) -> str:
     """Return a pattern as SVG, entries of one colour as one path where there are many.

@@ -10,24 +10,24 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec import structs
 
-from symgen.base.errors import AssemblyError, counted
+from symgen.base.errors import AssemblyError, plural
 from symgen.base.files import check_path, write_whole
 from symgen.derive.formulate.formulate import formulate
-from symgen.derive.lower.looped.instances import instances
+from symgen.derive.lower.looped.instances import instances_of_mechanism
 from symgen.derive.lower.model import lower_model
-from symgen.describe.bounds.modes import families_of, unit_of_effort
+from symgen.describe.bounds.bounded_modes import rows_by_family, unit_of_effort
 from symgen.describe.facts.digest import digest
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Parameter
 from symgen.describe.parts.topology import state_names
 from symgen.result.player.motion_page import PAGES
-from symgen.result.reading.inspection_text import as_text
+from symgen.result.reading.inspection_text import inspection_as_text
 from symgen.result.reading.jamming import jamming_numbers
 from symgen.result.reading.page import MOST_STRAIGHT, EquationPage, check_size
 from symgen.result.reading.quantity_names import input_names
 from symgen.result.reading.row_words import row_words
-from symgen.result.reading.structure import element_terms, shared_terms, structure
-from symgen.result.reading.typeset import LONGEST, texts, texts_by_terms
+from symgen.result.reading.structure import element_terms, nodes_with_names, shared_terms
+from symgen.result.reading.typeset import LONGEST, text_writer, text_writers_by_terms
 from symgen.run.compiling.closing import law_at_start
 from symgen.run.compiling.looped import kernel_stems
 from symgen.run.compiling.method_choice import MethodChoice, choose_method
@@ -65,13 +65,13 @@ class Inspection:
     facts: dict[str, Any]
 
     def __str__(self) -> str:
-        return as_text(self.facts)
+        return inspection_as_text(self.facts)
 
     def __repr__(self) -> str:
         sizes = self.facts["sizes"]
         return (
-            f"<Inspection of {self.mechanism.name}: {counted(sizes['coordinates'], 'coordinate')}, "
-            f"{counted(sizes['rows'], 'row')}, {counted(self.facts['degrees_of_freedom'], 'degree')} of freedom>"
+            f"<Inspection of {self.mechanism.name}: {plural(sizes['coordinates'], 'coordinate')}, "
+            f"{plural(sizes['rows'], 'row')}, {plural(self.facts['degrees_of_freedom'], 'degree')} of freedom>"
         )
 
     def _repr_html_(self) -> str:
@@ -121,7 +121,7 @@ def write_page(mechanism: Mechanism, settings: Settings, path: Path, where: str,
     derived, choice, run = mechanism, method_of(settings), None
     try:
         run, derived, choice = run_at_start(mechanism, settings)
-        degrees = counted(run.compiled.info.nv - run.start.rank, "degree")
+        degrees = plural(run.compiled.info.nv - run.start.rank, "degree")
         facts = [f"At the start D has rank {run.start.rank}: {degrees} of freedom.", *run.start.notes]
         if run.start.redundant_rows:
             facts.append(f"Redundant at the start: {', '.join(run.start.redundant_rows)}.")
@@ -175,23 +175,23 @@ def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> d
     if mechanism.topology is not None:
         links = mechanism.topology.links
         tree = [{"body": x.body, "joint": x.joint or None, "on": x.parent if x.joint else None} for x in links]
-        of_tree = {"topology": _topology(mechanism.topology, mechanism), "tree": tree}
+        of_tree = {"topology": _topology_facts(mechanism.topology, mechanism), "tree": tree}
     equations = formulate(mechanism)
-    show, words = texts(equations), row_words(mechanism)
+    show, words = text_writer(equations), row_words(mechanism)
     values = parameter_values(whole, settings.parameters)
-    parameters = [_parameter(p, values[p.name]) for p in mechanism.parameters]
+    parameters = [_parameter_facts(p, values[p.name]) for p in mechanism.parameters]
     facts: dict[str, Any] = {
         "mechanism": whole.name,
         "space": whole.space,
         "state": {"coordinates": plan.coordinates, "reason": plan.coordinates_reason},
         **of_tree,
         "title": whole.title,
-        "sizes": _sizes(equations),
-        "shape": {"shape": run.compiled.shape, "reason": plan.shape_reason, "kernels": _kernels(whole)},
+        "sizes": _size_facts(equations),
+        "shape": {"shape": run.compiled.shape, "reason": plan.shape_reason, "kernels": _count_kernels(whole)},
         "rank": start.rank,
         "degrees_of_freedom": equations.nv - start.rank,
         "redundant_rows": list(start.redundant_rows),
-        **_bounded(run, mechanism),
+        **_bounded_row_facts(run, mechanism),
         "dropped_rows": list(equations.dropped_rows),
         "notes": list(start.notes),
         "coordinates": [{"name": q.name, "unit": q.unit} for q in equations.coordinates],
@@ -212,7 +212,7 @@ def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> d
             }
             for row in equations.rows
         ],
-        "pattern": pattern(equations),
+        "pattern": pattern_of_constraints(equations),
         "mass": [
             {
                 "velocities": [equations.velocities[i].name for i in block.columns],
@@ -229,45 +229,47 @@ def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> d
         "joint_coordinates": {
             c.name: {"unit": c.unit, "value": show(c.value), "rate": show(c.rate)} for c in equations.joint_coordinates
         },
-        "operations": _operations(equations),
+        "operations": _operation_facts(equations),
         "left_out": [{"what": o.what, "why": o.why} for o in equations.omissions],
     }
-    facts |= _by_terms(mechanism, equations)
+    facts |= _texts_by_terms(mechanism, equations)
     if equations.states:
         rates = zip(equations.states, equations.state_rates, strict=True)
         facts["states"] = {x.name: {"unit": x.unit, "rate": show(node)} for x, node in rates}
     if with_method:
-        facts["method"] = _method(mechanism, equations, choice)
+        facts["method"] = _method_facts(mechanism, equations, choice)
     return facts
 
 
-def _parameter(parameter: Parameter, value: float) -> dict[str, Any]:
+def _parameter_facts(parameter: Parameter, value: float) -> dict[str, Any]:
     """Return a parameter with its value in SI units and, where the file has another unit, in that."""
     number, unit = parameter.as_written(value)
     written = {"as_written": {"value": number, "unit": unit}} if parameter.shown else {}
     return {"name": parameter.name, "unit": parameter.unit, "value": value, **written}
 
 
-def _by_terms(mechanism: Mechanism, equations: Equations) -> dict[str, Any]:
+def _texts_by_terms(mechanism: Mechanism, equations: Equations) -> dict[str, Any]:
     """Return gamma and forces, long ones by shared terms, and the terms."""
-    gammas, forces, show = [row.gamma for row in equations.rows], list(equations.forces), texts(equations)
-    long = {n for n in (*gammas, *forces) if len(show(n)) > SHORT or equations.graph.tree_operations([n]) > LONGEST}
-    named = structure if mechanism.space == "spatial" else element_terms
+    gammas, forces, show = [row.gamma for row in equations.rows], list(equations.forces), text_writer(equations)
+    long = {
+        n for n in (*gammas, *forces) if len(show(n)) > SHORT or equations.graph.count_tree_operations([n]) > LONGEST
+    }
+    named = nodes_with_names if mechanism.space == "spatial" else element_terms
     others = {*input_names(equations).values()}
     terms = shared_terms(equations.graph, sorted(long), named(mechanism, equations), others)
-    by_terms, definition = texts_by_terms(equations, terms)
+    by_terms, definition = text_writers_by_terms(equations, terms)
 
-    def write(node: int) -> str:
+    def write_node(node: int) -> str:
         return by_terms(node) if node in long else show(node)
 
     return {
         "terms": {terms[node]: definition(node) for node in sorted(terms)},
-        "gamma_by_terms": {row.name: write(row.gamma) for row in equations.rows},
-        "forces_by_terms": {v.name: write(n) for v, n in zip(equations.velocities, forces, strict=True)},
+        "gamma_by_terms": {row.name: write_node(row.gamma) for row in equations.rows},
+        "forces_by_terms": {v.name: write_node(n) for v, n in zip(equations.velocities, forces, strict=True)},
     }
 
 
-def _topology(topology: Topology, mechanism: Mechanism) -> dict[str, list[str]]:
+def _topology_facts(topology: Topology, mechanism: Mechanism) -> dict[str, list[str]]:
     """Return which joints carry bodies, which close loops, and which bodies are rigid with what carries them."""
     moving = {name.rpartition(".")[0] for name, _ in state_names(mechanism, topology)[1]}
     return {
@@ -278,12 +280,12 @@ def _topology(topology: Topology, mechanism: Mechanism) -> dict[str, list[str]]:
     }
 
 
-def _kernels(mechanism: Mechanism) -> dict[str, int]:
+def _count_kernels(mechanism: Mechanism) -> dict[str, int]:
     """Return how many instances each kernel of the looped shape would have."""
-    return dict(Counter(kernel_stems(instances(mechanism))))
+    return dict(Counter(kernel_stems(instances_of_mechanism(mechanism))))
 
 
-def pattern(equations: Equations) -> list[str]:
+def pattern_of_constraints(equations: Equations) -> list[str]:
     """Return the pattern of D, one text a row: ``1`` a constant of the scene, ``x`` a varying entry, ``.`` nothing."""
     lines = []
     for row in equations.rows:
@@ -294,29 +296,29 @@ def pattern(equations: Equations) -> list[str]:
     return lines
 
 
-def _sizes(equations: Equations) -> dict[str, int]:
+def _size_facts(equations: Equations) -> dict[str, int]:
     return {
         "coordinates": equations.nq,
         "velocities": equations.nv,
         "rows": equations.m,
         "parameters": len(equations.parameters),
         "jacobian_entries": sum(len(row.entries) for row in equations.rows),
-        "jacobian_constants": sum(line.count("1") for line in pattern(equations)),
+        "jacobian_constants": sum(line.count("1") for line in pattern_of_constraints(equations)),
     }
 
 
-def _operations(e: Equations) -> dict[str, dict[str, int]]:
+def _operation_facts(e: Equations) -> dict[str, dict[str, int]]:
     """Count operations by quantity, each with its own common subexpressions, and of all together."""
     parts = e.nodes() | {"energies": [e.kinetic, e.potential, e.power]}
     parts |= {"states": list(e.state_rates)} if e.states else {}
     parts["together"] = [node for nodes in parts.values() for node in nodes]
     return {
-        name: {"before": e.graph.tree_operations(nodes), "after": e.graph.operations(nodes)}
+        name: {"before": e.graph.count_tree_operations(nodes), "after": e.graph.count_operations(nodes)}
         for name, nodes in parts.items()
     }
 
 
-def _method(mechanism: Mechanism, equations: Equations, choice: Any) -> dict[str, Any]:
+def _method_facts(mechanism: Mechanism, equations: Equations, choice: Any) -> dict[str, Any]:
     """Return the functions emitted for a method with their operation counts."""
     program = lower_model(equations, digest(mechanism))
     law = law_at_start(mechanism, equations, program, choice)
@@ -334,16 +336,16 @@ def _method(mechanism: Mechanism, equations: Equations, choice: Any) -> dict[str
     }
 
 
-def _bounded(run: Prepared, mechanism: Mechanism) -> dict[str, list[dict[str, Any]]]:
+def _bounded_row_facts(run: Prepared, mechanism: Mechanism) -> dict[str, list[dict[str, Any]]]:
     """Return the rows with bounds of a mechanism by their families."""
     jamming = jamming_numbers(run)
     return {
-        family.fact: [_facts_of_row(row, jamming.get(row.name)) for row in rows]
-        for family, rows in families_of(mechanism).items()
+        family.fact: [_facts_of_bounded_row(row, jamming.get(row.name)) for row in rows]
+        for family, rows in rows_by_family(mechanism).items()
     }
 
 
-def _facts_of_row(row: BoundedRow, jamming: float | None) -> dict[str, Any]:
+def _facts_of_bounded_row(row: BoundedRow, jamming: float | None) -> dict[str, Any]:
     """Return what is said of a row with bounds."""
     reaction = {} if row.one_sided else {"reaction": list(row.pressed), "jamming_number": jamming}
     return {"name": row.name, "row": row.row, "unit": unit_of_effort(row), **reaction, **row.facts()}

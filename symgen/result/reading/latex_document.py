@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from symgen.base.errors import InputError, nearest, sizes_of
+from symgen.base.errors import InputError, sizes_in_words, suggest
 from symgen.base.escapes import latex_text
 from symgen.describe.parts.own_units import as_written
 from symgen.result.reading.notations import latex
 from symgen.result.reading.row_words import row_words
 from symgen.result.reading.sheet import LINE, Equation, Sheet
-from symgen.result.reading.typeset import broken
+from symgen.result.reading.typeset import break_lines
 
 if TYPE_CHECKING:
     from symgen.derive.formulate.equations import Equations
     from symgen.describe.mechanism import Mechanism
-    from symgen.result.reading.law import Law
+    from symgen.result.reading.law_steps import Law
 
 #: Sections of a document.
 SECTIONS = ("nomenclature", "Phi", "D", "nu", "gamma", "N", "M", "f", "energies", "law", "left-out")
@@ -36,7 +36,7 @@ _HEAD = r"""\documentclass[10pt,a4paper]{article}
 """
 
 
-def document(
+def latex_document(
     mechanism: Mechanism,
     equations: Equations,
     law: Law,
@@ -64,50 +64,58 @@ def document(
     InputError
         If a name in `select` is neither.
     """
-    content, joints = selected(equations, select)
+    content, joints = select_sections(equations, select)
     content = content or (SECTIONS if whole else EQUATIONS)
     e, sheet = equations, Sheet(mechanism, equations, joints)
     sections: dict[str, list[str]] = {
-        "nomenclature": _nomenclature(sheet, values),
-        "Phi": _section(r"Constraints $\Phi = 0$", _lines(sheet.phi(sheet.rows), " = 0")),
-        "D": _section(
+        "nomenclature": _nomenclature_lines(sheet, values),
+        "Phi": _latex_section(r"Constraints $\Phi = 0$", _aligned_lines(sheet.phi(sheet.rows), " = 0")),
+        "D": _latex_section(
             r"Jacobian $D$, by joint; blocks that are not written are zero",
-            _lines(line for joint in sheet.joints for line in sheet.jacobian(joint)),
+            _aligned_lines(line for joint in sheet.joints for line in sheet.jacobian(joint)),
         ),
-        "nu": _section(r"Velocity constraints $D v = \nu$", _lines(sheet.nu(sheet.rows)) or [r"$\nu = 0$"]),
-        "gamma": _section(r"Acceleration constraints $D \dot v = \gamma$", _lines(sheet.gamma(sheet.rows))),
-        "N": _section(r"Rates of the coordinates $\dot q = N v$", _lines(sheet.rates()) or [r"$\dot q = v$"]),
-        "M": _section(r"Mass matrix $M$; what is not written is zero or symmetric", _lines(sheet.mass())),
-        "f": _section(r"Forces $f$", _lines(sheet.forces()) or [r"$f = 0$"]),
-        "energies": _section(_POWER if e.driving else "Energies and power", _lines(sheet.energies())),
+        "nu": _latex_section(
+            r"Velocity constraints $D v = \nu$", _aligned_lines(sheet.nu(sheet.rows)) or [r"$\nu = 0$"]
+        ),
+        "gamma": _latex_section(
+            r"Acceleration constraints $D \dot v = \gamma$", _aligned_lines(sheet.gamma(sheet.rows))
+        ),
+        "N": _latex_section(
+            r"Rates of the coordinates $\dot q = N v$", _aligned_lines(sheet.rates()) or [r"$\dot q = v$"]
+        ),
+        "M": _latex_section(r"Mass matrix $M$; what is not written is zero or symmetric", _aligned_lines(sheet.mass())),
+        "f": _latex_section(r"Forces $f$", _aligned_lines(sheet.forces()) or [r"$f = 0$"]),
+        "energies": _latex_section(_POWER if e.driving else "Energies and power", _aligned_lines(sheet.energies())),
     }
     if whole and e.m:
         held = row_words(mechanism)
-        items = [rf"\item {_words(r.name)}: {_words(held[r.name].words)}" for r in sheet.rows]
-        sections["Phi"] = _section("Rows in words", [r"\begin{itemize}", *items, r"\end{itemize}"]) + sections["Phi"]
+        items = [rf"\item {_latex_sentence(r.name)}: {_latex_sentence(held[r.name].words)}" for r in sheet.rows]
+        sections["Phi"] = (
+            _latex_section("Rows in words", [r"\begin{itemize}", *items, r"\end{itemize}"]) + sections["Phi"]
+        )
     if not e.m:
         for part in ("Phi", "D", "nu", "gamma"):
             del sections[part]
     chosen = [part for part in sections if part in content]
     parts = [text for part in chosen for text in sections[part]]
-    parts += _section("Shared terms", _lines(sheet.shared(sheet.nodes(chosen))))
+    parts += _latex_section("Shared terms", _aligned_lines(sheet.shared_equations(sheet.nodes(chosen))))
     if "law" in content:
-        parts += _law(law) if e.m else []
+        parts += _law_lines(law) if e.m else []
     if "left-out" in content and e.omissions:
-        items = [rf"\item {_words(o.what)}: {_words(o.why)}" for o in e.omissions]
-        parts += _section("Left out", [r"\begin{itemize}", *items, r"\end{itemize}"])
+        items = [rf"\item {_latex_sentence(o.what)}: {_latex_sentence(o.why)}" for o in e.omissions]
+        parts += _latex_section("Left out", [r"\begin{itemize}", *items, r"\end{itemize}"])
     if whole:
-        return "\n".join([*_head(mechanism, sheet), *parts, r"\end{document}"]) + "\n"
-    notes = [f"{mechanism.name}: {sizes_of(e)}; numbers have six digits"]
+        return "\n".join([*_document_head(mechanism, sheet), *parts, r"\end{document}"]) + "\n"
+    notes = [f"{mechanism.name}: {sizes_in_words(e)}; numbers have six digits"]
     notes += [f"left out: {o.what}: {o.why}" for o in e.omissions]
     texts = [*(f"% {note}" for note in notes), *(text.replace(r"\section*", r"\paragraph") for text in parts)]
     return "\n".join(texts) + "\n"
 
 
-def _head(mechanism: Mechanism, sheet: Sheet) -> list[str]:
+def _document_head(mechanism: Mechanism, sheet: Sheet) -> list[str]:
     """Return the document up to its first section."""
     e = sheet.equations
-    free = ", ".join(_words(r.name) for r in e.rows if r.phi is None)
+    free = ", ".join(_latex_sentence(r.name) for r in e.rows if r.phi is None)
     kind = "bodies" if mechanism.topology is None else "the joints of a tree"
     return [
         _HEAD,
@@ -115,18 +123,21 @@ def _head(mechanism: Mechanism, sheet: Sheet) -> list[str]:
         r"\author{}\date{}",
         r"\begin{document}",
         r"\maketitle",
-        rf"Mechanism \texttt{{{_breakable(mechanism.name)}}} in coordinates of {kind}: {sizes_of(e)}. "
+        rf"Mechanism \texttt{{{_breakable_text(mechanism.name)}}} in coordinates of {kind}: {sizes_in_words(e)}. "
         rf"Its motion follows from",
         r"\[ M \dot v + D^T \lambda = f, \qquad D v = \nu, \qquad D \dot v = \gamma, \qquad \dot q = N v. \]"
         if e.m
         else r"\[ M \dot v = f, \qquad \dot q = N v. \]",
-        *(rf"\par {_words(k)} has no row: it prescribes {_words(what)}." for k, what in sheet.prescribed().items()),
+        *(
+            rf"\par {_latex_sentence(k)} has no row: it prescribes {_latex_sentence(what)}."
+            for k, what in sheet.sentences_on_drivers().items()
+        ),
         *([rf"\par Nonholonomic, conditions on velocities without $\Phi$: {free}."] if free else []),
         r"\par Numbers are rounded to six digits.",
     ]
 
 
-def selected(equations: Equations, select: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+def select_sections(equations: Equations, select: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return the selected sections and joints; ``joints.D`` is a joint, ``D`` the Jacobian."""
     with_rows = tuple(dict.fromkeys(row.joint for row in equations.rows))
     sections, joints = list[str](), list[str]()
@@ -138,48 +149,48 @@ def selected(equations: Equations, select: Sequence[str]) -> tuple[tuple[str, ..
             joints.append(joint)
         else:
             expected = f"a joint with rows, or one of {', '.join(SECTIONS)}"
-            raise InputError("--select", expected, f"'{item}'", nearest(item, (*SECTIONS, *with_rows)))
+            raise InputError("--select", expected, f"'{item}'", suggest(item, (*SECTIONS, *with_rows)))
     return tuple(sections), tuple(joints)
 
 
-def _section(title: str, body: Iterable[str]) -> list[str]:
+def _latex_section(title: str, body: Iterable[str]) -> list[str]:
     listed = list(body)
     return [rf"\section*{{{title}}}", *listed] if listed else []
 
 
-def _breakable(text: str) -> str:
+def _breakable_text(text: str) -> str:
     return latex_text(text).replace("-", r"-\allowbreak ")
 
 
-def _words(text: str) -> str:
+def _latex_sentence(text: str) -> str:
     """Return a sentence with names in it; long names may be broken."""
     return latex_text(text).replace(r"\_", r"\_\allowbreak ").replace(".", r".\allowbreak ")
 
 
-def _aligned(rows: Sequence[str]) -> list[str]:
+def _aligned_rows(rows: Sequence[str]) -> list[str]:
     texts = []
     for first in range(0, len(rows), _TOGETHER):
         texts.append("\\begin{align*}\n" + " \\\\\n".join(rows[first : first + _TOGETHER]) + "\n\\end{align*}")
     return texts
 
 
-def _lines(lines: Iterable[Equation], tail: str = "") -> list[str]:
-    return _aligned([text for line in lines for text in _line(line, tail)])
+def _aligned_lines(lines: Iterable[Equation], tail: str = "") -> list[str]:
+    return _aligned_rows([text for line in lines for text in _equation_rows(line, tail)])
 
 
-def _line(line: Equation, tail: str = "") -> list[str]:
+def _equation_rows(line: Equation, tail: str = "") -> list[str]:
     """Return an equation as rows of an aligned environment."""
     left, wide = latex(line.left), line.left.width > LINE / 3  # a name that takes most of the line
     room = LINE - 4.0 if wide else LINE - line.left.width - (2.0 if tail else 0.0)
     rows, start = ([rf"\rlap{{${left}$}} &"], r"&\quad =") if wide else ([], f"{left} &=")
-    for boxes in broken(line.right, room - 1.5, room - 3.0):
+    for boxes in break_lines(line.right, room - 1.5, room - 3.0):
         rows.append(f"{start} {' '.join(map(latex, boxes))}")
         start = r"&\quad {}"
     rows[-1] += tail
     return rows
 
 
-def _nomenclature(sheet: Sheet, values: Mapping[str, float]) -> list[str]:
+def _nomenclature_lines(sheet: Sheet, values: Mapping[str, float]) -> list[str]:
     lines = [r"\section*{Nomenclature}"]
     notes = {p.name: f", {p.note}" for p in sheet.mechanism.parameters if p.note}
     for title, quantities in sheet.quantities():
@@ -194,14 +205,17 @@ def _nomenclature(sheet: Sheet, values: Mapping[str, float]) -> list[str]:
             number, unit = as_written(sheet.mechanism, quantity, values) if numbers else (0.0, quantity.unit)
             value = f"{number:.6g}" if numbers else ""
             symbol = latex(sheet.writer.symbol(quantity.name))
-            meaning = _words(quantity.name + notes.get(quantity.name, ""))
-            lines.append(rf"${symbol}$ & \raggedright {meaning} & {_words(unit)} & {value} \\")
+            meaning = _latex_sentence(quantity.name + notes.get(quantity.name, ""))
+            lines.append(rf"${symbol}$ & \raggedright {meaning} & {_latex_sentence(unit)} & {value} \\")
         lines.append(r"\end{longtable}")
     return lines
 
 
-def _law(law: Law) -> list[str]:
-    lines = [rf"\section*{{The law of \texttt{{{_breakable(law.method)}}}}}", f"{_words(law.summary)}."]
+def _law_lines(law: Law) -> list[str]:
+    lines = [rf"\section*{{The law of \texttt{{{_breakable_text(law.method)}}}}}", f"{_latex_sentence(law.summary)}."]
     for function, purpose, steps in law.parts:
-        lines += [rf"\paragraph{{{_words(function)}}} {_words(purpose)}", *_aligned([step.latex for step in steps])]
+        lines += [
+            rf"\paragraph{{{_latex_sentence(function)}}} {_latex_sentence(purpose)}",
+            *_aligned_rows([step.latex for step in steps]),
+        ]
     return lines

@@ -10,12 +10,12 @@ from os import fspath
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from symgen.base.errors import counted
+from symgen.base.errors import plural
 from symgen.base.escapes import printable
 from symgen.base.ir.program import OutputSlot
 from symgen.derive.emit.printer import ElementAccess
 from symgen.describe import catalogue
-from symgen.result.reading.html import attribute, fold
+from symgen.result.reading.html import attribute_text, folded_html
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -28,10 +28,10 @@ if TYPE_CHECKING:
 LONGEST = 150_000
 
 
-def text_of(model: str | PathLike[str]) -> str:
+def text_of_model(model: str | PathLike[str]) -> str:
     """Return the text that describes a model; empty where no file does, or a very long one."""
     name = fspath(model)
-    path = catalogue.file_of(name) if name in catalogue.all_names() else None if ":" in name else Path(name)
+    path = catalogue.file_of_entry(name) if name in catalogue.all_names() else None if ":" in name else Path(name)
     try:
         text = "" if path is None else path.read_text(encoding="utf-8")
     except (OSError, ValueError):
@@ -39,7 +39,7 @@ def text_of(model: str | PathLike[str]) -> str:
     return text if len(text) <= LONGEST else ""
 
 
-def sections(text: str) -> dict[str, int]:
+def lines_of_sections(text: str) -> dict[str, int]:
     """Return the first line, from 1, of each table ``[section.name]`` of a file, by that name."""
     lines: dict[str, int] = {}
     for number, line in enumerate(text.splitlines(), 1):
@@ -69,7 +69,7 @@ class Computed:
     text: str
 
 
-def computed(program: ModelProgram, equations: Equations, source: str) -> list[Computed]:
+def lines_that_compute(program: ModelProgram, equations: Equations, source: str) -> list[Computed]:
     """Return the lines of the module ``model`` that compute Phi, nu, entries of D and gamma of each row.
 
     Parameters
@@ -129,9 +129,9 @@ def file_listing(text: str, places: Mapping[str, int], joints: Container[str]) -
     lines = []
     for number, line in enumerate(text.splitlines(), 1):
         name, own = back.get(number, ""), escape(printable(line.expandtabs(4)))  # what turns text around is seen
-        link = f'  <a href="#rows-{attribute(name)}">rows</a>'
+        link = f'  <a href="#rows-{attribute_text(name)}">rows</a>'
         lines.append(f'<span id="file-{number}">{own}{link}</span>' if name in joints else own)
-    return [fold(f"{counted(len(lines), 'line')}", f"<pre>{chr(10).join(lines)}</pre>")]
+    return [folded_html(f"{plural(len(lines), 'line')}", f"<pre>{chr(10).join(lines)}</pre>")]
 
 
 def code_listing(source: str, parts: Mapping[str, str], back: Mapping[int, Computed]) -> list[str]:
@@ -152,10 +152,10 @@ def code_listing(source: str, parts: Mapping[str, str], back: Mapping[int, Compu
         if c is None:
             lines.append(escape(line))
         else:
-            link = f'<a href="#row-{attribute(c.row)}"># {escape(c.row)}: {escape(c.what)}</a>'
+            link = f'<a href="#row-{attribute_text(c.row)}"># {escape(c.row)}: {escape(c.what)}</a>'
             lines.append(f'<span id="line-{number}">{escape(line.partition("  # ")[0])}  {link}</span>')
-    listings = [fold(f"module model, {counted(len(lines), 'line')}", f"<pre>{chr(10).join(lines)}</pre>")]
+    listings = [folded_html(f"module model, {plural(len(lines), 'line')}", f"<pre>{chr(10).join(lines)}</pre>")]
     for stem, text in parts.items():
-        head = f"module {escape(stem)}, {counted(text.count(chr(10)), 'line')}"
-        listings.append(fold(head, f"<pre>{escape(text)}</pre>"))
+        head = f"module {escape(stem)}, {plural(text.count(chr(10)), 'line')}"
+        listings.append(folded_html(head, f"<pre>{escape(text)}</pre>"))
     return listings

@@ -10,8 +10,8 @@ import numpy as np
 
 from symgen.base import arguments
 from symgen.base.errors import AssemblyError, InputError
-from symgen.base.keywords import RunKeywords, takes
-from symgen.base.settings import Settings, changed, default
+from symgen.base.keywords import RunKeywords, make_entry
+from symgen.base.settings import Settings, change_settings, default_of_setting
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare
 from symgen.run.single.run import Array
@@ -67,7 +67,7 @@ class Shown:
         from symgen.result.reading.symbolic_equations import SymbolicEquations
         from symgen.run.compiling.choices import on_tree
 
-        kind = arguments.one_of("coordinates", coordinates, ("absolute", "joint"))
+        kind = arguments.one_word_of("coordinates", coordinates, ("absolute", "joint"))
         return SymbolicEquations(on_tree(self.mechanism) if kind == "joint" else self.mechanism)
 
     def draw(
@@ -101,26 +101,26 @@ class Shown:
         from symgen.describe.drawing.paper import View
 
         if view is not None:
-            arguments.of_kind("view", view, View, "a symgen.describe.drawing.View")
+            arguments.instance("view", view, View, "a symgen.describe.drawing.View")
         values = self.parameters(parameters)
         described = self.initial_state(values)[0]
-        placed = arguments.one_of("at", at, ("start", "described")) == "described" or q is not None
+        placed = arguments.one_word_of("at", at, ("start", "described")) == "described" or q is not None
         if placed and start:
             raise InputError("start", "a picture of the start", "one of other coordinates, which are kept as they are")
         if q is None and placed:
             q = described
         if q is not None:
             q = arguments.numbers("q", list(q) if isinstance(q, np.ndarray) else q)
-            return Drawing.of(self.mechanism, q, values, view=view)
+            return Drawing.of_mechanism(self.mechanism, q, values, view=view)
         try:
             settings = Settings(start=start or {}, parameters=parameters or {})
             closed_start = prepare(self.mechanism, settings, Purpose.STATE).start
         except AssemblyError as error:
             q = error.q or described
-            scene = Drawing.of(self.mechanism, q, values).scene
+            scene = Drawing.of_mechanism(self.mechanism, q, values).scene
             limit = 1e-3 * scene.unit
             wide = [item.name for item, gap in zip(scene.pins, scene.gaps(q), strict=True) if gap > limit]
-            return Drawing.of(
+            return Drawing.of_mechanism(
                 *(self.mechanism, q, values),
                 open_joints=tuple(dict.fromkeys((*error.joints, *wide))),
                 view=view,
@@ -128,7 +128,7 @@ class Shown:
             )
         closed, words = closed_start.y[: len(described)], closed_start.warnings
         ghosts = [described.tolist()] if words else []
-        return Drawing.of(self.mechanism, closed, values, view=view, ghosts=ghosts, caption="; ".join(words))
+        return Drawing.of_mechanism(self.mechanism, closed, values, view=view, ghosts=ghosts, caption="; ".join(words))
 
     def _repr_svg_(self) -> str:
         return self.draw().svg
@@ -164,11 +164,15 @@ class Shown:
 
         own = {f"method.{name}": x for name, x in arguments.mapping("options", options, "texts by name").items()}
         settings = Settings(
-            method or default("method"), options=own, coordinates=coordinates, shape=shape, parameters=parameters or {}
+            method or default_of_setting("method"),
+            options=own,
+            coordinates=coordinates,
+            shape=shape,
+            parameters=parameters or {},
         )
         return Inspection(self.mechanism, settings, equation_facts(self.mechanism, settings, method is not None))
 
-    @takes
+    @make_entry
     def view(self, settings: Settings | None = None, *, live: bool = True, **changes: Unpack[RunKeywords]) -> Page:
         """Run the model and return a page that plays its motion, which notebooks show and ``.save("x.html")`` writes.
 
@@ -186,4 +190,4 @@ class Shown:
         InputError
             If a setting is wrong, or the run has no outputs.
         """
-        return self.simulate(changed(settings, changes)).view(live=live)
+        return self.simulate(change_settings(settings, changes)).view(live=live)

@@ -22,10 +22,10 @@ class _Notation:
         return str(getattr(self, box.kind)(box)) if form is None else form % tuple(map(self.part, box.parts))
 
     def part(self, box: Box) -> str:
-        """Return the text of a part that stands in a fixed form."""
+        """Return the text of a part in a fixed form."""
         return self.write(box)
 
-    def listed(self, box: Box, between: str = ", ") -> str:
+    def join_parts(self, box: Box, between: str = ", ") -> str:
         """Return the text of all parts."""
         return between.join(map(self.write, box.parts))
 
@@ -35,12 +35,12 @@ class _Notation:
         return [form % between.join(entries[i : i + wide]) for i in range(0, len(entries), wide or 1)]
 
 
-def bare(box: Box) -> bool:
+def needs_no_bracket(box: Box) -> bool:
     """Whether a box is a function whose argument needs no bracket; its power would be read as one of the argument."""
     return box.kind == "call" and box.text in ("sin", "cos", "tan") and box.parts[0].kind == "name"
 
 
-def _pairs(box: Box) -> list[tuple[Box, Box | None]]:
+def _pairs_of_cases(box: Box) -> list[tuple[Box, Box | None]]:
     """Return the values of cases with their conditions; None: otherwise."""
     pairs = zip(box.parts[::2], box.parts[1::2], strict=True)
     return [(value, None if when.text == "otherwise" else when) for value, when in pairs]
@@ -62,8 +62,10 @@ class _Latex(_Notation):
     }
 
     def name(self, box: Box) -> str:
-        base = GREEK[box.text][0] if box.text in GREEK else box.text if len(box.text) == 1 else _upright(box.text)
-        return base + (rf"_{{{_index(box.index)}}}" if box.index else "")
+        base = (
+            GREEK[box.text][0] if box.text in GREEK else box.text if len(box.text) == 1 else _upright_letters(box.text)
+        )
+        return base + (rf"_{{{_index_text(box.index)}}}" if box.index else "")
 
     def number(self, box: Box) -> str:
         mantissa, exponent, ten = box.text.partition("e")
@@ -73,18 +75,18 @@ class _Latex(_Notation):
         return _TEX_SIGNS.get(box.text, box.text)
 
     def row(self, box: Box) -> str:
-        return self.listed(box, " ")
+        return self.join_parts(box, " ")
 
     def call(self, box: Box) -> str:
-        inside = self.listed(box)
+        inside = self.join_parts(box)
         if box.text in _TEX_AROUND:
             return _TEX_AROUND[box.text] % inside
         head = f"\\{box.text}" if box.text in _TEX_FUNCTIONS else rf"\operatorname{{{latex_text(box.text)}}}"
-        return rf"{head} {inside}" if bare(box) else rf"{head}\left( {inside} \right)"
+        return rf"{head} {inside}" if needs_no_bracket(box) else rf"{head}\left( {inside} \right)"
 
     def cases(self, box: Box) -> str:
         lines = []
-        for value, when in _pairs(box):
+        for value, when in _pairs_of_cases(box):
             condition = r"\text{otherwise}" if when is None else rf"\text{{if }} {self.write(when)}"
             lines.append(f"{self.write(value)} & {condition}")
         return r"\begin{cases} " + r" \\ ".join(lines) + r" \end{cases}"
@@ -96,13 +98,13 @@ class _Latex(_Notation):
         return rf"\left( \begin{{array}}{{@{{}}{'c' * columns}@{{}}}} {lines} \end{{array}} \right)"
 
 
-def _upright(text: str) -> str:
+def _upright_letters(text: str) -> str:
     return rf"\mathrm{{{latex_text(text)}}}"
 
 
-def _index(text: str) -> str:
+def _index_text(text: str) -> str:
     first, comma, body = text.partition(",")
-    return f"{first},{_upright(body)}" if comma else first if first.isdigit() else _upright(first)
+    return f"{first},{_upright_letters(body)}" if comma else first if first.isdigit() else _upright_letters(first)
 
 
 # -- MathML -----------------------------------------------------------------------------------------------------
@@ -114,7 +116,7 @@ _AROUND = {"sqrt": "<msqrt>%s</msqrt>", "abs": "<mrow><mo>|</mo>%s<mo>|</mo></mr
 _BRACKET, _TALL = "<mrow><mo>(</mo>%s<mo>)</mo></mrow>", '<mrow class="tall">%s</mrow>'
 
 
-def _bracketed(inside: str) -> str:
+def _brackets_around(inside: str) -> str:
     return (_TALL if "<mfrac" in inside or "<mtable" in inside else _BRACKET) % inside
 
 
@@ -156,20 +158,22 @@ class _Mathml(_Notation):
 
     def row(self, box: Box) -> str:
         """Write parts with thin space between factors, which browsers do not add."""
-        return _beside(box, self.write, '<mspace width="0.17em"/>')
+        return _side_by_side_text(box, self.write, '<mspace width="0.17em"/>')
 
     def bracket(self, box: Box) -> str:
-        return _bracketed(self.listed(box))
+        return _brackets_around(self.join_parts(box))
 
     def call(self, box: Box) -> str:
-        inside = self.listed(box, "<mo>,</mo>")
+        inside = self.join_parts(box, "<mo>,</mo>")
         if box.text in _AROUND:
             return _AROUND[box.text] % inside
-        return f"<mi>{escape(box.text)}</mi><mo>&#8289;</mo>" + (inside if bare(box) else _bracketed(inside))
+        return f"<mi>{escape(box.text)}</mi><mo>&#8289;</mo>" + (
+            inside if needs_no_bracket(box) else _brackets_around(inside)
+        )
 
     def cases(self, box: Box) -> str:
         lines = []
-        for value, when in _pairs(box):
+        for value, when in _pairs_of_cases(box):
             condition = "<mi>otherwise</mi>" if when is None else f"<mtext>if </mtext>{self.write(when)}"
             lines.append(f"<mtr><mtd>{self.write(value)}</mtd><mtd>{condition}</mtd></mtr>")
         return f'<mtable class="cases">{"".join(lines)}</mtable>'
@@ -202,11 +206,11 @@ class _Python(_Notation):
     def row(self, box: Box) -> str:
         if len(box.parts) == 3 and box.parts[1].text == "!=":  # which Python decides for two expressions of SymPy
             return f"Ne({self.write(box.parts[0])}, {self.write(box.parts[2])})"
-        text = _beside(box, self.write, "*")
+        text = _side_by_side_text(box, self.write, "*")
         return f"-{text[3:]}" if text.startswith(" - ") else text
 
     def bracket(self, box: Box) -> str:
-        return f"({self.listed(box)})"
+        return f"({self.join_parts(box)})"
 
     def over(self, box: Box) -> str:
         above, below = box.parts
@@ -214,12 +218,13 @@ class _Python(_Notation):
 
     def call(self, box: Box) -> str:
         if box.text == "defined":  # nan differs from itself
-            return f"Eq({self.listed(box)}, {self.listed(box)})"
-        return f"{box.index or box.text}({self.listed(box)})"
+            return f"Eq({self.join_parts(box)}, {self.join_parts(box)})"
+        return f"{box.index or box.text}({self.join_parts(box)})"
 
     def cases(self, box: Box) -> str:
         pairs = (
-            f"({self.write(value)}, {'True' if when is None else self.write(when)})" for value, when in _pairs(box)
+            f"({self.write(value)}, {'True' if when is None else self.write(when)})"
+            for value, when in _pairs_of_cases(box)
         )
         return f"Piecewise({', '.join(pairs)})"
 
@@ -239,13 +244,13 @@ class _Plain(_Python):
         return box.text
 
     def row(self, box: Box) -> str:
-        return self.listed(box, " ")
+        return self.join_parts(box, " ")
 
     def dot(self, box: Box) -> str:
-        return f"{self.listed(box)}'"
+        return f"{self.join_parts(box)}'"
 
 
-def _beside(box: Box, write: Callable[[Box], str], between: str) -> str:
+def _side_by_side_text(box: Box, write: Callable[[Box], str], between: str) -> str:
     """Return the text of parts side by side, with a separator between those that are no signs."""
     texts = [write(part) for part in box.parts]
     for i, (before, part) in enumerate(pairwise(box.parts)):

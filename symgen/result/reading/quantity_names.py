@@ -9,7 +9,7 @@ import numpy as np
 
 from symgen.base.ir.derivative import jacobian
 from symgen.base.ir.interpolation import Interpolation
-from symgen.base.ir.program import DERIVATIVES, MODES, of_table
+from symgen.base.ir.program import DERIVATIVES, MODES, table_of_payload
 from symgen.base.vocabulary.expressions import SMOOTH
 
 if TYPE_CHECKING:
@@ -50,37 +50,37 @@ def input_names(e: Equations) -> dict[tuple[str, int], str]:
 Entries = tuple[tuple[int, int], tuple[tuple[int, int, int], ...]]
 
 
-def nodes_of(e: Equations) -> Mapping[str, Entries]:
+def nodes_of_quantities(e: Equations) -> Mapping[str, Entries]:
     """Return for each quantity its shape, and row, column and node of its entries; N is added to the graph."""
     rates = jacobian(e.graph, e.q_rates, [("v", j) for j in range(e.nv)])
     zero = e.graph.zero
 
-    def column(nodes: Iterable[int]) -> Entries:
+    def column_of_nodes(nodes: Iterable[int]) -> Entries:
         listed = list(nodes)
         return (len(listed), 1), tuple((i, 0, n) for i, n in enumerate(listed))
 
     mass = ((i, j, b.entries[r][c]) for b in e.mass for r, i in enumerate(b.columns) for c, j in enumerate(b.columns))
     return {
-        "Phi": column(zero if row.phi is None else row.phi for row in e.rows),
+        "Phi": column_of_nodes(zero if row.phi is None else row.phi for row in e.rows),
         "D": ((e.m, e.nv), tuple((i, j, node) for i, row in enumerate(e.rows) for j, node in row.entries)),
-        "nu": column(row.nu for row in e.rows),
-        "gamma": column(row.gamma for row in e.rows),
+        "nu": column_of_nodes(row.nu for row in e.rows),
+        "gamma": column_of_nodes(row.gamma for row in e.rows),
         "N": ((e.nq, e.nv), tuple((i, j, n) for i, row in enumerate(rates) for (_, j), n in sorted(row.items()))),
         "M": ((e.nv, e.nv), tuple(mass)),
-        "f": column(e.forces),
-        **{k: column([n]) for k, n in (("T", e.kinetic), ("V", e.potential), ("power", e.power))},
+        "f": column_of_nodes(e.forces),
+        **{k: column_of_nodes([n]) for k, n in (("T", e.kinetic), ("V", e.potential), ("power", e.power))},
         "b": ((1, e.nv), () if e.driving is None else tuple((0, j, n) for j, n in e.driving.entries)),
-        "c": column([zero if e.driving is None else e.driving.rest]),
+        "c": column_of_nodes([zero if e.driving is None else e.driving.rest]),
     }
 
 
 def python_name(payload: object) -> str:
     """Return the name of a table, or of a derivative of it, in expressions."""
-    name, what = of_table(payload)
+    name, what = table_of_payload(payload)
     return f"{what.replace('value', 'table')}_{name}"
 
 
-def functions(tables: Iterable[Interpolation]) -> dict[str, Any]:
+def table_functions(tables: Iterable[Interpolation]) -> dict[str, Any]:
     """Return the interpolated functions and their derivatives by their names in expressions."""
     by_name: dict[str, Any] = {}
     for table in tables:

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 from symgen.base.vocabulary.expressions import call
 from symgen.describe.formulas.formula_text import to_text
-from symgen.result.reading.boxes import Box, bracket, dotted, matrix_box, name, row, sign
-from symgen.result.reading.structure import structure
-from symgen.result.reading.typeset import Sum, Typesetter, atom
+from symgen.result.reading.boxes import Box, bracket_box, matrix_box, name_box, rate_box, row_box, sign_box
+from symgen.result.reading.structure import nodes_with_names
+from symgen.result.reading.typeset import Sum, Typesetter, as_term
 
 if TYPE_CHECKING:
     from symgen.base.vocabulary.quantities import Quantity
@@ -53,11 +53,11 @@ class Sheet:
         ends += [*equations.forces, *self._energies]
         ends += [*(n for n in equations.q_rates if g.nodes[n].op != "input"), g.zero]
         parameters = {quantity.name for quantity in equations.parameters}
-        self.writer = Typesetter(equations, ends, self._names(), parameters)
+        self.writer = Typesetter(equations, ends, self._structure_names(), parameters)
 
-    def _names(self) -> dict[int, str]:
+    def _structure_names(self) -> dict[int, str]:
         """Return the names of the structure; cosine and sine of one coordinate read best as they are."""
-        g, names = self.equations.graph, structure(self.mechanism, self.equations)
+        g, names = self.equations.graph, nodes_with_names(self.mechanism, self.equations)
         simple = {n for n in names if g.nodes[n].op in ("sin", "cos") and g.nodes[g.nodes[n].args[0]].op == "input"}
         return {n: title for n, title in names.items() if n not in simple}
 
@@ -68,22 +68,28 @@ class Sheet:
         """Joints with rows, in the order of the file."""
         return tuple(dict.fromkeys(r.joint for r in self.rows))
 
-    def of(self, joint: str) -> tuple[ConstraintRow, ...]:
+    def rows_of_joint(self, joint: str) -> tuple[ConstraintRow, ...]:
         """Return the rows of a joint."""
         return tuple(r for r in self.rows if r.joint == joint)
 
     def phi(self, rows: Iterable[ConstraintRow]) -> list[Equation]:
         """Return ``Phi_ROW = ...`` of holonomic rows."""
-        return [Equation(indexed("Phi", r.name), self.writer.sum(r.phi), r.name) for r in rows if r.phi is not None]
+        return [
+            Equation(indexed_letter("Phi", r.name), self.writer.sum_of_node(r.phi), r.name)
+            for r in rows
+            if r.phi is not None
+        ]
 
     def nu(self, rows: Iterable[ConstraintRow]) -> list[Equation]:
         """Return ``nu_ROW = ...`` where it is not 0."""
         zero = self.equations.graph.zero
-        return [Equation(indexed("nu", r.name), self.writer.sum(r.nu), r.name) for r in rows if r.nu != zero]
+        return [
+            Equation(indexed_letter("nu", r.name), self.writer.sum_of_node(r.nu), r.name) for r in rows if r.nu != zero
+        ]
 
     def gamma(self, rows: Iterable[ConstraintRow]) -> list[Equation]:
         """Return ``gamma_ROW = ...``."""
-        return [Equation(indexed("gamma", r.name), self.writer.sum(r.gamma), r.name) for r in rows]
+        return [Equation(indexed_letter("gamma", r.name), self.writer.sum_of_node(r.gamma), r.name) for r in rows]
 
     @cached_property
     def groups(self) -> dict[str, list[int]]:
@@ -95,29 +101,29 @@ class Sheet:
 
     def jacobian(self, joint: str) -> list[Equation]:
         """Return the blocks of D of a joint's rows, by what the velocities belong to; those that are 0 are left out."""
-        rows, blocks = self.of(joint), list[Equation]()
+        rows, blocks = self.rows_of_joint(joint), list[Equation]()
         for group, indices in self.groups.items():
             entries = [[dict(r.entries).get(i, self.equations.graph.zero) for i in indices] for r in rows]
             if any(n != self.equations.graph.zero for line in entries for n in line):
                 left = Box("name", text="D", index=f"{joint},{group}", width=1.0 + 0.42 * len(joint + group))
-                blocks.append(self._block(left, entries, joint))
+                blocks.append(self._narrow_matrix(left, entries, joint))
         return blocks
 
-    def _block(self, left: Box, nodes: list[list[int]], key: str = "") -> Equation:
+    def _narrow_matrix(self, left: Box, nodes: list[list[int]], key: str = "") -> Equation:
         """Return a matrix that is no wider than a line: its widest entries get names."""
         waiting = {n for line in nodes for n in line}
-        entries = self._matrix(nodes)
+        entries = self._matrix_of_nodes(nodes)
         while waiting and entries.width + left.width > LINE - 3.0:
-            widest = max(waiting, key=lambda n: (self.writer.box(n).width, n))
+            widest = max(waiting, key=lambda n: (self.writer.box_of_node(n).width, n))
             waiting.remove(widest)
-            self.writer.narrow(widest)
-            entries = self._matrix(nodes)
-        return Equation(left, atom(entries), key)
+            self.writer.name_entry(widest)
+            entries = self._matrix_of_nodes(nodes)
+        return Equation(left, as_term(entries), key)
 
-    def _matrix(self, nodes: Iterable[Iterable[int]]) -> Box:
-        return matrix_box([[self.writer.box(n) for n in line] for line in nodes])
+    def _matrix_of_nodes(self, nodes: Iterable[Iterable[int]]) -> Box:
+        return matrix_box([[self.writer.box_of_node(n) for n in line] for line in nodes])
 
-    def whole(self) -> list[Equation]:
+    def whole_matrices(self) -> list[Equation]:
         """Return M, and D where it has rows, as matrices; for small mechanisms."""
         e, zero = self.equations, self.equations.graph.zero
         masses = {
@@ -125,7 +131,9 @@ class Sheet:
         }
         everything = {"M": [[masses.get((i, j), zero) for j in range(e.nv)] for i in range(e.nv)]}
         everything["D"] = [[dict(r.entries).get(j, zero) for j in range(e.nv)] for r in self.rows]
-        return [Equation(name(k), atom(self._matrix(nodes))) for k, nodes in everything.items() if nodes]
+        return [
+            Equation(name_box(k), as_term(self._matrix_of_nodes(nodes))) for k, nodes in everything.items() if nodes
+        ]
 
     # -- motion ----------------------------------------------------------------------------------------------------
 
@@ -135,12 +143,25 @@ class Sheet:
         for block in self.equations.mass:
             names = [self.equations.velocities[i].name for i in block.columns]
             if len(names) == 1:
-                lines.append(Equation(row(name("M"), _of(names[0])), self.writer.sum(block.entries[0][0]), names[0]))
+                lines.append(
+                    Equation(
+                        row_box(name_box("M"), _velocity_arguments(names[0])),
+                        self.writer.sum_of_node(block.entries[0][0]),
+                        names[0],
+                    )
+                )
             elif len(names) <= 6:
-                lines.append(self._block(row(name("M"), _of(names[0])), [list(line) for line in block.entries]))
+                lines.append(
+                    self._narrow_matrix(
+                        row_box(name_box("M"), _velocity_arguments(names[0])), [list(line) for line in block.entries]
+                    )
+                )
             else:
                 lines += [
-                    Equation(row(name("M"), _of(names[i], names[j])), self.writer.sum(block.entries[i][j]))
+                    Equation(
+                        row_box(name_box("M"), _velocity_arguments(names[i], names[j])),
+                        self.writer.sum_of_node(block.entries[i][j]),
+                    )
                     for i in range(len(names))
                     for j in range(i, len(names))
                     if block.entries[i][j] != self.equations.graph.zero
@@ -151,7 +172,11 @@ class Sheet:
         """Return the entries of f that are not 0."""
         g, e = self.equations.graph, self.equations
         pairs = zip(e.velocities, e.forces, strict=True)
-        return [Equation(row(name("f"), _of(v.name)), self.writer.sum(n), v.name) for v, n in pairs if n != g.zero]
+        return [
+            Equation(row_box(name_box("f"), _velocity_arguments(v.name)), self.writer.sum_of_node(n), v.name)
+            for v, n in pairs
+            if n != g.zero
+        ]
 
     def rates(self) -> list[Equation]:
         """Return ``q' = N v`` where it is not ``q' = v``, and the rates of the states of the file."""
@@ -159,15 +184,18 @@ class Sheet:
         pairs = zip(e.coordinates, e.q_rates, strict=True)
         moving = [(q, n) for q, n in pairs if g.nodes[n].op != "input"]
         whole = (*moving, *zip(e.states, e.state_rates, strict=True))
-        return [Equation(dotted(name(x.name)), self.writer.sum(n), x.name) for x, n in whole]
+        return [Equation(rate_box(name_box(x.name)), self.writer.sum_of_node(n), x.name) for x, n in whole]
 
     def energies(self) -> list[Equation]:
         """Return T, V, the power of forces without potential, and the power of drivers without rows, b v' + c."""
         e = self.equations
-        lefts = [name("T"), name("V"), name("P")]
+        lefts = [name_box("T"), name_box("V"), name_box("P")]
         if e.driving is not None:
-            lefts += [*(row(name("b"), _of(e.velocities[j].name)) for j, _ in e.driving.entries), name("c")]
-        return [Equation(left, self.writer.sum(n)) for left, n in zip(lefts, self._energies, strict=True)]
+            lefts += [
+                *(row_box(name_box("b"), _velocity_arguments(e.velocities[j].name)) for j, _ in e.driving.entries),
+                name_box("c"),
+            ]
+        return [Equation(left, self.writer.sum_of_node(n)) for left, n in zip(lefts, self._energies, strict=True)]
 
     @property
     def _energies(self) -> list[int]:
@@ -175,7 +203,7 @@ class Sheet:
         driving = [] if e.driving is None else [*(n for _, n in e.driving.entries), e.driving.rest]
         return [e.kinetic, e.potential, e.power, *driving]
 
-    def prescribed(self) -> dict[str, str]:
+    def sentences_on_drivers(self) -> dict[str, str]:
         """Return a sentence by name for each driver without a row: the motion that it prescribes."""
         topology = self.mechanism.topology
         joints = {} if topology is None else {link.body: link.joint for link in topology.links}
@@ -185,9 +213,12 @@ class Sheet:
             sentences[p.driver] = f"{joints[p.body] or p.body}.{p.label} = {value}"
         return sentences
 
-    def shared(self, nodes: Iterable[int]) -> list[Equation]:
+    def shared_equations(self, nodes: Iterable[int]) -> list[Equation]:
         """Return the equations of the shared terms of `nodes`."""
-        return [Equation(self.writer.definitions[n][0], self.writer.definitions[n][1]) for n in self.writer.used(nodes)]
+        return [
+            Equation(self.writer.definitions[n][0], self.writer.definitions[n][1])
+            for n in self.writer.names_used(nodes)
+        ]
 
     def nodes(self, what: Iterable[str]) -> list[int]:
         """Return the nodes that some quantities are made of, by `QUANTITIES`' names."""
@@ -205,14 +236,14 @@ class Sheet:
         return [*moving, *states, ("Parameters", own), ("Inputs", inputs)]
 
 
-def indexed(letter: str, index: str) -> Box:
+def indexed_letter(letter: str, index: str) -> Box:
     """Return a letter of the notation with the name of a row."""
     return Box("name", text=letter, index=index, width=0.8 + 0.42 * len(index))
 
 
-def _of(*names: str) -> Box:
+def _velocity_arguments(*names: str) -> Box:
     """Return the names of velocities as arguments."""
-    parts = [name(names[0])]
+    parts = [name_box(names[0])]
     for other in names[1:]:
-        parts += [sign(","), name(other)]
-    return bracket(row(*parts))
+        parts += [sign_box(","), name_box(other)]
+    return bracket_box(row_box(*parts))

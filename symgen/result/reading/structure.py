@@ -10,11 +10,11 @@ from symgen.base.ir.graph import Graph
 from symgen.base.vocabulary.expressions import Reading
 from symgen.base.vocabulary.measures import Driven, Exerted, Flexed
 from symgen.derive.formulate.equations import Equations
-from symgen.derive.formulate.flexure import exertions
+from symgen.derive.formulate.flexure import exertions_of_force
 from symgen.derive.formulate.frames import FRAME_SLOTS, SPATIAL_SLOTS
-from symgen.derive.formulate.measures import ModelNodes
+from symgen.derive.formulate.measure_nodes import ModelNodes
 from symgen.describe.facts.repeats import without_repeats
-from symgen.describe.formulas.readings import of_force_elements
+from symgen.describe.formulas.readings import columns_of_force_elements
 from symgen.describe.mechanism import Mechanism
 
 #: A term that is used more than once gets a number for a name where it has at least so many operations.
@@ -23,7 +23,7 @@ _LEAVES = ("const", "input")
 _UNNAMED = ("neg", "lt", "le", "gt", "ge", "and", "or")
 
 
-def structure(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
+def nodes_with_names(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
     """Return the nodes that have a meaning of their own, with their names.
 
     Parameters
@@ -45,8 +45,8 @@ def structure(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
     slots = SPATIAL_SLOTS if model.spatial else FRAME_SLOTS
     named = [(body.name, slot) for body in mechanism.bodies for slot in slots]
     nodes = [node for body in mechanism.bodies for node in model.frame_inputs(body.name)]
-    inputs = {key: equations.graph.input(*key) for key in model.graph.keys(nodes)}
-    copies = equations.graph.copy().inline(model.graph, nodes, inputs)
+    inputs = {key: equations.graph.input(*key) for key in model.graph.inputs_of(nodes)}
+    copies = equations.graph.copy().copy_from(model.graph, nodes, inputs)
     names: dict[int, str] = {}
     state = {quantity.name for quantity in (*equations.coordinates, *equations.velocities)}
     computed = equations.graph.nodes
@@ -60,11 +60,11 @@ def structure(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
 def element_terms(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
     """Return the nodes of the equations that are measures and efforts of force elements, with their names."""
     model = ModelNodes(without_repeats(mechanism)[0])
-    columns = [(c.name, c.formula) for c in of_force_elements(mechanism) if isinstance(c.formula, Reading)]
-    written = [(name, node) for name, r in columns if (node := _node_of(model, r)) is not None]
+    columns = [(c.name, c.formula) for c in columns_of_force_elements(mechanism) if isinstance(c.formula, Reading)]
+    written = [(name, node) for name, r in columns if (node := _node_of_reading(model, r)) is not None]
     nodes = [node for _, node in written]
-    inputs = {key: equations.graph.input(*key) for key in model.graph.keys(nodes)}
-    copies = equations.graph.copy().inline(model.graph, nodes, inputs)
+    inputs = {key: equations.graph.input(*key) for key in model.graph.inputs_of(nodes)}
+    copies = equations.graph.copy().copy_from(model.graph, nodes, inputs)
     names, computed = dict[int, str](), equations.graph.nodes
     for (name, _), node in zip(written, copies, strict=True):
         if node < len(computed) and computed[node].op not in (*_LEAVES, "neg"):
@@ -72,13 +72,13 @@ def element_terms(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
     return names
 
 
-def _node_of(model: ModelNodes, reading: Reading) -> int | None:
+def _node_of_reading(model: ModelNodes, reading: Reading) -> int | None:
     """Return the node of a measure or an effort; None of what multipliers, powers or beams are."""
     source = reading.source
     if isinstance(source, Driven | Flexed) or (isinstance(source, Exerted) and (source.power or source.flexures)):
         return None
     if isinstance(source, Exerted):
-        return model.graph.total(e.total for e in exertions(model, source))
+        return model.graph.sum_of(e.total for e in exertions_of_force(model, source))
     return model.reading(reading)
 
 
@@ -99,9 +99,9 @@ def shared_terms(
         Names that mean something else.
     """
     ends = list(nodes)
-    used, numbered, terms = uses(graph, ends), free_names(others), dict[int, str]()
+    used, numbered, terms = count_uses(graph, ends), free_names(others), dict[int, str]()
     cost: dict[int, int] = {}
-    for node in graph.needed(ends):
+    for node in graph.required_nodes(ends):
         op, args, _ = graph.nodes[node]
         cost[node] = 0 if op in _LEAVES else 1 + sum(cost[a] for a in args)
         if node in names:
@@ -113,9 +113,9 @@ def shared_terms(
     return terms
 
 
-def uses(graph: Graph, ends: Sequence[int]) -> Counter[int]:
+def count_uses(graph: Graph, ends: Sequence[int]) -> Counter[int]:
     """Count how often nodes are operands of what `ends` need, or ends themselves."""
-    return Counter([*ends, *(a for n in graph.needed(ends) for a in graph.nodes[n].args)])
+    return Counter([*ends, *(a for n in graph.required_nodes(ends) for a in graph.nodes[n].args)])
 
 
 def free_names(others: Container[str]) -> Iterator[str]:

@@ -13,7 +13,7 @@ from symgen.base.errors import InputError
 from symgen.base.ir.graph import Graph
 from symgen.derive.formulate.equations import Equations
 from symgen.derive.formulate.translate import TO_SYMPY, NotReal, Translator, table_function
-from symgen.result.reading.boxes import Box, dotted, matrix_box, name
+from symgen.result.reading.boxes import Box, matrix_box, name_box, rate_box
 from symgen.result.reading.notations import latex
 from symgen.result.reading.quantity_names import input_names
 from symgen.result.reading.typeset import Writer
@@ -32,7 +32,7 @@ class FileSymbol(sp.Symbol):  # type: ignore[misc]  # SymPy has no types
     __slots__ = ()
 
     def _latex(self, printer: object) -> str:
-        return latex(name(self.name))
+        return latex(name_box(self.name))
 
 
 class Symbolic:
@@ -43,7 +43,7 @@ class Symbolic:
     equations : Equations
         What was derived.
     named : mapping of int to str, optional
-        Nodes that stand under a name of their own where they are used.
+        Nodes that have a name of their own where they are used.
     """
 
     def __init__(self, equations: Equations, named: Mapping[int, str] | None = None) -> None:
@@ -60,15 +60,15 @@ class Symbolic:
     def definition(self, node: int) -> Any:
         """Return the SymPy expression of a node that has a name."""
         self._build_all(self.graph.nodes[node].args)
-        return self._build(node)
+        return self._build_node(node)
 
     def _build_all(self, nodes: Iterable[int]) -> None:
         """Build what nodes are written with: as far as the next nodes with names."""
-        for n in self.graph.needed(nodes, self.named.__contains__):
+        for n in self.graph.required_nodes(nodes, self.named.__contains__):
             if n not in self._built:
-                self._built[n] = self.named.get(n) or self._build(n)
+                self._built[n] = self.named.get(n) or self._build_node(n)
 
-    def _build(self, node: int) -> Any:
+    def _build_node(self, node: int) -> Any:
         op, args, payload = self.graph.nodes[node]
         if op == "const":
             return exact_literal(float(payload))  # type: ignore[arg-type]  # a constant's payload is a float
@@ -114,22 +114,22 @@ class Boxed(Translator):
         """Return an expression or a matrix, with all digits of numbers."""
         if isinstance(value, sp.MatrixBase):
             return matrix_box([[self.box(x) for x in line] for line in value.tolist()])
-        return self._writer.box(self.node(value))
+        return self._writer.box_of_node(self.translate(value))
 
-    def _build(self, e: object) -> int:
+    def _box_expression(self, e: object) -> int:
         if isinstance(e, sp.Eq) and e.lhs == e.rhs:  # what is no number differs from itself
-            return self.graph.call("defined", self.node(e.lhs))
+            return self.graph.call("defined", self.translate(e.lhs))
         if isinstance(e, sp.Ne) and e.rhs == 0:
-            return self.node(e.lhs)
+            return self.translate(e.lhs)
         try:
-            return super()._build(e)
+            return super()._box_expression(e)
         except (NotReal, InputError):
             key = "name", len(self._names)
-            self._names[key] = _name(e)
+            self._names[key] = _name_of_expression(e)
             return self.graph.input(*key)
 
 
-def _name(e: object) -> Box:
+def _name_of_expression(e: object) -> Box:
     if isinstance(e, sp.Derivative) and {str(x) for x in e.variables} == {"t"}:
-        return reduce(lambda box, _: dotted(box), e.variables, _name(e.expr))
-    return name(e.func.__name__ if isinstance(e, AppliedUndef) else str(e))
+        return reduce(lambda box, _: rate_box(box), e.variables, _name_of_expression(e.expr))
+    return name_box(e.func.__name__ if isinstance(e, AppliedUndef) else str(e))

@@ -12,20 +12,20 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 import sympy as sp
 
 from symgen.base import arguments
-from symgen.base.errors import InputError, counted, nearest, sizes_of
+from symgen.base.errors import InputError, plural, sizes_in_words, suggest
 from symgen.derive.formulate.formulate import formulate
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.reading import boxes
 from symgen.result.reading.free_modes import free_modes
 from symgen.result.reading.notations import latex
-from symgen.result.reading.quantity_names import OF_DRIVERS, QUANTITIES, Entries, functions, nodes_of
-from symgen.result.reading.structure import shared_terms, structure
+from symgen.result.reading.quantity_names import OF_DRIVERS, QUANTITIES, Entries, nodes_of_quantities, table_functions
+from symgen.result.reading.structure import nodes_with_names, shared_terms
 from symgen.result.reading.symbolic import Boxed, Symbolic
 
 if TYPE_CHECKING:
     from symgen.derive.formulate.equations import Equations
     from symgen.describe.mechanism import Mechanism
-    from symgen.result.reading.law import Law
+    from symgen.result.reading.law_steps import Law
 
 #: Quantities with more operations, written out without sharing, are written with shared terms.
 LARGEST = 30_000
@@ -48,7 +48,7 @@ class SymbolicEquations:
 
     ``M v' + D^T lambda = f``, ``D v' = gamma``, ``q' = N v``; `Phi`, `D`, `nu`, `gamma`, `N`, `M`, `f`, `T`, `V` and
     `power` are computed at their first use, in coordinates of joints also `b` and `c`. Quantities with
-    more than `LARGEST` operations are written with shared terms, whose meaning stands in `definitions`; `notes` says
+    more than `LARGEST` operations are written with shared terms, which `definitions` defines; `notes` says
     which.
 
     Parameters
@@ -153,7 +153,7 @@ class SymbolicEquations:
         InputError
             If no quantity has that name.
         """
-        return getattr(self, arguments.one_of("quantity", name, tuple(QUANTITIES)))
+        return getattr(self, arguments.one_word_of("quantity", name, tuple(QUANTITIES)))
 
     # -- shared terms ----------------------------------------------------------------------------------------------
 
@@ -168,14 +168,15 @@ class SymbolicEquations:
     @cached_property
     def definitions(self) -> Mapping[Any, Any]:
         """Definitions of shared terms, by symbol, each written with earlier ones; empty without any."""
-        return MappingProxyType(self._of(()))
+        return MappingProxyType(self._definitions_needed(()))
 
     @cached_property
     def notes(self) -> tuple[str, ...]:
         """A sentence about each quantity that is written with shared terms because it would be too large."""
         large = [] if self.sharing else [name for name in self._quantities if self._is_large(name)]
         return tuple(
-            f"{name} would have {self._size(name)} operations written out, more than {LARGEST}: it is written with "
+            f"{name} would have {self._operations_of(name)} operations written out, more than {LARGEST}: "
+            "it is written with "
             "shared terms, see definitions"
             for name in large
         )
@@ -201,7 +202,7 @@ class SymbolicEquations:
         for key, value in values.items():
             name = key.name if isinstance(key, sp.Symbol) else str(key)
             if name not in symbols:
-                raise InputError("subs", "a name of the equations", f"'{name}'", nearest(name, symbols))
+                raise InputError("subs", "a name of the equations", f"'{name}'", suggest(name, symbols))
             new[symbols[name]] = sp.sympify(value)
         left = {symbol for value in self.values.values() for symbol in value.free_symbols}
         replaced = {key: value.xreplace(new) for key, value in self.values.items()}
@@ -231,11 +232,11 @@ class SymbolicEquations:
 
         quantities = names or ("Phi",)
         shared = self if self.sharing else self.shared()
-        definitions = shared._of(quantities)
+        definitions = shared._definitions_needed(quantities)
         terms = {symbol: sp.Symbol(f"_term{i}", real=True) for i, symbol in enumerate(definitions)}
         outputs = [shared.quantity(name).xreplace(terms) for name in quantities]
         written = [(terms[symbol], value.xreplace(terms)) for symbol, value in definitions.items()]
-        tables = functions(self.derived.tables)
+        tables = table_functions(self.derived.tables)
         libraries = [tables, *([modules] if isinstance(modules, str) else modules)]
         compute = sp.lambdify(self.arguments, outputs, libraries, cse=lambda unchanged: (written, unchanged))
         described = list(parameter_values(self.mechanism).values())
@@ -281,9 +282,9 @@ class SymbolicEquations:
         InputError
             If there is no such method or option.
         """
-        from symgen.result.reading.law import law
+        from symgen.result.reading.law_steps import law_as_steps
 
-        return law(method, options, self.derived.driving is not None)
+        return law_as_steps(method, options, self.derived.driving is not None)
 
     # -- writing ---------------------------------------------------------------------------------------------------
 
@@ -293,9 +294,9 @@ class SymbolicEquations:
         Lines are as long as they are: a document with broken lines is what ``symgen inspect --document`` writes.
         """
         sides = [({"power": "P"}.get(name, name), self.quantity(name)) for name in names or self._quantities]
-        sides += [(symbol.name, value) for symbol, value in self._of(names).items()]
+        sides += [(symbol.name, value) for symbol, value in self._definitions_needed(names).items()]
         box = Boxed().box
-        return " \\\\\n".join(f"{latex(boxes.name(left))} = {latex(box(right))}" for left, right in sides)
+        return " \\\\\n".join(f"{latex(boxes.name_box(left))} = {latex(box(right))}" for left, right in sides)
 
     def _repr_latex_(self) -> str:
         """Return the plain text for a notebook."""
@@ -311,11 +312,11 @@ class SymbolicEquations:
     def _repr_html_(self) -> str:
         """Return the HTML for a notebook: sizes, and the quantities folded."""
         e = self.derived
-        sizes = f"{sizes_of(e)}, in {self.coordinates} coordinates"
+        sizes = f"{sizes_in_words(e)}, in {self.coordinates} coordinates"
         parts = [f"<p><b>{escape(e.name)}</b>: {escape(sizes)}</p>"]
         for name in self._quantities:
-            words, count = QUANTITIES[name], self._size(name)
-            head = f"<summary><code>{name}</code>: {escape(words)}, {counted(count, 'operation')}</summary>"
+            words, count = QUANTITIES[name], self._operations_of(name)
+            head = f"<summary><code>{name}</code>: {escape(words)}, {plural(count, 'operation')}</summary>"
             text = f"$$\\begin{{gathered}}{self.latex(name)}\\end{{gathered}}$$" if count <= 400 else "too long to show"
             parts.append(f"<details>{head}{escape(text)}</details>")
         return "\n".join(parts)
@@ -329,7 +330,7 @@ class SymbolicEquations:
     @cached_property
     def nodes(self) -> Mapping[str, Entries]:
         """For each quantity its shape, and row, column and node of its entries."""
-        return nodes_of(self._written)
+        return nodes_of_quantities(self._written)
 
     @cached_property
     def _plain(self) -> Symbolic:
@@ -339,7 +340,7 @@ class SymbolicEquations:
     def _named(self) -> Symbolic:
         ends = [node for _, entries in self.nodes.values() for *_, node in entries]
         symbols = {symbol.name for symbol in self._plain.symbols.values()}
-        names = shared_terms(self._written.graph, ends, structure(self.mechanism, self._written), symbols)
+        names = shared_terms(self._written.graph, ends, nodes_with_names(self.mechanism, self._written), symbols)
         return Symbolic(self._written, names)
 
     def _symbols(self, space: str) -> Mapping[str, sp.Symbol]:
@@ -347,27 +348,27 @@ class SymbolicEquations:
         return MappingProxyType({s.name: s for s in symbols})
 
     def _joint_rates(self) -> Mapping[str, Any]:
-        written = {x.name: self._put(self._plain.expression(x.rate)) for x in self.derived.joint_coordinates}
+        written = {x.name: self._put_values(self._plain.expression(x.rate)) for x in self.derived.joint_coordinates}
         return MappingProxyType(written)
 
-    def _size(self, name: str) -> int:
-        return self._written.graph.tree_operations(n for *_, n in self.nodes[name][1])
+    def _operations_of(self, name: str) -> int:
+        return self._written.graph.count_tree_operations(n for *_, n in self.nodes[name][1])
 
     def _is_large(self, name: str) -> bool:
-        return self._size(name) > LARGEST
+        return self._operations_of(name) > LARGEST
 
     def _matrix(self, name: str) -> sp.ImmutableDenseMatrix:
         shape, entries = self.nodes[name]
         display = self._named if self.sharing or self._is_large(name) else self._plain
-        values = {(i, j): self._put(display.expression(node)) for i, j, node in entries}
+        values = {(i, j): self._put_values(display.expression(node)) for i, j, node in entries}
         return sp.ImmutableDenseMatrix(*shape, lambda i, j: values.get((int(i), int(j)), sp.S.Zero))
 
-    def _put(self, expression: Any) -> Any:
+    def _put_values(self, expression: Any) -> Any:
         return expression.xreplace(self.values) if self.values else expression
 
-    def _of(self, names: Iterable[str]) -> dict[Any, Any]:
+    def _definitions_needed(self, names: Iterable[str]) -> dict[Any, Any]:
         """Return the definitions that quantities need, in evaluation order; of all quantities by default."""
         display, used = self._named, [x for x in names or self._quantities if self.sharing or self._is_large(x)]
-        operations = self._written.graph.needed(n for name in used for *_, n in self.nodes[name][1])
+        operations = self._written.graph.required_nodes(n for name in used for *_, n in self.nodes[name][1])
         named = [n for n in operations if n in display.named and display.named[n] not in self.values]
-        return {display.named[n]: self._put(display.definition(n)) for n in named}
+        return {display.named[n]: self._put_values(display.definition(n)) for n in named}

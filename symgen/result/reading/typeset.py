@@ -10,26 +10,26 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from symgen.base.ir.graph import Graph
-from symgen.base.ir.program import DERIVATIVES, of_table
+from symgen.base.ir.program import DERIVATIVES, table_of_payload
 from symgen.derive.formulate.equations import Equations
 from symgen.result.reading.boxes import (
     Box,
-    apart,
-    atoms,
-    bracket,
-    cases,
-    fraction,
+    boxes_apart,
+    bracket_box,
+    cases_box,
+    count_atoms,
+    fraction_box,
     function_box,
     is_literal,
     literal_box,
-    name,
-    power,
-    row,
-    sign,
+    name_box,
+    power_box,
+    row_box,
+    sign_box,
 )
-from symgen.result.reading.notations import bare, python
+from symgen.result.reading.notations import needs_no_bracket, python
 from symgen.result.reading.quantity_names import input_names, python_name
-from symgen.result.reading.structure import free_names, uses
+from symgen.result.reading.structure import count_uses, free_names
 
 #: Widest term, in units of the type's size; a line of a document has 44 of them.
 TERM = 30.0
@@ -53,42 +53,42 @@ class Term:
     @property
     def box(self) -> Box:
         """The product without its sign."""
-        above = _side_by_side(self.factors)
+        above = _product_box(self.factors)
         if not self.below:
             return above
-        return fraction(above, _side_by_side(self.below))
+        return fraction_box(above, _product_box(self.below))
 
 
-def _side_by_side(factors: Sequence[Box]) -> Box:
-    """Return a product; between numbers, which would read as one, stands a dot."""
+def _product_box(factors: Sequence[Box]) -> Box:
+    """Return a product, with a dot between numbers, which would otherwise read as one."""
     if len(factors) == 1:
         return factors[0]
     parts = [factors[0]]
     for before, factor in pairwise(factors):
-        parts += [sign("*"), factor] if is_literal(before) and is_literal(factor) else [factor]
-    return row(*parts)
+        parts += [sign_box("*"), factor] if is_literal(before) and is_literal(factor) else [factor]
+    return row_box(*parts)
 
 
 Sum = tuple[Term, ...]
 
 
-def atom(box: Box) -> Sum:
+def as_term(box: Box) -> Sum:
     """Return a box as a sum of one term."""
     return (Term(False, (box,)),)
 
 
-def as_box(terms: Sum) -> Box:
+def line_of_sum(terms: Sum) -> Box:
     """Return a sum in one line."""
     if len(terms) == 1 and not terms[0].negative:
         return terms[0].box
-    return row(*(part for i, term in enumerate(terms) for part in (*leading(term, i == 0), term.box)))
+    return row_box(*(part for i, term in enumerate(terms) for part in (*leading_sign(term, i == 0), term.box)))
 
 
-def leading(term: Term, first: bool) -> tuple[Box, ...]:
+def leading_sign(term: Term, first: bool) -> tuple[Box, ...]:
     """Return the sign before a term; none before a first one that is positive."""
     if first and not term.negative:
         return ()
-    return (sign("-" if term.negative else "+"),)
+    return (sign_box("-" if term.negative else "+"),)
 
 
 class Writer:
@@ -103,7 +103,7 @@ class Writer:
     exact : bool
         Whether numbers have all digits.
     terms : mapping of int to str, optional
-        Nodes that stand under names of their own.
+        Nodes that have names of their own.
     """
 
     def __init__(
@@ -114,25 +114,25 @@ class Writer:
         terms: Mapping[int, str] | None = None,
     ) -> None:
         self.graph, self.inputs, self.exact = graph, inputs, exact
-        self._written: dict[int, Sum] = {n: atom(name(text, whole=True)) for n, text in (terms or {}).items()}
+        self._written: dict[int, Sum] = {n: as_term(name_box(text, whole=True)) for n, text in (terms or {}).items()}
 
-    def sum(self, node: int) -> Sum:
+    def sum_of_node(self, node: int) -> Sum:
         """Return a node as a sum."""
         if node not in self._written:
-            for n in self.graph.needed([node], self._written.__contains__):
+            for n in self.graph.required_nodes([node], self._written.__contains__):
                 if n not in self._written:
                     self._written[n] = self._terms(n)
         return self._written[node]
 
-    def box(self, node: int) -> Box:
+    def box_of_node(self, node: int) -> Box:
         """Return a node in one line."""
-        return as_box(self.sum(node))
+        return line_of_sum(self.sum_of_node(node))
 
     def definition(self, node: int) -> Box:
         """Return a node with a name of its own by its operands."""
         for operand in self.graph.nodes[node].args:
-            self.sum(operand)
-        return as_box(self._terms(node))
+            self.sum_of_node(operand)
+        return line_of_sum(self._terms(node))
 
     def _terms(self, node: int) -> Sum:
         op, args, payload = self.graph.nodes[node]
@@ -140,65 +140,73 @@ class Writer:
             value = float(payload)  # type: ignore[arg-type]  # a constant's payload is a float
             return (Term(value < 0.0, (literal_box(abs(value), self.exact),)),)
         if op == "input":
-            return atom(self.inputs[self.graph.key(node)])
+            return as_term(self.inputs[self.graph.key(node)])
         sums = [self._written[a] for a in args]
         if op in ("add", "sub"):
-            return sums[0] + (sums[1] if op == "add" else _turned(sums[1]))
+            return sums[0] + (sums[1] if op == "add" else _negate_terms(sums[1]))
         if op == "neg":
-            return _turned(sums[0])
+            return _negate_terms(sums[0])
         if op == "mul":
-            return (_square(sums[0]) if args[0] == args[1] else _product(_one(sums[0]), _one(sums[1])),)
+            return (
+                _square_term(sums[0])
+                if args[0] == args[1]
+                else _product_term(_single_term(sums[0]), _single_term(sums[1])),
+            )
         if op == "div":
-            above, below = _one(sums[0]), _one(sums[1])
+            above, below = _single_term(sums[0]), _single_term(sums[1])
             signs = above.negative != below.negative
             return (Term(signs, above.factors + below.below, above.below + below.factors),)
         if op == "pow":
-            return atom(power(_whole(sums[0]), as_box(sums[1])))
+            return as_term(power_box(_base_of_power(sums[0]), line_of_sum(sums[1])))
         if op == "where":
-            return atom(cases([(as_box(sums[1]), self._condition(args[0])), (as_box(sums[2]), None)]))
+            return as_term(cases_box([(line_of_sum(sums[1]), self._condition(args[0])), (line_of_sum(sums[2]), None)]))
         if op in _CONDITIONS:
-            return atom(cases([(literal_box(1.0), self._condition(node)), (literal_box(0.0), None)]))
+            return as_term(cases_box([(literal_box(1.0), self._condition(node)), (literal_box(0.0), None)]))
         if op == "table":
-            table, what = of_table(payload)
+            table, what = table_of_payload(payload)
             marks = "'" * DERIVATIVES.index(what)
-            return atom(function_box(table + marks, [as_box(s) for s in sums], python_name(payload)))
-        return atom(function_box(op, [as_box(s) for s in sums], _PYTHON.get(op, "")))
+            return as_term(function_box(table + marks, [line_of_sum(s) for s in sums], python_name(payload)))
+        return as_term(function_box(op, [line_of_sum(s) for s in sums], _PYTHON.get(op, "")))
 
     def _condition(self, node: int) -> Box:
         """Return a node, 0 or 1 in the graph, as a condition."""
         op, args, _ = self.graph.nodes[node]
         if op in _RELATIONS:
-            return row(as_box(self._written[args[0]]), sign(_RELATIONS[op]), as_box(self._written[args[1]]))
+            return row_box(
+                line_of_sum(self._written[args[0]]), sign_box(_RELATIONS[op]), line_of_sum(self._written[args[1]])
+            )
         if op in ("and", "or"):
-            return row(bracket(self._condition(args[0])), sign(op), bracket(self._condition(args[1])))
+            return row_box(bracket_box(self._condition(args[0])), sign_box(op), bracket_box(self._condition(args[1])))
         if op == "not":
-            return row(sign("not"), bracket(self._condition(args[0])))
+            return row_box(sign_box("not"), bracket_box(self._condition(args[0])))
         if op == "defined":
-            return function_box("defined", [as_box(self._written[args[0]])])
-        return row(as_box(self._written[node]), sign("!="), literal_box(0.0))
+            return function_box("defined", [line_of_sum(self._written[args[0]])])
+        return row_box(line_of_sum(self._written[node]), sign_box("!="), literal_box(0.0))
 
 
-def texts(equations: Equations) -> Callable[[int], str]:
+def text_writer(equations: Equations) -> Callable[[int], str]:
     """Return a function that writes nodes as text that Python and SymPy read, with all digits.
 
-    In place of an expression with more than `LONGEST` operations stands their number.
+    The number of operations replaces an expression with more than `LONGEST` of them.
     """
     graph = equations.graph
-    names = {key: name(text, whole=True) for key, text in input_names(equations).items()}
+    names = {key: name_box(text, whole=True) for key, text in input_names(equations).items()}
     writer = Writer(graph, names, exact=True)
 
-    def text(node: int) -> str:
-        count = graph.tree_operations([node])
-        return f"<{count} operations>" if count > LONGEST else python(writer.box(node))
+    def text_of_node(node: int) -> str:
+        count = graph.count_tree_operations([node])
+        return f"<{count} operations>" if count > LONGEST else python(writer.box_of_node(node))
 
-    return text
+    return text_of_node
 
 
-def texts_by_terms(equations: Equations, terms: Mapping[int, str]) -> tuple[Callable[[int], str], Callable[[int], str]]:
+def text_writers_by_terms(
+    equations: Equations, terms: Mapping[int, str]
+) -> tuple[Callable[[int], str], Callable[[int], str]]:
     """Return functions that write nodes, and definitions of terms, with the names of terms in place of these."""
-    names = {key: name(text, whole=True) for key, text in input_names(equations).items()}
+    names = {key: name_box(text, whole=True) for key, text in input_names(equations).items()}
     writer = Writer(equations.graph, names, exact=True, terms=terms)
-    return lambda node: python(writer.box(node)), lambda node: python(writer.definition(node))
+    return lambda node: python(writer.box_of_node(node)), lambda node: python(writer.definition(node))
 
 
 class Typesetter(Writer):
@@ -224,28 +232,28 @@ class Typesetter(Writer):
     def __init__(
         self, equations: Equations, ends: Iterable[int], named: Mapping[int, str], others: Container[str] = ()
     ) -> None:
-        self._parameters = apart(quantity.name for quantity in equations.parameters)
+        self._parameters = boxes_apart(quantity.name for quantity in equations.parameters)
         super().__init__(equations.graph, {key: self.symbol(text) for key, text in input_names(equations).items()})
         self.definitions: dict[int, tuple[Box, Sum]] = {}
         self._full: dict[int, Sum] = {}
         self._numbered = free_names(others)
         listed = list(ends)
-        used = uses(self.graph, listed)
-        for node in self.graph.needed(listed):
+        used = count_uses(self.graph, listed)
+        for node in self.graph.required_nodes(listed):
             self._write(node, used[node], named.get(node))
 
     def symbol(self, text: str) -> Box:
         """Return the name of a quantity as it is typeset: no two parameters alike."""
-        return self._parameters.get(text) or name(text)
+        return self._parameters.get(text) or name_box(text)
 
-    def narrow(self, node: int) -> None:
+    def name_entry(self, node: int) -> None:
         """Give a node a name unless it has one: for entries of wide matrices."""
         if node not in self.definitions and self.graph.nodes[node].op not in ("const", "input"):
-            self._give(node, None)
+            self._give_name(node, None)
 
-    def used(self, nodes: Iterable[int]) -> list[int]:
+    def names_used(self, nodes: Iterable[int]) -> list[int]:
         """Return the nodes with names that `nodes` are written with, in evaluation order."""
-        return [n for n in self.graph.needed(nodes) if n in self.definitions]
+        return [n for n in self.graph.required_nodes(nodes) if n in self.definitions]
 
     def _write(self, node: int, uses: int, title: str | None) -> None:
         operation = self.graph.nodes[node]
@@ -254,51 +262,51 @@ class Typesetter(Writer):
             wide = [a for a in operation.args if self._can_be_named(a)]
             if not wide or operation.op in ("add", "sub", "neg"):
                 break
-            self._give(max(wide, key=lambda a: as_box(self._written[a]).width), None)
+            self._give_name(max(wide, key=lambda a: line_of_sum(self._written[a]).width), None)
             terms = self._terms(node)
         self._full[node] = self._written[node] = terms
         if operation.op in ("const", "input", "neg", *_CONDITIONS):
             return
-        size = sum(atoms(term.box) for term in terms)
+        size = sum(count_atoms(term.box) for term in terms)
         if (title is not None and size > 1) or (uses > 1 and size > SHORT):
-            self._give(node, title)
+            self._give_name(node, title)
 
     def _can_be_named(self, node: int) -> bool:
         return node not in self.definitions and self.graph.nodes[node].op not in ("const", "input", *_CONDITIONS)
 
-    def _give(self, node: int, title: str | None) -> None:
+    def _give_name(self, node: int, title: str | None) -> None:
         title = title or next(self._numbered)
-        self.definitions[node] = name(title), self._full[node]
-        self._written[node] = atom(name(title))
+        self.definitions[node] = name_box(title), self._full[node]
+        self._written[node] = as_term(name_box(title))
 
 
-def _turned(terms: Sum) -> Sum:
+def _negate_terms(terms: Sum) -> Sum:
     return tuple(replace(term, negative=not term.negative) for term in terms)
 
 
-def _one(terms: Sum) -> Term:
-    return terms[0] if len(terms) == 1 else Term(False, (bracket(as_box(terms)),))
+def _single_term(terms: Sum) -> Term:
+    return terms[0] if len(terms) == 1 else Term(False, (bracket_box(line_of_sum(terms)),))
 
 
-def _whole(terms: Sum) -> Box:
+def _base_of_power(terms: Sum) -> Box:
     """Return a sum as the base of a power."""
     simple = len(terms) == 1 and not terms[0].negative and not terms[0].below and len(terms[0].factors) == 1
-    box = as_box(terms)
-    return box if simple and box.kind in ("name", "bracket", "call") and not bare(box) else bracket(box)
+    box = line_of_sum(terms)
+    return box if simple and box.kind in ("name", "bracket", "call") and not needs_no_bracket(box) else bracket_box(box)
 
 
-def _square(terms: Sum) -> Term:
-    return Term(False, (power(_whole(terms), literal_box(2.0)),))
+def _square_term(terms: Sum) -> Term:
+    return Term(False, (power_box(_base_of_power(terms), literal_box(2.0)),))
 
 
-def _product(a: Term, b: Term) -> Term:
+def _product_term(a: Term, b: Term) -> Term:
     factors = sorted(a.factors + b.factors, key=lambda box: not is_literal(box))
     if len(factors) > 1 and factors[0].kind == "number" and factors[0].text == "1":
         factors = factors[1:]
     return Term(a.negative != b.negative, tuple(factors), a.below + b.below)
 
 
-def broken(terms: Sum, first: float, others: float) -> list[list[Box]]:
+def break_lines(terms: Sum, first: float, others: float) -> list[list[Box]]:
     """Return the lines of a sum: boxes side by side, signs among them.
 
     Parameters
@@ -311,7 +319,7 @@ def broken(terms: Sum, first: float, others: float) -> list[list[Box]]:
     lines: list[list[Box]] = [[]]
     left = first
     for i, term in enumerate(terms):
-        parts = [*leading(term, i == 0), term.box]
+        parts = [*leading_sign(term, i == 0), term.box]
         wide = sum(p.width for p in parts)
         if lines[-1] and wide > left:
             lines.append([])

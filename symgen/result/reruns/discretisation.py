@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _FIFTEEN = 15.0
 
 
-def discretisation(run: Prepared, outcome: Outcome, settings: Settings) -> str | None:
+def discretisation_error_sentence(run: Prepared, outcome: Outcome, settings: Settings) -> str | None:
     """Return a sentence about the error of the number of beam elements; None where there are no beams.
 
     Parameters
@@ -32,14 +32,14 @@ def discretisation(run: Prepared, outcome: Outcome, settings: Settings) -> str |
     mechanism = run.plan.mechanism
     if not mechanism.beams or outcome.code != abi.DONE:
         return None
-    from symgen.describe.facts.finer_beams import refined
+    from symgen.describe.facts.finer_beams import refine_beams
     from symgen.run.planning.prepare import prepare
 
     chosen = run.plan.settings
     settings = replace(settings, method=chosen.method, integrator=run.plan.integrator.name, options=chosen.options)
     settings = replace(settings, rtol=run.spec.rtol, atol=chosen.atol, times=tuple(outcome.times.tolist()))
     try:
-        finer, names = refined(mechanism)
+        finer, names = refine_beams(mechanism)
         second = prepare(finer, settings)
         other = second.integrate()
     except SymgenError as error:

@@ -14,7 +14,7 @@ import numpy as np
 
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result import judge
-from symgen.result.points import Agreement, Points, Verification, agreement
+from symgen.result.points import Agreement, Points, Verification, compare_motions
 from symgen.run.layout import abi
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ DEARER = 1.5
 LEAST_PART, FEWEST = 1e-9, 101
 
 
-def run_again(
+def rerun_with_finer_steps(
     run: Prepared, outcome: Outcome, points: Points, tolerance: float
 ) -> tuple[Prepared, Outcome, Agreement | None]:
     """Run again from the same start with finer steps, and compare positions at all outputs.
@@ -68,11 +68,11 @@ def run_again(
     second = finer.integrate(start=start)
     if second.code != abi.DONE:
         return finer, second, None
-    a, b = _comparable(outcome, second)
-    return finer, second, agreement(points, run.positions(outcome)[a], run.positions(second)[b])
+    a, b = _outputs_to_compare(outcome, second)
+    return finer, second, compare_motions(points, run.positions(outcome)[a], run.positions(second)[b])
 
 
-def part_verified(run: Prepared, outcome: Outcome) -> Verification:
+def verify_first_part(run: Prepared, outcome: Outcome) -> Verification:
     """Compare the first part of a long run with a finer one, which takes about as many operations as a check may.
 
     Parameters
@@ -86,7 +86,7 @@ def part_verified(run: Prepared, outcome: Outcome) -> Verification:
         With a doubt: where the part agrees, nothing is known of what follows.
     """
     begin, times = run.start.t, outcome.times
-    share = judge.MOST_OPERATIONS / (DEARER * max(judge.operations_of(run, outcome), 1))
+    share = judge.MOST_OPERATIONS / (DEARER * max(judge.count_operations_of_run(run, outcome), 1))
     until = begin + share * (outcome.end - begin)
     count = int(np.searchsorted(times, until, side="right"))
     if share < LEAST_PART:
@@ -99,9 +99,9 @@ def part_verified(run: Prepared, outcome: Outcome) -> Verification:
         until, times = float(times[count - 1]), times[:count]
         shorter = run.with_spec(until=until, times=times)
         outcome = replace(outcome, times=times, states=outcome.states[:count])
-    points = Points.of(run.plan.mechanism, parameter_values(run.plan.mechanism, run.plan.parameters))
-    finer, second, agreed = run_again(shorter, outcome, points, TENTH)
-    total, name = outcome.evaluations + second.evaluations, f"a run with {_steps_of(finer)}"
+    points = Points.of_mechanism(run.plan.mechanism, parameter_values(run.plan.mechanism, run.plan.parameters))
+    finer, second, agreed = rerun_with_finer_steps(shorter, outcome, points, TENTH)
+    total, name = outcome.evaluations + second.evaluations, f"a run with {_steps_in_words(finer)}"
     if second.interrupted or agreed is None:
         doubt = f"a check of its part up to t = {until:.6g} s did not come to its end: {second.reason}"
         return Verification(doubt, None, None, total, whole=False)
@@ -109,20 +109,20 @@ def part_verified(run: Prepared, outcome: Outcome) -> Verification:
     if agreed.holds:
         doubt = f"checked up to t = {until:.6g} s alone: there {name} agrees within {error:.2g} m"
         return Verification(doubt, None, None, total, whole=False)
-    return Verification(_parting(name, agreed, times), None, error if math.isfinite(error) else None, total)
+    return Verification(_difference_of_runs(name, agreed, times), None, error if math.isfinite(error) else None, total)
 
 
-def _parting(name: str, agreed: Agreement, times: NDArray[np.float64]) -> str:
+def _difference_of_runs(name: str, agreed: Agreement, times: NDArray[np.float64]) -> str:
     """Return by how much two runs differ, and up to when they agree."""
     first = agreed.parts or 0
     upto = f"; they agree up to t = {times[first - 1]:.6g} s" if first > 1 else ""
     return f"{name} differs by {agreed.apart:.2g} m{upto}"
 
 
-def _comparable(first: Outcome, second: Outcome) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _outputs_to_compare(first: Outcome, second: Outcome) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return which outputs of two runs to compare: those at the same times, and the last ones where both end early.
 
-    Where only one of them has been stopped by an event, its last output stands beside that of the other one.
+    Where an event has stopped only one of them, its last output is compared with that of the other one.
     """
     same = min(len(first.times), len(second.times))
     apart = np.flatnonzero(first.times[:same] != second.times[:same])
@@ -133,12 +133,12 @@ def _comparable(first: Outcome, second: Outcome) -> tuple[NDArray[np.intp], NDAr
     return rows[0], rows[1]
 
 
-def _steps_of(run: Prepared) -> str:
+def _steps_in_words(run: Prepared) -> str:
     """Return in words how the steps of a run are chosen."""
     return f"rtol = {run.spec.rtol:g}" if run.spec.adaptive else f"step = {run.spec.step:g} s"
 
 
-def verified(run: Prepared, outcome: Outcome, free: bool = False) -> tuple[Prepared, Outcome, Verification]:
+def verify_run(run: Prepared, outcome: Outcome, free: bool = False) -> tuple[Prepared, Outcome, Verification]:
     """Compare a run with a finer one.
 
     Parameters
@@ -159,18 +159,18 @@ def verified(run: Prepared, outcome: Outcome, free: bool = False) -> tuple[Prepa
     total = outcome.evaluations
     if outcome.code != abi.DONE:
         return run, outcome, Verification(None, None, None, total)
-    points = Points.of(run.plan.mechanism, parameter_values(run.plan.mechanism, run.plan.parameters))
+    points = Points.of_mechanism(run.plan.mechanism, parameter_values(run.plan.mechanism, run.plan.parameters))
     # with half the step h of a scheme of order p, errors c h^p and c (h/2)^p are apart by (1 - 2^-p) c h^p; with
     # smaller tolerances the error of the second run is left out
     apart_of_error = 1.0 - (0.0 if run.spec.adaptive else HALF**run.plan.integrator.order)
     free, share, error = free and run.spec.adaptive, TENTH, None
     while True:
         if error is not None and run.spec.rtol * share < SMALLEST_RTOL:
-            doubt = f"two runs still differ by {error:.2g} m at {_steps_of(run)}"
+            doubt = f"two runs still differ by {error:.2g} m at {_steps_in_words(run)}"
             return run, outcome, Verification(doubt, None, error, total)
-        finer, second, agreed = run_again(run, outcome, points, share)
+        finer, second, agreed = rerun_with_finer_steps(run, outcome, points, share)
         total += second.evaluations
-        name = f"a run with {_steps_of(finer)}"
+        name = f"a run with {_steps_in_words(finer)}"
         if second.interrupted:
             doubt = "the check with finer steps was interrupted"
             return run, replace(outcome, interrupted=True), Verification(doubt, None, error, total)
@@ -185,7 +185,7 @@ def verified(run: Prepared, outcome: Outcome, free: bool = False) -> tuple[Prepa
             verification = Verification(None, f"verified: {name} agrees within {apart:.2g} m", error, total)
             return (finer, second, verification) if free else (run, outcome, verification)
         if not free or error is None:
-            return run, outcome, Verification(_parting(name, agreed, outcome.times), None, error, total)
+            return run, outcome, Verification(_difference_of_runs(name, agreed, outcome.times), None, error, total)
         # errors fall about as tolerances do: far from agreement, the next but one is tried
         share = TENTH**2 if apart > agreed.limit / TENTH else TENTH
         run, outcome = finer, second

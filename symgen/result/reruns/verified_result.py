@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from symgen.compile.store.stats import seconds_in_cache
 from symgen.result.build import build_result
-from symgen.result.judge import is_long, unchecked
-from symgen.result.reruns.verification import part_verified, verified
+from symgen.result.judge import is_long, reason_without_check
+from symgen.result.reruns.verification import verify_first_part, verify_run
 from symgen.run.planning.prepare import prepare
 from symgen.run.single.timing import timed
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from symgen.result.result import Result
 
 
-def verified_result(
+def run_and_verify(
     mechanism: Mechanism, settings: Settings, progress: Callable[[float], None] | None, by: Sequence[str]
 ) -> Result:
     """Return the result of a run.
@@ -35,10 +35,10 @@ def verified_result(
     """
     before = seconds_in_cache()
     if by:
-        from symgen.describe.facts.lifted import lifted
+        from symgen.describe.facts.lifted import lift_numbers
         from symgen.result.sensitivities import Differentiated
 
-        own = lifted("sensitivities", mechanism, by)
+        own = lift_numbers("sensitivities", mechanism, by)
         directed = Differentiated(own.mechanism, settings, own.keys)
         run, integrate = directed.run, directed.integrate
     else:
@@ -46,17 +46,17 @@ def verified_result(
         integrate = run.integrate
     runs = timed(lambda: integrate(progress), settings.repeat)
     outcome, verification = runs.outcome, None
-    if unchecked(run, outcome) is None:
+    if reason_without_check(run, outcome) is None:
         free = bool(run.plan.notes) and settings.rtol is None and settings.atol is None and not by
-        run, outcome, verification = verified(run, outcome, free)
+        run, outcome, verification = verify_run(run, outcome, free)
         if settings.verify and run.plan.mechanism.beams:
-            from symgen.result.reruns.discretisation import discretisation
+            from symgen.result.reruns.discretisation import discretisation_error_sentence
 
-            words = discretisation(run, outcome, settings)
+            words = discretisation_error_sentence(run, outcome, settings)
             note = "; ".join(x for x in (verification.note, words) if x)
             verification = replace(verification, note=note or None)
     elif is_long(run, outcome):
-        verification = part_verified(run, outcome)
+        verification = verify_first_part(run, outcome)
     # assembly calls emitted functions too: compiling them belongs to the run
     outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
     result = build_result(run, outcome, runs.spread or 0.0, verification)

@@ -6,7 +6,7 @@ import time
 from typing import TYPE_CHECKING
 
 from symgen.base.errors import InputError, StepError
-from symgen.describe.parts.events import STOP
+from symgen.describe.parts.event_sections import STOP
 from symgen.run.layout import abi
 from symgen.run.single.changes import begin_anew, begin_stepping
 from symgen.run.single.events import EventRecord, record_of
@@ -54,7 +54,7 @@ class Advance:
                 self.fail(code)
 
     def begin_grid(self) -> None:
-        """Have a new grid of constant steps begin where the run stands."""
+        """Begin a new grid of constant steps at the present time."""
         self._clock[abi.ORIGIN], self._control[abi.INDEX] = self._clock[abi.TIME], 0
 
     def take_steps_of(self, step: float) -> None:
@@ -115,7 +115,7 @@ class Advance:
         raise StepError(reason, moment)
 
     def _replay(self) -> None:
-        """Have the last accepted state, as a failed step leaves numbers behind that are of no use.
+        """Restore the last accepted state, as the numbers that a failed step leaves are of no use.
 
         The steps from what is remembered on are done once more. Whether a failed one was counted depends on where it
         failed.

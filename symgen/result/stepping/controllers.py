@@ -13,7 +13,7 @@ from symgen.run.layout import abi
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from symgen.result.stepping.run import SteppedRun
+    from symgen.result.stepping.stepped_run import SteppedRun
 
 #: What a controller is: of the time of the beat and the run; it may return values to be set, by name.
 Controller = Callable[[float, "SteppedRun"], Mapping[str, float] | None]
@@ -65,7 +65,7 @@ class Controllers:
     def add(self, controller: Controller, t: float, interval: float) -> None:
         """Have a function called from a time on [s], after each interval [s]."""
         interval = arguments.number("interval", interval, positive=True)
-        if controller is None or arguments.function("controller", controller) is None:
+        if controller is None or arguments.callable_or_none("controller", controller) is None:
             raise InputError("controller", "a function", "None")
         self.clocks.append(Clock(controller, t, interval))
 

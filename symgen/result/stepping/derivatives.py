@@ -1,7 +1,7 @@
 """Derivatives of the step that a run has just made: the same step once more, with directions beside the state.
 
 Scheme, constraints, corrections and events are in them. What makes the step again depends on the run: explicit schemes
-have directions behind the state, implicit ones the equations of their stages (`symgen.run.directions.step_directions`).
+have directions after the state, implicit ones the equations of their stages (`symgen.run.directions.step_directions`).
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ class StepDirections:
     """
 
     def __init__(self, prepared: Prepared, loop: Simulation) -> None:
-        _check(prepared, loop)
+        _check_names(prepared, loop)
         self._prepared, self._loop, info = prepared, loop, prepared.compiled.info
         self._places = [*range(info.work), *range(info.ny)[info.own_states]]
         self.states = tuple(q.name for q in (*info.coordinates, *info.velocities, *info.states))
@@ -109,13 +109,15 @@ class StepDirections:
         self.inputs = tuple(name for name in info.inputs if name not in hidden)
         self.input_places = [names.index(name) for name in self.inputs]
         self._n, count = len(self._places), len(self._places) + len(self.inputs)
-        self._model = DirectedModel(_for_slopes(prepared) if self.is_straight else prepared.compiled, few_passes(count))
+        self._model = DirectedModel(
+            _settings_for_slopes(prepared) if self.is_straight else prepared.compiled, few_passes(count)
+        )
         y, p = (np.zeros((self._model.sizes[name], count)) for name in "yp")
         y[self._places, range(self._n)] = 1.0
         p[self.input_places, range(self._n, count)] = 1.0
         self._seeds = Seeds(y, p)
         self._clock, self._control = loop.state.clock.data, loop.state.control.data
-        self._began = _counts(self._before)
+        self._began = _columns_and_counts(self._before)
         self._ahead = dict[int, StepsAhead]()
 
     @cached_property
@@ -146,7 +148,7 @@ class StepDirections:
         first, doubts = loop.snapshot.first, _NO_DOUBTS
         if first is not None:
             before = self._views(first)
-            clock, control = _counts(before)
+            clock, control = _columns_and_counts(before)
         t = clock[_TIME]
         if not until > t or control[_STEPS] >= self._control[_STEPS]:
             raise InputError(WHERE, "a step before", "none")
@@ -306,7 +308,7 @@ class StepDirections:
         return np.concatenate(parts, axis=1)
 
 
-def _for_slopes(prepared: Prepared) -> CompiledModel:
+def _settings_for_slopes(prepared: Prepared) -> CompiledModel:
     """Return the code of a run with a right-hand side for derivatives, if both have the same scratch."""
     choice, own = replace(prepared.plan.choice, directed=True), prepared.compiled
     compiled = compiled_for(prepared.mechanism, choice)
@@ -314,12 +316,12 @@ def _for_slopes(prepared: Prepared) -> CompiledModel:
     return compiled if same and compiled.law.parameters == own.law.parameters else own
 
 
-def _counts(before: Mapping[str, NDArray[Any]]) -> tuple[Any, Any]:
+def _columns_and_counts(before: Mapping[str, NDArray[Any]]) -> tuple[Any, Any]:
     """Return clock and control of a state, which are read faster this way."""
     return before["clock"].data, before["control"].data
 
 
-def _check(prepared: Prepared, loop: Simulation) -> None:
+def _check_names(prepared: Prepared, loop: Simulation) -> None:
     """Refuse runs whose steps have no directions."""
     name, compiled, watched = prepared.plan.integrator.name, prepared.compiled, loop.spec.events
     if name not in ONE_STEP and not isinstance(loop.scheme, Stages):

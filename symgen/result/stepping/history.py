@@ -43,7 +43,7 @@ class History:
         """Forget everything."""
         self._count, self._stride, self._passed = 0, 1, 0
 
-    def note(self) -> None:
+    def note_state(self) -> None:
         """Keep the present state."""
         self._passed += 1
         if self._passed < self._stride:
@@ -57,14 +57,14 @@ class History:
         self._count += 1
 
     def forget_after(self, time: float) -> None:
-        """Forget states behind a time, after a run was taken back [s]."""
+        """Forget states after a time, when a run was taken back [s]."""
         times = self._column("clock")[: self._count, abi.TIME]
         self._count = int(np.searchsorted(times, time, side="right"))
 
     def result(self, run: Prepared) -> Result:
         """Return the states that are kept, and the present one, as a result."""
         rows = self._block[: self._count]
-        if not len(rows) or rows[-1, self._place("clock") + abi.TIME] < self._loop.state.clock[abi.TIME]:
+        if not len(rows) or rows[-1, self._place_of_time("clock") + abi.TIME] < self._loop.state.clock[abi.TIME]:
             rows = np.vstack([rows, self._front])
         return self._result(run, rows)
 
@@ -80,7 +80,7 @@ class History:
         held = tuple((float(times[k]), p[k].copy()) for k in changes)
         status = np.hstack([w[:, : abi.N_STATUS], w[:, abi.WINDING : abi.WINDING + info.kept]])
         if loop.state.control[abi.BEGUN] == 0 or times[0] == loop.start.t:  # before a step nothing is measured
-            status[0] = self._measured(times[0], y[0], p[0], w[0])
+            status[0] = self._measure_states(times[0], y[0], p[0], w[0])
         outcome = outcome_of(loop, loop.outputs(np.zeros(0)), abi.DONE)
         fields: dict[str, Any] = {"p": loop.state.p.copy(), "w": loop.state.w.copy(), "held": held, "end": end}
         states = y[:, : info.ny].copy()
@@ -88,19 +88,19 @@ class History:
         run = replace(run, spec=replace(loop.spec, until=end, step=run.spec.step or loop.span.step, times=times))
         return build_result(run, outcome)
 
-    def _measured(self, t: float, y: Array, p: Array, w: Array) -> Array:
+    def _measure_states(self, t: float, y: Array, p: Array, w: Array) -> Array:
         """Return the status and the angles that count turns at a state."""
         info, model, scratch = self._loop.compiled.info, self._loop.compiled.model, w.copy()
         for function in (model.geometry, model.measure):
             Ready(function, abi.MEASURE)(float(t), y.copy(), p.copy(), scratch)
         return np.append(scratch[: abi.N_STATUS], scratch[abi.WINDING : abi.WINDING + info.kept])
 
-    def _place(self, name: str) -> int:
+    def _place_of_time(self, name: str) -> int:
         array: Array = getattr(self._loop.state, name)
         return (array.ctypes.data - self._front.ctypes.data) // self._front.itemsize
 
     def _column(self, name: str, rows: Array | None = None) -> Array:
         """Return an array of the state in each row."""
-        first = self._place(name)
+        first = self._place_of_time(name)
         array: Array = getattr(self._loop.state, name)
         return (self._block if rows is None else rows)[:, first : first + len(array)]

@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base import arguments
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 
 if TYPE_CHECKING:
     from symgen.result.stepping.derivatives import StepDirections
-    from symgen.result.stepping.run import SteppedRun
+    from symgen.result.stepping.stepped_run import SteppedRun
 
 Array = NDArray[np.float64]
 #: What the inputs of a horizon are given as.
@@ -57,7 +57,7 @@ class Horizon(NamedTuple):
         return f"<Horizon of {len(self.A)} steps from t = {self.t[0]:g} s: {sizes}>"
 
 
-def horizon(run: SteppedRun, directions: StepDirections, inputs: Inputs, dt: float) -> Horizon:
+def run_over_horizon(run: SteppedRun, directions: StepDirections, inputs: Inputs, dt: float) -> Horizon:
     """Return the steps ahead of a run.
 
     Parameters
@@ -68,22 +68,22 @@ def horizon(run: SteppedRun, directions: StepDirections, inputs: Inputs, dt: flo
         As for `SteppedRun.horizon`.
     """
     dt = arguments.number("dt", dt, positive=True)
-    values = _values(run, directions.inputs, inputs)
-    return directions.straight_ahead(values, dt) or _step_by_step(run, directions, values, dt)
+    values = _input_values(run, directions.inputs, inputs)
+    return directions.straight_ahead(values, dt) or _run_step_by_step(run, directions, values, dt)
 
 
-def _values(run: SteppedRun, names: tuple[str, ...], inputs: Inputs) -> Array:
+def _input_values(run: SteppedRun, names: tuple[str, ...], inputs: Inputs) -> Array:
     """Return the values of all inputs, shape (N, m)."""
     if not isinstance(inputs, Mapping):
-        values = _numbers(WHERE, inputs)
+        values = _numbers_over_horizon(WHERE, inputs)
         if values.ndim != 2 or values.shape[1] != len(names) or not len(values):
             expected = f"inputs of shape (steps, {len(names)}), of {', '.join(names) or 'none'}"
             raise InputError(WHERE, expected, f"shape {values.shape}")
         return values
     for name in inputs:
         if name not in names:
-            raise InputError(WHERE, "an input that is a number in this run", quoted(name), nearest(name, names))
-    columns = {name: _numbers(f"{WHERE}: '{name}'", column) for name, column in inputs.items()}
+            raise InputError(WHERE, "an input that is a number in this run", quote(name), suggest(name, names))
+    columns = {name: _numbers_over_horizon(f"{WHERE}: '{name}'", column) for name, column in inputs.items()}
     lengths = {column.shape for column in columns.values()}
     if len(lengths) != 1 or len(length := lengths.pop()) != 1 or length[0] == 0:
         got = ", ".join(f"{name} of shape {x.shape}" for name, x in columns.items()) or "none"
@@ -92,18 +92,18 @@ def _values(run: SteppedRun, names: tuple[str, ...], inputs: Inputs) -> Array:
     return np.column_stack([columns.get(name, np.full(length, now[name])) for name in names])
 
 
-def _numbers(where: str, values: object) -> Array:
+def _numbers_over_horizon(where: str, values: object) -> Array:
     """Return finite numbers as an array."""
     try:
         numbers = np.array(values, dtype=np.float64)
     except (TypeError, ValueError):
-        raise InputError(where, "numbers", arguments.shown(values)) from None
+        raise InputError(where, "numbers", arguments.kind_of_value(values)) from None
     if not np.isfinite(numbers).all():
         raise InputError(where, "finite numbers", "others")
     return numbers
 
 
-def _step_by_step(run: SteppedRun, directions: StepDirections, values: Array, dt: float) -> Horizon:
+def _run_step_by_step(run: SteppedRun, directions: StepDirections, values: Array, dt: float) -> Horizon:
     """Make the steps of a run, and go back."""
     if run.is_controlled:
         expected = "a run without controllers, as its steps have events, other lengths or an implicit scheme"

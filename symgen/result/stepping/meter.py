@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.errors import InputError, quoted
-from symgen.base.vocabulary.expressions import readings
+from symgen.base.errors import InputError, quote
+from symgen.base.vocabulary.expressions import readings_in
 from symgen.base.vocabulary.measures import Integral
 from symgen.compile.loopcode.entry import direct
 from symgen.describe.parts.context import Context
-from symgen.describe.parts.inputs import with_formulas
+from symgen.describe.parts.driven_mechanism import put_formulas
 from symgen.describe.parts.scope import Scope
 from symgen.run.compiling.side import Side, compile_side
 from symgen.run.layout import abi
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-def compiled_formulas(prepared: Prepared, formulas: Sequence[str], where: str) -> tuple[Side, bool]:
+def compile_formulas(prepared: Prepared, formulas: Sequence[str], where: str) -> tuple[Side, bool]:
     """Return formulas of the motion, compiled, and whether they read accelerations or forces of joints.
 
     Parameters
@@ -44,13 +44,13 @@ def compiled_formulas(prepared: Prepared, formulas: Sequence[str], where: str) -
         If one is no formula of the motion.
     """
     mechanism, parsed = prepared.plan.mechanism, []
-    context, inputs = Context.of(mechanism), dict(mechanism.input_formulas)
+    context, inputs = Context.of_mechanism(mechanism), dict(mechanism.input_formulas)
     for text in formulas:
-        place = f"{where} {quoted(text)}"
+        place = f"{where} {quote(text)}"
         expression = Scope(context, place).of_motion("", text)
-        if any(isinstance(reading.source, Integral) for reading in readings(expression)):
+        if any(isinstance(reading.source, Integral) for reading in readings_in(expression)):
             raise InputError(place, "a formula of the present state", "an integral")
-        parsed.append((text, with_formulas(expression, inputs)))
+        parsed.append((text, put_formulas(expression, inputs)))
     purpose = "formulas at the present state of a run"
     side = compile_side(prepared.mechanism, prepared.compiled, "formulas", purpose, parsed)
     return side, bool(side.reads & {"ydot", "multipliers"})
@@ -64,11 +64,11 @@ class Meter:
     prepared, simulation : Prepared, Simulation
         The run, and its arrays.
     formulas, where
-        As for `compiled_formulas`.
+        As for `compile_formulas`.
     """
 
     def __init__(self, prepared: Prepared, simulation: Simulation, formulas: Sequence[str], where: str) -> None:
-        side, rated = compiled_formulas(prepared, formulas, where)
+        side, rated = compile_formulas(prepared, formulas, where)
         state, compiled = simulation.state, simulation.compiled
         self._state, self._w, self._iw = state, state.w.copy(), np.zeros_like(state.iw)
         self._rates, self._out = np.zeros(compiled.info.ny), np.zeros(max(1, len(formulas)))

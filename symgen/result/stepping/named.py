@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, quote, suggest
 
 Array = NDArray[np.float64]
 
@@ -30,7 +30,7 @@ class Named(np.ndarray[Any, Any]):
     _places: dict[str, int | slice | list[int]]
 
     @classmethod
-    def of(cls, array: Array, names: tuple[str, ...], units: tuple[str, ...]) -> Named:
+    def from_columns(cls, array: Array, names: tuple[str, ...], units: tuple[str, ...]) -> Named:
         """Return a view of `array`."""
         if not array.shape == (len(names),) == (len(units),):
             raise ValueError(f"{len(names)} names and {len(units)} units for an array {array.shape}")
@@ -40,7 +40,7 @@ class Named(np.ndarray[Any, Any]):
         for i, name in enumerate(names):
             groups.setdefault(name.rpartition(".")[0], []).append(i)
         view.names, view.units = names, units
-        view._places = {body: _range(places) for body, places in groups.items()}
+        view._places = {body: _range_of_name(places) for body, places in groups.items()}
         view._places |= {name: i for i, name in enumerate(names)}
         return view
 
@@ -60,19 +60,19 @@ class Named(np.ndarray[Any, Any]):
             return plain[key]
         place = self._places.get(key)
         if place is None:
-            hint = nearest(key, self.names) if len(self.names) <= 40 or "." in key else ""
-            raise InputError("name", "that of an element or a body", quoted(key), hint)
+            hint = suggest(key, self.names) if len(self.names) <= 40 or "." in key else ""
+            raise InputError("name", "that of an element or a body", quote(key), hint)
         return float(plain[place]) if isinstance(place, int) else plain[place]
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: object, **options: object) -> Any:
         """Compute with the numbers alone."""
         if "out" in options:
-            options["out"] = _plain(options["out"])
-        return getattr(ufunc, method)(*(_plain(x) for x in inputs), **options)
+            options["out"] = _plain_array(options["out"])
+        return getattr(ufunc, method)(*(_plain_array(x) for x in inputs), **options)
 
     def __array_function__(self, function: Any, kinds: Any, arguments: Any, options: Any) -> Any:
         """Compute with the numbers alone."""
-        return function(*(_plain(x) for x in arguments), **{name: _plain(x) for name, x in options.items()})
+        return function(*(_plain_array(x) for x in arguments), **{name: _plain_array(x) for name, x in options.items()})
 
     def copy(self, order: Any = "C") -> Array:  # type: ignore[override]  # a copy is no view and has no names
         """Return the present numbers as a plain array."""
@@ -89,14 +89,14 @@ class Named(np.ndarray[Any, Any]):
         return self.copy().__reduce__()  # what is sent away is no view any more
 
 
-def _range(places: list[int]) -> slice | list[int]:
+def _range_of_name(places: list[int]) -> slice | list[int]:
     """Return places as a slice where they follow each other."""
     together = places == [*range(places[0], places[-1] + 1)]
     return slice(places[0], places[-1] + 1) if together else places
 
 
-def _plain(value: Any) -> Any:
+def _plain_array(value: Any) -> Any:
     """Return a value without names, those inside of lists and tuples among them."""
     if isinstance(value, Named):
         return value.view(np.ndarray)
-    return type(value)(_plain(x) for x in value) if type(value) in (list, tuple) else value
+    return type(value)(_plain_array(x) for x in value) if type(value) in (list, tuple) else value

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.base.version import __version__
 from symgen.describe.facts.digest import digest
-from symgen.describe.parts.events import in_words
+from symgen.describe.parts.event_sections import events_in_words
 from symgen.run.layout import abi
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ class Saved:
     arrays : mapping of str to array
         State, time, work, scratch, counters, past points and factors, by name.
     step : float
-        The constant step of the grid that the run stands on [s].
+        The constant step of the grid that the run is on [s].
     parameters : mapping of str to float
         Values at that time.
     clocks : tuple of (float, float, int)
@@ -81,11 +81,11 @@ class Saved:
                 raise InputError("restore", f"'{name}' as this run has it", "another size or kind")
         saved = tuple(interval for _, interval, _ in self.clocks)
         if saved != intervals:
-            expected = f"a run with controllers as that which was saved ({_every(saved)})"
-            raise InputError("restore", expected, _every(intervals), "register them with `every` before")
+            expected = f"a run with controllers as that which was saved ({_every_array(saved)})"
+            raise InputError("restore", expected, _every_array(intervals), "register them with `every` before")
 
 
-def identity_of(mechanism: Mechanism, plan: Plan, compiled: CompiledModel) -> dict[str, str]:
+def identity_of_run(mechanism: Mechanism, plan: Plan, compiled: CompiledModel) -> dict[str, str]:
     """Return the properties that a run must share with a saved one, in words."""
     law, steps = compiled.law, "varying" if plan.spec.adaptive else "constant"
     return {
@@ -94,7 +94,7 @@ def identity_of(mechanism: Mechanism, plan: Plan, compiled: CompiledModel) -> di
         "code of shape": compiled.shape,
         "method": f"{law.method} ({law.key})",
         "integrator": f"{plan.integrator.name} with {steps} steps",
-        "events": in_words(plan.events) or "of no kind",
+        "events": events_in_words(plan.events) or "of no kind",
     }
 
 
@@ -104,6 +104,6 @@ FIXED = frozenset(
 )
 
 
-def _every(intervals: tuple[float, ...]) -> str:
+def _every_array(intervals: tuple[float, ...]) -> str:
     """Return intervals in words."""
     return "every " + ", ".join(f"{h:g} s" for h in intervals) if intervals else "none"

@@ -48,7 +48,7 @@ class SeamsAhead:
         )
         self.horizon = plan.spec.until
 
-    def divided(self, values: Mapping[str, float]) -> RunSpec:
+    def divide_at_seams(self, values: Mapping[str, float]) -> RunSpec:
         """Return the specification for values of parameters: inputs jump, and formulas have kinks, elsewhere."""
         spec, driven = self._loop.spec, self._driven
         if driven is not None and driven.jumps:

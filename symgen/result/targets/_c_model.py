@@ -12,10 +12,10 @@ import numpy as np
 from symgen.base.errors import InputError
 from symgen.base.ir.program import COUNTERS, SETTLED
 from symgen.compile.native.c99 import c_functions
-from symgen.compile.native.c99_words import broken_line, c_limit, c_number, macros
+from symgen.compile.native.c99_words import break_line, c_limit, c_number, macro_definitions
 from symgen.compile.native.formula_lines import C, NotInLines
 from symgen.compile.native.read import Foreign
-from symgen.derive.emit.module import render
+from symgen.derive.emit.module import render_template
 from symgen.result.targets._c_names import defined_names, prefix_of
 from symgen.result.targets._c_runs import cells_of, check_integrator, places_of_scales, values_of_run
 from symgen.run.compiling.checked import checked, checked_function
@@ -180,7 +180,7 @@ class CModel:
             "inputs": _list(int(q.name in info.inputs) for q in info.parameters) or "0",
             "independent": independent_places(mechanism, parameters),
             "p0": self._defaults(),
-            "macros": macros(f"{self.prefix.upper()}_SINGLE"),
+            "macros": macro_definitions(f"{self.prefix.upper()}_SINGLE"),
             "y0": _list(map(c_number, start.y)),
             **{"w0": cells_of(scratch) or "{0, 0.0}", "scales": cells_of(scales)},
             "driven": self.has_driven_rows,
@@ -343,9 +343,9 @@ class CModel:
 
 
 def _list(words: Iterable[object]) -> str:
-    return broken_line(", ".join(map(str, words)))
+    return break_line(", ".join(map(str, words)))
 
 
 def sources(values: Mapping[str, Any]) -> dict[str, str]:
     """Return the header and the module of a mechanism, by file name."""
-    return {f"{values['prefix']}.{kind}": render(f"c/model.{kind}.j2", values) for kind in "hc"}
+    return {f"{values['prefix']}.{kind}": render_template(f"c/model.{kind}.j2", values) for kind in "hc"}

@@ -8,7 +8,7 @@ from string import Formatter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from symgen.describe.bounds.advice import JUMPING
-from symgen.describe.bounds.modes import MODE
+from symgen.describe.bounds.bounded_modes import MODE
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.modes.refusals import SENTENCES, fixed_words
@@ -69,7 +69,7 @@ def c_text(text: str) -> str:
 
 
 def _reasons(run: PrintedRun) -> Iterator[tuple[int, str, str]]:
-    """Yield codes, formats and what stands in them."""
+    """Yield codes, formats and their content."""
     spec, words = run.spec, {code: text.replace("%", "%%") for code, text in abi.REASONS.items()}
     jumps = run.watched is not None and run.watched.jumps
     jumping = f"{JUMPING}; {spec.in_place}".replace("%", "%%")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.base.errors import InputError
-from symgen.compile.native.c99_words import broken_line, c_number
+from symgen.compile.native.c99_words import break_line, c_number
 from symgen.result.targets._c_reasons import values_of_ends
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.integrators._tableau import Tableau
@@ -89,4 +89,4 @@ def places_of_scales(compiled: CompiledModel) -> list[tuple[int, int]]:
 
 def cells_of(array: Any) -> str:
     """Return places and numbers of an array that are not 0."""
-    return broken_line(", ".join(f"{{{i}, {c_number(float(array[i]))}}}" for i in np.flatnonzero(array)))
+    return break_line(", ".join(f"{{{i}, {c_number(float(array[i]))}}}" for i in np.flatnonzero(array)))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from symgen.compile.native.c99_words import broken_line
+from symgen.compile.native.c99_words import break_line
 from symgen.run.printed import exchanged_run
 from symgen.run.printed.partition import POOR
 from symgen.run.printed.partition_tables import count_states
@@ -56,4 +56,4 @@ def values_of_exchange(model: CModel) -> dict[str, Any]:
 
 
 def _numbers(numbers: Iterable[int]) -> str:
-    return broken_line(", ".join(map(str, numbers)))
+    return break_line(", ".join(map(str, numbers)))

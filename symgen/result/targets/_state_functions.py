@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from symgen.base.errors import InputError
 from symgen.base.escapes import comment_text
 from symgen.base.vocabulary.expressions import ZERO
-from symgen.derive.emit.libraries import ARGUMENTS, Syntax, library_function
-from symgen.derive.lower.functions import FunctionProgram, StateFunctions, Values, lower_function
+from symgen.derive.emit.libraries import ARGUMENTS, Syntax, function_text
+from symgen.derive.lower.function_programs import FunctionProgram, StateFunctions, Values, lower_function
 from symgen.describe.formulas.formula_text import to_text
 from symgen.run.planning.package import Package, write_folder
 from symgen.run.planning.state_model import StateModel
@@ -52,7 +52,7 @@ def write_functions(request: Request, library: str, syntax: Syntax, head: str, m
     head : str
         Lines at the head of the module.
     made : str
-        Line behind the elements ``_NAME`` that makes a function, with ``{name}``, ``{sizes}`` and ``{shape}``; empty
+        Line after the elements ``_NAME`` that makes a function, with ``{name}``, ``{sizes}`` and ``{shape}``; empty
         where these are the function itself.
 
     Raises
@@ -70,7 +70,7 @@ def write_functions(request: Request, library: str, syntax: Syntax, head: str, m
     derived = time.perf_counter()
     parts = list[str]()
     for name, program in programs.items():
-        parts.append(library_function(where, program, count, f"_{name}" if made else name, syntax))
+        parts.append(function_text(where, program, count, f"_{name}" if made else name, syntax))
         if made:
             parts[-1] += "\n\n\n" + made.format(name=name, sizes=tuple(program.sizes.values()), shape=program.shape)
     text = "\n\n\n".join([_head(model, library, programs), head, *parts]) + "\n"
@@ -124,7 +124,7 @@ def quantities(model: StateModel) -> Iterator[ModuleFunction]:
     """Yield the functions of a mechanism."""
     for name, (vectors, purpose) in (OF_ALL | (OF_ROWS if model.rows else {})).items():
         if model.rows and name in ("forward_dynamics", "inverse_dynamics"):
-            values = partial(StateFunctions.solved, name=name, kept=model.kept)
+            values = partial(StateFunctions.solved_quantity, name=name, kept=model.kept)
             yield ModuleFunction(name, name, purpose, vectors, values, model.kept)
         else:
             yield ModuleFunction(name, name, purpose, vectors, partial(StateFunctions.values, name=name))

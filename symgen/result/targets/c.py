@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from symgen.derive.emit.module import render
+from symgen.derive.emit.module import render_template
 from symgen.result.targets._c_model import CModel, sources
 from symgen.result.targets._target import Request, Target
 from symgen.run.planning.package import Package, write_folder
@@ -11,8 +11,8 @@ from symgen.run.planning.package import Package, write_folder
 def _write(request: Request) -> Package:
     model = CModel.of(request, "c")
     files = sources(model.values)
-    files["main.c"] = render("c/main.c.j2", model.values)
-    files["README.md"] = render("c/README.md.j2", model.values)
+    files["main.c"] = render_template("c/main.c.j2", model.values)
+    files["README.md"] = render_template("c/README.md.j2", model.values)
     compiled = model.compiled
     written = write_folder(request.path, files, beside=("README.md",))
     return Package(request.path, written, compiled.derive_seconds, compiled.emit_seconds, model.notes)

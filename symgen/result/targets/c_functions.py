@@ -10,10 +10,10 @@ from symgen.base.errors import InputError
 from symgen.base.escapes import comment_text
 from symgen.compile.native import types
 from symgen.compile.native.c99 import c_functions
-from symgen.compile.native.c99_words import c_number, macros
+from symgen.compile.native.c99_words import c_number, macro_definitions
 from symgen.compile.native.read import Foreign
 from symgen.derive.emit.libraries import ARGUMENTS
-from symgen.derive.lower.functions import StateFunctions
+from symgen.derive.lower.function_programs import StateFunctions
 from symgen.result.targets._c_names import prefix_of
 from symgen.result.targets._state_functions import quantities, state_model
 from symgen.result.targets._target import Request, Target
@@ -55,7 +55,7 @@ def _source(prefix: str, made: dict[str, StateFunction]) -> str:
     for name, f in made.items():
         text = _public(text, name, f.arguments)
     lines = ["/* Written by symgen. */", "#include <math.h>", "", f'#include "{prefix}_functions.h"', ""]
-    lines += [f"typedef {prefix}_real real;", "", macros(f"{prefix.upper()}_SINGLE"), "", text, ""]
+    lines += [f"typedef {prefix}_real real;", "", macro_definitions(f"{prefix.upper()}_SINGLE"), "", text, ""]
     return "\n".join(lines)
 
 

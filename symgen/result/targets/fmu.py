@@ -20,7 +20,7 @@ import msgspec
 from symgen.base.errors import InputError
 from symgen.base.files import check_path, write_all
 from symgen.base.version import __version__
-from symgen.derive.emit.module import render
+from symgen.derive.emit.module import render_template
 from symgen.result.targets._base_units import base_unit
 from symgen.result.targets._c_model import CModel, sources
 from symgen.result.targets._fmu_modes import indicator_names, values_of_exchange
@@ -86,10 +86,10 @@ def fmu_files(model: CModel, fmi: int) -> dict[str, bytes]:
         **{"at_column": _COLUMN, "at_output": _OUTPUT, "at_state": _STATE, "at_rate": _RATE, "at_event": _EVENT},
         "at_time": _TIME,
     }
-    texts["fmu.c"] = render("c/fmu.c.j2", values)
+    texts["fmu.c"] = render_template("c/fmu.c.j2", values)
     if fmi == 3:
-        texts["buildDescription.xml"] = render("c/buildDescription.xml.j2", values)
-    description = render("c/modelDescription.xml.j2", values | _variables(model, values, fmi))
+        texts["buildDescription.xml"] = render_template("c/buildDescription.xml.j2", values)
+    description = render_template("c/modelDescription.xml.j2", values | _variables(model, values, fmi))
     return {"modelDescription.xml": description.encode(), **{f"sources/{n}": t.encode() for n, t in texts.items()}}
 
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from symgen.base.vocabulary.expressions import FUNCTIONS, Expr, Name, Number, Reading, table_of
-from symgen.describe.tables import Table
+from symgen.describe.table_functions import Table
 
 #: Functions that array operators evaluate for all runs at once; the others are called for each run.
 _OPERATORS = ("add", "sub", "mul", "div", "neg")
@@ -44,9 +44,9 @@ class Columns:
             return expression.value
         if isinstance(expression, Name | Reading):
             return self.values[expression.name]
-        return self.apply(expression.function, *(self.value(a) for a in expression.arguments))
+        return self.apply_function(expression.function, *(self.value(a) for a in expression.arguments))
 
-    def apply(self, function: str, *arguments: Any) -> Any:
+    def apply_function(self, function: str, *arguments: Any) -> Any:
         """Return the values of a function of its arguments."""
         if function == "where":
             condition, yes, no = arguments
@@ -65,7 +65,7 @@ class Columns:
             values = np.asarray(work_out(*arguments), dtype=np.float64)
         return np.where(np.isfinite(values), values, np.nan)
 
-    def above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Any:
+    def check_above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Any:
         """Return `x`, or nan where it is not above the limit."""
         return np.where(x > limit, x, np.nan) if _varies((limit, x)) else x if x > limit else np.nan
 

@@ -13,7 +13,7 @@ from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, call, names_in
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.parts.inputs import Jump
+from symgen.describe.parts.driven_mechanism import Jump
 from symgen.run.breaks.array_formulas import Columns
 
 Array = NDArray[np.float64]

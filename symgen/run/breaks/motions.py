@@ -15,11 +15,11 @@ from itertools import pairwise
 
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import names_in
-from symgen.describe.facts.kinks import ChangingRow, changing_rows, kink_expressions
+from symgen.describe.facts.kinks import ChangingRow, kink_expressions, rows_with_kinks
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.parts.inputs import Jump
-from symgen.describe.remembered import remembered
+from symgen.describe.parts.driven_mechanism import Jump
+from symgen.describe.remembered import compute_once
 from symgen.run.breaks.in_time import InTime
 
 #: Distance of evaluations, as a part of the run, and at most of the time to the next change; and the factor by which a
@@ -143,10 +143,11 @@ def _sides(f: Callable[[float], float], t: float, h: float) -> tuple[float, floa
     return other - value, further - slope, max(abs(slope), abs(further))
 
 
-@remembered
+@compute_once
 def _moved(mechanism: Mechanism) -> tuple[tuple[ChangingRow, tuple[Jump, ...]], ...]:
     """Return rows whose terms of time may jump, with the changes of these."""
     rows = (
-        (row, [e for e in kink_expressions(row.motion) if "t" in set(names_in(e))]) for row in changing_rows(mechanism)
+        (row, [e for e in kink_expressions(row.motion) if "t" in set(names_in(e))])
+        for row in rows_with_kinks(mechanism)
     )
     return tuple((row, tuple(map(Jump, changes))) for row, changes in rows if changes)

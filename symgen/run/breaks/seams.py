@@ -20,8 +20,8 @@ from symgen.base.vocabulary.expressions import names_in
 from symgen.describe.facts.kinks import jumps_in_time, jumps_of_gaps
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Event, Mechanism
-from symgen.describe.parts.inputs import DrivenMechanism, Jump
-from symgen.describe.remembered import remembered
+from symgen.describe.parts.driven_mechanism import DrivenMechanism, Jump
+from symgen.describe.remembered import compute_once
 from symgen.run.breaks.in_time import MOST_PIECES, InTime, line_of
 from symgen.run.layout.abi import SAME_TIME
 from symgen.run.loops.run_spec import Seam
@@ -286,7 +286,7 @@ def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
     return Foreseen(mechanism, kinks, (*sides, *happening), jumps_of_gaps(mechanism))
 
 
-@remembered
+@compute_once
 def _passed(mechanism: Mechanism) -> tuple[tuple[Jump, ...], tuple[Jump, ...], tuple[Jump, ...], dict[Any, Any]]:
     return *jumps_in_time(mechanism), jumps_of_gaps(mechanism), {}
 

@@ -21,16 +21,16 @@ from typing import NamedTuple
 
 import msgspec
 
-from symgen.base.errors import InputError, counted
+from symgen.base.errors import InputError, plural
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import (
-    edges_of,
-    loops_of,
+    joints_of_loops,
+    possible_edges,
     spanning_tree,
     state_names,
     with_joint_coordinates,
 )
-from symgen.describe.remembered import remembered
+from symgen.describe.remembered import compute_once
 from symgen.describe.spanning_tree import Topology
 from symgen.run.compiling.method_choice import MethodChoice, for_coordinates
 from symgen.run.compiling.pipeline import refuse_loops, straight_alone
@@ -103,8 +103,8 @@ def choose_coordinates(mechanism: Mechanism, coordinates: str, shape: str) -> Ta
     inside = {*(link.joint for link in topology.links), *(x.driver for x in topology.prescribed)}
     tree = len(state_names(mechanism, topology)[1])
     left = sum(len(joint.rows) for joint in mechanism.joints if joint.name not in inside)
-    velocities = counted(tree, "velocity", "velocities")
-    counts = f"{velocities} and {counted(left, 'row')} in joint coordinates, {own} and {rows} in absolute ones"
+    velocities = plural(tree, "velocity", "velocities")
+    counts = f"{velocities} and {plural(left, 'row')} in joint coordinates, {own} and {rows} in absolute ones"
     if tree + left < own + rows:
         return Taken("joint", counts)
     return Taken("absolute", counts)
@@ -171,13 +171,13 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluat
             refuse_loops(mechanism)
         return Taken("straight", f"loops have no {what}")
     coordinates, choice = mechanism.body_coordinates, for_coordinates(mechanism, choice)
-    size = f"{counted(coordinates, 'coordinate')}, about {evaluations:.2g} evaluations"
+    size = f"{plural(coordinates, 'coordinate')}, about {evaluations:.2g} evaluations"
     faster = Taken("straight", f"faster runs outweigh compilation ({size})")
     straight = coordinates <= LARGEST_STRAIGHT and not _looped_is_sooner(mechanism, choice, evaluations)
     if shape == "auto" and straight and coordinates <= LARGEST_DENSE:
         return faster
     # modules of looped code are not loaded where straight code is taken
-    from symgen.derive.lower.looped.law import is_loopable, refuse_dense
+    from symgen.derive.lower.looped.looped_law import is_loopable, refuse_dense
 
     dense = not is_loopable(choice.method, choice.options, choice.implicit)
     if shape == "looped":
@@ -213,14 +213,14 @@ LARGE = 4_000
 GAIN = 0.01
 
 
-@remembered
+@compute_once
 def on_tree(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism in the coordinates of its tree's joints; joints with ``cut = true`` carry nothing.
 
     Every run of the same description takes the same one, whose digest and numbers are then computed once.
     """
     first = spanning_tree(mechanism, mechanism.cuts)
-    if not loops_of(mechanism, first):
+    if not joints_of_loops(mechanism, first):
         return with_joint_coordinates(mechanism, first)
     text = f'"""Joints that carry nothing where `{mechanism.name}` is a tree."""\n'
     metadata, _ = module_beside(
@@ -238,7 +238,9 @@ def with_tree_of(mechanism: Mechanism, whole: Mechanism) -> Mechanism:
     tree = on_tree(whole).topology
     assert tree is not None, "it is in joint coordinates"
     inside = {link.joint for link in tree.links}
-    return msgspec.structs.replace(mechanism, cuts=tuple(name for name in edges_of(mechanism) if name not in inside))
+    return msgspec.structs.replace(
+        mechanism, cuts=tuple(name for name in possible_edges(mechanism) if name not in inside)
+    )
 
 
 def _cheapest(mechanism: Mechanism, first: Topology) -> tuple[str, ...]:
@@ -247,7 +249,7 @@ def _cheapest(mechanism: Mechanism, first: Topology) -> tuple[str, ...]:
     counted = least
     if least > LARGE:
         return best
-    for loop in loops_of(mechanism, first):
+    for loop in joints_of_loops(mechanism, first):
         cuts = best
         for joint in loop:
             if counted > ENOUGH:
@@ -271,7 +273,7 @@ def _free(topology: Topology) -> int:
 def operations(mechanism: Mechanism) -> int:
     """Return the operations of the right-hand side of `lagrange`, after sharing, without those on parameters alone."""
     from symgen.derive.formulate.formulate import formulate
-    from symgen.derive.lower.plans import cheapest_plan, cost
+    from symgen.derive.lower.plans import cheapest_plan, cost_of_plan
 
     equations = formulate(mechanism)
-    return cost(equations, cheapest_plan(equations, closing=False))[0]
+    return cost_of_plan(equations, cheapest_plan(equations, closing=False))[0]

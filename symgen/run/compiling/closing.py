@@ -20,15 +20,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
-from symgen.base.ir.loops import loop_order
+from symgen.base.ir.loop_order import loop_order
 from symgen.compile.store.entries import Entries
-from symgen.compile.store.modules import load_module, plain_function
+from symgen.compile.store.loaded_modules import load_module, plain_function
 from symgen.derive.methods._base import Method
-from symgen.describe.formulas.evaluate import parameter_values, scalars
+from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import state_names
-from symgen.describe.remembered import remembered
+from symgen.describe.remembered import compute_once
 from symgen.run.compiling.folders import folder_of
 from symgen.run.compiling.method_choice import MethodChoice
 from symgen.run.compiling.straight import StraightStages
@@ -85,7 +85,7 @@ def law_at_start(mechanism: Mechanism, equations: Equations, program: ModelProgr
     return lower_law(equations, program, choice.method, choice.options, closing=closing, suffix=choice.suffix)
 
 
-@remembered
+@compute_once
 def free_velocities(mechanism: Mechanism) -> tuple[int, ...]:
     """Return the velocities that no loop is solved for; none where loops are not closed."""
     info, model = _model(mechanism)
@@ -121,7 +121,7 @@ def _model(mechanism: Mechanism) -> tuple[ModelInfo, Any]:
 def _constraints(mechanism: Mechanism, info: ModelInfo, model: Any) -> Array:
     """Return D at the described start."""
     values = parameter_values(mechanism)
-    q = described_start(mechanism, scalars(values))[0]
+    q = described_start(mechanism, scalar_values(values))[0]
     if mechanism.topology is not None:
         q = _on_joints(mechanism, q)
     sections = info.sections.values()

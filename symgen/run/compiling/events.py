@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from symgen.base.ir.interpolation import Interpolation
 from symgen.base.vocabulary.expressions import ZERO, Expr, Reading, call, sum_of_terms
 from symgen.base.vocabulary.measures import GROUND, Spin
-from symgen.describe.bounds.by_reaction import components, held_by_reactions
+from symgen.describe.bounds.bounded_modes import measure_derivative, mode_events, one_sided_rows, two_sided_rows
+from symgen.describe.bounds.by_reaction import reaction_components, rows_bounded_by_reactions
 from symgen.describe.bounds.losses import places_of_losses
-from symgen.describe.bounds.modes import mode_events, one_sided, rate_of, two_sided
-from symgen.describe.facts.kinks import KINKS, Discontinuity, changes_in_time, changing_rows, discontinuities_of
+from symgen.describe.facts.kinks import KINKS, Discontinuity, changes_in_time, discontinuities_of, rows_with_kinks
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Event, Mechanism, Rotor, SpatialBody
 from symgen.run.compiling.side import compile_side
@@ -73,17 +73,17 @@ def compile_events(
 
 def bounded_rows(mechanism: Mechanism, compiled: CompiledModel) -> BoundedRows | None:
     """Return the rows whose forces have bounds, or None."""
-    every, held, pushing = mechanism.bounded, two_sided(mechanism), one_sided(mechanism)
+    every, held, pushing = mechanism.bounded, two_sided_rows(mechanism), one_sided_rows(mechanism)
     if not every:
         return None
     state = [row.place for row in every]
-    state += [(f"rate of {row.name}", rate_of(row)) for row in every]
+    state += [(f"rate of {row.name}", measure_derivative(row)) for row in every]
     state += [row.numbers[k] for k in range(2) for row in held]  # bounds at rest, then those in motion
     state += [row.numbers[0] for row in pushing]
-    rates = [(f"second derivative of {row.name}", rate_of(row, 2)) for row in every]
-    pressed, forces = held_by_reactions(mechanism), list[tuple[str, Expr]]()
+    rates = [(f"second derivative of {row.name}", measure_derivative(row, 2)) for row in every]
+    pressed, forces = rows_bounded_by_reactions(mechanism), list[tuple[str, Expr]]()
     for row in pressed:
-        forces += zip((f"{row.name}, reaction {k}" for k in range(2)), (*components(row), ZERO), strict=False)
+        forces += zip((f"{row.name}, reaction {k}" for k in range(2)), (*reaction_components(row), ZERO), strict=False)
     reactions = (
         compile_side(mechanism, compiled, "reactions", "Reactions at rows with bounds", forces) if pressed else None
     )
@@ -105,14 +105,14 @@ def bounded_names(mechanism: Mechanism) -> BoundedNames:
         tuple(row.name for row in every),
         tuple(row.family.one for row in every),
         tuple(row.family.noun for row in every),
-        len(two_sided(mechanism)),
+        len(two_sided_rows(mechanism)),
         tuple(i for i, row in enumerate(every) if row.pressed),
     )
 
 
 def row_jumps(mechanism: Mechanism, compiled: CompiledModel) -> RowJumps:
     """Return the rows whose formulas may jump or have kinks over the state."""
-    rows = tuple(row for row in changing_rows(mechanism) if row.switches)
+    rows = tuple(row for row in rows_with_kinks(mechanism) if row.switches)
     formulas = [(to_text(e), e) for row in rows for e in row.switches]
     formulas += [(row.name, row.formula) for row in rows]
     side = compile_side(mechanism, compiled, "rows", "Rows that may jump", formulas)

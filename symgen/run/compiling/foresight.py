@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.base.vocabulary.expressions import names_in
-from symgen.describe.parts.inputs import Jump
+from symgen.describe.parts.driven_mechanism import Jump
 from symgen.run.breaks.in_time import line_of, line_parts
 from symgen.run.breaks.seams import BESIDE as BESIDE_A_SIDE
 from symgen.run.breaks.seams import NEXT_TO, SAME, Foreseen

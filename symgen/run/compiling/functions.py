@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.errors import finite_numbers
+from symgen.base.errors import refuse_overflow
 from symgen.compile.native import types
-from symgen.compile.native.array_entry import EntrySlots, array_entry, block_of, has_entries, many
+from symgen.compile.native.array_entry import EntrySlots, array_entry, batch_function, entry_slots, supports_entries
 from symgen.compile.store.jit import MachineFunction, object_file
-from symgen.compile.store.modules import load_module
+from symgen.compile.store.loaded_modules import load_module
 from symgen.run.compiling.side import module_beside
 
 if TYPE_CHECKING:
-    from symgen.derive.lower.functions import StateFunctions, Values
+    from symgen.derive.lower.function_programs import StateFunctions, Values
     from symgen.describe.mechanism import Mechanism
 
 Array = NDArray[np.float64]
@@ -73,8 +73,8 @@ class StateFunction:
     def block(
         self, default: Array, otherwise: Callable[..., Any], views: type[np.ndarray[Any, Any]] = np.ndarray
     ) -> EntrySlots | None:
-        """Return the slots of an entry, None where only plain Python can be called; see `block_of`."""
-        if not isinstance(self.function, MachineFunction) or not has_entries():
+        """Return the slots of an entry, None where only plain Python can be called; see `entry_slots`."""
+        if not isinstance(self.function, MachineFunction) or not supports_entries():
             return None
         vector = types.float64[::1]
         address = self.function.address(types.int64(*(vector,) * (len(self.lengths) + 1)))
@@ -82,7 +82,7 @@ class StateFunction:
         if self.kernel is not None:
             kernel = self.kernel.address(types.int64(types.int64[::1], vector, vector))
         scratch = np.zeros(self.scratch)
-        return block_of(address, kernel, self.sizes, scratch, self.lengths, self.shape, default, otherwise, views)
+        return entry_slots(address, kernel, self.sizes, scratch, self.lengths, self.shape, default, otherwise, views)
 
     def entry(self, block: EntrySlots) -> Any:
         """Return the built-in function of a block."""
@@ -103,7 +103,7 @@ class StateFunction:
             scratch = np.zeros(self.scratch)
             status = np.zeros(1, dtype=np.int64)
             places = block.ctypes.data, scratch.ctypes.data, count, out.ctypes.data, status.ctypes.data
-            return int(many(len(arrays), object_file)(*places, *flat)), int(status[0])
+            return int(batch_function(len(arrays), object_file)(*places, *flat)), int(status[0])
         results = out.reshape(count, -1)
         for k in range(count):
             code = self._plainly([a if a.ndim == 1 else a[k] for a in arrays], results[k])
@@ -154,10 +154,10 @@ def compile_function(
     """
 
     def make() -> tuple[str, dict[str, Any]]:
-        from symgen.derive.emit.functions import emit_function
-        from symgen.derive.lower.functions import lower_function
+        from symgen.derive.emit.function_modules import emit_function
+        from symgen.derive.lower.function_programs import lower_function
 
-        with finite_numbers(f"mechanism '{mechanism.name}'"):
+        with refuse_overflow(f"mechanism '{mechanism.name}'"):
             program = lower_function(functions(), name, purpose, vectors, values(functions()))
         described = {"lengths": list(program.sizes.values()), "shape": list(program.shape)}
         return emit_function(program, len(mechanism.parameters)), described

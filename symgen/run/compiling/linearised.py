@@ -15,10 +15,10 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.errors import finite_numbers
+from symgen.base.errors import refuse_overflow
 from symgen.base.vocabulary.infos import BY, LinearisedInfo
-from symgen.compile.store.modules import load_module
-from symgen.describe.formulas.evaluate import derived
+from symgen.compile.store.loaded_modules import load_module
+from symgen.describe.formulas.evaluate import dependent_parameters
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.side import beside, module_beside
@@ -62,7 +62,8 @@ class DescriptorForm:
     function : compiled function
         ``(t, y, p, w, ydot, out)``.
     places : mapping of str to (int, int)
-        Group -> first value and number of values; groups of `symgen.derive.lower.linearised`, and ``functions``.
+        Group -> first value and number of values; groups of `symgen.derive.lower.descriptor_derivatives`, and
+        ``functions``.
     widths : mapping of str to int
         Numbers of each space.
     functions : mapping of str to (int, int)
@@ -172,15 +173,15 @@ def _compiled(
 
     def make() -> tuple[str, dict[str, Any]]:
         from symgen.derive.emit.emit import emit_side
-        from symgen.derive.lower.linearised import can_decay, lower_linearised
+        from symgen.derive.lower.descriptor_derivatives import can_decay, lower_descriptor
 
         if groups and not can_decay(mechanism, around):
             return '"""Nothing decays."""\n', {}
-        with finite_numbers(f"mechanism '{mechanism.name}'"):
-            side, info = lower_linearised(mechanism, by, around, groups)
+        with refuse_overflow(f"mechanism '{mechanism.name}'"):
+            side, info = lower_descriptor(mechanism, by, around, groups)
         return emit_side(side), info.to_dict()
 
-    identity = around, by, derived(mechanism.parameters) if by else "", groups, reported
+    identity = around, by, dependent_parameters(mechanism.parameters) if by else "", groups, reported
     metadata, path = module_beside(mechanism, NAME, identity, make)
     if not metadata:
         return None

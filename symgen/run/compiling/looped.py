@@ -22,18 +22,18 @@ import msgspec
 
 from symgen.base.vocabulary.infos import LawInfo
 from symgen.compile.store.entries import Modules
-from symgen.compile.store.modules import load_module
+from symgen.compile.store.loaded_modules import load_module
 from symgen.derive.lower.law import refuse_bounded_rows
 from symgen.derive.lower.looped.forms import FormInfo, form_key, form_stem, lower_form
-from symgen.derive.lower.looped.instances import Instance, instances
+from symgen.derive.lower.looped.index_tables import Builder, IndexTables
+from symgen.derive.lower.looped.instances import Instance, instances_of_mechanism
 from symgen.derive.lower.looped.kernels import KernelInfo, kernel_stem
-from symgen.derive.lower.looped.law import LoopedLawInfo, refuse_dense
 from symgen.derive.lower.looped.layout import KINDS, PRESSED
+from symgen.derive.lower.looped.looped_law import LoopedLawInfo, refuse_dense
 from symgen.derive.lower.looped.shape import LoopedShape
-from symgen.derive.lower.looped.tables import Builder, IndexTables
 from symgen.derive.lower.record import BEHIND
 from symgen.derive.lower.record_form import record_form
-from symgen.describe.bounds.by_reaction import held_by_reactions
+from symgen.describe.bounds.by_reaction import rows_bounded_by_reactions
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.folders import generator_digest, shared_folder
 from symgen.run.compiling.looped_model import LoopedModel, describe_model, diagonal, hoisting
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from symgen.derive.formulate.elements import Element
     from symgen.derive.lower.looped.forms import FormProgram
     from symgen.derive.lower.looped.kernels import KernelProgram
-    from symgen.derive.lower.looped.law import LoopedLaw
+    from symgen.derive.lower.looped.looped_law import LoopedLaw
 
 #: Modules other than kernels and laws.
 _MACHINE, _MODEL, _ROTORS = "machine", "model", "rotors"
@@ -131,7 +131,7 @@ class Needs:
         shape = LoopedShape(self.instances, self.stems, infos, len(self.mechanism.parameters))
         parts = {stem: (form, msgspec.convert(metadata[form], FormInfo)) for stem, form in self.forms.items()}
         level = record_form(choice.method, choice.options).form if choice.implicit else ""
-        tables = Builder(shape, law, level, parts).tables()
+        tables = Builder(shape, law, level, parts).finished_tables()
         sizes = {"nw": tables.nw, "unknowns": tables.unknowns, "level": level, "tangent": tables.tangent}
         first = shape.parameters + shape.hoisted
         return shape, tables, msgspec.structs.replace(law, parameter_offset=first, modules=(), **sizes)
@@ -169,7 +169,7 @@ class LoopedStages(Stages[Mapping[str, "Element"], LoopedPrograms]):
         super().__init__(mechanism, choices, shared_folder(), whole)
         for choice in choices:
             _refuse(mechanism, choice)
-        elements = instances(mechanism)
+        elements = instances_of_mechanism(mechanism)
         self.needs = tuple(Needs(mechanism, choice, elements) for choice in choices)
 
     @property
@@ -195,7 +195,7 @@ class LoopedStages(Stages[Mapping[str, "Element"], LoopedPrograms]):
     def lower(self, equations: Mapping[str, Element]) -> LoopedPrograms:
         """Return the programs of these elements, and of those laws that do not exist."""
         from symgen.derive.lower.looped.kernels import lower_kernel
-        from symgen.derive.lower.looped.law import lower_looped
+        from symgen.derive.lower.looped.looped_law import lower_looped
 
         kernels: dict[str, KernelProgram] = {}
         forms: dict[str, FormProgram] = {}
@@ -215,7 +215,7 @@ class LoopedStages(Stages[Mapping[str, "Element"], LoopedPrograms]):
 
     def emit(self, programs: LoopedPrograms) -> Modules:
         """Return the sources of those modules that do not exist."""
-        from symgen.derive.emit.looped import emit_machine, emit_rotors, emit_shared_model
+        from symgen.derive.emit.looped_modules import emit_machine, emit_rotors, emit_shared_model
 
         modules = dict[str, tuple[str, Mapping[str, Any]]]()
         rotors = any(needs.has_rotors for needs in self.needs)
@@ -233,7 +233,7 @@ class LoopedStages(Stages[Mapping[str, "Element"], LoopedPrograms]):
 
     def _law(self, needs: Needs, law: LoopedLaw) -> Modules:
         """Return the sources of a law, those that other laws share first."""
-        from symgen.derive.emit.looped import emit_looped_law
+        from symgen.derive.emit.looped_modules import emit_looped_law
 
         method = needs.choice.method
         words = method.summary, method.reference
@@ -308,7 +308,7 @@ class LoopedStages(Stages[Mapping[str, "Element"], LoopedPrograms]):
 def _refuse(mechanism: Mechanism, choice: MethodChoice) -> None:
     """Refuse methods that loops, or efforts that depend on reactions, do not take."""
     refuse_dense(choice.method, choice.options, choice.implicit)
-    for row in held_by_reactions(mechanism):
+    for row in rows_bounded_by_reactions(mechanism):
         refuse_bounded_rows(choice.method, choice.options, choice.implicit, row.family.noun)
 
 
@@ -325,7 +325,7 @@ _STEM = re.compile(
 
 def _readable(modules: Modules) -> Modules:
     """Return modules under readable names, which import each other from one folder."""
-    from symgen.derive.emit.whole import absolute
+    from symgen.derive.emit.whole import import_siblings_by_name
 
     names = numbered(modules)
 
@@ -333,7 +333,7 @@ def _readable(modules: Modules) -> Modules:
         return _STEM.sub(lambda match: names.get(match[0], match[0]), text)
 
     return {
-        names.get(stem, stem): (absolute(named(source)), json.loads(named(json.dumps(metadata))))
+        names.get(stem, stem): (import_siblings_by_name(named(source)), json.loads(named(json.dumps(metadata))))
         for stem, (source, metadata) in modules.items()
     }
 

@@ -11,10 +11,10 @@ import numpy as np
 
 from symgen.base.vocabulary.measures import Holonomic
 from symgen.base.vocabulary.quantities import Quantity
-from symgen.compile.store.modules import plain_function
+from symgen.compile.store.loaded_modules import plain_function
+from symgen.derive.lower.looped.index_tables import IndexTables
 from symgen.derive.lower.looped.layout import GENERIC, HEAD
 from symgen.derive.lower.looped.shape import LoopedShape
-from symgen.derive.lower.looped.tables import IndexTables
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
@@ -94,7 +94,7 @@ def hoisting(
     velocity = np.array([v for _, v, _ in constant], dtype=np.int64)
     product = np.array([x for _, _, x in constant])
     size = shape.gram.size
-    ones = np.array([shape.gram.target(row, row) for row in shape.rotors], dtype=np.int64)
+    ones = np.array([shape.gram.place_of_entry(row, row) for row in shape.rotors], dtype=np.int64)
 
     def prepare(p: Array) -> int:
         values = {q.name: float(p[i]) for i, q in enumerate(mechanism.parameters)}
@@ -148,7 +148,7 @@ def describe_model(mechanism: Mechanism, shape: LoopedShape, tables: IndexTables
         spins=tuple(shape.spins),
         operations=operations,
         inputs=mechanism.inputs,
-        alone=tuple(row for row in shape.gram.alone if row not in (*bounded, *shape.rotors)),
+        alone=tuple(row for row in shape.gram.rows_alone if row not in (*bounded, *shape.rotors)),
         states=tuple(Quantity(x.name, x.unit) for x in mechanism.states),
         switchable=bounded,
         bounded=bounded,

@@ -13,11 +13,11 @@ import numpy as np
 from symgen.compile.loopcode.exact import compiled_form
 from symgen.compile.native import language as lang
 from symgen.compile.native import types
-from symgen.compile.native.binding import BoundFunctions, ConstantTable, Elements, Meaning, Room, bind
-from symgen.compile.native.loop_values import laid_out
+from symgen.compile.native.binding import BoundFunctions, ConstantTable, Elements, Meaning, Room, bind_functions
+from symgen.compile.native.loop_values import argument_value
 from symgen.compile.native.loops import read_loop
 from symgen.compile.native.read_values import Foreign
-from symgen.describe.parts.events import RECORD, STOP
+from symgen.describe.parts.event_sections import RECORD, STOP
 from symgen.run.compiling.checked import checked_function
 from symgen.run.compiling.events import DIRECTIONS, effects_of
 from symgen.run.compiling.side import compile_side
@@ -82,7 +82,7 @@ def meanings_of(
     names = compiled.py_func.__code__.co_varnames
     meanings = dict[str, Meaning]()
     for name, kind, argument in zip(names, compiled.signature.arguments, arguments, strict=False):
-        _, parameters = laid_out(name, kind)
+        _, parameters = argument_value(name, kind)
         for parameter, value in zip(parameters, _items(kind, argument), strict=True):
             meanings[parameter.name] = _meaning(parameter, value, emitted, room)
     return meanings
@@ -234,7 +234,7 @@ class Printed:
 
     def bound(self) -> BoundFunctions:
         """Return the functions bound to the model."""
-        return bind(self.entries, frozenset(f.key for f in self.emitted.values()))
+        return bind_functions(self.entries, frozenset(f.key for f in self.emitted.values()))
 
     def add_steps(self, compiled: CompiledModel, events: PrintedEvents, names: Collection[str]) -> None:
         """Add functions of `symgen.run.effects.stepping`, and the effects of events.

@@ -18,8 +18,8 @@ from symgen.compile.native.binding import Meaning
 from symgen.compile.native.loops import read_loop
 from symgen.compile.native.pieces import Piece
 from symgen.compile.store.jit import RuntimeFunction
-from symgen.describe.bounds.modes import MODE
-from symgen.describe.parts.events import STOP
+from symgen.describe.bounds.bounded_modes import MODE
+from symgen.describe.parts.event_sections import STOP
 from symgen.run.compiling.checked import checked_function
 from symgen.run.compiling.foresight import Passages
 from symgen.run.compiling.printed import meanings_of

@@ -19,14 +19,14 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.errors import InputError, finite_numbers
+from symgen.base.errors import InputError, refuse_overflow
 from symgen.base.ir.program import JAMMING
 from symgen.base.vocabulary.expressions import Expr
 from symgen.compile.store.entries import Entries
-from symgen.compile.store.modules import load_module, plain_function
+from symgen.compile.store.loaded_modules import load_module, plain_function
 from symgen.derive.lower.windings import Beside, winding_order
 from symgen.describe.formulas.formula_text import to_text
-from symgen.describe.formulas.readings import integrals
+from symgen.describe.formulas.readings import integrals_of_outputs
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.folders import folder_of, generator_digest
 from symgen.run.layout import abi
@@ -145,13 +145,13 @@ def compile_side(
 
     def make() -> tuple[str, dict[str, Any]]:
         from symgen.derive.emit.emit import emit_side
-        from symgen.derive.lower.side import lower_side
+        from symgen.derive.lower.side_program import lower_side
 
-        with finite_numbers(purpose):
+        with refuse_overflow(purpose):
             program = lower_side(mechanism, name, purpose, formulas, around, rates, sizes)
         return emit_side(program), {"reads": list(program.reads), "of_forces": list(program.of_forces)}
 
-    identity = purpose, rates, around, list(integrals(mechanism)), *labels, *texts
+    identity = purpose, rates, around, list(integrals_of_outputs(mechanism)), *labels, *texts
     metadata, path = module_beside(mechanism, name, identity, make)
     reads, of_forces = frozenset(metadata["reads"]), frozenset(metadata["of_forces"])
     return Side(getattr(load_module(path), name), path, tuple(labels), reads, of_forces)
@@ -170,7 +170,7 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledMod
     InputError
         If the method does not integrate velocities, or numbers that meet in a formula overflow.
     """
-    formulas, info, law = integrals(mechanism), compiled.info, compiled.law_module
+    formulas, info, law = integrals_of_outputs(mechanism), compiled.info, compiled.law_module
     if not formulas:
         return compiled
     if not can_integrate(compiled):
@@ -187,9 +187,9 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledMod
 
     def make() -> tuple[str, dict[str, Any]]:
         from symgen.derive.emit.emit import emit_integrals
-        from symgen.derive.lower.side import lower_integrands
+        from symgen.derive.lower.side_program import lower_integrands
 
-        with finite_numbers("integrals of outputs"):
+        with refuse_overflow("integrals of outputs"):
             program = lower_integrands(mechanism, around)
         return emit_integrals(program, stems, abi.POWER), {}
 

@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING, Any, TypeVar, final
 import msgspec
 import numpy as np
 
-from symgen.base.errors import finite_numbers
+from symgen.base.errors import refuse_overflow
 from symgen.base.ir.program import SUFFIXES
 from symgen.base.vocabulary.infos import LawInfo
 from symgen.base.vocabulary.quantities import Quantity
 from symgen.compile.store.entries import Modules
-from symgen.compile.store.modules import load_module
+from symgen.compile.store.loaded_modules import load_module
 from symgen.describe.facts.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.folders import folder_of
@@ -78,7 +78,7 @@ def _with_finite_numbers(stage: Stage) -> Stage:
 
     @wraps(stage)
     def checked(stages: StraightStages, *results: Any) -> Any:
-        with finite_numbers(f"mechanism '{stages.mechanism.name}'"):
+        with refuse_overflow(f"mechanism '{stages.mechanism.name}'"):
             return stage(stages, *results)
 
     return checked  # type: ignore[return-value]  # a stage with the same parameters
@@ -152,7 +152,7 @@ class StraightStages(Stages[Derivation, Programs]):
     def _model(self, programs: Programs) -> tuple[str, Mapping[str, Any]]:
         """Return source and metadata of the model: made once for all methods, unless the source is for readers."""
         from symgen.derive.emit.emit import emit_model
-        from symgen.derive.emit.lanes import emit_lanes_model
+        from symgen.derive.emit.lane_modules import emit_lanes_model
 
         model, shared = programs.model, programs.derivation
         if not shared.source:
@@ -166,7 +166,7 @@ class StraightStages(Stages[Derivation, Programs]):
     def _law(self, choice: MethodChoice, law: LawProgram, programs: Programs) -> Mapping[str, str]:
         """Return the sources of a law, those that other laws share first."""
         from symgen.derive.emit.emit import emit_law
-        from symgen.derive.emit.lanes import emit_lanes_law
+        from symgen.derive.emit.lane_modules import emit_lanes_law
 
         own = law, programs.model, programs.derivation.equations, choice.method.summary, choice.method.reference
         if self.target == "lanes":
@@ -241,7 +241,7 @@ def load_compiled(
 def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
     """Return the metadata of a program."""
     from symgen.derive.formulate.equations import without_bounded_rows
-    from symgen.derive.lower.closing import loop_pairs
+    from symgen.derive.lower.closed_loops import loop_pairs
     from symgen.derive.lower.plans import cheapest_plan
 
     plan = program.plan

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.native import types
-from symgen.compile.native.accesses import Accesses, accesses
+from symgen.compile.native.accesses import Accesses, array_accesses
 from symgen.compile.native.read_values import Foreign
-from symgen.compile.native.straightening import correction, iterates
+from symgen.compile.native.straightening import has_early_end, straight_correction
 from symgen.compile.store.emitted import AdjointFunction, EmittedFunction
 from symgen.run.directions.directed_model import DirectedModel, Seeds, for_derivatives, lanes_of
 from symgen.run.directions.kept_run import KeptRun, refusal
@@ -95,7 +95,7 @@ def _check_functions(rhs: EmittedFunction, accept: EmittedFunction, law: str, wi
 @functools.lru_cache(maxsize=256)
 def _iterates(rhs: EmittedFunction) -> bool:
     """Whether rates of the state are found by iteration."""
-    return iterates(rhs.read(abi.RHS.signature.arguments))
+    return has_early_end(rhs.read(abi.RHS.signature.arguments))
 
 
 def _iterations(rhs: EmittedFunction, mean: float = 0.0) -> int | None:
@@ -115,14 +115,14 @@ def _corrects(accept: EmittedFunction) -> bool:
 @functools.lru_cache(maxsize=256)
 def _accesses(function: EmittedFunction, kind: types.FunctionType) -> Accesses:
     try:
-        return accesses(function.read(kind.signature.arguments).body)
+        return array_accesses(function.read(kind.signature.arguments).body)
     except Foreign as foreign:
         raise refusal("functions of the state in closed form", str(foreign)) from None
 
 
 @functools.lru_cache(maxsize=256)
 def _correction_accesses(accept: EmittedFunction) -> Accesses:
-    return accesses(correction(accept.read(abi.ACCEPT.signature.arguments), 0).body)
+    return array_accesses(straight_correction(accept.read(abi.ACCEPT.signature.arguments), 0).body)
 
 
 @functools.lru_cache(maxsize=256)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.base.ir.program import SLOPES
-from symgen.compile.store.emitted import EmittedFunction, TangentFunction, directed
+from symgen.compile.store.emitted import EmittedFunction, TangentFunction, with_directions
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 
@@ -119,7 +119,7 @@ class DirectedModel:
         places = self.sizes | {"out": length}
         if timed:
             places["t"] = self.sizes["w"] * (1 + self.lanes)
-        return directed(function, self.lanes, tuple(sorted(places.items())))
+        return with_directions(function, self.lanes, tuple(sorted(places.items())))
 
     def longer(self, array: Array, name: str, directions: Array | None = None) -> Array:
         """Return an array with room for its directions, zeros if not given, shape (n, L)."""

@@ -124,8 +124,8 @@ class PassingSimulation(Simulation):
 
     def _acting(self, events: Sequence[tuple[int, Happening]]) -> list[int]:
         """Return the numbers of the events at the present time that change anything."""
-        from symgen.describe.bounds.modes import MODE
-        from symgen.describe.parts.events import RESET
+        from symgen.describe.bounds.bounded_modes import MODE
+        from symgen.describe.parts.event_sections import RESET
 
         now = self._time
         return [number for number, event in events if event.t == now and event.action in (MODE, RESET)]

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.bounds.modes import MODE
-from symgen.describe.parts.events import RECORD
+from symgen.describe.bounds.bounded_modes import MODE
+from symgen.describe.parts.event_sections import RECORD
 from symgen.run.directions.directed_observer import Observer
 from symgen.run.effects.applying import EffectWork
 from symgen.run.effects.effects import Effects, Impact

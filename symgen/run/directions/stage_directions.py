@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
-from symgen.compile.store.emitted import directed
+from symgen.compile.store.emitted import with_directions
 from symgen.run.directions.directed_model import for_derivatives
 from symgen.run.directions.moments import Directions, Moment, Moments
 from symgen.run.layout import abi
@@ -184,7 +184,7 @@ class ImplicitStages(StageDirections):
         """The residual with directions; directions of time follow the scratch."""
         model = self.moments.model
         places = {**model.sizes, "k": self._n, "r": self._n, "t": model.sizes["w"] * (1 + model.lanes)}
-        function = directed(self.law.residual, model.lanes, tuple(sorted(places.items())))
+        function = with_directions(self.law.residual, model.lanes, tuple(sorted(places.items())))
         return function.caller(abi.STAGE.signature.arguments)
 
     def through(self, step: DifferentiatedStep, state: State) -> Array:

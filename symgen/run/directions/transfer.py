@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.bounds.modes import HIT
+from symgen.describe.bounds.bounded_modes import HIT
 from symgen.run.directions.free_directions import TOGETHER, Free, constraint_directions
 from symgen.run.directions.moments import Directions, Moment, Moments, modes_of
 from symgen.run.directions.reset_directions import ResetDirections

@@ -12,7 +12,8 @@ from symgen.compile.native.annotations import Array, Integers, function_type
 
 #: rhs(t, y, p, w, iw, ydot) -> status, 0 when done.
 Rhs = Callable[[float, Array, Array, Array, Integers, Array], int]
-#: derive(t, y, p, w, ydot) at eight nodes: element i of a state at ``8 i + node``; see `symgen.compile.native.nodes`.
+#: derive(t, y, p, w, ydot) at eight nodes, element i of a state at ``8 i + node``:
+#: `symgen.compile.native.node_functions`.
 Derive = Callable[[Array, Array, Array, Array, Array], int]
 #: accept(t, y, p, w, iw) -> bits: 1 the correction failed, 2 the state was changed.
 Accept = Callable[[float, Array, Array, Array, Integers], int]

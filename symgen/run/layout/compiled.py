@@ -12,7 +12,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.errors import sizes_of
+from symgen.base.errors import sizes_in_words
 from symgen.base.ir.numerics import SKIP
 from symgen.base.ir.program import BY_PIVOTS, MODE_NUMBERS, SCALES, STATUS
 from symgen.base.vocabulary.infos import Info, LawInfo
@@ -74,7 +74,7 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     fixed: tuple[tuple[tuple[int, ...], tuple[int, ...]], ...] = ()
 
     def __repr__(self) -> str:
-        return f"<ModelInfo of {self.name}: {sizes_of(self)}>"
+        return f"<ModelInfo of {self.name}: {sizes_in_words(self)}>"
 
     @property
     def work(self) -> int:
@@ -142,7 +142,7 @@ class CompiledModel(ABC):
 
     def __repr__(self) -> str:
         info = self.info
-        return f"<CompiledModel {info.name}, {self.law.key}, {self.shape}: {sizes_of(info)}>"
+        return f"<CompiledModel {info.name}, {self.law.key}, {self.shape}: {sizes_in_words(info)}>"
 
     @abstractmethod
     def scratch(self) -> Array:

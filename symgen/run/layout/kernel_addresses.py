@@ -6,7 +6,7 @@ from types import ModuleType
 from typing import Any
 
 from symgen.compile.native import types
-from symgen.compile.native.compiler import interpreted
+from symgen.compile.native.compiler import is_interpreted
 
 _A = types.float64[::1]
 _T, _I = types.uint32[::1], types.int64
@@ -28,7 +28,7 @@ def address(function: Any, machine: ModuleType, signature: types.Signature = KER
     signature : Signature
         `KERNEL` or `GENERIC`.
     """
-    if interpreted():
+    if is_interpreted():
         machine.KERNELS.append(function)
         return len(machine.KERNELS) - 1
     place: int = function.address(signature)

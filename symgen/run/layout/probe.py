@@ -10,7 +10,7 @@ import numpy as np
 
 from symgen.compile.native import types
 from symgen.compile.store.jit import MachineFunction
-from symgen.compile.store.modules import plain_function
+from symgen.compile.store.loaded_modules import plain_function
 from symgen.run.layout import abi
 
 if TYPE_CHECKING:

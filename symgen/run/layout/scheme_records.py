@@ -236,7 +236,7 @@ class Nodes(Record):
     Attributes
     ----------
     derive : function
-        ``derive(t, y, p, w, ydot)``, the right-hand side at all nodes (`symgen.compile.native.nodes`).
+        ``derive(t, y, p, w, ydot)``, the right-hand side at all nodes (`symgen.compile.native.node_functions`).
     vector : int
         1 where this function exists, 0 where the right-hand side is evaluated at one node after another.
     rows : Array of int64

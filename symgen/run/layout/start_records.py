@@ -44,7 +44,7 @@ class Layout(Record):
     lengths : Array, shape (nq,)
         1 for coordinates that are lengths, else 0.
     datum : Array, shape (nq,)
-        What coordinates are measured from, see `symgen.describe.facts.lengths.datum_of`.
+        What coordinates are measured from, see `symgen.describe.facts.lengths.origin_of_sizes`.
     branches : Array, shape (windings,)
         Known values of angles whose turns are counted; nan where turns are chosen.
     """

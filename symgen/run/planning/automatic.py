@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.errors import counted
+from symgen.base.errors import plural
 from symgen.base.ir.program import COUNTERS
 from symgen.base.vocabulary.expressions import ZERO
 from symgen.base.vocabulary.measures import GROUND
@@ -298,7 +298,7 @@ def stiff_by_steps(run: Prepared, outcome: Outcome) -> tuple[str, ...]:
         slow = outcome.counters["slow_steps"]
         if slow < SLOW * outcome.steps:
             return ()
-        why = f"the iteration of {TOGETHER} converged slowly in {slow} of {counted(outcome.steps, 'step')}"
+        why = f"the iteration of {TOGETHER} converged slowly in {slow} of {plural(outcome.steps, 'step')}"
     else:
         facts = facts_of(run.plan.mechanism, *run.assembled.of_bodies, run.spec.until)
         if facts.stiffness <= STIFF_RATIO:

@@ -12,10 +12,10 @@ from symgen.base.ir.program import FORMAT
 from symgen.base.version import __version__
 from symgen.base.vocabulary.expressions import Number
 from symgen.derive.lower.windings import winding_order
-from symgen.describe.facts.lengths import datum_of
-from symgen.describe.formulas.evaluate import parameter_values, scalars
+from symgen.describe.facts.lengths import origin_of_sizes
+from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.mechanism import Hold
-from symgen.describe.parts.events import in_words
+from symgen.describe.parts.event_sections import events_in_words
 from symgen.run.planning.starts import closed_by, compiled_for, states_at_start
 from symgen.run.single.new_state import lengths_match
 from symgen.run.starts.assembly import Start, assemble
@@ -55,7 +55,7 @@ def made_of(compiled: CompiledModel, plan: Plan, spec: RunSpec) -> dict[str, Any
         "rtol": spec.rtol if spec.adaptive else None,
         "atol": spec.atol if spec.adaptive else None,
         "parameters": {key: float(x) for key, x in values.items() if key not in compiled.info.inputs},
-        "events": in_words(plan.events) or None,
+        "events": events_in_words(plan.events) or None,
         "shape": compiled.shape,
         "coordinates": plan.coordinates,
         "symgen": f"{__version__}, format {FORMAT}",
@@ -87,11 +87,11 @@ def _from_coordinates(plan: Plan, last: LastState, compiled: CompiledModel, ask_
     q = np.array([last.q[c.name] for c in info.coordinates])
     v = [last.v[c.name] for c in info.velocities]
     p = compiled.parameter_array(values, plan.method_parameters)
-    datum = datum_of(plan.mechanism, scalars(values))
+    datum = origin_of_sizes(plan.mechanism, scalar_values(values))
     whence = last.t, _windings(plan.mechanism, compiled, last)
     start = assemble(compiled, q, v, p, plan.settings.strict, None, ask_light, None, whence, datum)
     holds = [Hold(name, Number(x)) for name, x in (last.states or {}).items()]
-    start.y[info.own_states] = states_at_start(plan.mechanism, scalars(values), holds)
+    start.y[info.own_states] = states_at_start(plan.mechanism, scalar_values(values), holds)
     return start
 
 

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from symgen.base.errors import InputError, nearest, quoted
-from symgen.describe.parts.holds import joint_names
+from symgen.base.errors import InputError, quote, suggest
+from symgen.describe.parts.holds import joint_quantity_names
 
 if TYPE_CHECKING:
     from symgen.run.planning.prepare import Prepared
@@ -55,7 +55,7 @@ def named_directions(run: Prepared, names: Mapping[str, str]) -> tuple[RunDirect
     for name, key in names.items():
         direction = replace(_named(run, key), name=name)
         if any((direction.kind, direction.key) == (other.kind, other.key) for other in directions):
-            raise InputError("sensitivities", "each number once", quoted(name) + " twice")
+            raise InputError("sensitivities", "each number once", quote(name) + " twice")
         directions.append(direction)
     return tuple(directions)
 
@@ -66,14 +66,14 @@ def _named(run: Prepared, name: str) -> RunDirection:
     parameters = {q.name: q.unit for q in info.parameters}
     varying = {input for seam in run.plan.seams for input in seam.values}
     if name in varying:
-        raise InputError(where, "numbers that stay the same during the run", f"the input {quoted(name)}, which varies")
+        raise InputError(where, "numbers that stay the same during the run", f"the input {quote(name)}, which varies")
     if name in parameters:
         return RunDirection(name, parameters[name], "parameter", name)
     quantities = {q.name: q.unit for q in (*info.coordinates, *info.velocities)}
     joints = {q.name: q.unit for q in info.joint_coordinates}
     joints |= {f"{name}.rate": f"{unit}/s" for name, unit in joints.items()}
     states = {x.name: x.unit for x in mechanism.states}
-    own = joint_names(mechanism).get(name, name)
+    own = joint_quantity_names(mechanism).get(name, name)
     euler = {info.coordinates[first + k].name for first, _ in info.spins for k in range(4)}
     for table in (quantities, joints, states):
         if own in table and own not in euler:
@@ -84,4 +84,4 @@ def _named(run: Prepared, name: str) -> RunDirection:
     candidates = (*parameters, *(q for q in quantities if q not in euler), *joints, *states)
     candidates += tuple(f"method.{key}" for key in laws)
     expected = f"parameters or values of the start of {mechanism.name}"
-    raise InputError(where, expected, quoted(name), nearest(name, candidates))
+    raise InputError(where, expected, quote(name), suggest(name, candidates))

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from symgen.base.errors import InputError
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.describe.mechanism import Mechanism, bounded
-from symgen.describe.parts.inputs import DrivenMechanism, driven
+from symgen.describe.mechanism import Mechanism, with_largest_step
+from symgen.describe.parts.driven_mechanism import DrivenMechanism, apply_inputs
 from symgen.run.breaks.seams import seams_of_motion
 from symgen.run.loops.run_spec import Seam
 
@@ -55,17 +55,17 @@ def put_inputs(mechanism: Mechanism, settings: Settings, behind: float = 0.0) ->
     Raises
     ------
     InputError
-        If an input is wrong, see `symgen.describe.parts.inputs.driven`, or set twice.
+        If an input is wrong, see `symgen.describe.parts.driven_mechanism.apply_inputs`, or set twice.
     """
     for name in settings.inputs:
         if name in settings.parameters:
             raise InputError(f"input '{name}'", "one way of giving it a value", "two: a parameter is set by that name")
-    mechanism = bounded(mechanism, settings.max_step)
+    mechanism = with_largest_step(mechanism, settings.max_step)
     numbers = {name: settings.parameters[name] for name in mechanism.inputs if name in settings.parameters}
     if not settings.inputs:
         values = parameter_values(mechanism, settings.parameters) if mechanism.inputs else {}
         return Inputs(mechanism, settings, (), {name: values[name] for name in mechanism.inputs})
-    sources = driven(mechanism, {**numbers, **settings.inputs})
+    sources = apply_inputs(mechanism, {**numbers, **settings.inputs})
     parameters = {**settings.parameters, **sources.numbers}
     until = mechanism.defaults.until if settings.until is None else settings.until
     values = parameter_values(sources.mechanism, parameters)

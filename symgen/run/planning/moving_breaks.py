@@ -15,7 +15,7 @@ from symgen.describe.formulas.evaluate import parameter_values
 from symgen.run.breaks.seams import foreseen, seams_beside, times_between
 
 if TYPE_CHECKING:
-    from symgen.describe.parts.inputs import Jump
+    from symgen.describe.parts.driven_mechanism import Jump
     from symgen.run.planning.prepare import Prepared
     from symgen.run.planning.start_directions import StartDirections
 

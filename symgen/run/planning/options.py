@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from symgen.base.arguments import shown
-from symgen.base.errors import InputError, nearest
+from symgen.base.arguments import kind_of_value
+from symgen.base.errors import InputError, suggest
 from symgen.derive.methods._base import EXPLICIT_FORMS
 from symgen.run.compiling.method_choice import MethodChoice, choose_method
 from symgen.run.loops.integrator import estimates
@@ -47,7 +47,7 @@ def split_options(s: Settings, tableau: Integrator) -> tuple[MethodChoice, dict[
             own += [f"integrator.{p.name}" for p in tableau.parameters]
             owners = ("method", base.name, "integrator", tableau.name)
             bare = [full for full in own if full.partition(".")[2] == key]
-            hint = f"did you mean '{bare[0]}'?" if bare else nearest(owner, owners) if name else nearest(key, own)
+            hint = f"did you mean '{bare[0]}'?" if bare else suggest(owner, owners) if name else suggest(key, own)
             raise InputError(f"option {key}", "method.NAME or integrator.NAME", f"'{key}'", hint)
     return choose_method(s.method, structural, not EXPLICIT_FORMS & set(tableau.forms)), parameters, integrator
 
@@ -67,7 +67,7 @@ def _integrator_option(key: str, name: str, value: str | float, integrator: Inte
         f"option {key}",
         f"an option of {integrator.name}",
         f"'{name}={value}'",
-        nearest(name, names) if names else "it has none",
+        suggest(name, names) if names else "it has none",
     )
 
 
@@ -78,5 +78,5 @@ def _number(key: str, value: str | float) -> float:
     except ValueError:
         number = math.nan
     if not math.isfinite(number):
-        raise InputError(f"option {key}", "a finite number", shown(value))
+        raise InputError(f"option {key}", "a finite number", kind_of_value(value))
     return number

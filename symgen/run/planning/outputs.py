@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.base.arguments import shown
+from symgen.base.arguments import kind_of_value
 from symgen.base.errors import InputError
-from symgen.base.memory import require
+from symgen.base.memory import require_memory
 from symgen.derive.methods import METHODS
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.loops.integrator import adapts
@@ -51,18 +51,18 @@ def output_times(
         try:
             instants = np.asarray(s.times, dtype=np.float64)
         except (TypeError, ValueError):
-            raise InputError("times", "finite, increasing output times", shown(s.times)) from None
+            raise InputError("times", "finite, increasing output times", kind_of_value(s.times)) from None
         if instants.ndim != 1 or not np.all(np.isfinite(instants)) or np.any(np.diff(instants) <= 0.0):
             raise InputError("times", "finite, increasing output times", "others")
         if len(instants) and (instants[0] < begin * (1.0 - 1e-12) or instants[-1] > until * (1.0 + 1e-12)):
             got = f"{instants[0]:g} to {instants[-1]:g}"
             raise InputError("times", f"output times from {begin:g} to {until:g}", got)
-        require("times", f"{len(instants):.3g} outputs of {mechanism.name}", size * len(instants))
+        require_memory("times", f"{len(instants):.3g} outputs of {mechanism.name}", size * len(instants))
         return np.clip(instants, begin, until)  # a multiple of a step may exceed the end by rounding
     every = s.output_step if s.output_step is not None else mechanism.defaults.output_step
     if every is None:
         if adaptive:
-            require("model", f"{DEFAULT_OUTPUTS} outputs of {mechanism.name}", size * DEFAULT_OUTPUTS)
+            require_memory("model", f"{DEFAULT_OUTPUTS} outputs of {mechanism.name}", size * DEFAULT_OUTPUTS)
             return np.linspace(begin, until, DEFAULT_OUTPUTS)
         assert step is not None, "a constant step is given"
         every = step
@@ -107,7 +107,7 @@ def check_saving(mechanism: Mechanism, s: Settings) -> None:
         count = until / (s.step or mechanism.defaults.step)
     else:
         count = DEFAULT_OUTPUTS
-    require("--save", f"{count:.3g} outputs of {mechanism.name}", count * output_size(mechanism, saved=True))
+    require_memory("--save", f"{count:.3g} outputs of {mechanism.name}", count * output_size(mechanism, saved=True))
 
 
 def _has_constant_steps(s: Settings, mechanism: Mechanism) -> bool:
@@ -119,7 +119,7 @@ def _has_constant_steps(s: Settings, mechanism: Mechanism) -> bool:
 
 def multiples(every: float, until: float, size: float) -> Array:
     """Return the multiples of an output step, and the end; `size` is what an output takes [bytes]."""
-    require("output_step", f"{until / every:.3g} outputs", size * until / every)
+    require_memory("output_step", f"{until / every:.3g} outputs", size * until / every)
     if until / every > 2e7:
         raise InputError("output_step", "at most 2e7 outputs", f"{until / every:.3g}")
     count = math.floor(until / every * (1.0 + 1e-12))

@@ -16,17 +16,17 @@ import numpy as np
 
 from symgen.base.errors import AssemblyError, InputError
 from symgen.base.escapes import markdown_text
-from symgen.base.files import Content, check_name, templates_folder, why, write_all
+from symgen.base.files import Content, check_file_name, system_message, templates_folder, write_all
 from symgen.base.ir.program import COUNTERS, SETTLED, STATUS, SUFFIXES
 from symgen.base.settings import Settings
-from symgen.derive.emit.module import render
+from symgen.derive.emit.module import render_template
 from symgen.derive.lower.law import refuse_bounded_rows
-from symgen.derive.lower.looped.law import is_loopable
+from symgen.derive.lower.looped.looped_law import is_loopable
 from symgen.derive.methods import METHODS
-from symgen.describe.bounds.by_reaction import held_by_reactions
-from symgen.describe.bounds.keys import nouns
+from symgen.describe.bounds.by_reaction import rows_bounded_by_reactions
+from symgen.describe.bounds.keys import nouns_of_families
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.describe.parts.events import DOES
+from symgen.describe.parts.event_sections import DOES
 from symgen.run.breaks.motions import refuse_jumps
 from symgen.run.compiling.choices import choose_coordinates, on_tree
 from symgen.run.compiling.closing import at_start
@@ -97,7 +97,7 @@ def write_package(
     """
     # outputs belong to the runtime: on a tree, integrals would keep the rows of drivers whose efforts they read
     mechanism = msgspec.structs.replace(mechanism, outputs=())
-    names = tuple(dict.fromkeys(METHODS.canonical(name, "method") for name in methods or METHODS.names))
+    names = tuple(dict.fromkeys(METHODS.resolve_alias(name, "method") for name in methods or METHODS.names))
     own = _options_of(names, options)
     chosen = [choose_method(name, values) for name, values in own.items()]
     if not methods and mechanism.has_massless:
@@ -106,7 +106,7 @@ def write_package(
     plans = [_plan(mechanism, c.method.name, own[c.method.name], coordinates) for c in chosen]
     if not methods:
         plans = [p for p in plans if _suits(for_coordinates(mechanism, p.choice), mechanism, shape, target)]
-    check_name("-o", folder)
+    check_file_name("-o", folder)
     if folder.exists() and not folder.is_dir():
         raise InputError("-o", "the name of a folder", f"the file '{folder}'")
     run, reason = None, "this code is for other programs to call"
@@ -172,7 +172,7 @@ def _suits(choice: MethodChoice, mechanism: Mechanism, shape: str, target: str) 
     """Whether a method can be emitted for a mechanism in a shape and for a target."""
     if mechanism.bounded:
         try:
-            pressed = next((row.family.one for row in held_by_reactions(mechanism)), "")
+            pressed = next((row.family.one for row in rows_bounded_by_reactions(mechanism)), "")
             refuse_bounded_rows(choice.method, choice.options, choice.implicit, pressed)
         except InputError:
             return False
@@ -198,7 +198,7 @@ def _started(plans: Sequence[Plan]) -> tuple[list[Plan], dict[str, Any] | None, 
     if usual.solver_is_free and solver != usual.choice.options["solver"]:
         plans = [replace(p, choice=p.choice.with_options(solver=solver)) if p.solver_is_free else p for p in plans]
     if usual.mechanism.bounded:
-        return list(plans), None, f"modes of {nouns()} are chosen by who calls this code"
+        return list(plans), None, f"modes of {nouns_of_families()} are chosen by who calls this code"
     try:
         refuse_jumps(usual.mechanism, {}, usual.spec.until)
     except InputError as error:
@@ -247,7 +247,7 @@ def _readme(mechanism: Mechanism, modules: Modules, reason: str) -> str:
     events = ", ".join(f"`{e.name}` {DOES[e.action]}" for e in mechanism.events if e.action in DOES)
     title = markdown_text(mechanism.title or mechanism.name)
     values = {"name": markdown_text(mechanism.name), "title": title, "files": list(files.items()), "reason": reason}
-    return render("package/README.md.j2", values | {"events": events})
+    return render_template("package/README.md.j2", values | {"events": events})
 
 
 def is_own(path: Path) -> bool:
@@ -298,7 +298,7 @@ def write_folder(folder: Path, files: Mapping[str, Content], beside: Collection[
         folder.mkdir(parents=True, exist_ok=True)
         write_all(paths)
     except OSError as error:
-        raise InputError("-o", "a folder that can be written", f"'{folder}' ({why(error)})") from error
+        raise InputError("-o", "a folder that can be written", f"'{folder}' ({system_message(error)})") from error
     finally:
         for each in absent:  # where nothing could be written
             if each.is_dir() and not any(each.iterdir()):

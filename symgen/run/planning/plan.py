@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.base.errors import InputError, quoted
+from symgen.base.errors import InputError, quote
 from symgen.base.settings import Settings
 from symgen.derive.lower.windings import follows_places
 from symgen.derive.methods import METHODS
-from symgen.describe.bounds.modes import refuse_bounds
+from symgen.describe.bounds.bounded_modes import refuse_bounds
 from symgen.describe.facts.digest import digest
 from symgen.describe.facts.kinks import longest_step
 from symgen.describe.facts.sticking import advice_on_jumps
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.describe.parts.events import RECORD, STOP, events_of, watched
-from symgen.describe.parts.holds import holds_of
+from symgen.describe.parts.event_sections import RECORD, STOP, read_events, watched_event
+from symgen.describe.parts.holds import read_holds
 from symgen.run.breaks.motions import refuse_jumps
 from symgen.run.breaks.seams import foreseen_in_run, merged
 from symgen.run.compiling.method_choice import MethodChoice
@@ -243,7 +243,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         notes=(*notes, *code.notes),
         bound=(why,) if why and adaptive and purpose in (Purpose.MOTION, Purpose.ROWS) else (),
         solver_is_free=code.solver_is_free,
-        holds=() if last is not None else holds_of(mechanism, "start", s.start),
+        holds=() if last is not None else read_holds(mechanism, "start", s.start),
         last=last,
         events=events,
         coordinates=code.coordinates.name,
@@ -326,11 +326,11 @@ def _shape(s: Settings, last: LastState | None) -> str:
 def events_of_run(mechanism: Mechanism, s: Settings) -> tuple[Event, ...]:
     """Return the events of a run: the mechanism's, then the settings', each once."""
     conditions = (
-        *(watched(mechanism, "stop_when", text, STOP) for text in s.stop_when),
-        *(watched(mechanism, "record_when", text, RECORD) for text in s.record_when),
+        *(watched_event(mechanism, "stop_when", text, STOP) for text in s.stop_when),
+        *(watched_event(mechanism, "record_when", text, RECORD) for text in s.record_when),
     )
     once = {event.name: event for event in reversed(conditions)}  # one that ends runs is recorded as well
-    return (*mechanism.events, *events_of(mechanism, s.events), *reversed(once.values()))
+    return (*mechanism.events, *read_events(mechanism, s.events), *reversed(once.values()))
 
 
 def refuse_ends(where: str, mechanism: Mechanism, s: Settings) -> None:
@@ -370,7 +370,7 @@ def refuse_events(where: str, mechanism: Mechanism, s: Settings) -> None:
 def refuse_weightless(mechanism: Mechanism) -> None:
     """Refuse to simulate a mechanism in which nothing has a mass: joints and drivers alone determine its motion."""
     if mechanism.bodies and all(body.weightless for body in mechanism.bodies):
-        first, hint = quoted(mechanism.bodies[0].name), "symgen kinematics and symgen inverse do without"
+        first, hint = quote(mechanism.bodies[0].name), "symgen kinematics and symgen inverse do without"
         raise InputError(f"body {first}", "a mass, of one body at least", "a mechanism in which nothing has one", hint)
 
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.base.errors import AssemblyError
-from symgen.base.memory import uncollected
+from symgen.base.memory import without_garbage_collection
 from symgen.derive.methods import METHODS
 from symgen.derive.methods.baumgarte import MOTION
 from symgen.run.planning.automatic import (
@@ -185,7 +185,7 @@ class Preparation:
         return prepared_run(self.plan, assembled)
 
 
-@uncollected()
+@without_garbage_collection()
 def prepare(
     mechanism: Mechanism, settings: Settings, purpose: Purpose = Purpose.MOTION, near: Array | None = None
 ) -> Prepared:

@@ -7,8 +7,8 @@ from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from symgen.base.settings import about
-from symgen.describe.parts.holds import hold_name, holds_of
+from symgen.base.settings import setting_description
+from symgen.describe.parts.holds import canonical_hold_name, read_holds
 from symgen.run.layout.start_records import Instant
 from symgen.run.planning.prepare import Assembled, noted
 from symgen.run.planning.starts import Again, DescribedStart
@@ -61,7 +61,7 @@ class Restarts:
             return None
         if names not in self._again:
             mechanism = self._run.plan.mechanism
-            self._again[names] = self._described.again(holds, [hold_name(mechanism, name) for name in names])
+            self._again[names] = self._described.again(holds, [canonical_hold_name(mechanism, name) for name in names])
         return self._settled(closed)
 
     def _settled(self, closed: Instant) -> Instant:
@@ -89,7 +89,7 @@ class Restarts:
         return replace(self._run, plan=plan, assembled=noted(plan, assembled))
 
     def _holds(self, start: Mapping[str, float]) -> tuple[Hold, ...]:
-        return holds_of(self._run.plan.mechanism, "start", about("start").check("start", start))
+        return read_holds(self._run.plan.mechanism, "start", setting_description("start").check("start", start))
 
     @cached_property
     def _serves(self) -> bool:

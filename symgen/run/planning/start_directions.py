@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.rotations import composed_rotation
 from symgen.compile.native import types
-from symgen.describe.formulas.duals import Dual, Duals, dual, dual_slopes, parameter_duals
-from symgen.describe.formulas.evaluate import parameter_values, scalars
+from symgen.describe.formulas.duals import Dual, Duals, as_dual, dual_slopes, parameter_duals
+from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start
 from symgen.run.directions.directed_model import DirectedModel, Seeds, lanes_of
 from symgen.run.layout import abi
@@ -206,7 +206,7 @@ class StartDirections:
     @cached_property
     def _numbers(self) -> Any:
         """Values of formulas without directions."""
-        return scalars({name: x.value for name, x in self.duals.values.items()})
+        return scalar_values({name: x.value for name, x in self.duals.values.items()})
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -273,7 +273,7 @@ class StartDirections:
         v = start.y[info.nq : info.work]
         places = {q.name: j for j, q in enumerate(info.velocities)}
         fixed = {j: np.array(next(dual_slopes([x], n))) for j, x in enumerate(described) if x is not None}
-        kept = np.array([0.0 if x is None else dual(x).value for x in described])
+        kept = np.array([0.0 if x is None else as_dual(x).value for x in described])
         held = self._targets(places)
         fixed |= held
         for j in held:

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from symgen.compile.native.formula_lines import Dialect, FormulaLines
-from symgen.describe.formulas.evaluate import derived, independent_values, parameter_values, scalars
+from symgen.describe.formulas.evaluate import dependent_parameters, independent_values, parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start
-from symgen.describe.parts.holds import ORIENTATION, holds_of
+from symgen.describe.parts.holds import ORIENTATION, read_holds
 from symgen.run.layout.model_arrays import velocity_of
 from symgen.run.planning.starts import held_of
 from symgen.run.starts.assembler import Assembly
@@ -27,7 +27,7 @@ def lines_for(mechanism: Mechanism, dialect: Dialect) -> FormulaLines:
 def derived_lines(mechanism: Mechanism, dialect: Dialect) -> list[tuple[int, list[str]]]:
     """Return the places of parameters that follow from others, in an order that serves, with lines that set them."""
     places, results = [p.name for p in mechanism.parameters], list[tuple[int, list[str]]]()
-    for name, formula in derived(mechanism.parameters):
+    for name, formula in dependent_parameters(mechanism.parameters):
         lines, place = lines_for(mechanism, dialect), places.index(name)
         value = lines.result(lines.value(formula, name))
         results.append((place, [*lines.lines, f"p[{place}] = {value};"]))
@@ -50,7 +50,7 @@ def start_lines(mechanism: Mechanism, lines: FormulaLines) -> tuple[list[Any], l
     lines : FormulaLines
         Lines that receive the values.
     """
-    held = {hold.name: hold.value for hold in holds_of(mechanism) if hold.value is not None}
+    held = {hold.name: hold.value for hold in read_holds(mechanism) if hold.value is not None}
     q, v = described_start(mechanism, lines)
     for kind, numbers in (("coordinates", q), ("speeds", v)):
         names = [f"{body.name}.{name}" for body in mechanism.bodies for name in getattr(body, kind)]
@@ -66,7 +66,7 @@ def is_described(mechanism: Mechanism) -> bool:
     Those that hold coordinates of joints are closed from an exported start instead.
     """
     names = {f"{b.name}.{name}" for b in mechanism.bodies for name in (*b.coordinates, *b.speeds, ORIENTATION)}
-    return all(hold.name in names for hold in holds_of(mechanism))
+    return all(hold.name in names for hold in read_holds(mechanism))
 
 
 def exported_start(
@@ -87,7 +87,7 @@ def exported_start(
     info = compiled.info
     if turns is not None:
         return Assembly(compiled, branches=turns, datum=datum)
-    held = held_of(info, holds_of(mechanism), scalars(parameter_values(mechanism)), [None] * info.nv)
+    held = held_of(info, read_holds(mechanism), scalar_values(parameter_values(mechanism)), [None] * info.nv)
     fixed = {*held.fixed, *(velocity_of(i, info) for i in held.coordinates)}
     return Assembly(compiled, Held(velocities=held.velocities, fixed=tuple(sorted(fixed))), datum=datum)
 

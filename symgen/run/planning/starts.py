@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from symgen.describe.facts.lengths import datum_of
-from symgen.describe.facts.sides import sides_of, wrong_sides
-from symgen.describe.formulas.evaluate import evaluate, parameter_values, scalars
-from symgen.describe.formulas.start import described_start, displacements
-from symgen.describe.parts.holds import ORIENTATION, holds_of
+from symgen.describe.facts.lengths import origin_of_sizes
+from symgen.describe.facts.sides import sided_joints, wrong_sides
+from symgen.describe.formulas.evaluate import evaluate, parameter_values, scalar_values
+from symgen.describe.formulas.start import described_start, displacements_of_bodies
+from symgen.describe.parts.holds import ORIENTATION, read_holds
 from symgen.run.compiling.pipeline import compile_model
 from symgen.run.compiling.side import with_integrals
 from symgen.run.layout import abi
@@ -71,7 +71,7 @@ def start_of(
         If the start is refused; see `symgen.run.starts.assembly.assemble`.
     """
     described = DescribedStart(mechanism, compiled, parameters, method_parameters, strict, ask_light)
-    return described.start(holds_of(mechanism) if held is None else held, near)
+    return described.start(read_holds(mechanism) if held is None else held, near)
 
 
 #: Values of what a start holds -> the start; None where it has to be reported on.
@@ -97,12 +97,12 @@ class DescribedStart:
         ask_light: bool = False,
     ) -> None:
         values = parameter_values(mechanism, parameters)
-        self.mechanism, self.compiled, self._numbers = mechanism, compiled, scalars(values)
+        self.mechanism, self.compiled, self._numbers = mechanism, compiled, scalar_values(values)
         self._strict, self._ask_light = strict, ask_light
         q, self._v = described_start(mechanism, self._numbers)
         self._q, self._velocities = np.array(q), np.array([np.nan if x is None else x for x in self._v])
         self._p = compiled.parameter_array(values, method_parameters or {})
-        self._datum = datum_of(mechanism, self._numbers)
+        self._datum = origin_of_sizes(mechanism, self._numbers)
         self._kept = dict[tuple[tuple[int, ...], ...], KeptStart]()
 
     def start(self, holds: Held | Sequence[Hold], near: NDArray[np.float64] | None = None) -> Start:
@@ -124,7 +124,7 @@ class DescribedStart:
         states = states_at_start(mechanism, numbers, () if isinstance(holds, Held) else holds)
         q = np.array(self._q if near is None else near, dtype=np.float64)
         held = holds if isinstance(holds, Held) else held_of(compiled.info, holds, numbers, self._v)
-        assembly, reported = self._assembly(held), partial(displacements, mechanism, numbers)
+        assembly, reported = self._assembly(held), partial(displacements_of_bodies, mechanism, numbers)
         start = closed_start(assembly, held, assembly.close, q, self._v, self._p.copy(), reported)
         if lines := _opposite_sides(mechanism, compiled.info, start.y):
             start = replace(start, warnings=(*start.warnings, *lines))
@@ -184,7 +184,7 @@ class DescribedStart:
             else:
                 return None
         described, states = described_state(info, self._q), states_at_start(mechanism, self._numbers, holds)
-        sides, v, targets = sides_of(mechanism), numbers[: info.nv], numbers[info.nv :]
+        sides, v, targets = sided_joints(mechanism), numbers[: info.nv], numbers[info.nv :]
 
         def closed(values: Sequence[float]) -> Instant | None:
             numbers[places] = values
@@ -222,7 +222,7 @@ def _opposite_sides(mechanism: Mechanism, info: ModelInfo, y: NDArray[np.float64
     lines = list[str]()
     for joint, held in wrong_sides(mechanism, y.tolist()):
         if held:
-            raise half_turn(info, joint).stopped_at(y.tolist())
+            raise half_turn(info, joint).with_coordinates(y.tolist())
         lines.append(opposite(joint))
     return lines
 
@@ -258,7 +258,7 @@ def held_of(
     info : ModelInfo
         The model.
     holds : sequence of Hold
-        From `symgen.describe.parts.holds.holds_of`.
+        From `symgen.describe.parts.holds.read_holds`.
     numbers : Scalars
         Values of the names in formulas.
     v : sequence of float or None
@@ -361,17 +361,17 @@ def open_start(plan: Plan) -> tuple[CompiledModel, Start]:
     """
     mechanism, compiled = plan.mechanism, compiled_for(plan.mechanism, plan.choice)
     info, values = compiled.info, parameter_values(mechanism, plan.parameters)
-    numbers = scalars(values)
+    numbers = scalar_values(values)
     q, v = described_start(mechanism, numbers)
     y, w = np.zeros(info.ny), compiled.scratch()
     y[: info.nq] = q
     y[info.own_states] = states_at_start(mechanism, numbers, plan.holds or ())
-    for i, value in held_of(info, plan.holds or holds_of(mechanism), numbers, v).coordinates.items():
+    for i, value in held_of(info, plan.holds or read_holds(mechanism), numbers, v).coordinates.items():
         y[i] = value
     # the largest distance from the datum, or of a point in its body
     places = [x for body in mechanism.bodies for _, point in body.points for x in point]
     places += [x for _, marker in mechanism.seats for x in marker.point]
-    sizes, datum = [abs(evaluate(x, values, "points")) for x in places], datum_of(mechanism, numbers)
+    sizes, datum = [abs(evaluate(x, values, "points")) for x in places], origin_of_sizes(mechanism, numbers)
     w[abi.LENGTH] = max(float((np.abs(y[: info.nq] - datum) * lengths_of(info)).max(initial=0.0)), *sizes, 0.0) or 1.0
     p = compiled.parameter_array(values, plan.method_parameters)
     compiled.prepare(p)

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base import arguments
-from symgen.base.errors import InputError, nearest
+from symgen.base.errors import InputError, suggest
 from symgen.base.settings import COORDINATES, Settings
-from symgen.describe.bounds.modes import one_sided, refuse_bounds, without_bounds
-from symgen.describe.bounds.smooth import with_sliding
+from symgen.describe.bounds.bounded_modes import one_sided_rows, refuse_bounds, without_bounds
+from symgen.describe.bounds.smooth import sliding_rows_as_forces
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.topology import state_quantities
@@ -59,9 +59,9 @@ class StateModel:
     """
 
     def __init__(self, where: str, mechanism: Mechanism, coordinates: str, parameters: Mapping[str, float]) -> None:
-        coordinates = arguments.one_of("coordinates", coordinates, COORDINATES)
-        sliding = with_sliding(where, mechanism)
-        described = without_bounds(sliding, one_sided(sliding))
+        coordinates = arguments.one_word_of("coordinates", coordinates, COORDINATES)
+        sliding = sliding_rows_as_forces(where, mechanism)
+        described = without_bounds(sliding, one_sided_rows(sliding))
         refuse_bounds(where, described)
         self.kind = choose_coordinates(described, coordinates, "straight").name
         if self.kind == "joint" and described is not mechanism:  # runs have the rows that are left out here
@@ -89,7 +89,7 @@ class StateModel:
         beside = {name: given.pop(name) for name in (*self._own, "t") if name in given}
         for name in given:
             if name not in self.parameters:
-                hint = nearest(str(name), {*self.parameters})
+                hint = suggest(str(name), {*self.parameters})
                 raise InputError("values", f"a parameter of {self.mechanism.name}", f"'{name}'", hint)
         of_file = parameter_values(self.mechanism, given)
         last = [arguments.number(f"values '{name}'", beside.get(name, 0.0)) for name in (*self._own, "t")]

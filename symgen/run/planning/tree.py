@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.derive.lower.windings import winding_order
-from symgen.describe.bounds.modes import mode_events
+from symgen.describe.bounds.bounded_modes import mode_events
 from symgen.describe.parts.topology import state_measures
 from symgen.describe.spanning_tree import Topology
 from symgen.run.layout import abi

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.describe.facts.kinks import restricted
+from symgen.describe.facts.kinks import formulas_with_domain
 from symgen.describe.formulas.formula_text import to_text
 from symgen.run.compiling.side import compile_side
 from symgen.run.layout import abi
@@ -43,7 +43,7 @@ def undefined_at_end(mechanism: Mechanism, outcome: Outcome) -> str:
         *(("joint", x) for x in mechanism.joints),
         *(("force", x) for x in mechanism.forces),
     ]
-    limited = [(f"{kind} '{part.name}'", *pair) for kind, part in parts for pair in restricted(part)]
+    limited = [(f"{kind} '{part.name}'", *pair) for kind, part in parts for pair in formulas_with_domain(part)]
     if not limited:
         return ""
     # a whole formula with a value has left aside what is undefined in it

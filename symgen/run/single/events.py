@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.bounds.modes import HIT, JAM, LEAVE, REVERSE, SLIP
-from symgen.describe.parts.events import RECORD, STOP
+from symgen.describe.bounds.bounded_modes import HIT, JAM, LEAVE, REVERSE, SLIP
+from symgen.describe.parts.event_sections import RECORD, STOP
 from symgen.run.effects.effects import Impact
 from symgen.run.layout import abi
 from symgen.run.loops import event_loop

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.errors import counted
+from symgen.base.errors import plural
 
 Array = NDArray[np.float64]
 
@@ -64,7 +64,7 @@ class LastState:
     states: Mapping[str, float] | None = None
 
     def __repr__(self) -> str:
-        return f"<LastState of {self.mechanism} at {self.t:g} s: {counted(len(self.q), 'coordinate')}>"
+        return f"<LastState of {self.mechanism} at {self.t:g} s: {plural(len(self.q), 'coordinate')}>"
 
     @property
     def last_state(self) -> LastState:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.errors import counted
+from symgen.base.errors import plural
 from symgen.run.layout import abi
 from symgen.run.layout.probe import rate_functions
 from symgen.run.single.new_state import model_sizes
@@ -249,7 +249,7 @@ class Outcome(Motion, Ended):
     accumulation: float | None = None
 
     def __repr__(self) -> str:
-        return f"<Outcome of {self.compiled.info.name}: {counted(len(self.times), 'output')} until {self.end:g} s>"
+        return f"<Outcome of {self.compiled.info.name}: {plural(len(self.times), 'output')} until {self.end:g} s>"
 
     @property
     def last_step(self) -> float:

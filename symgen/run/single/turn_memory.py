@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.bounds.modes import HIT, JAM, LEAVE, MODE, REST, REVERSE, SLIP, STICK
-from symgen.describe.parts.events import RESET, STOP
+from symgen.describe.bounds.bounded_modes import HIT, JAM, LEAVE, MODE, REST, REVERSE, SLIP, STICK
+from symgen.describe.parts.event_sections import RESET, STOP
 from symgen.run.effects.accumulation import new_past
 from symgen.run.effects.effects import Effects
 from symgen.run.effects.resets import OfEffects, new_effects

@@ -18,8 +18,8 @@ from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.entry import direct
 from symgen.compile.loopcode.loop_instances import compiled_loop
 from symgen.compile.native import types
-from symgen.describe.bounds.modes import HIT, MODE, REST
-from symgen.describe.parts.events import RESET, STOP
+from symgen.describe.bounds.bounded_modes import HIT, MODE, REST
+from symgen.describe.parts.event_sections import RESET, STOP
 from symgen.run.effects.accumulation import Past, add_resets
 from symgen.run.effects.applying import NO_VALUES, NO_VELOCITIES
 from symgen.run.effects.resets import KEEPING, KeptEffect, OfEffects

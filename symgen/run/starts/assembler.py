@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import compiled_form, plain_form
-from symgen.compile.store.modules import whole_plain_function
+from symgen.compile.store.loaded_modules import plain_function_with_callees
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.manifold import stay
@@ -136,7 +136,7 @@ class Assembly:
     branches : sequence of float
         Angles that count turns; empty if their turns are chosen.
     datum : sequence of float
-        What coordinates are measured from (`symgen.describe.facts.lengths.datum_of`); empty for the origin.
+        What coordinates are measured from (`symgen.describe.facts.lengths.origin_of_sizes`); empty for the origin.
     """
 
     compiled: CompiledModel
@@ -201,7 +201,7 @@ class Assembly:
         Runs in joint coordinates do not need the code of bodies, which takes long to compile.
         """
         law, model, (_, work) = self.compiled.law_module, self.compiled.model, self.memory()
-        plain = whole_plain_function(law.rhs), whole_plain_function(model.geometry)
+        plain = plain_function_with_callees(law.rhs), plain_function_with_callees(model.geometry)
         machine = Ready(law.rhs, abi.RHS), Ready(model.geometry, abi.MEASURE)
         judge = plain_form(is_light)
         nothing: list[Any] = [None] * 4  # it calls ``geometry`` alone

@@ -69,7 +69,7 @@ class Start:
     saved : mapping of str to Array, optional
         Saved arrays of another run that this run continues.
     datum : tuple of float
-        What coordinates are measured from (`symgen.describe.facts.lengths.datum_of`); empty for the origin.
+        What coordinates are measured from (`symgen.describe.facts.lengths.origin_of_sizes`); empty for the origin.
     """
 
     y: Array
@@ -151,7 +151,7 @@ def assemble(
     instant : tuple of float and sequence of float, optional
         Time of the start [s], and the angles that count turns if their branches are set.
     datum : sequence of float, optional
-        What coordinates are measured from (`symgen.describe.facts.lengths.datum_of`).
+        What coordinates are measured from (`symgen.describe.facts.lengths.origin_of_sizes`).
 
     Raises
     ------
@@ -232,7 +232,7 @@ def closed_state(
     if summary[e.START] != e.ASSEMBLED:
         error = without_derivative(compiled, q, p) or start_refusal(summary, info, held)
         reached = y[: info.nq] if np.all(np.isfinite(y[: info.nq])) else q
-        raise error.stopped_at(reached.tolist()) if isinstance(error, AssemblyError) else error
+        raise error.with_coordinates(reached.tolist()) if isinstance(error, AssemblyError) else error
     return y, w, summary
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.errors import AssemblyError, InputError, fitting
+from symgen.base.errors import AssemblyError, InputError, fit_lines
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.model_arrays import joints_of
@@ -108,7 +108,7 @@ def opposite(joint: str) -> str:
 
 def _listed(changes: Sequence[StartChange]) -> str:
     """Return the first changes one by one, and the number of others."""
-    first = fitting(len(changes), _LISTED)
+    first = fit_lines(len(changes), _LISTED)
     words = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:first])
     return words + (f"; and {len(changes) - first} more" if len(changes) > first else "")
 

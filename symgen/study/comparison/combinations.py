@@ -59,7 +59,7 @@ class Combinations:
             for name in ("methods", "integrators", "coordinates", "laws", "gradient")
         }
         for state in words["coordinates"]:
-            arguments.one_of("coordinates", state, COORDINATES)
+            arguments.one_word_of("coordinates", state, COORDINATES)
         numbers = {
             name: arguments.numbers(name.removesuffix("s"), getattr(self, name), positive=True)
             for name in ("steps", "rtols", "error_at")
@@ -90,29 +90,29 @@ class Combinations:
         """
         left_out = self.left_out
         for state in tuple(dict.fromkeys(self.coordinates)) or COORDINATES[:1]:
-            for words in _named(self.methods, MODE_METHODS if modes else DEFAULT_METHODS, METHODS.names):
-                method, variant = variant_of(words)
-                methods = [variant_of(other)[0] for other in self.methods]
+            for words in _select_names(self.methods, MODE_METHODS if modes else DEFAULT_METHODS, METHODS.names):
+                method, variant = split_variant(words)
+                methods = [split_variant(other)[0] for other in self.methods]
                 if method in left_out:
                     continue
-                for integrator in _suitable(method, self.integrators):
-                    options = _options_for(base.options, method, methods, integrator, self.integrators)
+                for integrator in _suitable_integrators(method, self.integrators):
+                    options = _options_of_pair(base.options, method, methods, integrator, self.integrators)
                     both = {f"{owner}.{name}" for owner in ("method", method) for name in variant}
                     options = {k: x for k, x in options.items() if k not in both}
                     options |= {f"method.{name}": x for name, x in variant.items()}
                     one = replace(base, coordinates=state, method=method, integrator=integrator, options=options)
-                    yield from self._steps(one, own)
+                    yield from self._settings_by_step(one, own)
 
     @property
     def left_out(self) -> tuple[str, ...]:
         """Methods of ``all`` with no form that a selected integrator solves; empty if no method would be left."""
-        named = {variant_of(words)[0] for words in self.methods}
+        named = {split_variant(words)[0] for words in self.methods}
         if ALL not in named or not self.integrators:
             return ()
-        unfit = tuple(n for n in METHODS.names if n not in named and not _fitting(n, self.integrators))
+        unfit = tuple(n for n in METHODS.names if n not in named and not _fitting_integrators(n, self.integrators))
         return unfit if len(unfit) < len(METHODS.names) else ()
 
-    def _steps(self, common: Settings, own: float) -> Iterator[Settings]:
+    def _settings_by_step(self, common: Settings, own: float) -> Iterator[Settings]:
         name = str(common.integrator)
         if adapts(INTEGRATORS.get(name, "integrators"), common.options):
             for rtol in self.rtols or (RTOLS_AT if self.error_at else RTOLS):
@@ -124,7 +124,7 @@ class Combinations:
                 yield replace(common, step=step)
 
 
-def variant_of(words: str) -> tuple[str, dict[str, str]]:
+def split_variant(words: str) -> tuple[str, dict[str, str]]:
     """Return the method and the options of ``baumgarte:alpha=5:beta=5``, one line of a study.
 
     Raises
@@ -148,13 +148,13 @@ def words_of_variant(settings: Settings, common: Settings) -> str:
     return ", ".join(f"{name.removeprefix('method.')}={value}" for name, value in own)
 
 
-def _named(names: Sequence[str], default: Sequence[str], everything: Sequence[str]) -> tuple[str, ...]:
+def _select_names(names: Sequence[str], default: Sequence[str], everything: Sequence[str]) -> tuple[str, ...]:
     """Return the selected names, each once; ``all`` selects every one."""
     selection = [name for g in names or default for name in (everything if g == ALL else (g,))]
     return tuple(dict.fromkeys(selection))
 
 
-def _suitable(method: str, integrators: Sequence[str]) -> tuple[str, ...]:
+def _suitable_integrators(method: str, integrators: Sequence[str]) -> tuple[str, ...]:
     """Return the integrators that solve a form of the method.
 
     Raises
@@ -162,20 +162,20 @@ def _suitable(method: str, integrators: Sequence[str]) -> tuple[str, ...]:
     InputError
         If none of the selected integrators does.
     """
-    chosen, fit = METHODS.get(method, "methods"), _fitting(method, integrators)
+    chosen, fit = METHODS.get(method, "methods"), _fitting_integrators(method, integrators)
     if fit or not integrators:
         return fit or (chosen.default_integrator,)
     forms = ", ".join(chosen.forms)
     raise InputError("integrators", f"one that solves a form of {method} ({forms})", f"'{', '.join(integrators)}'")
 
 
-def _fitting(method: str, integrators: Sequence[str]) -> tuple[str, ...]:
+def _fitting_integrators(method: str, integrators: Sequence[str]) -> tuple[str, ...]:
     forms = set(METHODS.get(method, "methods").forms)
-    named = _named(integrators, DEFAULT_INTEGRATORS, INTEGRATORS.names)
+    named = _select_names(integrators, DEFAULT_INTEGRATORS, INTEGRATORS.names)
     return tuple(name for name in named if forms & set(INTEGRATORS.get(name, "integrators").forms))
 
 
-def _options_for(
+def _options_of_pair(
     options: Mapping[str, str | float], method: str, methods: Sequence[str], integrator: str, integrators: Sequence[str]
 ) -> dict[str, str | float]:
     """Return the options for this method and integrator, without those for others in the study."""

@@ -213,13 +213,13 @@ _NOT_FINITE = ("nan", "inf", "-inf")
 def to_entry(row: Row, trace: Trace) -> dict[str, Any]:
     """Return a row with its curves as JSON values; numbers that are not finite are texts."""
 
-    def expressed(value: object) -> Any:
+    def json_of_value(value: object) -> Any:
         if isinstance(value, tuple):
-            return [expressed(x) for x in value]
+            return [json_of_value(x) for x in value]
         return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
     return {
-        what: {name: expressed(value) for name, value in asdict(part).items()}
+        what: {name: json_of_value(value) for name, value in asdict(part).items()}
         for what, part in (("row", row), ("trace", trace))
     }
 
@@ -227,12 +227,12 @@ def to_entry(row: Row, trace: Trace) -> dict[str, Any]:
 def from_entry(entry: Mapping[str, Any]) -> tuple[Row, Trace]:
     """Return the row and the curves of an entry."""
 
-    def plain(value: object) -> Any:
+    def value_of_json(value: object) -> Any:
         if isinstance(value, list):
-            return tuple(plain(x) for x in value)
+            return tuple(value_of_json(x) for x in value)
         return float(value) if value in _NOT_FINITE else value
 
-    values, curves = ({name: plain(value) for name, value in entry[what].items()} for what in ("row", "trace"))
+    values, curves = ({name: value_of_json(value) for name, value in entry[what].items()} for what in ("row", "trace"))
     return Row(**values), Trace(**curves)
 
 
@@ -249,7 +249,7 @@ def check_entry(entry: Mapping[str, Any]) -> None:
         raise ValueError(row.status)
 
 
-def with_ratios(rows: Sequence[Row]) -> tuple[Row, ...]:
+def add_ratios(rows: Sequence[Row]) -> tuple[Row, ...]:
     """Return the rows with cost ratios, which need the rows of `YARDSTICK`."""
     # with both coordinates the first requested ones are the yardstick, so that ratios distinguish them
     usable = [row for row in rows if row.method == YARDSTICK and row.ended and row.run_seconds > 0.0]

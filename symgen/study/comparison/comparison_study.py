@@ -10,14 +10,14 @@ from pathlib import Path
 from statistics import median
 from typing import TYPE_CHECKING, Any, cast, overload
 
-from symgen.base.arguments import one_of, words
-from symgen.base.errors import InputError, counted
-from symgen.base.files import check_writable, headed, write_csv
+from symgen.base.arguments import one_word_of, words
+from symgen.base.errors import InputError, plural
+from symgen.base.files import check_writable, heading_with_unit, write_csv
 from symgen.result.contract import json_value
 from symgen.result.labelled import notebook_table
-from symgen.result.plot import Plot, plotted
+from symgen.result.plot import Plot, draw_or_save
 from symgen.study.comparison.comparison_rows import UNITS, Row, Trace
-from symgen.study.comparison.equal_error import TimeAtError, front
+from symgen.study.comparison.equal_error import TimeAtError, pareto_front
 from symgen.study.saving import save_study
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ class Study:
 
     def __repr__(self) -> str:
         methods = len({row.label for row in self.rows})
-        counts = f"{counted(len(self.rows), 'row')} of {counted(methods, 'method')}"
+        counts = f"{plural(len(self.rows), 'row')} of {plural(methods, 'method')}"
         return f"<Study of {self.mechanism}, {self.until:g} s: {counts}; {self.how}>"
 
     def _repr_html_(self) -> str:
@@ -121,7 +121,7 @@ class Study:
     @cached_property
     def front(self) -> frozenset[int]:
         """Indices of the rows that no other row surpasses in both error and run time."""
-        return front(self.rows, self.estimated_error)
+        return pareto_front(self.rows, self.estimated_error)
 
     @property
     def failed(self) -> bool:
@@ -163,9 +163,9 @@ class Study:
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return the rows as a pandas data frame."""
-        from symgen.base.files import need
+        from symgen.base.files import need_library
 
-        need("to_dataframe", "pandas")
+        need_library("to_dataframe", "pandas")
         import pandas as pd
 
         return pd.DataFrame([asdict(row) for row in self.rows], columns=[f.name for f in fields(Row)])
@@ -220,7 +220,7 @@ def check_columns_of_rows(what: Sequence[str], over: str) -> tuple[str, ...]:
     """
     numbers = [f.name for f in fields(Row) if str(f.type).startswith(("float", "int"))]
     for name in (*words("plot", what), over):
-        one_of("plot", name, numbers)
+        one_word_of("plot", name, numbers)
     return words("plot", what)
 
 
@@ -233,14 +233,14 @@ def plot_rows(
 ) -> Plot | Path:
     """Draw columns of the rows of studies over another one, a panel for each study and column; see `Study.plot`."""
     names = check_columns_of_rows(what, over)
-    return plotted(path, lambda: _figure_of_rows(studies, names, over), width)
+    return draw_or_save(path, lambda: _figure_of_rows(studies, names, over), width)
 
 
 def _figure_of_rows(studies: Sequence[Study], names: Sequence[str], over: str) -> Any:
-    from symgen.result.plots import empty, label, legend, style
+    from symgen.result.plots import axis_label, empty_figure, line_style_of, place_legend
 
     parts = [(study, name) for study in studies for name in names]
-    figure, axes = empty(", ".join(f"{study.mechanism}, {study.until:g} s" for study in studies), len(parts))
+    figure, axes = empty_figure(", ".join(f"{study.mechanism}, {study.until:g} s" for study in studies), len(parts))
     for ax, (study, name) in zip(axes, parts, strict=True):
         lines: dict[str, list[tuple[float, float]]] = {}
         for row in study.rows:
@@ -248,12 +248,12 @@ def _figure_of_rows(studies: Sequence[Study], names: Sequence[str], over: str) -
             if row.ended and x and y:  # a logarithm has no zero
                 lines.setdefault(f"{row.label}, {row.integrator}", []).append((x, y))
         for i, (text, points) in enumerate(lines.items()):
-            ax.plot(*zip(*points, strict=True), label=text, marker="o", markersize=3.5, **style(i))
-        ax.set(xscale="log", yscale="log", ylabel=label(name.replace("_", " "), UNITS.get(name, "")))
+            ax.plot(*zip(*points, strict=True), label=text, marker="o", markersize=3.5, **line_style_of(i))
+        ax.set(xscale="log", yscale="log", ylabel=axis_label(name.replace("_", " "), UNITS.get(name, "")))
         ax.set_title(study.mechanism if len(studies) > 1 else "", fontsize=8, loc="left")
         if lines:
-            legend(ax)
-    axes[-1].set_xlabel(label(over.replace("_", " "), UNITS.get(over, "")))
+            place_legend(ax)
+    axes[-1].set_xlabel(axis_label(over.replace("_", " "), UNITS.get(over, "")))
     return figure
 
 
@@ -262,5 +262,8 @@ def save_csv(studies: Sequence[Study], path: Path, units: bool = False) -> Path:
     if path.suffix.lower() != ".csv":
         raise InputError("save", "a file ending in .csv", f"'{path}'")
     check_writable("save", path)
-    heading = ["mechanism", *(headed(f.name, UNITS.get(f.name, "")) if units else f.name for f in fields(Row))]
+    heading = [
+        "mechanism",
+        *(heading_with_unit(f.name, UNITS.get(f.name, "")) if units else f.name for f in fields(Row)),
+    ]
     return write_csv(path, heading, [[study.mechanism, *row.texts()] for study in studies for row in study.rows])

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.bounds.modes import two_sided
+from symgen.describe.bounds.bounded_modes import two_sided_rows
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.labelled import Labelled
 from symgen.result.points import Points
-from symgen.result.reactions import Forces, Seat, seats
+from symgen.result.reactions import Forces, Seat, seats_of_reactions
 from symgen.run.layout import abi
 from symgen.run.single.outcome import PrescribedMotion
-from symgen.study.comparison.laws import rates_along_rows, resting
+from symgen.study.comparison.laws import is_resting, rates_along_rows
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-def exact_reactions(
+def reference_reactions(
     mechanism: Mechanism, values: Mapping[str, float], reference: Reference, compiled: CompiledModel, start: Start
 ) -> dict[str, Array]:
     """Return the reactions of a reference motion, joint by joint, where the motion determines them.
@@ -47,18 +47,20 @@ def exact_reactions(
     """
     info, k = compiled.info, len(reference.times)
     lam = np.column_stack([np.zeros((k, 0)), *(reference.lam[row.name] for row in info.rows)])
-    forces = Forces(_prescribed(reference, compiled, start, lam), seats(mechanism, values))
+    forces = Forces(_motion_with_multipliers(reference, compiled, start, lam), seats_of_reactions(mechanism, values))
     reactions = forces.reactions(Labelled(lam, tuple(row.name for row in info.rows), ("N",) * info.m))
     return {joint: reactions[joint] for joint in forces.seats if joint not in reference.undetermined}
 
 
-def exact_rates(mechanism: Mechanism, reference: Reference, compiled: CompiledModel, start: Start) -> Array:
+def reference_rates(mechanism: Mechanism, reference: Reference, compiled: CompiledModel, start: Start) -> Array:
     """Return the rates of coordinates along rows with two bounds of a reference motion, shape (k, n)."""
     lam = np.zeros((len(reference.times), compiled.info.m))
-    return rates_along_rows(mechanism, _prescribed(reference, compiled, start, lam))
+    return rates_along_rows(mechanism, _motion_with_multipliers(reference, compiled, start, lam))
 
 
-def _prescribed(reference: Reference, compiled: CompiledModel, start: Start, lam: Array) -> PrescribedMotion:
+def _motion_with_multipliers(
+    reference: Reference, compiled: CompiledModel, start: Start, lam: Array
+) -> PrescribedMotion:
     """Return a reference motion with multipliers."""
     info, k = compiled.info, len(reference.times)
     states = np.zeros((k, info.ny))
@@ -89,7 +91,7 @@ class Distances:
     reference : Reference
         The reference motion.
     reactions : mapping of str to Array
-        Its reactions, `exact_reactions`.
+        Its reactions, `reference_reactions`.
     rates : Array, optional
         Rates of coordinates along rows with two bounds, shape (k, n).
     """
@@ -103,7 +105,7 @@ class Distances:
     @cached_property
     def points(self) -> Points:
         """Points between which positions and velocities are compared."""
-        return Points.of(self.mechanism, self._values)
+        return Points.of_mechanism(self.mechanism, self._values)
 
     @cached_property
     def size(self) -> float:
@@ -118,19 +120,19 @@ class Distances:
     @cached_property
     def load(self) -> float | None:
         """Largest reaction [N], None without one."""
-        return float(self._largest(self.reactions.values()).max(initial=0.0)) if self.reactions else None
+        return float(self._largest_load(self.reactions.values()).max(initial=0.0)) if self.reactions else None
 
-    def of_positions(self, outcome: Outcome) -> Array:
+    def position_errors(self, outcome: Outcome) -> Array:
         """Return the largest distance of points at each output [m]."""
         q, _ = outcome.compiled.info.parts(outcome.states)
-        return self.points.distances(q, self.reference.q[: len(q)])
+        return self.points.distances_over_time(q, self.reference.q[: len(q)])
 
-    def of_velocities(self, outcome: Outcome) -> Array:
+    def velocity_errors(self, outcome: Outcome) -> Array:
         """Return the largest difference of the velocities of points at each output [m/s]."""
         q, v = outcome.compiled.info.parts(outcome.states)
         return self.points.speed_distances((q, v), (self.reference.q[: len(q)], self.reference.v[: len(q)]))
 
-    def of_reactions(self, outcome: Outcome) -> Array | None:
+    def reaction_errors(self, outcome: Outcome) -> Array | None:
         """Return the largest difference of reactions at each output [N]; None where no motion determines one.
 
         Moments count as the forces that have them at the mechanism's length.
@@ -139,17 +141,17 @@ class Distances:
             return None
         forces, k = Forces(outcome, self._seats), len(outcome.times)
         own = forces.reactions(forces.multipliers())
-        return self._largest(own[joint] - exact[:k] for joint, exact in self.reactions.items())
+        return self._largest_load(own[joint] - exact[:k] for joint, exact in self.reactions.items())
 
-    def creep(self, outcome: Outcome) -> float | None:
+    def largest_creep(self, outcome: Outcome) -> float | None:
         """Return the largest rate [m/s] along a coordinate of a row with two bounds that rests in the reference.
 
         Angles count with the mechanism's length. None where none rests.
         """
         if self.rates is None or not self.size > 0.0:
             return None
-        lengths = np.array([self.size if row.unit == "rad" else 1.0 for row in two_sided(self.mechanism)])
-        where = resting(self.rates, self.speed / lengths)
+        lengths = np.array([self.size if row.unit == "rad" else 1.0 for row in two_sided_rows(self.mechanism)])
+        where = is_resting(self.rates, self.speed / lengths)
         if not where.any():
             return None
         rates = rates_along_rows(self.mechanism, outcome) * lengths
@@ -161,9 +163,9 @@ class Distances:
 
     @cached_property
     def _seats(self) -> Mapping[str, Seat]:
-        return seats(self.mechanism, self._values)
+        return seats_of_reactions(self.mechanism, self._values)
 
-    def _largest(self, vectors: Iterable[Array]) -> Array:
+    def _largest_load(self, vectors: Iterable[Array]) -> Array:
         """Return the largest force, or moment over the mechanism's length, at each output."""
         n = self.points.dimension
         lengths = list[Array]()

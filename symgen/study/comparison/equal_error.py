@@ -62,7 +62,7 @@ def rows_by_line(rows: Sequence[Row]) -> dict[Line, list[int]]:
     return {line: sorted(own, key=lambda i: -(rows[i].step or rows[i].rtol or 0.0)) for line, own in lines.items()}
 
 
-def interpolated(points: Sequence[tuple[float, float]], error: float) -> float | None:
+def time_at_error(points: Sequence[tuple[float, float]], error: float) -> float | None:
     """Return the time at an error, from (error, time) of settings in their order; the least where several fit."""
     fit = []
     for (e0, t0), (e1, t1) in pairwise(points):
@@ -87,33 +87,39 @@ def times_at(rows: Sequence[Row], rounds: Rounds, errors: Sequence[float]) -> tu
     lines = rows_by_line(rows)
     table = []
     for error in errors:
-        columns = {line: [_at(rows, own, seconds, error) for seconds in rounds] for line, own in lines.items()}
+        columns = {
+            line: [_times_of_line(rows, own, seconds, error) for seconds in rounds] for line, own in lines.items()
+        }
         for (method, integrator), column in columns.items():
             base = columns.get((rows[0].label, integrator), [])
             pairs = zip(column, base, strict=False)
             ratios = [a / b for a, b in pairs if a is not None and b is not None]
             own = [x for x in column if x is not None]
-            table.append(TimeAtError(error, method, integrator, *_quartiles(own), *_quartiles(ratios)))
+            table.append(
+                TimeAtError(error, method, integrator, *_quartiles_of_values(own), *_quartiles_of_values(ratios))
+            )
     return tuple(table)
 
 
-def _at(rows: Sequence[Row], own: Sequence[int], seconds: Sequence[float | None], error: float) -> float | None:
+def _times_of_line(
+    rows: Sequence[Row], own: Sequence[int], seconds: Sequence[float | None], error: float
+) -> float | None:
     points = []
     for i in own:
         e, t = rows[i].error, seconds[i]
         if rows[i].ended and not rows[i].below_reference and e and t:
             points.append((e, t))
-    return interpolated(points, error)
+    return time_at_error(points, error)
 
 
-def _quartiles(values: Sequence[float]) -> tuple[float, float, float] | tuple[None, None, None]:
+def _quartiles_of_values(values: Sequence[float]) -> tuple[float, float, float] | tuple[None, None, None]:
     if not values:
         return None, None, None
     low, middle, high = np.percentile(values, [25.0, 50.0, 75.0]).tolist()
     return middle, low, high
 
 
-def front(rows: Sequence[Row], finest: float) -> frozenset[int]:
+def pareto_front(rows: Sequence[Row], finest: float) -> frozenset[int]:
     """Return the indices of the rows on the Pareto front of error and run time.
 
     Parameters

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.fit.adjoint_gradient import adjoint_gradient
-from symgen.base.errors import InputError, SymgenError, nearest, quoted
+from symgen.base.errors import InputError, SymgenError, quote, suggest
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.sensitivities import SCHEMES, Differentiated
 from symgen.run.layout import abi
@@ -47,15 +47,15 @@ def check_parameters(mechanism: Mechanism, names: Sequence[str]) -> None:
     parameters = [p.name for p in mechanism.parameters if not p.input]
     for name in names:
         if name not in parameters:
-            raise InputError("gradient", f"parameters of {mechanism.name}", quoted(name), nearest(name, parameters))
+            raise InputError("gradient", f"parameters of {mechanism.name}", quote(name), suggest(name, parameters))
 
 
-def width_of(value: float) -> float:
+def difference_width(value: float) -> float:
     """Return the distance of a parameter between references."""
     return WIDTH * abs(value) if value != 0.0 else WIDTH
 
 
-def slopes_of(motions: dict[int, Array], width: float) -> Array:
+def difference_slopes(motions: dict[int, Array], width: float) -> Array:
     """Return the derivative of a motion by differences of fourth order."""
     return np.asarray(sum(factor * motions[k] for k, factor in FACTORS.items()) / (12.0 * width))
 
@@ -75,16 +75,16 @@ class Gradients:
     slopes: dict[str, Array]
     distances: Distances
 
-    def measured(self, mechanism: Mechanism, settings: Settings) -> dict[str, Any]:
+    def measure_all(self, mechanism: Mechanism, settings: Settings) -> dict[str, Any]:
         """Return errors of derivatives of a run and what they cost [s], by columns of rows.
 
         A way that a scheme or a method does not have is left out, and all where a run does not reach its end.
         """
         columns, settings = dict[str, Any](), replace(settings, verify=False)
         ways: dict[str, Callable[[Mechanism, Settings], tuple[float, float] | None]] = {
-            "gradient": self._forward,
-            "adjoint": self._adjoint,
-            "differences": self._differences,
+            "gradient": self._measure_forward,
+            "adjoint": self._measure_adjoint,
+            "differences": self._measure_differences,
         }
         for name, way in ways.items():
             try:
@@ -95,17 +95,17 @@ class Gradients:
                 columns[f"{name}_error"], columns[f"{name}_seconds"] = pair
         return columns
 
-    def _scales(self, units: Sequence[str]) -> Array:
+    def _length_scales(self, units: Sequence[str]) -> Array:
         """Return factors that make lengths of coordinates."""
         return np.array([1.0 if unit == "m" else self.distances.size for unit in units])
 
-    def _error(self, name: str, own: Array, scales: Array) -> float:
+    def _largest_error(self, name: str, own: Array, scales: Array) -> float:
         """Return the largest error of derivatives by a parameter, over the largest one."""
         exact = self.slopes[name]
         size = float(np.abs(exact * scales).max(initial=0.0))
         return float(np.abs((own - exact) * scales).max(initial=0.0)) / (size or 1.0)
 
-    def _forward(self, mechanism: Mechanism, settings: Settings) -> tuple[float, float] | None:
+    def _measure_forward(self, mechanism: Mechanism, settings: Settings) -> tuple[float, float] | None:
         if settings.integrator not in SCHEMES:
             return None
         run = Differentiated(mechanism, settings, {name: name for name in self.slopes})
@@ -115,14 +115,17 @@ class Gradients:
             raise KeyboardInterrupt
         if outcome.code != abi.DONE:
             return None
-        own, scales = run.sensitivities(outcome).table("q"), self._scales([q.unit for q in run.bodies.info.coordinates])
-        return max(self._error(name, own[:, :, k], scales) for k, name in enumerate(self.slopes)), run.seconds
+        own, scales = (
+            run.sensitivities(outcome).table("q"),
+            self._length_scales([q.unit for q in run.bodies.info.coordinates]),
+        )
+        return max(self._largest_error(name, own[:, :, k], scales) for k, name in enumerate(self.slopes)), run.seconds
 
-    def _adjoint(self, mechanism: Mechanism, settings: Settings) -> tuple[float, float] | None:
+    def _measure_adjoint(self, mechanism: Mechanism, settings: Settings) -> tuple[float, float] | None:
         """Return error and cost for the coordinate at the end that parameters change most."""
         run = prepare(mechanism, settings)
         coordinates = run.assembled.of_bodies[0].info.coordinates
-        scales = self._scales([q.unit for q in coordinates])
+        scales = self._length_scales([q.unit for q in coordinates])
         sizes = {name: float(np.abs(x * scales).max(initial=0.0)) or 1.0 for name, x in self.slopes.items()}
         ends = {name: x[-1] * scales / sizes[name] for name, x in self.slopes.items()}
         place = int(np.abs(np.array([*ends.values()])).max(axis=0).argmax())
@@ -133,7 +136,7 @@ class Gradients:
         errors = [abs(slope * scales[place] / sizes[name] - end[place]) for (name, end), slope in pairs]
         return max(errors), min(x.seconds for x in adjoints[1:])
 
-    def _differences(self, mechanism: Mechanism, settings: Settings) -> tuple[float, float] | None:
+    def _measure_differences(self, mechanism: Mechanism, settings: Settings) -> tuple[float, float] | None:
         values, errors, cost = parameter_values(mechanism, settings.parameters), list[float](), 0.0
         for name in self.slopes:
             best, chosen = np.inf, list["Prepared"]()
@@ -147,8 +150,8 @@ class Gradients:
                 if any(outcome.code != abi.DONE for outcome in outcomes):
                     continue
                 low, high = (run.positions(outcome) for run, outcome in zip(runs, outcomes, strict=True))
-                scales = self._scales([q.unit for q in runs[0].assembled.of_bodies[0].info.coordinates])
-                error = self._error(name, (high - low) / (2.0 * width), scales)
+                scales = self._length_scales([q.unit for q in runs[0].assembled.of_bodies[0].info.coordinates])
+                error = self._largest_error(name, (high - low) / (2.0 * width), scales)
                 if error < best:
                     best, chosen = error, runs
             if not chosen:

@@ -13,12 +13,19 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import Expr, call
-from symgen.describe.bounds.losses import LOSS, loss_of
-from symgen.describe.bounds.modes import HIT, MODE, one_sided, rate_of, two_sided, without_bounds
-from symgen.describe.bounds.smooth import WITH_LAWS, smoothed, with_smooth
+from symgen.describe.bounds.bounded_modes import (
+    HIT,
+    MODE,
+    measure_derivative,
+    one_sided_rows,
+    two_sided_rows,
+    without_bounds,
+)
+from symgen.describe.bounds.losses import LOSS, energy_taken
+from symgen.describe.bounds.smooth import WITH_LAWS, rows_as_forces, smooth_rows
 from symgen.describe.mechanism import Mechanism, Output
 from symgen.run.compiling.side import compile_side
-from symgen.study.comparison.combinations import variant_of
+from symgen.study.comparison.combinations import split_variant
 
 if TYPE_CHECKING:
     from symgen.run.single.outcome import Motion, Outcome
@@ -49,43 +56,43 @@ def mechanisms_of_laws(mechanism: Mechanism, laws: Sequence[str], values: Mappin
     """
     if not mechanism.bounded and not laws:
         return {"": mechanism}
-    if not two_sided(mechanism) and laws:
+    if not two_sided_rows(mechanism) and laws:
         raise InputError("laws", f"a mechanism with {WITH_LAWS}", f"'{mechanism.name}', which has none")
-    return {law: _with_losses(*_with_law(mechanism, law, values)) for law in dict.fromkeys(laws or (EXACT,))}
+    return {law: _report_losses(*_put_law(mechanism, law, values)) for law in dict.fromkeys(laws or (EXACT,))}
 
 
-def _with_law(mechanism: Mechanism, law: str, values: Mapping[str, float]) -> tuple[Mechanism, list[Expr]]:
+def _put_law(mechanism: Mechanism, law: str, values: Mapping[str, float]) -> tuple[Mechanism, list[Expr]]:
     """Return a mechanism with a law, and the energies that rows with bounds take."""
-    name, options = variant_of(law)
+    name, options = split_variant(law)
     if law == EXACT:
-        return mechanism, [loss_of(bounded) for bounded in mechanism.bounded]
+        return mechanism, [energy_taken(bounded) for bounded in mechanism.bounded]
     try:
         speed = float(options["speed"]) if name == TANH and set(options) == {"speed"} else 0.0
     except ValueError:
         speed = 0.0
     if not 0.0 < speed < np.inf:
         raise InputError("laws", "exact, or tanh:speed=V with a rate V above 0", f"'{law}'")
-    exact = two_sided(mechanism)
-    smooth = smoothed(f"law '{law}'", exact, speed, values)
-    losses: list[Expr] = [loss_of(row) for row in (*smooth, *one_sided(mechanism))]
-    return with_smooth(without_bounds(mechanism, exact), smooth), losses
+    exact = two_sided_rows(mechanism)
+    smooth = smooth_rows(f"law '{law}'", exact, speed, values)
+    losses: list[Expr] = [energy_taken(row) for row in (*smooth, *one_sided_rows(mechanism))]
+    return rows_as_forces(without_bounds(mechanism, exact), smooth), losses
 
 
-def _with_losses(mechanism: Mechanism, losses: Sequence[Expr]) -> Mechanism:
+def _report_losses(mechanism: Mechanism, losses: Sequence[Expr]) -> Mechanism:
     """Return a mechanism whose only output is the energy taken."""
     return structs.replace(mechanism, outputs=(Output(LOSS, reduce(lambda a, b: call("add", a, b), losses), "J"),))
 
 
 def rates_along_rows(mechanism: Mechanism, motion: Motion) -> Array:
     """Return the rates of coordinates along rows with two bounds at the outputs of a motion, shape (k, n)."""
-    formulas = [(f"rate of {row.name}", rate_of(row)) for row in two_sided(mechanism)]
+    formulas = [(f"rate of {row.name}", measure_derivative(row)) for row in two_sided_rows(mechanism)]
     if not formulas or not len(motion.times):
         return np.zeros((len(motion.times), len(formulas)))
     side = compile_side(mechanism, motion.compiled, "rates", "Rates along rows with bounds", formulas)
     return motion.observed(side.function, len(formulas))
 
 
-def resting(rates: Array, scales: Array) -> NDArray[np.bool_]:
+def is_resting(rates: Array, scales: Array) -> NDArray[np.bool_]:
     """Return where coordinates of a reference rest at an output and at both beside it."""
     rests = np.abs(rates) <= RESTS * scales
     ends = np.zeros((1, rates.shape[1]), dtype=np.bool_)
@@ -110,12 +117,12 @@ class BoundedRowMeasures:
     dissipated: float | None
 
 
-def contact_of(mechanism: Mechanism, outcome: Outcome) -> BoundedRowMeasures | None:
+def contact_measures(mechanism: Mechanism, outcome: Outcome) -> BoundedRowMeasures | None:
     """Return these measures of a run of a comparison; None where its mechanism has no rows with bounds."""
     loss = next((output.value for output in mechanism.outputs if output.name == LOSS), None)
     if loss is None:
         return None
-    names = list(_names_of_modes(outcome))
+    names = list(_mode_event_names(outcome))
     impacts, dissipated = sum(name.endswith(f".{HIT}") for name in names), None
     if len(outcome.times):
         side = compile_side(mechanism, outcome.compiled, "losses", "Energy lost", [(LOSS, loss)])
@@ -123,5 +130,5 @@ def contact_of(mechanism: Mechanism, outcome: Outcome) -> BoundedRowMeasures | N
     return BoundedRowMeasures(len(names) - impacts, impacts, dissipated)
 
 
-def _names_of_modes(outcome: Outcome) -> Iterator[str]:
+def _mode_event_names(outcome: Outcome) -> Iterator[str]:
     return (event.name for event in outcome.happened if event.action == MODE)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from symgen.result.judge import judge
 from symgen.run.layout import abi
 from symgen.study.comparison.comparison_rows import Row, Trace
-from symgen.study.comparison.laws import contact_of
+from symgen.study.comparison.laws import contact_measures
 
 if TYPE_CHECKING:
     from symgen.run.planning.prepare import Prepared
@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 LONGEST = 400
 
 
-def measured(
+def measure_run(
     run: Prepared,
     runs: Timed,
     distances: Distances | None,
@@ -52,13 +52,13 @@ def measured(
     plan, outcome = run.plan, run.of_bodies(runs.outcome)
     count = len(outcome.times)
     verdict = judge(run, outcome if stopped is None else run.of_bodies(stopped))
-    along = None if distances is None else distances.of_positions(outcome)
+    along = None if distances is None else distances.position_errors(outcome)
     judged = distances if outcome.code == abi.DONE else None
     error = None if along is None or judged is None else float(along.max(initial=0.0))
     accelerations = outcome.acceleration_violations if count else np.zeros(0)
     status, adaptive = outcome.status_columns, plan.spec.adaptive
     violations = {"position": status[:, abi.PHI], "velocity": status[:, abi.DRIFT], "acceleration": accelerations}
-    contact = contact_of(plan.mechanism, outcome)
+    contact = contact_measures(plan.mechanism, outcome)
     row = Row(
         method=plan.choice.method.name,
         coordinates=plan.coordinates,
@@ -70,8 +70,8 @@ def measured(
         reason=verdict.reason,
         error=error,
         relative_error=error / judged.size if error is not None and judged and judged.size > 0.0 else None,
-        velocity_error=None if judged is None else _largest(judged.of_velocities(outcome)),
-        reaction_error=None if judged is None else _largest(judged.of_reactions(outcome)),
+        velocity_error=None if judged is None else _largest_value(judged.velocity_errors(outcome)),
+        reaction_error=None if judged is None else _largest_value(judged.reaction_errors(outcome)),
         beyond_limits=stopped is not None and outcome.code == abi.DONE,
         below_reference=error is not None and judged is not None and error < judged.reference.estimated_error,
         run_seconds=outcome.run_seconds,
@@ -82,12 +82,12 @@ def measured(
         position_violation_max=outcome.position_violation_max,
         velocity_violation_max=outcome.velocity_violation_max,
         acceleration_violation_max=float(accelerations.max()) if count else None,
-        **{f"{level}_violation_rms": _rms(values) for level, values in violations.items()},
+        **{f"{level}_violation_rms": _root_mean_square(values) for level, values in violations.items()},
         **{f"{level}_violation_final": float(values[-1]) if count else None for level, values in violations.items()},
         energy_drift_max=outcome.energy_drift_max,
         warnings=(*plan.all_warnings, *outcome.start.warnings, *verdict.warnings),
         law=law,
-        creep=None if judged is None else judged.creep(outcome),
+        creep=None if judged is None else judged.largest_creep(outcome),
         transitions=None if contact is None else contact.transitions,
         impacts=None if contact is None else contact.impacts,
         dissipated=None if contact is None else contact.dissipated,
@@ -100,19 +100,19 @@ def measured(
         **{"kinetic": kinetic, "potential": potential},
         "energy_error": kinetic + potential - outcome.energy_start - work,
     }
-    trace = Trace(**{name: _digits(values) for name, values in curves.items()})
+    trace = Trace(**{name: _round_values(values) for name, values in curves.items()})
     return row, trace
 
 
-def _largest(values: Array | None) -> float | None:
+def _largest_value(values: Array | None) -> float | None:
     return None if values is None else float(values.max(initial=0.0))
 
 
-def _rms(values: Array) -> float | None:
+def _root_mean_square(values: Array) -> float | None:
     return float(np.sqrt(np.mean(np.square(values)))) if len(values) else None
 
 
-def _digits(values: Any) -> tuple[float, ...]:
+def _round_values(values: Any) -> tuple[float, ...]:
     """Return the values to draw, rounded to five digits."""
     every = max(1, -(-len(values) // LONGEST))
     return tuple(float(f"{x:.5g}") for x in values[::every])

@@ -13,27 +13,27 @@ import numpy as np
 from symgen.api import Model
 from symgen.base.errors import SimulationError, SymgenError
 from symgen.base.settings import Settings
-from symgen.describe.bounds.modes import two_sided
-from symgen.describe.facts.digest import digest, identity
+from symgen.describe.bounds.bounded_modes import two_sided_rows
+from symgen.describe.facts.digest import digest, mechanism_digest
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
 from symgen.run.planning.plan import Plan, Purpose
 from symgen.run.planning.prepare import Assembled, Preparation, Prepared, prepare
 from symgen.run.single.timing import timed
 from symgen.study.comparison.combinations import words_of_variant
-from symgen.study.comparison.comparison_rows import check_entry, from_entry, to_entry, with_ratios
+from symgen.study.comparison.comparison_rows import add_ratios, check_entry, from_entry, to_entry
 from symgen.study.comparison.comparison_study import Study
-from symgen.study.comparison.distances import Distances, exact_rates, exact_reactions
+from symgen.study.comparison.distances import Distances, reference_rates, reference_reactions
 from symgen.study.comparison.equal_error import ROUNDS, times_at
-from symgen.study.comparison.gradients import FACTORS, Gradients, slopes_of, width_of
-from symgen.study.comparison.measured_runs import measured
+from symgen.study.comparison.gradients import FACTORS, Gradients, difference_slopes, difference_width
+from symgen.study.comparison.measured_runs import measure_run
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
-from symgen.study.limits import WATCHES, unlimited
-from symgen.study.machine_class import machine_class, versions
-from symgen.study.references.reference import Array, Reference, reference
-from symgen.study.references.routes import fastest_decay, two_routes, underived
+from symgen.study.machine_class import library_versions, machine_class
+from symgen.study.references.reference import Array, Reference, reference_motion
+from symgen.study.references.routes import fastest_decay, motion_by_two_routes, parts_without_derivation
 from symgen.study.references.solvers import AUTO
 from symgen.study.runner import Cell, run_cells
+from symgen.study.unlimited_runs import WATCHES, without_limits
 
 #: Default number of timed runs a row, their least total time, and the total from which on none is repeated [s]: noise
 #: is a small part of a long run.
@@ -58,15 +58,17 @@ class ReferenceTask:
         compiled, start = prepare(mechanism, settings, Purpose.STATE).assembled.of_bodies
         values, state = parameter_values(mechanism, settings.parameters), compiled.info.parts(start.y)
         try:
-            if self.reference_by == AUTO and underived(mechanism):
+            if self.reference_by == AUTO and parts_without_derivation(mechanism):
                 decay = fastest_decay(mechanism, compiled, start)
-                motion = two_routes(mechanism, values, self.times, decay, settings.start)
+                motion = motion_by_two_routes(mechanism, values, self.times, decay, settings.start)
             else:
                 own = start.y[compiled.info.own_states]
-                motion = reference(mechanism, values, *state, self.times, self.reference_by, not settings.start, own)
+                motion = reference_motion(
+                    mechanism, values, *state, self.times, self.reference_by, not settings.start, own
+                )
         except SimulationError as error:
             return {"unusable": str(error)}
-        rates = exact_rates(mechanism, motion, compiled, start).tolist() if two_sided(mechanism) else None
+        rates = reference_rates(mechanism, motion, compiled, start).tolist() if two_sided_rows(mechanism) else None
         return {
             "how": motion.how,
             "estimated_error": motion.estimated_error,
@@ -76,7 +78,7 @@ class ReferenceTask:
             "reactions": {
                 joint: loads.tolist()
                 for joint, loads in (
-                    {} if mechanism.bounded else exact_reactions(mechanism, values, motion, compiled, start)
+                    {} if mechanism.bounded else reference_reactions(mechanism, values, motion, compiled, start)
                 ).items()
             },
             "rates": rates,
@@ -106,7 +108,7 @@ def compile_all(run: Prepared) -> None:
         _ = run.of_bodies(outcome).acceleration_violations
 
 
-def compute(task: ReferenceTask | CodeTask) -> Outcome | None:
+def compute_cell_ahead(task: ReferenceTask | CodeTask) -> Outcome | None:
     """Compute a cell ahead of the runs; the runs meet a failure again and report it."""
     try:
         return task.outcome()
@@ -141,7 +143,7 @@ class ModelComparison:
         lacking = zip(self.rows, self.plans, self.laws, strict=True)
         return {(law, plan.key, plan.integrator.name) for cell, plan, law in lacking if cell.key not in self.journal}
 
-    def total(self, ahead: bool) -> float:
+    def progress_length(self, ahead: bool) -> float:
         """Return the length of the progress: rows, the reference, and compilation unless it was done ahead."""
         rounds = ROUNDS if self.error_at else 0
         return len(self.plans) + 1 + rounds + (0.0 if ahead else PREPARATION * len(self.pairs))
@@ -149,9 +151,14 @@ class ModelComparison:
     @cached_property
     def _parts(self) -> dict[str, Any]:
         """Common parts of the cells' keys; run times depend on the machine and the libraries."""
-        base, mechanism = self.settings[0], identity(self.model.mechanism)
+        base, mechanism = self.settings[0], mechanism_digest(self.model.mechanism)
         parts: dict[str, Any] = {"mechanism": mechanism, "code": code_identity(), "reference": self.reference_by}
-        parts |= {"machine": machine_class(), "versions": versions(), "until": base.until, "times": self.times.tolist()}
+        parts |= {
+            "machine": machine_class(),
+            "versions": library_versions(),
+            "until": base.until,
+            "times": self.times.tolist(),
+        }
         return parts | {"parameters": dict(base.parameters), "start": dict(base.start)}
 
     @cached_property
@@ -166,7 +173,7 @@ class ModelComparison:
         base, found = self.settings[0], dict[str, tuple[float, dict[int, Cell]]]()
         values = parameter_values(self.model.mechanism, base.parameters)
         for name in self.gradient:
-            width, cells = width_of(values[name]), dict[int, Cell]()
+            width, cells = difference_width(values[name]), dict[int, Cell]()
             for k in FACTORS:
                 own = replace(base, parameters={**base.parameters, name: values[name] + k * width})
                 parts = {**self._parts, "parameters": dict(own.parameters)}
@@ -182,7 +189,7 @@ class ModelComparison:
             return None
         slopes = dict[str, Array]()
         for name, (width, cells) in self.shifted.items():
-            slopes[name] = slopes_of({k: np.array(motions[cell.key]["q"]) for k, cell in cells.items()}, width)
+            slopes[name] = difference_slopes({k: np.array(motions[cell.key]["q"]) for k, cell in cells.items()}, width)
         return Gradients(slopes, distances)
 
     @cached_property
@@ -196,7 +203,7 @@ class ModelComparison:
             cells.append(Cell(cell_key(what="comparison", **self._parts, **own), "", i, check=check_entry))
         return cells
 
-    def ahead(self) -> list[Cell]:
+    def cells_ahead(self) -> list[Cell]:
         """Return the cells that can be computed before the runs and in parallel."""
         groups, mechanisms = dict[Any, dict[str, Settings]](), dict[Any, Mechanism]()
         for cell, settings, plan, law in zip(self.rows, self.settings, self.plans, self.laws, strict=True):
@@ -209,31 +216,31 @@ class ModelComparison:
         shifted = (cell for _, cells in self.shifted.values() for cell in cells.values())
         return [*codes, self.reference, *shifted] if groups else []
 
-    def run(self, show: Callable[[str, float], None], ahead: bool) -> Study:
+    def run_rows(self, show: Callable[[str, float], None], ahead: bool) -> Study:
         """Run the rows that the journal lacks, one at a time; `ahead` says whether their code was compiled before."""
 
-        def motion(task: ReferenceTask) -> Outcome:
+        def reference_motion(task: ReferenceTask) -> Outcome:
             show("reference", 0.0)
             return task.outcome()
 
         shifted = [cell for _, cells in self.shifted.values() for cell in cells.values()]
-        motions, interrupted = run_cells([self.reference, *shifted], motion, self.journal)
+        motions, interrupted = run_cells([self.reference, *shifted], reference_motion, self.journal)
         if interrupted:
-            return self.study(True)
+            return self.make_study(True)
         distances, shared = self._distances(motions[self.reference.key]), dict[str, dict[Any, Assembled]]()
         gradients = self._gradients(motions, distances)
         compiled = set[Any]()
 
-        def begun(i: int) -> Prepared:
+        def begin_run(i: int) -> Prepared:
             return self.preparations[i].run(shared.setdefault(self.laws[i], {}))
 
-        def row(i: int) -> Outcome:
+        def compute_row(i: int) -> Outcome:
             settings, plan = self.settings[i], self.preparations[i].plan
             words, pair = f"{settings.method}, {settings.integrator}", (self.laws[i], plan.key, plan.integrator.name)
             first = not ahead and pair not in compiled
             if first:
                 show(f"compiling {words}", 1.0 + i + PREPARATION * len(compiled))
-            run = begun(i)
+            run = begin_run(i)
             if first:
                 compile_all(run)
                 compiled.add(pair)
@@ -241,17 +248,17 @@ class ModelComparison:
             runs = timed(run.integrate, settings.repeat, AT_LEAST, AT_MOST)
             stopped = runs.outcome if runs.outcome.code in WATCHES else None
             if stopped is not None:  # a study measures what becomes of it
-                runs = timed(unlimited(run).integrate, settings.repeat, AT_LEAST, AT_MOST)
+                runs = timed(without_limits(run).integrate, settings.repeat, AT_LEAST, AT_MOST)
             if runs.outcome.interrupted:
                 raise KeyboardInterrupt
             variant = words_of_variant(settings, self.common)
-            entry, trace = measured(run, runs, distances, variant, stopped, self.laws[i])
+            entry, trace = measure_run(run, runs, distances, variant, stopped, self.laws[i])
             if gradients is not None:
-                entry = replace(entry, **gradients.measured(self.model.mechanism, settings))
+                entry = replace(entry, **gradients.measure_all(self.model.mechanism, settings))
             return to_entry(entry, trace)
 
-        def in_turn(indices: list[int]) -> Outcome:
-            runs, seconds = [unlimited(begun(i)) for i in indices], list[list[float]]()
+        def time_in_turn(indices: list[int]) -> Outcome:
+            runs, seconds = [without_limits(begin_run(i)) for i in indices], list[list[float]]()
             for k in range(ROUNDS):
                 show(f"round {k + 1} of {ROUNDS}", 1.0 + len(self.plans) + PREPARATION * len(compiled) + k)
                 outcomes = [run.integrate() for run in runs]
@@ -260,13 +267,13 @@ class ModelComparison:
                 seconds.append([outcome.cpu_seconds for outcome in outcomes])
             return {"seconds": seconds}
 
-        done, interrupted = run_cells(self.rows, row, self.journal)
+        done, interrupted = run_cells(self.rows, compute_row, self.journal)
         if self.error_at and not interrupted:
             ended = [i for i, cell in enumerate(self.rows) if from_entry(done[cell.key])[0].ended]
-            interrupted = run_cells([self.rounds(ended)], in_turn, self.journal)[1]
-        return self.study(interrupted)
+            interrupted = run_cells([self.cell_of_rounds(ended)], time_in_turn, self.journal)[1]
+        return self.make_study(interrupted)
 
-    def rounds(self, ended: list[int]) -> Cell:
+    def cell_of_rounds(self, ended: list[int]) -> Cell:
         """Return the cell of the run times of some rows, round by round."""
         keys = [self.rows[i].key for i in ended]
         return Cell(cell_key(what="rounds", rows=keys, rounds=ROUNDS), "", ended, check=_check_rounds)
@@ -281,18 +288,18 @@ class ModelComparison:
         rates = None if entry.get("rates") is None else np.array(entry["rates"])
         return Distances(self.model.mechanism, self.settings[0].parameters, motion, reactions, rates)
 
-    def study(self, interrupted: bool) -> Study:
+    def make_study(self, interrupted: bool) -> Study:
         """Return the study of the finished rows."""
         motion = self.journal.get(self.reference.key) or {"unusable": ""}
         done = [from_entry(entry) for cell in self.rows if (entry := self.journal.get(cell.key)) is not None]
         base, why = self.settings[0], motion.get("unusable")
         distances = self._distances(motion) if "q" in motion else None
         without = "there is no reference, so errors are unknown"
-        rows = with_ratios([row for row, _ in done])
+        rows = add_ratios([row for row, _ in done])
         rounds = list[list[float | None]]()
         if len(rows) == len(self.rows) and self.error_at:
             ended = [i for i, row in enumerate(rows) if row.ended]
-            measured_times = self.journal.get(self.rounds(ended).key) or {"seconds": []}
+            measured_times = self.journal.get(self.cell_of_rounds(ended).key) or {"seconds": []}
             for seconds in measured_times["seconds"]:
                 by_row = dict(zip(ended, seconds, strict=True))
                 rounds.append([by_row.get(i) for i in range(len(rows))])

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from symgen.base.arguments import shown
-from symgen.base.errors import InputError, nearest, quoted
-from symgen.base.memory import require
+from symgen.base.arguments import kind_of_value
+from symgen.base.errors import InputError, quote, suggest
+from symgen.base.memory import require_memory
 from symgen.base.units import read_amount
 
 Array = NDArray[np.float64]
@@ -82,47 +82,47 @@ class Grid:
 # -- from what people write --------------------------------------------------------------------------------------------
 
 
-def lin(first: float, last: float, count: int) -> Array:
+def equidistant_values(first: float, last: float, count: int) -> Array:
     """Return `count` equidistant values from `first` to `last`, both included."""
-    return np.linspace(first, last, _count("lin", count))
+    return np.linspace(first, last, _check_count("lin", count))
 
 
-def log(first: float, last: float, count: int) -> Array:
+def logarithmic_values(first: float, last: float, count: int) -> Array:
     """Return `count` values from `first` to `last`, both above 0, each the same factor above the one before."""
     if not (first > 0.0 and last > 0.0):
         raise InputError("log", "two ends above 0", f"{first:g} and {last:g}")
-    values = np.exp(np.linspace(math.log(first), math.log(last), _count("log", count)))
+    values = np.exp(np.linspace(math.log(first), math.log(last), _check_count("log", count)))
     values[0], values[-1] = first, last if len(values) > 1 else first
     return np.asarray(values)
 
 
-def values(*numbers: float) -> Array:
-    """Return the numbers as they stand."""
+def listed_values(*numbers: float) -> Array:
+    """Return the numbers as listed."""
     return np.array(numbers, dtype=np.float64)
 
 
-def uniform(lowest: float, highest: float, count: int, seed: int) -> Array:
+def uniform_values(lowest: float, highest: float, count: int, seed: int) -> Array:
     """Return `count` values drawn independently and evenly between two ends by NumPy's PCG64 with this `seed`."""
     if not lowest < highest:
         raise InputError("uniform", "a first end below the second", f"{lowest:g} and {highest:g}")
     if not (float(seed).is_integer() and 0 <= seed < 2**63):
         raise InputError("uniform", "a whole number from 0 on as its seed", f"{seed:g}")
-    return np.random.default_rng(int(seed)).uniform(lowest, highest, _count("uniform", count))
+    return np.random.default_rng(int(seed)).uniform(lowest, highest, _check_count("uniform", count))
 
 
-def _count(where: str, count: float) -> int:
+def _check_count(where: str, count: float) -> int:
     if not (float(count).is_integer() and 1 <= count <= MOST_RUNS):
         raise InputError(where, f"a whole number of values from 1 to {MOST_RUNS:g}", f"{count:g}")
-    require(where, f"{count:g} values", 24.0 * count)  # as they are made
+    require_memory(where, f"{count:g} values", 24.0 * count)  # as they are made
     return int(count)
 
 
 #: Word -> (what builds the values, number of arguments or None for any, how it is written).
 _WORDS: Mapping[str, tuple[Callable[..., Array], int | None, str]] = {
-    "lin": (lin, 3, "lin(first, last, count)"),
-    "log": (log, 3, "log(first, last, count)"),
-    "values": (values, None, "values(a, b, ...)"),
-    "uniform": (uniform, 4, "uniform(lowest, highest, count, seed)"),
+    "lin": (equidistant_values, 3, "lin(first, last, count)"),
+    "log": (logarithmic_values, 3, "log(first, last, count)"),
+    "values": (listed_values, None, "values(a, b, ...)"),
+    "uniform": (uniform_values, 4, "uniform(lowest, highest, count, seed)"),
 }
 
 
@@ -147,7 +147,7 @@ def axis_values(text: str, where: str, units: tuple[str, str] = ("", "")) -> Arr
     InputError
         If it is anything else.
     """
-    word, numbers = _read(text, where, units)
+    word, numbers = _read_axis_text(text, where, units)
     build, _, form = _WORDS[word]
     try:
         return build(*numbers)
@@ -162,40 +162,42 @@ def check_axis(text: str, where: str) -> None:
     """
     amounts = map(read_amount, re.split("[(,)]", text))
     if any(amount is not None and amount.unit for amount in amounts):
-        _read(text, where, ("", ""))
+        _read_axis_text(text, where, ("", ""))
     else:
         axis_values(text, where)
 
 
-def _read(text: str, where: str, units: tuple[str, str]) -> tuple[str, list[float]]:
+def _read_axis_text(text: str, where: str, units: tuple[str, str]) -> tuple[str, list[float]]:
     """Return the word of a text, and its numbers in SI units."""
     expected = "lin(a, b, n), log(a, b, n), values(a, b, ...) or uniform(a, b, n, seed)"
     match = _SHAPE.fullmatch(text) if len(text) <= 1_000_000 else None
     if match is None:
-        raise InputError(where, expected, quoted(text.strip()))
+        raise InputError(where, expected, quote(text.strip()))
     word = match[1]
     if word not in _WORDS:
-        raise InputError(where, expected, quoted(word), nearest(word, _WORDS))
+        raise InputError(where, expected, quote(word), suggest(word, _WORDS))
     _, arity, form = _WORDS[word]
     parts = match[2].split(",")
     last = len(parts) - _COUNTS.get(word, 0)
-    numbers = [_value(part, where, units) if i < last else _number(part, where) for i, part in enumerate(parts)]
+    numbers = [
+        _value_in_si(part, where, units) if i < last else _finite_number(part, where) for i, part in enumerate(parts)
+    ]
     if arity is not None and len(numbers) != arity:
         raise InputError(where, form, f"{len(numbers)} numbers")
     return word, numbers
 
 
-def _value(text: str, where: str, units: tuple[str, str]) -> float:
+def _value_in_si(text: str, where: str, units: tuple[str, str]) -> float:
     """Return a number that may have a unit in SI units."""
     amount = read_amount(text)
     if amount is None or not math.isfinite(amount.number):
-        return _number(text, where)
+        return _finite_number(text, where)
     return amount.in_si(where, *units)
 
 
-def _number(text: str, where: str) -> float:
+def _finite_number(text: str, where: str) -> float:
     if _NUMBER.fullmatch(text.strip()) is None or not math.isfinite(number := float(text)):
-        raise InputError(where, "finite numbers between the brackets", quoted(text.strip()))
+        raise InputError(where, "finite numbers between the brackets", quote(text.strip()))
     return number
 
 
@@ -225,7 +227,7 @@ def make_grid(
     """
     axes = []
     if runs:
-        together = {name: _values(name, written, units(name)) for name, written in runs.items()}
+        together = {name: _values_of_axis(name, written, units(name)) for name, written in runs.items()}
         lengths = {name: len(written) for name, written in together.items()}
         if len(set(lengths.values())) > 1:
             sizes = ", ".join(f"{length} for {name}" for name, length in lengths.items())
@@ -234,17 +236,17 @@ def make_grid(
     for name, written in vary.items():
         if name in runs:
             raise InputError(name, "one way of varying it", "two")
-        axes.append(Axis(f"{name}(0)" if name in starts else name, {name: _values(name, written, units(name))}))
+        axes.append(Axis(f"{name}(0)" if name in starts else name, {name: _values_of_axis(name, written, units(name))}))
     if not axes:
         raise InputError("sweep", "something that varies", "nothing")
     grid = Grid(tuple(axes))
     if len(grid) > MOST_RUNS:
         raise InputError("sweep", f"at most {MOST_RUNS:g} runs", f"{len(grid):g}")
-    require("sweep", f"{len(grid):g} runs", RUN_SIZE * len(grid))
+    require_memory("sweep", f"{len(grid):g} runs", RUN_SIZE * len(grid))
     return grid
 
 
-def _values(name: str, written: ArrayLike | str, units: tuple[str, str]) -> Array:
+def _values_of_axis(name: str, written: ArrayLike | str, units: tuple[str, str]) -> Array:
     if isinstance(written, str):
         return axis_values(written, name, units)
     try:
@@ -253,7 +255,7 @@ def _values(name: str, written: ArrayLike | str, units: tuple[str, str]) -> Arra
             raise TypeError("truth values and complex numbers are no values")
         numbers = np.array(plain, dtype=np.float64)
     except (TypeError, ValueError):
-        raise InputError(name, "numbers", shown(written)) from None
+        raise InputError(name, "numbers", kind_of_value(written)) from None
     if numbers.ndim != 1 or len(numbers) == 0:
         raise InputError(name, "a list of at least one number", f"an array of shape {numbers.shape}")
     if not np.all(np.isfinite(numbers)):

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.vocabulary.expressions import Expr
-from symgen.describe.formulas.evaluate import derived
+from symgen.describe.formulas.evaluate import dependent_parameters
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import Mechanism
 from symgen.run.breaks.array_formulas import Columns
@@ -57,13 +57,13 @@ class Rows:
     def __len__(self) -> int:
         return len(self.parameters)
 
-    def put_method(self, law: LawInfo, p: Array) -> None:
+    def put_method_parameters(self, law: LawInfo, p: Array) -> None:
         """Write the method's parameters into ``p`` of these runs, as the code of a law has them."""
         places = {name: law.parameter_offset + i for i, (name, _) in enumerate(law.parameters)}
         for name, values in self.method.items():
             p[: len(self), places[name]] = values
 
-    def method_of(self, r: int) -> dict[str, float]:
+    def method_parameters_of(self, r: int) -> dict[str, float]:
         """Return the method's parameters of a run that vary."""
         return {name: float(values[r]) for name, values in self.method.items()}
 
@@ -102,7 +102,7 @@ def make_rows(
     """
     k = len(next(iter(varied.values())))
     values: dict[str, Any] = {**base, **{name: x for name, x in varied.items() if name in base}}
-    for name, formula in derived(mechanism.parameters, {*settled, *varied}):
+    for name, formula in dependent_parameters(mechanism.parameters, {*settled, *varied}):
         values[name] = Columns(values).value(formula)
     described, speeds = described_start(mechanism, Columns(values))
     parameters, q, v = (np.empty((k, len(columns))) for columns in (base, described, speeds))

@@ -13,9 +13,9 @@ from secrets import token_hex
 from typing import TYPE_CHECKING, Any
 
 from symgen.base.errors import InputError, SimulationError
-from symgen.base.plugins import in_sentences, load_plugins
+from symgen.base.plugins import explain_plugin_errors, load_plugins
 from symgen.study.ensemble.chunks import Chunk, Rows
-from symgen.study.ensemble.kernel import kernel_of, new_control
+from symgen.study.ensemble.kernel import kernel_of_recipe, new_control
 from symgen.study.ensemble.recipe import Recipe, run_code_identity
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ _AHEAD = 4
 _ATTEMPTS = 5
 
 
-def connect(address: str) -> Client:
+def connect_scheduler(address: str) -> Client:
     """Return a client of a scheduler.
 
     Raises
@@ -38,9 +38,9 @@ def connect(address: str) -> Client:
     InputError
         If there is none, or the library is missing.
     """
-    from symgen.base.files import need
+    from symgen.base.files import need_library
 
-    need("scheduler", "distributed", extra="dask")
+    need_library("scheduler", "distributed", extra="dask")
     from distributed import Client
 
     # a scheduler that goes while it computes is one sentence of ours, not a traceback of the library
@@ -55,12 +55,12 @@ def connect(address: str) -> Client:
         ) from None
 
 
-def carry(recipe: Recipe) -> Recipe:
+def receive_recipe(recipe: Recipe) -> Recipe:
     """Return a recipe on a worker; were that one lost, the scheduler would do this again elsewhere."""
     return recipe
 
 
-@in_sentences
+@explain_plugin_errors
 def run_chunk(recipe: Recipe, rows: Rows) -> Chunk:
     """Run a chunk on a worker, which compiles once for a recipe.
 
@@ -72,12 +72,12 @@ def run_chunk(recipe: Recipe, rows: Rows) -> Chunk:
     load_plugins(recipe.plugins)
     if recipe.code != run_code_identity():
         raise SimulationError("a worker of the cluster has another version of symgen")
-    kernel = kernel_of(recipe)
-    kernel.warm()
+    kernel = kernel_of_recipe(recipe)
+    kernel.compile_all()
     return kernel.run(rows, new_control())
 
 
-def run_there(
+def run_on_cluster(
     ensemble: Ensemble, table: RowTable, client: Client, progress: Callable[[float], None] | None = None
 ) -> bool:
     """Run all chunks that the table does not hold yet on a cluster.
@@ -85,7 +85,7 @@ def run_there(
     Parameters
     ----------
     ensemble, table : Ensemble, Table
-        As for `symgen.study.ensemble.sweep.run_here`.
+        As for `symgen.study.ensemble.parameter_sweep.run_here`.
     client : Client
         Of the cluster; stays open.
     progress : callable, optional
@@ -98,16 +98,16 @@ def run_there(
     """
     from distributed import as_completed
 
-    waiting = iter(table.missing())
-    recipe = client.submit(carry, ensemble.recipe, pure=False)
+    waiting = iter(table.missing_chunks())
+    recipe = client.submit(receive_recipe, ensemble.recipe, pure=False)
     attempts: dict[Any, tuple[int, int]] = {}
 
     def hand_out(index: int, attempt: int) -> Any:
-        rows = ensemble.rows(*table.bounds(index))
+        rows = ensemble.rows(*table.bounds_of_chunk(index))
         try:
             future = client.submit(run_chunk, recipe, rows, pure=False, key=f"symgen-chunk-{index}-{token_hex(8)}")
         except (Exception, CancelledError) as error:  # of a scheduler that has gone
-            raise _gave_up(client, index, error) from None
+            raise _sentence_of_failure(client, index, error) from None
         attempts[future.key] = (index, attempt)
         return future
 
@@ -119,9 +119,9 @@ def run_there(
     try:
         for future in completed:
             index, attempt = attempts.pop(future.key)
-            result = _outcome(future)
+            result = _chunk_or_reason(future)
             if isinstance(result, Chunk):
-                table.put(index, result)
+                table.keep_chunk(index, result)
                 if progress is not None:
                     progress(table.runs_done)
                 following, attempt = next(waiting, None), 0
@@ -131,7 +131,7 @@ def run_there(
             elif isinstance(result, SimulationError | InputError):
                 raise result
             elif attempt >= _ATTEMPTS or client.status != "running":
-                raise _gave_up(client, index, result)
+                raise _sentence_of_failure(client, index, result)
             completed.add(hand_out(index, attempt + 1))
     except KeyboardInterrupt:
         return True
@@ -141,7 +141,7 @@ def run_there(
     return False
 
 
-def _gave_up(client: Client, index: int, error: BaseException) -> SimulationError:
+def _sentence_of_failure(client: Client, index: int, error: BaseException) -> SimulationError:
     """Return the sentence for a chunk that is not computed."""
     why = (str(error) or type(error).__name__).splitlines()[0]
     if client.status != "running":
@@ -149,7 +149,7 @@ def _gave_up(client: Client, index: int, error: BaseException) -> SimulationErro
     return SimulationError(f"the cluster could not compute chunk {index}: {why}")
 
 
-def _outcome(future: Any) -> Chunk | BaseException:
+def _chunk_or_reason(future: Any) -> Chunk | BaseException:
     """Return a chunk, or why there is none: its task failed, or what it gave was lost on the way here."""
     try:
         chunk: Chunk = future.result(timeout=60)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.arguments import one_of
+from symgen.base.arguments import one_word_of
 from symgen.base.errors import InputError, SimulationError
 from symgen.base.ir.program import TARGETS
 from symgen.compile.loopcode.padding import padded
@@ -51,17 +51,17 @@ def check_target(target: str, scheduler: object = None) -> None:
     InputError
         If the target or the device does not exist, or is requested on a cluster.
     """
-    one_of("target", target, TARGETS)
+    one_word_of("target", target, TARGETS)
     if target != "cuda":
         return
     if scheduler is not None:
         raise InputError("target 'cuda'", "the device of this machine", "a scheduler as well")
-    if not usable():
+    if not is_device_usable():
         expected = "a CUDA device that Numba can use (pip install 'symgen[cuda]'), or its simulator"
         raise InputError("target 'cuda'", f"{expected} (NUMBA_ENABLE_CUDASIM=1)", "neither")
 
 
-def compilable() -> bool:
+def can_compile_kernels() -> bool:
     """Return whether kernels can be compiled for devices.
 
     Numba's own CUDA target fails on ``max`` of two numbers (0.68.1), so the package ``numba-cuda``, which replaces it,
@@ -74,20 +74,20 @@ def compilable() -> bool:
     return bool(nvvm.is_available())
 
 
-def usable() -> bool:
+def is_device_usable() -> bool:
     """Return whether there is a device with what it needs, or the simulator."""
     from symgen.run.rows.device import simulated
 
     if simulated():
         return True
-    if not compilable():
+    if not can_compile_kernels():
         return False
     from numba import cuda
 
     return bool(cuda.is_available())
 
 
-def need_of(compiled: CompiledModel, setup: Setup, adaptive: bool, wants: set[int]) -> Need:
+def kernel_sizes(compiled: CompiledModel, setup: Setup, adaptive: bool, wants: set[int]) -> Need:
     """Return the sizes that shape the kernel of a law.
 
     Parameters
@@ -137,7 +137,7 @@ class DeviceRuns:
     compiled : CompiledModel
         Modules emitted for CUDA.
     need : Need
-        From `need_of`.
+        From `kernel_sizes`.
     scheme, span : record
         As for the loops on a processor.
     limits : Array
@@ -181,12 +181,12 @@ class DeviceRuns:
         """The scheme, and what all runs share."""
         from numba import cuda
 
-        def there(array: Any) -> Any:
+        def copy_to_device(array: Any) -> Any:
             # empty arrays on a device have strides of their own
             return cuda.to_device(np.ascontiguousarray(array if len(array) else np.zeros(1, dtype=array.dtype)))
 
-        scheme = type(self.scheme)(*(there(x) if isinstance(x, np.ndarray) else x for x in self.scheme))
-        return scheme, *(there(array) for array in self.constants)
+        scheme = type(self.scheme)(*(copy_to_device(x) if isinstance(x, np.ndarray) else x for x in self.scheme))
+        return scheme, *(copy_to_device(array) for array in self.constants)
 
     @cached_property
     def shapes(self) -> Mapping[str, tuple[int, ...]]:
@@ -211,7 +211,7 @@ class DeviceRuns:
         numbers = self.sizes.ny + self.need.n_p + self.need.nw + sum(int(np.prod(s)) for s in self.shapes.values())
         return 8 * numbers
 
-    def _most(self) -> int:
+    def _runs_at_once(self) -> int:
         """Return how many runs fit into the device's memory at once.
 
         Raises
@@ -249,13 +249,13 @@ class DeviceRuns:
             If the device reports an error, or has too little memory.
         """
         (ys, ps, ws), values, summary = starts, out.values, out.summary
-        with _lock, _reported():
-            most = self._most()
+        with _lock, _error_of_device():
+            most = self._runs_at_once()
             for first in range(0, len(selected), most):
                 if control[abi.STOP] != 0:
                     return False
                 part = selected[first : first + most]
-                values[part], summary[part] = self._launch(ys[part], ps[part], ws[part], summary[part])
+                values[part], summary[part] = self._launch_kernel(ys[part], ps[part], ws[part], summary[part])
                 control[e.RUNS_DONE] += len(part)
         return True
 
@@ -267,10 +267,10 @@ class DeviceRuns:
         SimulationError
             If the device reports an error.
         """
-        with _lock, _reported():
+        with _lock, _error_of_device():
             _ = self._kernel, self._on_device
 
-    def _launch(self, ys: Array, ps: Array, ws: Array, summary: Array) -> tuple[Array, Array]:
+    def _launch_kernel(self, ys: Array, ps: Array, ws: Array, summary: Array) -> tuple[Array, Array]:
         """Run rows that fit into the device's memory; return their quantities and numbers."""
         from numba import cuda
 
@@ -296,7 +296,7 @@ class DeviceRuns:
 
 
 @contextmanager
-def _reported() -> Iterator[None]:
+def _error_of_device() -> Iterator[None]:
     """Turn what a device or its compiler reports into one sentence."""
     try:
         yield

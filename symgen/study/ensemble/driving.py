@@ -12,7 +12,7 @@ import numpy as np
 
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import names_in
-from symgen.describe.formulas.evaluate import derived, parameter_values
+from symgen.describe.formulas.evaluate import dependent_parameters, parameter_values
 from symgen.run.breaks.motions import jump_of, names_of_motions
 from symgen.run.breaks.seams import merged, seams_of_motion
 from symgen.run.loops.run_spec import Seam
@@ -56,7 +56,7 @@ class Driving:
     def own(self) -> bool:
         """Whether jumps and kinks are elsewhere in each run."""
         driven = self.inputs.driven
-        depends = {*self.varied, *(name for name, _ in derived(self.inputs.mechanism.parameters))}
+        depends = {*self.varied, *(name for name, _ in dependent_parameters(self.inputs.mechanism.parameters))}
         reads = [{*names_in(jump.argument), *names_in(jump.value)} for jump in (() if driven is None else driven.jumps)]
         return any(depends & read for read in (*reads, self.foreseen.reads if self.foreseen else frozenset[str]()))
 
@@ -88,7 +88,7 @@ class Driving:
         samples = [(name, data.t, data.u) for name, data in sorted(driven.samples.items())]
         return [repr(samples), repr(driven.jumps)]
 
-    def put(self, rows: Rows, parameters: Sequence[str]) -> Rows:
+    def put_seams(self, rows: Rows, parameters: Sequence[str]) -> Rows:
         """Return rows with the seams of their runs.
 
         Parameters
@@ -113,7 +113,7 @@ class Driving:
                 row[parameters.index(name)] = value
         return replace(rows, seams=tuple(seams_of_rows))
 
-    def refusals(self, ensemble: Ensemble, failed: NDArray[np.bool_]) -> Iterator[tuple[int, str]]:
+    def rows_refused(self, ensemble: Ensemble, failed: NDArray[np.bool_]) -> Iterator[tuple[int, str]]:
         """Yield rows whose inputs jump too often, or in which the motion of a driver jumps, and why they cannot run.
 
         Parameters
@@ -124,7 +124,7 @@ class Driving:
             Rows without a start.
         """
         for r in np.flatnonzero(failed).tolist() if self.own or self.moving else ():
-            row = ensemble.settled(r, r + 1).parameters[0].tolist()
+            row = ensemble.rows_without_seams(r, r + 1).parameters[0].tolist()
             if all(map(math.isfinite, row)):
                 try:
                     self._seams_of(dict(zip(ensemble.parameters, row, strict=True)))
@@ -143,6 +143,6 @@ class Driving:
 
 def read_by_motions(mechanism: Mechanism, varied: Container[str]) -> tuple[str, ...]:
     """Return the parameters that motions which may jump read, if some of them differ from row to row; else none."""
-    read, formulas = names_of_motions(mechanism), {name for name, _ in derived(mechanism.parameters)}
+    read, formulas = names_of_motions(mechanism), {name for name, _ in dependent_parameters(mechanism.parameters)}
     parameters = tuple(p.name for p in mechanism.parameters if p.name in read)
     return parameters if any(name in varied or name in formulas for name in parameters) else ()

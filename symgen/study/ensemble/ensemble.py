@@ -8,16 +8,16 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from symgen.base.errors import counted
+from symgen.base.errors import plural
 from symgen.base.ir.program import LANES
-from symgen.describe.facts.digest import identity
-from symgen.describe.formulas.evaluate import derived
+from symgen.describe.facts.digest import mechanism_digest
+from symgen.describe.formulas.evaluate import dependent_parameters
 from symgen.run.planning.plan import Plan
 from symgen.study.ensemble.axes import Grid
 from symgen.study.ensemble.chunks import Rows, make_rows
 from symgen.study.ensemble.driving import Driving
-from symgen.study.ensemble.names import METHOD, Targets
 from symgen.study.ensemble.recipe import Recipe
+from symgen.study.ensemble.varied_names import METHOD, Targets
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -69,7 +69,7 @@ class Ensemble:
     notes: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
-        return f"<Ensemble of {self.model.name}: {counted(len(self), 'run')} with {self.plan.choice.method.name}>"
+        return f"<Ensemble of {self.model.name}: {plural(len(self), 'run')} with {self.plan.choice.method.name}>"
 
     def __len__(self) -> int:
         return len(self.grid)
@@ -113,9 +113,9 @@ class Ensemble:
 
     def rows(self, first: int, last: int) -> Rows:
         """Return the values that distinguish the runs from `first` to `last` (exclusive)."""
-        return self.driving.put(self.settled(first, last), tuple(self.parameters))
+        return self.driving.put_seams(self.rows_without_seams(first, last), tuple(self.parameters))
 
-    def settled(self, first: int, last: int) -> Rows:
+    def rows_without_seams(self, first: int, last: int) -> Rows:
         """Return the same without the seams of runs."""
         varied, targets, settled = self.grid.values(first, last), self.targets, self.plan.settings.parameters
         held = targets.names, targets.velocities, settled, targets.constant
@@ -130,11 +130,11 @@ class Ensemble:
         for axis in self.grid.axes:
             for name, values in axis.values.items():
                 varied.update(f"{axis.dimension}\0{name}\0".encode() + values.tobytes())
-        formulas = {name for name, _ in derived(self.model.mechanism.parameters)}
+        formulas = {name for name, _ in dependent_parameters(self.model.mechanism.parameters)}
         settled = sorted(formulas & set(self.plan.settings.parameters))  # these have numbers in place of their formulas
         return {
             **({"settled": settled} if settled else {}),
-            "mechanism": identity(self.model.mechanism),
+            "mechanism": mechanism_digest(self.model.mechanism),
             "varied": varied.hexdigest(),
             "parameters": self.parameters,
             "start": {name: repr(value) for name, value in self.targets.constant.items()},

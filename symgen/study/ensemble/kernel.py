@@ -23,15 +23,15 @@ from symgen.run.planning.tree_starts import carried_of
 from symgen.run.single.new_state import span_of
 from symgen.run.starts.assembler import Assembly
 from symgen.study.ensemble.chunks import Chunk, Results, Rows
-from symgen.study.ensemble.device_runs import DeviceRuns, need_of
+from symgen.study.ensemble.device_runs import DeviceRuns, kernel_sizes
 from symgen.study.ensemble.loop_runs import PLAIN, BodyObserver, LoopRuns, TreeRuns, motion_picks
-from symgen.study.ensemble.measures import MeasuredOutputs
+from symgen.study.ensemble.measured_quantities import MeasuredOutputs
 from symgen.study.ensemble.recipe import Code, Recipe
 from symgen.study.ensemble.verdicts import summary_column
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import ModelInfo
-    from symgen.study.ensemble.measures import Measures
+    from symgen.study.ensemble.measured_quantities import Measures
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -65,29 +65,29 @@ class RowKernel:
     _warm: bool = False
 
     @cached_property
-    def first(self) -> _Prepared:
+    def first_model(self) -> _Prepared:
         """The model as it is run first."""
-        return self._prepare(self.recipe.first)
+        return self._prepare_code(self.recipe.first)
 
-    def spare(self) -> _Prepared | None:
+    def model_for_light_bodies(self) -> _Prepared | None:
         """Return the model with the solver for light bodies, loaded when the first such run is met."""
         with self._lock:
             if self._spare is None and self.recipe.spare is not None:
-                self._spare = self._prepare(self.recipe.spare)
+                self._spare = self._prepare_code(self.recipe.spare)
             return self._spare
 
-    def warm(self) -> None:
+    def compile_all(self) -> None:
         """Compile or load all that runs need, by no runs at all."""
         with self._lock:
             if self._warm:
                 return
-            info, held = self.first.compiled.info, self.recipe.held
+            info, held = self.first_model.compiled.info, self.recipe.held
             targets = sum(map(len, (held.coordinates, held.joints, held.rates)))
             sizes = len(info.parameters), info.nq, info.nv, targets, len(info.states)
             parameters, q, v, values, states = (np.zeros((0, size)) for size in sizes)
             self.run(Rows(parameters, q, v, values, states), new_control())
-            if isinstance(self.first.runs, DeviceRuns):
-                self.first.runs.compile()
+            if isinstance(self.first_model.runs, DeviceRuns):
+                self.first_model.runs.compile()
             self._warm = True
 
     def run(self, rows: Rows, control: Integers) -> Chunk:
@@ -105,19 +105,19 @@ class RowKernel:
         values, behind = (np.full((k, len(q), n_times), np.nan) for q in (recipe.columns, recipe.behind))
         out = Results(values, np.zeros((k, e.N_SUMMARY)), np.zeros((k, recipe.further)), behind)
         everything = np.arange(k, dtype=np.int64)
-        complete = self._run_with(self.first, rows, everything, out, control)
+        complete = self._run_with(self.first_model, rows, everything, out, control)
         light = np.flatnonzero((out.summary[:, e.LIGHT] == 1.0) & (out.summary[:, e.START] == e.ASSEMBLED))
-        if complete and len(light) and (spare := self.spare()) is not None:
+        if complete and len(light) and (spare := self.model_for_light_bodies()) is not None:
             out.summary[light] = 0.0
             complete = self._run_with(spare, rows, light.astype(np.int64), out, control)
             out.summary[light, e.LIGHT] = 1.0
         left = recipe.in_order(values, behind)
         if recipe.over is not None:
             done = (out.summary[:, e.START] == e.ASSEMBLED) & (out.summary[:, e.CODE] == abi.DONE)
-            left = recipe.over.of(left, recipe.times, done)
+            left = recipe.over.evaluate_runs(left, recipe.times, done)
         return Chunk(left, np.hstack([out.summary, out.events]), complete)
 
-    def _described(self, model: _Prepared, rows: Rows) -> Instant:
+    def _described_rows(self, model: _Prepared, rows: Rows) -> Instant:
         """Return rows as they are described."""
         info, k, room = model.compiled.info, len(rows), max(len(rows), 1)
         now = Instant(
@@ -125,18 +125,18 @@ class RowKernel:
         )
         now.p[:k, : len(info.parameters)], now.y[:k, : info.nq] = rows.parameters, rows.q
         now.y[:k, info.own_states] = rows.states
-        rows.put_method(model.compiled.law, now.p)
+        rows.put_method_parameters(model.compiled.law, now.p)
         return now
 
     def _run_with(self, model: _Prepared, rows: Rows, selected: Integers, out: Results, control: Integers) -> bool:
         """Close and run selected rows with one compiled model; those with light bodies only where there is no other."""
-        info, recipe, now = model.compiled.info, self.recipe, self._described(model, rows)
+        info, recipe, now = model.compiled.info, self.recipe, self._described_rows(model, rows)
         conditions = StartConditions(rows.v, rows.targets, out.summary)
         if model.assembly.close_all(now, conditions, selected, control) < len(selected):
             return False
         self._look_at_sides(info, now.y, selected, out.summary)
         ready = out.summary[selected, e.START] == e.ASSEMBLED
-        if model is self.first and recipe.spare is not None:
+        if model is self.first_model and recipe.spare is not None:
             ready &= out.summary[selected, e.LIGHT] == 0.0
         selected = selected[ready]
         if not model.runs.run(rows, now, selected, out, control):
@@ -145,11 +145,11 @@ class RowKernel:
         for i in (i for i, q in enumerate(recipe.columns) if q.source == e.MULTIPLIER):  # they are not unique then
             out.values[redundant, i] = np.nan
         if model.measures is not None:
-            left = recipe.behind, self._outputs(rows, out.summary), selected, out.values, now.p, now.w
-            out.behind[selected] = model.measures.work_out(model.compiled, *left)
+            left = recipe.behind, self._outputs_of_rows(rows, out.summary), selected, out.values, now.p, now.w
+            out.behind[selected] = model.measures.evaluate_quantities(model.compiled, *left)
         return True
 
-    def _outputs(self, rows: Rows, summary: Array) -> MeasuredOutputs:
+    def _outputs_of_rows(self, rows: Rows, summary: Array) -> MeasuredOutputs:
         """Return the outputs of rows, after they have run: the only one may be at an event that has ended a run."""
         recipe, spec = self.recipe, self.recipe.spec
         times = recipe.times[np.newaxis]
@@ -168,16 +168,16 @@ class RowKernel:
             rows = closed[side.cosine(q) < 0.0]
             summary[rows, e.START], summary[rows, e.START_WHERE] = e.HALF_TURN, joints.index(side.joint)
 
-    def _prepare(self, code: Code) -> _Prepared:
+    def _prepare_code(self, code: Code) -> _Prepared:
         compiled, recipe = code.module.load(), self.recipe
-        p = self._parameters(compiled)
+        p = self._parameter_array(compiled)
         assembly = Assembly(compiled, recipe.held, recipe.strict, recipe.spare is not None, datum=recipe.datum)
-        return _Prepared(compiled, assembly, p, self._runs(code, compiled), code.measures)
+        return _Prepared(compiled, assembly, p, self._function_of_runs(code, compiled), code.measures)
 
-    def _parameters(self, compiled: CompiledModel) -> Array:
+    def _parameter_array(self, compiled: CompiledModel) -> Array:
         return compiled.parameter_array({q.name: 0.0 for q in compiled.info.parameters}, self.recipe.method_parameters)
 
-    def _runs(self, code: Code, compiled: CompiledModel) -> Runs:
+    def _function_of_runs(self, code: Code, compiled: CompiledModel) -> Runs:
         """Return the function that runs rows from starts of bodies."""
         recipe, watch, spec = self.recipe, self.recipe.watch, self.recipe.spec
         integrator: Integrator = INTEGRATORS.get(recipe.integrator)
@@ -187,7 +187,7 @@ class RowKernel:
             on_tree = recipe.tree, carried_of(watch.mechanism, recipe.tree, compiled, own)
         setup = integrator.setup(own, spec, own.scratch())
         if other is not None and recipe.target == "cuda":
-            need, span = need_of(other, setup, spec.adaptive, recipe.sources), span_of(spec, setup)
+            need, span = kernel_sizes(other, setup, spec.adaptive, recipe.sources), span_of(spec, setup)
             return DeviceRuns(other, need, setup.scheme, span, recipe.limits, recipe.times, recipe.picks, recipe.datum)
         watched, rtol = None, spec.rtol if spec.adaptive else None
         if watch is not None:
@@ -207,7 +207,7 @@ class RowKernel:
             first = info.ny + abi.N_STATUS
             turned = {first + i: sign for i, (_, _, sign) in enumerate(turns)}
             observer = BodyObserver(LoopRuns(recipe, compiled, integrator, setup, recipe.picks), turned)
-        return TreeRuns(on_tree[1], self._parameters(own), loop, observer)
+        return TreeRuns(on_tree[1], self._parameter_array(own), loop, observer)
 
 
 def new_control() -> Integers:
@@ -219,7 +219,7 @@ _kernels: dict[str, RowKernel] = {}
 _kernels_lock = threading.Lock()
 
 
-def kernel_of(recipe: Recipe) -> RowKernel:
+def kernel_of_recipe(recipe: Recipe) -> RowKernel:
     """Return the kernel of a recipe, the same one as long as it is among the last few."""
     with _kernels_lock:
         kernel = _kernels.get(recipe.digest)

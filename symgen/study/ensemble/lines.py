@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.base.files import headed
-from symgen.study.ensemble.row_quantities import of_quantities, of_varied
+from symgen.base.files import heading_with_unit
+from symgen.study.ensemble.row_quantities import dataset_names, label_of_varied
 from symgen.study.ensemble.verdicts import summary_column
 
 if TYPE_CHECKING:
@@ -28,32 +28,37 @@ def table_lines(sweep: Sweep, as_written: bool = False) -> tuple[list[str], Iter
     ensemble = sweep.ensemble
     grid, units = sweep.as_written() if as_written else (ensemble.grid, sweep.units())
     varied, times, quantities = grid.values(0, len(sweep)), ensemble.recipe.kept_times, ensemble.recipe.kept
-    labels = of_quantities([q.name for q in quantities], ensemble.grid.axes)
-    names = {name: of_varied(name, axis) for axis in ensemble.grid.axes for name in axis.values}
+    labels = dataset_names([q.name for q in quantities], ensemble.grid.axes)
+    names = {name: label_of_varied(name, axis) for axis in ensemble.grid.axes for name in axis.values}
     events = {name: sweep.summary[:, at] for name, (at, _) in sweep.events.items()}
     heading = [
         "run",
-        *(headed(names[name], units[name]) for name in varied),
-        headed("t", "s"),
-        *(headed(label, q.unit) for label, q in zip(labels, quantities, strict=True)),
-        headed("end", "s"),
-        *(headed(name, unit) for name, (_, unit) in sweep.events.items()),
+        *(heading_with_unit(names[name], units[name]) for name in varied),
+        heading_with_unit("t", "s"),
+        *(heading_with_unit(label, q.unit) for label, q in zip(labels, quantities, strict=True)),
+        heading_with_unit("end", "s"),
+        *(heading_with_unit(name, unit) for name, (_, unit) in sweep.events.items()),
         "status",
         "reason",
         "warnings",
     ]
     end = summary_column(sweep.summary, "end")
 
-    def lines() -> Iterator[list[object]]:
+    def lines_of_runs() -> Iterator[list[object]]:
         for i in range(len(sweep)):
             before = [i, *(float(x[i]) for x in varied.values())]
-            behind = [float(end[i]), *(_shown(x[i]) for x in events.values()), sweep.status[i], sweep.reason[i]]
+            behind = [
+                float(end[i]),
+                *(_finite_or_none(x[i]) for x in events.values()),
+                sweep.status[i],
+                sweep.reason[i],
+            ]
             behind.append("; ".join(sweep.warnings[i]))
             for k, t in enumerate(times):
-                yield [*before, float(t), *(_shown(x) for x in sweep.values[i, :, k]), *behind]
+                yield [*before, float(t), *(_finite_or_none(x) for x in sweep.values[i, :, k]), *behind]
 
-    return heading, lines()
+    return heading, lines_of_runs()
 
 
-def _shown(x: float) -> float | None:
+def _finite_or_none(x: float) -> float | None:
     return float(x) if np.isfinite(x) else None

@@ -94,7 +94,7 @@ class LoopRuns:
         observers, span, chunk, state, series = self._arguments(starts, selected, out, control)
         sizes, rates = observers[:2]
         if self.lanes is not None:
-            if self._in_lanes(self.lanes, observers, span, chunk, state, series) < len(selected):
+            if self._run_in_lanes(self.lanes, observers, span, chunk, state, series) < len(selected):
                 return False
             chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
         system, inner = (sizes, *setup.functions), self.integrator.loop(adaptive)
@@ -127,7 +127,7 @@ class LoopRuns:
             system = with_table(compiled, system, inner, adaptive, rows.seams or ((),), alone=False)
         done = loop((system, observers, *further), setup.scheme, span, chunk, state, series)
         while control[e.EXAMINATION] == e.WAITS:
-            self._examine(state)
+            self._examine_last_step(state)
             chunk = chunk._replace(selected=chunk.selected[done:])
             done = loop((system, observers, *further), setup.scheme, span, chunk, state, series)
         return bool(done == len(chunk.selected))
@@ -162,7 +162,7 @@ class LoopRuns:
             rate_functions(law),
             model_sizes(compiled),
             span_of(recipe.spec, setup),
-            self._series(),
+            self._room_for_outputs(),
         )
         sources = {*self.picks[::2].tolist()}
         needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if self.width is None else set())
@@ -183,7 +183,7 @@ class LoopRuns:
         state = new_state(compiled, sizes, setup.memory, room, datum)._replace(control=control)
         return (sizes, *rates, law.accept, observe), span, chunk, state, series
 
-    def _examine(self, state: Any) -> None:
+    def _examine_last_step(self, state: Any) -> None:
         """Examine the constraints that may jump in the last step of a run, as a single run does."""
         assert self.watched is not None and self.watched.rows is not None, "a run waits for it"
         jumps = bool(self.watched.rows.sentence(self.compiled, state))
@@ -191,14 +191,14 @@ class LoopRuns:
             begin_afresh(state)
         state.control[e.EXAMINATION] = e.JUMPS if jumps else e.HOLDS
 
-    def _series(self) -> Kept:
+    def _room_for_outputs(self) -> Kept:
         """Return room for the outputs of one run, and for what is observed at them."""
         times, info = self.recipe.times, self.compiled.info
         k, rows = len(times), info.observed if self.width is None else self.width
         observed = Observed(np.zeros((k, info.nv)), np.zeros((k, info.m)), np.zeros((k, rows)))
         return Kept(new_outputs(info, times), observed)
 
-    def _in_lanes(
+    def _run_in_lanes(
         self,
         lanes: CompiledModel,
         observers: tuple[Any, ...],
@@ -294,7 +294,7 @@ class TreeRuns:
         now, count = Instant(np.zeros((runs, own.ny)), np.tile(self.p, (runs, 1)), scratch), len(info.parameters)
         now.p[:, :count] = starts.p[:, :count]
         now.y[:, own.work :] = starts.y[:, info.work :]  # work and the file's own states, which no joint maps
-        rows.put_method(self.loop.compiled.law, now.p)
+        rows.put_method_parameters(self.loop.compiled.law, now.p)
         alike = self.carried.settle(starts, now, selected, control)
         over = np.abs(alike[selected]) < TURNED_OVER
         for k in reversed(range(over.shape[1])):  # the first one stays
@@ -303,18 +303,18 @@ class TreeRuns:
         if self.observer is None:
             done = self.loop.run(rows, now, selected, out, control)
             columns = {q.column: i for i, q in enumerate(self.loop.recipe.quantities) if q.source == e.STATE}
-            self._turn(selected, alike, columns, out.values)
+            self._continue_signs(selected, alike, columns, out.values)
             return done
         left = np.full((runs, len(self.loop.picks) // 2, len(self.loop.recipe.times)), np.nan)
         if not self.loop.run(rows, now, selected, replace(out, values=left), control):
             return False
-        self._turn(selected, alike, {i: i for i in range(info.nq)}, left)
+        self._continue_signs(selected, alike, {i: i for i in range(info.nq)}, left)
         for column, sign in self.observer.turned.items():
             left[:, column] *= sign
         starts.w[selected, abi.STEP_STATUS] = now.w[selected, abi.STEP_STATUS]
         return self.observer.loop.observe(rows, starts, selected, left, out, control)
 
-    def _turn(self, selected: Integers, alike: Array, at: Mapping[int, int], values: Array) -> None:
+    def _continue_signs(self, selected: Integers, alike: Array, at: Mapping[int, int], values: Array) -> None:
         """Have Euler parameters, which have two signs, go on from the start's; `at` has the columns of coordinates."""
         for (first, _), products in zip(self.carried.bodies.info.spins, alike.T, strict=True):
             columns = [at[k] for k in range(first, first + 4) if k in at]

@@ -17,14 +17,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.ir.numerics import WARN
-from symgen.base.plugins import stamps
+from symgen.base.plugins import plugin_digests
 from symgen.base.version import __version__
 from symgen.compile.store.identity import combined_digest
 from symgen.compile.store.sources import package_digest
-from symgen.describe.facts.digest import identity
+from symgen.describe.facts.digest import mechanism_digest
 from symgen.describe.facts.sides import SidedJoint
 from symgen.describe.mechanism import Event, Mechanism
-from symgen.describe.parts.events import in_words
+from symgen.describe.parts.event_sections import events_in_words
 from symgen.result.signals import Signal
 from symgen.run.compiling.straight import load_compiled
 from symgen.run.layout import ensemble_abi as e
@@ -32,8 +32,8 @@ from symgen.run.layout.compiled import CompiledModel
 from symgen.run.layout.ensemble_abi import SIDE
 from symgen.run.loops.run_spec import RunSpec
 from symgen.run.starts.held import Held
-from symgen.study.ensemble.measures import Measures, stored
-from symgen.study.ensemble.over_time import OverTime
+from symgen.study.ensemble.measured_quantities import Measures, store_modules
+from symgen.study.ensemble.time_statistics import OverTime
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -65,7 +65,7 @@ class Module:
         return [self.folder, self.stem, self.model[0], self.law[0], dict(self.parts)]
 
     @classmethod
-    def of(cls, compiled: CompiledModel) -> Module:
+    def of_compiled(cls, compiled: CompiledModel) -> Module:
         """Return the modules of a compiled model."""
         from symgen.compile.store.entries import Entries
 
@@ -87,7 +87,9 @@ class Module:
 
     def load(self) -> CompiledModel:
         """Return the compiled model, its modules put into the cache of this machine where that has others or none."""
-        folder = stored(self.folder, {**self.parts, self.shared: (self.model[0], self.stored), self.stem: self.law})
+        folder = store_modules(
+            self.folder, {**self.parts, self.shared: (self.model[0], self.stored), self.stem: self.law}
+        )
         return load_compiled(folder, self.stem, self.model[1], self.law[1], shared=self.shared)
 
 
@@ -145,7 +147,7 @@ class EventPlan:
     @property
     def described(self) -> list[Any]:
         """Description of the value, as JSON can express it."""
-        return [identity(self.mechanism), in_words(self.events), self.ends]
+        return [mechanism_digest(self.mechanism), events_in_words(self.events), self.ends]
 
 
 @dataclass(frozen=True)
@@ -185,7 +187,8 @@ class Recipe:
     plugins : tuple of str
         Files that workers load before.
     datum : tuple of float
-        What coordinates are measured from, with parameters as described (`symgen.describe.facts.lengths.datum_of`).
+        What coordinates are measured from, with parameters as described:
+        `symgen.describe.facts.lengths.origin_of_sizes`.
     over : OverTime or None
         What is taken of the quantities over the time of each run; None where their histories are kept.
     """
@@ -252,11 +255,11 @@ class Recipe:
 
     @property
     def behind(self) -> tuple[Signal, ...]:
-        """The quantities that are worked out behind the loops."""
+        """The quantities that are evaluated after the loops."""
         return tuple(q for q in self.quantities if q.source >= SIDE)
 
     def in_order(self, columns: Array, behind: Array) -> Array:
-        """Return the quantities in their order, from what loops left and what was worked out behind them."""
+        """Return the quantities in their order, from what loops left and what was evaluated after them."""
         if self.measures is None:
             return columns
         left, late = iter(range(columns.shape[1])), iter(range(behind.shape[1]))
@@ -279,7 +282,7 @@ class Recipe:
                 *(self.strict, self.code, *([self.sides] if self.sides else [])),
                 *(["seams"] if self.seams else []),
                 *(x if x is None else x.described for x in (self.first, self.spare, self.watch)),
-                None if self.tree is None else identity(self.tree),
+                None if self.tree is None else mechanism_digest(self.tree),
             ],
             sort_keys=True,
         )
@@ -288,4 +291,4 @@ class Recipe:
 
 def run_code_identity() -> str:
     """Return a digest of all that computes runs: the version, the whole package and plugins."""
-    return combined_digest(__version__, package_digest(), *stamps())
+    return combined_digest(__version__, package_digest(), *plugin_digests())

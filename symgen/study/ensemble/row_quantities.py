@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from symgen.result.signals import TABLES, UNSWEPT, Signal, choose, of_run
+from symgen.result.signals import TABLES, UNSWEPT, Signal, choose_columns, signals_of_run
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 
@@ -24,7 +24,7 @@ PIVOT = Signal("smallest_pivot", "smallest_pivot", "1", e.STATUS, abi.PIVOT)
 
 
 def choose_quantities(mechanism: Mechanism, info: ModelInfo, names: Sequence[str] | None) -> tuple[Signal, ...]:
-    """Return the quantities called `names`, as `symgen.result.tables.Tables.select` takes them.
+    """Return the quantities called `names`, as `symgen.result.motion_tables.Tables.select` takes them.
 
     Parameters
     ----------
@@ -40,10 +40,10 @@ def choose_quantities(mechanism: Mechanism, info: ModelInfo, names: Sequence[str
     InputError
         If there is none of a name; with the nearest one.
     """
-    signals = (*(s for table in of_run(mechanism, info).values() for s in table if s.source != UNSWEPT), PIVOT)
+    signals = (*(s for table in signals_of_run(mechanism, info).values() for s in table if s.source != UNSWEPT), PIVOT)
     by_name = {s.name: s for s in signals}
     tables = {name: s.table for name, s in by_name.items()}
-    chosen = choose(tables, ("q", "v") if names is None else names, info.name, (*TABLES,))
+    chosen = choose_columns(tables, ("q", "v") if names is None else names, info.name, (*TABLES,))
     return tuple(by_name[name] for name in chosen)
 
 
@@ -71,14 +71,16 @@ _NUMBER = {"smallest_pivot": "smallest_pivot_min"}
 _TAKEN = {"run", "time", "status", "reason", "warnings", *NUMBERS, *_NUMBER.values()}
 
 
-def of_number(name: str) -> str:
+def check_number_name(name: str) -> str:
     """Return the name of one of `NUMBERS`."""
     return _NUMBER.get(name, name)
 
 
-def of_quantities(names: Sequence[str], axes: Iterable[Axis]) -> tuple[str, ...]:
+def dataset_names(names: Sequence[str], axes: Iterable[Axis]) -> tuple[str, ...]:
     """Return the names of quantities; an output may bear a name in use, or the name of what varies."""
-    reserved_names = _TAKEN.difference(_NUMBER).union(of_varied(name, axis) for axis in axes for name in axis.values)
+    reserved_names = _TAKEN.difference(_NUMBER).union(
+        label_of_varied(name, axis) for axis in axes for name in axis.values
+    )
     labels = list[str]()
     for name in names:
         label = name
@@ -88,19 +90,19 @@ def of_quantities(names: Sequence[str], axes: Iterable[Axis]) -> tuple[str, ...]
     return tuple(labels)
 
 
-def of_varied(name: str, axis: Axis) -> str:
+def label_of_varied(name: str, axis: Axis) -> str:
     """Return the label of a name that varies: its dimension's, or where names vary together one like it."""
     label = axis.dimension if not axis.together else f"{name}(0)" if "." in name else name
     return f"parameter.{label}" if label in _TAKEN else label
 
 
-def of_dimension(axis: Axis) -> str:
+def dimension_name(axis: Axis) -> str:
     """Return the name of a dimension."""
-    return axis.dimension if axis.together else of_varied(next(iter(axis.values)), axis)
+    return axis.dimension if axis.together else label_of_varied(next(iter(axis.values)), axis)
 
 
 def event_columns(names: Sequence[str]) -> dict[str, tuple[int, str]]:
-    """Return the numbers that each run leaves of events: name -> (column behind the common ones, unit)."""
+    """Return the numbers that each run leaves of events: name -> (column after the common ones, unit)."""
     first = e.N_SUMMARY + e.HEAD_OF_EVENTS
     return {
         f"event.{name}.{what}": (first + e.OF_EVENT * i + k, unit)

@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.fit.free_numbers import with_numbers
+from symgen.analyses.fit.free_numbers import put_numbers
 from symgen.base import arguments
-from symgen.base.errors import InputError, SymgenError, counted, nearest, quoted
-from symgen.base.files import check_path, need, write_whole
-from symgen.describe.facts.lifted import lifted
+from symgen.base.errors import InputError, SymgenError, plural, quote, suggest
+from symgen.base.files import check_path, need_library, write_whole
+from symgen.describe.facts.lifted import lift_numbers
 from symgen.result.build import build_result
-from symgen.result.export import netcdf
+from symgen.result.export import netcdf_writer
 from symgen.result.result import FAILED
 from symgen.result.sensitivities import TABLES, Differentiated, derivative_unit
-from symgen.study.ensemble.row_quantities import of_dimension, of_quantities
+from symgen.study.ensemble.row_quantities import dataset_names, dimension_name
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -59,7 +59,7 @@ class RowSensitivities:
     reason: NDArray[np.object_]
 
     def __repr__(self) -> str:
-        return f"<Sensitivities of {counted(len(self.sweep), 'row')} to {', '.join(self.names)}>"
+        return f"<Sensitivities of {plural(len(self.sweep), 'row')} to {', '.join(self.names)}>"
 
     def __getitem__(self, name: str) -> Array:
         """Return the derivatives of a quantity over the grid and time, shape (*grid, times, n).
@@ -71,7 +71,9 @@ class RowSensitivities:
         """
         if name not in self.quantities:
             expected = "a quantity that was kept and has derivatives"
-            raise InputError("sensitivities", expected, arguments.shown(name), nearest(str(name), self.quantities))
+            raise InputError(
+                "sensitivities", expected, arguments.kind_of_value(name), suggest(str(name), self.quantities)
+            )
         values = self.values[:, self.quantities.index(name)]
         return values.reshape(*self.sweep.ensemble.grid.shape, *values.shape[1:])
 
@@ -83,10 +85,10 @@ class RowSensitivities:
         InputError
             If xarray is not installed; says how to install it.
         """
-        need("to_xarray", "xarray")
+        need_library("to_xarray", "xarray")
         grid = self.sweep.ensemble.grid
-        dimensions, shape = tuple(map(of_dimension, grid.axes)), grid.shape
-        labels = {q.name: (label, q.unit) for label, q in _labelled(self.sweep)}
+        dimensions, shape = tuple(map(dimension_name, grid.axes)), grid.shape
+        labels = {q.name: (label, q.unit) for label, q in _quantities_with_labels(self.sweep)}
         variables: dict[str, Any] = {}
         for name in self.quantities:
             label, unit = labels[name]
@@ -108,14 +110,14 @@ class RowSensitivities:
         InputError
             If the ending is another, a library is missing, or the file cannot be written.
         """
-        file = arguments.path("save", path)
+        file = arguments.path_argument("save", path)
         check_path("save", file, {".nc": ("xarray", "h5netcdf", "h5py")}, "data")
-        return write_whole(file, netcdf(self.to_xarray()))
+        return write_whole(file, netcdf_writer(self.to_xarray()))
 
 
-def _labelled(sweep: Sweep) -> Any:
+def _quantities_with_labels(sweep: Sweep) -> Any:
     quantities = sweep.ensemble.recipe.quantities
-    return zip(of_quantities([q.name for q in quantities], sweep.ensemble.grid.axes), quantities, strict=True)
+    return zip(dataset_names([q.name for q in quantities], sweep.ensemble.grid.axes), quantities, strict=True)
 
 
 def row_sensitivities(sweep: Sweep, by: Sequence[str]) -> RowSensitivities:
@@ -126,8 +128,8 @@ def row_sensitivities(sweep: Sweep, by: Sequence[str]) -> RowSensitivities:
         raise InputError("sensitivities", "names of numbers", "none")
     if ensemble.recipe.over is not None:
         got = f"{ensemble.recipe.kept[0].name}"
-        raise InputError("sensitivities", "a sweep that keeps histories or ends of quantities", quoted(got))
-    own = lifted("sensitivities", ensemble.model.mechanism, names)
+        raise InputError("sensitivities", "a sweep that keeps histories or ends of quantities", quote(got))
+    own = lift_numbers("sensitivities", ensemble.model.mechanism, names)
     times = spec.times.tolist()
     common = replace(ensemble.plan.settings, until=spec.until, times=times, output_step=None, verify=False)
     columns, count = ensemble.grid.values(0, len(sweep)), len(sweep)
@@ -136,7 +138,7 @@ def row_sensitivities(sweep: Sweep, by: Sequence[str]) -> RowSensitivities:
     for i in range(count):
         numbers = {name: float(column[i]) for name, column in columns.items()}
         try:
-            run = Differentiated(own.mechanism, with_numbers(own.mechanism, common, numbers), own.keys)
+            run = Differentiated(own.mechanism, put_numbers(own.mechanism, common, numbers), own.keys)
             result = run.result(build_result(run.run, run.integrate()))
         except SymgenError as error:
             if values is None:  # names, schemes and formulas are the same in all rows
@@ -144,7 +146,7 @@ def row_sensitivities(sweep: Sweep, by: Sequence[str]) -> RowSensitivities:
             reason[i] = str(error)
             continue
         if values is None:
-            quantities = _with_derivatives(sweep, result)
+            quantities = _differentiable_quantities(sweep, result)
             units = result.sensitivities.units if result.sensitivities else ()
             values = np.full((count, len(quantities), len(times), len(names)), np.nan)
         status[i], reason[i] = result.status, result.reason or ""
@@ -155,7 +157,7 @@ def row_sensitivities(sweep: Sweep, by: Sequence[str]) -> RowSensitivities:
     return RowSensitivities(sweep, names, units, quantities, values, status, reason)
 
 
-def _with_derivatives(sweep: Sweep, result: Result) -> tuple[str, ...]:
+def _differentiable_quantities(sweep: Sweep, result: Result) -> tuple[str, ...]:
     """Return the quantities of a sweep that have derivatives."""
     own = {name for table in TABLES for name in getattr(result, table).names}
     quantities = tuple(q.name for q in sweep.ensemble.recipe.quantities if q.name in own)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.errors import InputError, counted
+from symgen.base.errors import InputError, plural
 from symgen.study.ensemble.axes import Axis, Grid
 
 Array = NDArray[np.float64]
@@ -53,7 +53,7 @@ def contributions(varied: Mapping[str, Array], values: Array) -> dict[str, float
     y = values[there] - np.mean(values[there]) if there.any() else np.zeros(0)
     names = [name for name, x in varied.items() if len(y) and np.ptp(x[there]) > 0.0]
     if len(y) < len(names) + 2:
-        expected = f"at least {counted(len(names) + 2, 'run')} with the quantity"
+        expected = f"at least {plural(len(names) + 2, 'run')} with the quantity"
         raise InputError("contributions", expected, str(len(y)))
     columns = np.array([varied[name][there] for name in names]).T.reshape(len(y), len(names))
     columns = columns - columns.mean(axis=0)

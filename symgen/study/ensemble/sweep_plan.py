@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING
 from msgspec import structs
 from numpy.typing import ArrayLike
 
-from symgen.base.errors import InputError, nearest
-from symgen.base.plugins import loaded_files
+from symgen.base.errors import InputError, suggest
+from symgen.base.plugins import loaded_plugin_files
 from symgen.base.settings import Settings
 from symgen.base.vocabulary.expressions import names_in
 from symgen.describe.facts.kinks import discontinuities_of
-from symgen.describe.facts.lengths import datum_of
-from symgen.describe.facts.sides import sides_of
+from symgen.describe.facts.lengths import origin_of_sizes
+from symgen.describe.facts.sides import sided_joints
 from symgen.describe.facts.typed_units import units_of_number
-from symgen.describe.formulas.evaluate import derived, parameter_values, scalars
+from symgen.describe.formulas.evaluate import dependent_parameters, parameter_values, scalar_values
 from symgen.describe.formulas.formula_text import to_text
-from symgen.describe.parts.events import RECORD
+from symgen.describe.parts.event_sections import RECORD
 from symgen.run.breaks.motions import refuse_jumps
 from symgen.run.breaks.seams import Foreseen, foreseen_in_run, times_between
 from symgen.run.compiling.choices import LARGEST_STRAIGHT, on_tree
@@ -34,12 +34,12 @@ from symgen.run.planning.tree_starts import tree_code
 from symgen.study.ensemble.axes import Grid, make_grid
 from symgen.study.ensemble.driving import Driving, read_by_motions
 from symgen.study.ensemble.ensemble import Ensemble
-from symgen.study.ensemble.kernel import kernel_of
-from symgen.study.ensemble.measures import first_integral, make_measures
-from symgen.study.ensemble.names import METHOD, Names, targets_of
-from symgen.study.ensemble.over_time import over_time, parted
+from symgen.study.ensemble.kernel import kernel_of_recipe
+from symgen.study.ensemble.measured_quantities import first_integral, make_measures
 from symgen.study.ensemble.recipe import Code, EventPlan, Module, Recipe, run_code_identity
 from symgen.study.ensemble.row_quantities import choose_quantities
+from symgen.study.ensemble.time_statistics import read_statistics, split_statistic
+from symgen.study.ensemble.varied_names import METHOD, Names, start_targets
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -68,7 +68,7 @@ def make_ensemble(
     settings : Settings
         How; without output times, only the end is kept.
     vary, runs : mapping
-        See `symgen.study.ensemble.sweep.sweep`.
+        See `symgen.study.ensemble.parameter_sweep.sweep`.
     quantities : sequence of str or None
         Names of the selected quantities.
     target : {"cpu", "lanes", "cuda"}
@@ -84,11 +84,11 @@ def make_ensemble(
     settings, ends = _settings_for(model.mechanism, settings, quantities, target)
     plan = make_plan(model.mechanism, settings, Purpose.ROWS)
     mechanism, spec = plan.mechanism, plan.spec
-    names, grid = _varied(plan, vary, runs, taken)
+    names, grid = _names_and_grid(plan, vary, runs, taken)
     moving = read_by_motions(mechanism, grid.names)
     if not moving:  # before anything is derived; where it depends on what varies, rows fail one by one
         refuse_jumps(mechanism, plan.parameters, spec.until)
-    kept_names, events = _events(mechanism, plan, quantities)
+    kept_names, events = _quantities_and_events(mechanism, plan, quantities)
     acting = mechanism if target == "cpu" else structs.replace(mechanism, outputs=())  # others integrate no outputs
     passed_times = foreseen_in_run(acting, events, spec.adaptive, plan.integrator.order, (0.0, spec.step))
     if target != "cpu" and not spec.adaptive:
@@ -100,19 +100,19 @@ def make_ensemble(
     driving = Driving(plan.inputs, grid.names, spec.until, passed_times if ends_steps else None, moving)
     joint = plan.coordinates == "joint"
     compiled = compile_model(mechanism, plan.choice)
-    targets = targets_of(names, grid.names, plan.holds, compiled.info)
+    targets = start_targets(names, grid.names, plan.holds, compiled.info)
     if target != "cpu":
         inputs, passed = replace(driving, foreseen=None).jumps, looks or driving.jumps
         _check_target(target, inputs, examined, passed, bool(events))
     _check_loop(target, plan.integrator, spec.adaptive)
-    parts, choose = [*map(parted, kept_names or ())], partial(choose_quantities, mechanism, compiled.info)
+    parts, choose = [*map(split_statistic, kept_names or ())], partial(choose_quantities, mechanism, compiled.info)
     kept = choose(None if kept_names is None else [name for _, name in parts])
-    over = over_time(parts, kept, choose)
+    over = read_statistics(parts, kept, choose)
     sums = _has_integrals(mechanism, kept, target)
     watch = EventPlan(mechanism, events, ends) if joint or events or looks or mechanism.bounded else None
     # single runs add up all that outputs ask for, which their steps follow, too
     adds = sums or ((watch is not None or (driving.jumps and spec.adaptive)) and can_integrate(compiled))
-    compiled, first, spare = _codes(plan, compiled, adds, target, kept)
+    compiled, first, spare = _law_and_code(plan, compiled, adds, target, kept)
     recipe = Recipe(
         first=first,
         spare=spare,
@@ -126,16 +126,16 @@ def make_ensemble(
         target=target,
         tree=on_tree(mechanism) if joint else None,
         watch=watch,
-        sides=tuple(side for side in sides_of(mechanism) if side.held),
+        sides=tuple(side for side in sided_joints(mechanism) if side.held),
         seams=driving.jumps,
-        plugins=loaded_files(),
+        plugins=loaded_plugin_files(),
         over=over,
-        datum=tuple(datum_of(mechanism, scalars(parameter_values(mechanism, plan.parameters)))),
+        datum=tuple(origin_of_sizes(mechanism, scalar_values(parameter_values(mechanism, plan.parameters)))),
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
-        _ = kernel_of(recipe).first
+        _ = kernel_of_recipe(recipe).first_model
     model = replace(model, mechanism=mechanism)
-    warnings = *plan.warnings, *_missed(plan, passed_times, grid)
+    warnings = *plan.warnings, *_warnings_of_missed(plan, passed_times, grid)
     notes = *plan.notes, *plan.bound
     return Ensemble(model, plan, compiled, grid, targets, recipe, driving, warnings, notes)
 
@@ -148,7 +148,11 @@ def _settings_for(
     if size > LARGEST_STRAIGHT:
         raise InputError("sweep", f"a mechanism of at most {LARGEST_STRAIGHT} coordinates", f"{size} coordinates")
     settings = replace(settings, shape="straight")  # loops over rows are those of one mechanism
-    ends = settings.times is None and settings.output_step is None and not any(parted(x)[0] for x in quantities or ())
+    ends = (
+        settings.times is None
+        and settings.output_step is None
+        and not any(split_statistic(x)[0] for x in quantities or ())
+    )
     if ends:
         end = mechanism.defaults.until if settings.until is None else settings.until
         settings = replace(settings, times=(end,))
@@ -160,13 +164,13 @@ def _settings_for(
     return settings, ends
 
 
-def _varied(
+def _names_and_grid(
     plan: Plan, vary: Mapping[str, ArrayLike | str], runs: Mapping[str, ArrayLike | str], taken: Sequence[str]
 ) -> tuple[Names, Grid]:
     """Return the names of what may vary, and the grid of what does, where `taken` numbers are set already."""
     mechanism = plan.mechanism
     options = tuple(METHOD + parameter.name for parameter in plan.choice.method.parameters)
-    names = replace(Names.of(mechanism), options=options)
+    names = replace(Names.of_mechanism(mechanism), options=options)
     names.check((*vary, *runs), (*taken, *(METHOD + name for name in plan.method_parameters)))
     grid = make_grid(vary, runs, names.starts, lambda name: units_of_number(mechanism, name))
     _check_method(plan.choice.method, grid)
@@ -194,25 +198,25 @@ def _check_loop(target: str, integrator: Integrator, adaptive: bool) -> None:
         raise InputError("target 'lanes'", "a constant step", got, hint)
 
 
-def _codes(
+def _law_and_code(
     plan: Plan, compiled: CompiledModel, adds: bool, target: str, kept: Sequence[Signal]
 ) -> tuple[CompiledModel, Code, Code | None]:
     """Return the law, with sums where `adds` is set, and the code of runs: of most, and of those with light bodies."""
     mechanism, joint = plan.mechanism, plan.coordinates == "joint"
 
-    def with_sums(law: CompiledModel) -> CompiledModel:
+    def add_sums(law: CompiledModel) -> CompiledModel:
         return with_integrals(mechanism, law) if adds else law
 
-    compiled, spare = with_sums(compiled), None
+    compiled, spare = add_sums(compiled), None
     pressed = any(row.pressed for row in mechanism.bounded)  # for which there is one solver
     if plan.solver_is_free and not pressed:  # the few runs with light bodies are not worth lanes of their own
         choice = plan.choice.with_options(solver="augmented")
-        other, where = with_sums(compile_model(mechanism, choice)), "cpu" if target == "lanes" else target
-        spare = _code(mechanism, choice, other, where, joint, kept)
-    return compiled, _code(mechanism, plan.choice, compiled, target, joint, kept), spare
+        other, where = add_sums(compile_model(mechanism, choice)), "cpu" if target == "lanes" else target
+        spare = _code_for_solver(mechanism, choice, other, where, joint, kept)
+    return compiled, _code_for_solver(mechanism, plan.choice, compiled, target, joint, kept), spare
 
 
-def _code(
+def _code_for_solver(
     mechanism: Mechanism,
     choice: MethodChoice,
     compiled: CompiledModel,
@@ -220,18 +224,18 @@ def _code(
     joint: bool,
     kept: Sequence[Signal],
 ) -> Code:
-    """Return the code that runs use for one solver, with how quantities behind the loops are worked out."""
+    """Return the code that runs use for one solver, with the evaluation of quantities after the loops."""
     return Code(
-        Module.of(compiled),
-        Module.of(compile_model(mechanism, choice, target=target)) if target != "cpu" else None,
-        Module.of(tree_code(mechanism, choice, compiled)[1]) if joint else None,
+        Module.of_compiled(compiled),
+        Module.of_compiled(compile_model(mechanism, choice, target=target)) if target != "cpu" else None,
+        Module.of_compiled(tree_code(mechanism, choice, compiled)[1]) if joint else None,
         make_measures(mechanism, compiled, kept),
     )
 
 
-def _missed(plan: Plan, passed_times: Foreseen, grid: Grid) -> tuple[str, ...]:
+def _warnings_of_missed(plan: Plan, passed_times: Foreseen, grid: Grid) -> tuple[str, ...]:
     """Return warnings of changes that steps of all runs may miss; none where these depend on what varies."""
-    if passed_times.reads & {*grid.names, *(name for name, _ in derived(plan.mechanism.parameters))}:
+    if passed_times.reads & {*grid.names, *(name for name, _ in dependent_parameters(plan.mechanism.parameters))}:
         return ()
     return plan.missed if passed_times else ()
 
@@ -284,7 +288,7 @@ def _check_jumps(
             raise InputError(f"target '{target}'", expected, f"one where {text} passes 0", "leave `target` out")
 
 
-def _events(
+def _quantities_and_events(
     mechanism: Mechanism, plan: Plan, quantities: Sequence[str] | None
 ) -> tuple[Sequence[str] | None, tuple[Event, ...]]:
     """Return the quantities that are no events, and the events that runs look for: none where nothing comes of them.
@@ -300,7 +304,7 @@ def _events(
     for name in chosen:
         if name.partition(".")[2] not in ("", *names):
             options = [f"event.{x}" for x in names]
-            raise InputError(f"quantity '{name}'", f"an event of {mechanism.name}", "none", nearest(name, options))
+            raise InputError(f"quantity '{name}'", f"an event of {mechanism.name}", "none", suggest(name, options))
     further = len(plan.events) > len(mechanism.events)
     if chosen or further or any(event.action != RECORD for event in plan.events):
         return [name for name in quantities if name not in chosen] if chosen and quantities else quantities, plan.events

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.base.errors import InputError, nearest, quoted
-from symgen.result.plots import LONGEST_LEGEND, empty, label, legend, style
-from symgen.result.signals import TABLES, Signal, choose
+from symgen.base.errors import InputError, quote, suggest
+from symgen.result.plots import LONGEST_LEGEND, axis_label, empty_figure, line_style_of, place_legend
+from symgen.result.signals import TABLES, Signal, choose_columns
 from symgen.study.ensemble.samples import PERCENTILES, is_sample
 
 if TYPE_CHECKING:
@@ -29,41 +29,41 @@ def sweep_figure(sweep: Sweep, what: Sequence[str], over: str) -> Any:
     """
     signals = {signal.name: signal for signal in sweep.ensemble.recipe.kept}
     tables, model = {name: signal.table for name, signal in signals.items()}, sweep.ensemble.model.name
-    names = [*choose(tables, what, model, (*TABLES,))] if what else [*signals]
+    names = [*choose_columns(tables, what, model, (*TABLES,))] if what else [*signals]
     grid, own = sweep.as_written()
     varied, times = grid.values(0, len(sweep)), sweep.ensemble.recipe.kept_times
     over = over or ("t" if len(times) > 1 else next(iter(varied)))
     if over not in ("t", *varied, *signals):
         expected = "t, what varies, or a quantity that was kept"
-        raise InputError("over", expected, quoted(over), nearest(over, ("t", *varied, *signals)))
+        raise InputError("over", expected, quote(over), suggest(over, ("t", *varied, *signals)))
     shown = [name for name in names if name != over][:MOST_PANELS]
     count = "" if len(names) <= MOST_PANELS else f", the first {MOST_PANELS} of {len(names)} quantities"
     end = f" at t = {times[-1]:g} s" if over in varied and len(times) else ""
-    figure, axes = empty(f"{model}, {len(sweep)} runs{end}{count}", len(shown))
+    figure, axes = empty_figure(f"{model}, {len(sweep)} runs{end}{count}", len(shown))
     units = {"t": "s"} | own | {name: signal.unit for name, signal in signals.items() if name not in varied}
-    lines = [*_lines(sweep, over, varied, signals, units)]
+    lines = [*_lines_of_panels(sweep, over, varied, signals, units)]
     sampled = any(over in axis.values and is_sample(axis) for axis in grid.axes)
     for ax, name in zip(axes, shown, strict=False):
         place = [*signals].index(name)
         for i, (text, along, runs) in enumerate(lines):
             values = sweep.values[runs, place, -1] if over in varied else sweep.values[runs[0], place]
-            drawn = style(i, len(lines)) | ({"linestyle": ""} if sampled else {})
+            drawn = line_style_of(i, len(lines)) | ({"linestyle": ""} if sampled else {})
             ax.plot(along, values, label=text, marker="." if sampled or len(along) < 2 else None, **drawn)
             if sampled:
                 for share, dashes in zip(PERCENTILES, (":", "-", ":"), strict=True):
                     level = np.nanpercentile(values, share)
                     ax.axhline(level, linestyle=dashes, color=drawn["color"], linewidth=0.8, label=f"{share:g} %")
-        ax.set_ylabel(label(name, signals[name].unit))
+        ax.set_ylabel(axis_label(name, signals[name].unit))
         if (sampled and len(lines) == 1) or 1 < len(lines) <= LONGEST_LEGEND:
-            legend(ax)
+            place_legend(ax)
     if len(lines) > LONGEST_LEGEND:
         ends = f"dark: {lines[0][0]}; light: {lines[-1][0]}"
         axes[0].set_title(ends, fontsize=8, loc="left")
-    axes[-1].set_xlabel(label(over, units[over]))
+    axes[-1].set_xlabel(axis_label(over, units[over]))
     return figure
 
 
-def _lines(
+def _lines_of_panels(
     sweep: Sweep, over: str, varied: dict[str, Array], signals: dict[str, Signal], units: Mapping[str, str]
 ) -> Iterator[tuple[str, Array, Any]]:
     """Yield the lines of each panel: what tells one from the others, where its points are, and its runs."""

@@ -15,24 +15,24 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.arguments import path as argument_path
-from symgen.base.arguments import shown, text, whole, words
-from symgen.base.errors import InputError, counted, nearest
-from symgen.base.files import check_path, need, write_csv, write_whole
+from symgen.base.arguments import kind_of_value, text, whole_number, words
+from symgen.base.arguments import path_argument as argument_path
+from symgen.base.errors import InputError, plural, suggest
+from symgen.base.files import check_path, need_library, write_csv, write_whole
 from symgen.base.version import __version__
 from symgen.result.contract import json_value
-from symgen.result.export import netcdf
+from symgen.result.export import netcdf_writer
 from symgen.result.labelled import notebook_table
-from symgen.result.plot import Plot, plotted
+from symgen.result.plot import Plot, draw_or_save
 from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.run.compiling.events import bounded_names
 from symgen.run.layout.ensemble_abi import ASSEMBLED
 from symgen.study.ensemble.axes import Grid
 from symgen.study.ensemble.lines import table_lines
-from symgen.study.ensemble.names import Names
 from symgen.study.ensemble.row_quantities import NUMBERS, event_columns
 from symgen.study.ensemble.samples import contributions
-from symgen.study.ensemble.verdicts import NOT_RUN, EventNames, judge_all, summary_column, warnings_all
+from symgen.study.ensemble.varied_names import Names
+from symgen.study.ensemble.verdicts import NOT_RUN, EventNames, judge_runs, summary_column, warnings_of_runs
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -79,13 +79,13 @@ class Sweep:
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{count} {status}" for status, count in self.counts.items() if count)
-        return f"<Sweep of {self.ensemble.model.name}: {counted(len(self), 'run')}, {counts}>"
+        return f"<Sweep of {self.ensemble.model.name}: {plural(len(self), 'run')}, {counts}>"
 
     def _repr_html_(self) -> str:
         facts = [("mechanism", self.ensemble.model.name), ("runs", str(len(self)))]
         for axis in self.ensemble.grid.axes:
             facts += [
-                (name, f"{counted(len(x), 'value')} from {x.min():g} to {x.max():g}") for name, x in axis.values.items()
+                (name, f"{plural(len(x), 'value')} from {x.min():g} to {x.max():g}") for name, x in axis.values.items()
             ]
         names = [q.name for q in self.ensemble.recipe.kept]
         facts.append(("quantities", ", ".join(names[:8]) + ", ..." * (len(names) > 8)))
@@ -98,9 +98,9 @@ class Sweep:
         recipe, events = self.ensemble.recipe, self.ensemble.events
         rows = None if recipe.watch is None else bounded_names(recipe.tree or recipe.watch.mechanism)
         named = EventNames(events, rows, recipe.tree is not None)
-        status, reason = judge_all(self.summary, self.done, compiled.info, compiled.law, recipe.spec, named)
+        status, reason = judge_runs(self.summary, self.done, compiled.info, compiled.law, recipe.spec, named)
         failed = self.done & (summary_column(self.summary, "start") != ASSEMBLED)
-        for row, why in self.ensemble.driving.refusals(self.ensemble, failed):
+        for row, why in self.ensemble.driving.rows_refused(self.ensemble, failed):
             reason[row] = why
         return status, reason
 
@@ -126,7 +126,7 @@ class Sweep:
         starts = self.done & (summary_column(self.summary, "start") == ASSEMBLED)
         sentences_of_runs[:] = [ensemble.warnings if there else () for there in starts]
         law, spec = ensemble.compiled.law, ensemble.recipe.spec
-        for i, sentences in warnings_all(self.summary, starts, law, spec).items():
+        for i, sentences in warnings_of_runs(self.summary, starts, law, spec).items():
             sentences_of_runs[i] += sentences
         return sentences_of_runs
 
@@ -137,8 +137,8 @@ class Sweep:
 
     def reasons(self, most: int = 10) -> list[tuple[str, int]]:
         """Return the commonest reasons without their figures, each with the number of runs it is said of."""
-        kinds = Counter(_kind(reason) for reason in self.reason if reason)
-        most = whole("most", most, 0, 10**9)
+        kinds = Counter(_reason_without_figures(reason) for reason in self.reason if reason)
+        most = whole_number("most", most, 0, 10**9)
         return kinds.most_common(most)
 
     def common_warnings(self) -> list[tuple[str, int]]:
@@ -168,7 +168,10 @@ class Sweep:
             return np.asarray(self.summary[:, self.events[name][0]]).reshape(shape)
         names = [*(q.name for q in self.ensemble.recipe.kept), *NUMBERS, *self.events]
         raise InputError(
-            "sweep", "a quantity that was kept, or a number of every run", shown(name), nearest(str(name), names)
+            "sweep",
+            "a quantity that was kept, or a number of every run",
+            kind_of_value(name),
+            suggest(str(name), names),
         )
 
     @property
@@ -192,7 +195,7 @@ class Sweep:
             "inputs": json.dumps(dict(ensemble.driving.inputs.words)),
             "options": json.dumps(dict(chosen.options)),
             "settings": json.dumps(json_value(settings)),
-            "versions": json.dumps(_versions()),
+            "versions": json.dumps(_library_versions()),
             "ensemble_digest": ensemble.recipe.digest,
             "interrupted": int(self.interrupted),
         }
@@ -258,7 +261,7 @@ class Sweep:
         check_path("save", file, SAVED, "data")
         if file.suffix.lower() == ".csv":
             return write_csv(file, *table_lines(self, as_written=True))
-        return write_whole(file, netcdf(self.to_xarray()))
+        return write_whole(file, netcdf_writer(self.to_xarray()))
 
     def sensitivities(self, by: Sequence[str]) -> RowSensitivities:
         """Return the derivatives of the quantities of all rows by chosen numbers; see `Model.simulate`.
@@ -293,7 +296,7 @@ class Sweep:
         InputError
             If pandas is not installed.
         """
-        need("to_dataframe", "pandas")
+        need_library("to_dataframe", "pandas")
         import pandas as pd
 
         headings, lines = table_lines(self)
@@ -328,7 +331,7 @@ class Sweep:
         """
         from symgen.study.ensemble.sweep_plot import sweep_figure
 
-        return plotted(path, lambda: sweep_figure(self, words("plot", what), text("over", over)))
+        return draw_or_save(path, lambda: sweep_figure(self, words("plot", what), text("over", over)))
 
     def units(self) -> dict[str, str]:
         """Return the units of what varies, by name; empty where there is none."""
@@ -336,8 +339,8 @@ class Sweep:
         units = {q.name: q.unit for q in (*info.parameters, *info.coordinates, *info.velocities)}
         units |= {q.name: q.unit for q in info.joint_coordinates}
         units |= {f"{q.name}.rate": f"{q.unit}/s" for q in info.joint_coordinates}
-        names = Names.of(self.ensemble.model.mechanism)
-        return {name: units.get(names.one(name), "") for name in self.ensemble.grid.names}
+        names = Names.of_mechanism(self.ensemble.model.mechanism)
+        return {name: units.get(names.canonical_name(name), "") for name in self.ensemble.grid.names}
 
     def as_written(self) -> tuple[Grid, dict[str, str]]:
         """Return what varies, and its units by name, with parameters in the unit of the file."""
@@ -345,7 +348,7 @@ class Sweep:
         units = {name: own[name].text if name in own else unit for name, unit in self.units().items()}
 
         def read(name: str, values: Array) -> Array:
-            return np.array([own[name].of_si(float(x)) for x in values]) if name in own else values
+            return np.array([own[name].from_si(float(x)) for x in values]) if name in own else values
 
         axes = (
             replace(axis, values={n: read(n, x) for n, x in axis.values.items()}) for axis in self.ensemble.grid.axes
@@ -357,13 +360,13 @@ class Sweep:
 _FIGURES = re.compile(r"\d[\d.e+-]*")
 
 
-def _kind(reason: str) -> str:
+def _reason_without_figures(reason: str) -> str:
     """Return a reason without its figures: what runs that fail for the same cause have in common."""
     head = reason.partition(" (")[0].partition(" at t = ")[0]
     return head.partition("; check its points")[0].partition(" stays open by ")[0].partition(" at t =")[0]
 
 
-def _versions() -> dict[str, str]:
+def _library_versions() -> dict[str, str]:
     import platform
     from importlib.metadata import version
 

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError, SimulationError
-from symgen.base.files import check_name, why, write_whole
+from symgen.base.files import check_file_name, system_message, write_whole
 from symgen.compile.store.locks import file_lock
 from symgen.run.layout.ensemble_abi import N_SUMMARY
 from symgen.study.ensemble.chunks import Chunk
@@ -80,23 +80,23 @@ class RowTable:
             (self.chunks * self.chunk - self.runs) if last in self.finished else 0
         )
 
-    def missing(self) -> list[int]:
+    def missing_chunks(self) -> list[int]:
         """Return the chunks that are not done, in order."""
         return [index for index in range(self.chunks) if index not in self.finished]
 
-    def bounds(self, index: int) -> tuple[int, int]:
+    def bounds_of_chunk(self, index: int) -> tuple[int, int]:
         """Return first and last run (exclusive) of a chunk."""
         return index * self.chunk, min(self.runs, (index + 1) * self.chunk)
 
-    def done(self) -> NDArray[np.bool_]:
+    def runs_done_mask(self) -> NDArray[np.bool_]:
         """Return which runs are done."""
         done = np.zeros(self.runs, dtype=np.bool_)
         for index in self.finished:
-            first, last = self.bounds(index)
+            first, last = self.bounds_of_chunk(index)
             done[first:last] = True
         return done
 
-    def put(self, index: int, chunk: Chunk) -> None:
+    def keep_chunk(self, index: int, chunk: Chunk) -> None:
         """Keep the rows of a chunk.
 
         Raises
@@ -112,7 +112,7 @@ class RowTable:
         self.finished.add(index)
 
     def _write(self, index: int, chunk: Chunk) -> None:
-        first, last = self.bounds(index)
+        first, last = self.bounds_of_chunk(index)
         self.values[first:last] = chunk.values
         self.summary[first:last] = chunk.summary
 
@@ -182,7 +182,7 @@ class FolderTable(RowTable):
             self._read_log()
         except OSError as error:
             self.close()
-            raise InputError(where, "a folder that can be written", why(error)) from None
+            raise InputError(where, "a folder that can be written", system_message(error)) from None
         except BaseException:
             self.close()
             raise
@@ -197,21 +197,21 @@ class FolderTable(RowTable):
         raise InputError(where, "the sweep that was begun there", got, "name another output")
 
     def _begin(self, quantities: int, times: int) -> None:
-        self.values = self._file(VALUES, (self.runs, quantities, times))
-        self.summary = self._file(SUMMARY, (self.runs, self._width))
+        self.values = self._array_of_file(VALUES, (self.runs, quantities, times))
+        self.summary = self._array_of_file(SUMMARY, (self.runs, self._width))
         if not (self.folder / DESCRIPTION).exists():  # last, so that a folder with a description is whole
             write_whole(self.folder / DESCRIPTION, json.dumps(self._description, indent=1) + "\n")
 
-    def _file(self, name: str, shape: tuple[int, ...]) -> Array:
+    def _array_of_file(self, name: str, shape: tuple[int, ...]) -> Array:
         """Return the array of a file, which is made anew where it is missing or damaged."""
         if not all(shape):
             return np.zeros(shape)
         path = self.folder / name
-        mapped = _array(path, shape)
+        mapped = _read_array(path, shape)
         if mapped is None:
             path.unlink(missing_ok=True)
             np.lib.format.open_memmap(path, mode="w+", dtype=np.float64, shape=shape).flush()
-            mapped = _array(path, shape)
+            mapped = _read_array(path, shape)
             if mapped is None:
                 raise OSError(f"'{name}' cannot be read back")
         self._files[name] = (os.open(path, os.O_WRONLY), int(mapped.offset), 8 * int(np.prod(shape[1:])))
@@ -220,11 +220,11 @@ class FolderTable(RowTable):
     def _read_log(self) -> None:
         path = self.folder / DONE
         content, log = path.read_bytes() if path.exists() else b"", b""
-        for line in content.split(b"\n")[:-1]:  # behind the last line end is a line that a kill tore, or nothing
+        for line in content.split(b"\n")[:-1]:  # after the last line end is a line that a kill tore, or nothing
             match = _LINE.fullmatch(line)
             index = int(match[1]) if match else self.chunks
-            first, last = self.bounds(index)
-            own = _line(index, self.values[first:last].tobytes(), self.summary[first:last].tobytes())
+            first, last = self.bounds_of_chunk(index)
+            own = _log_line(index, self.values[first:last].tobytes(), self.summary[first:last].tobytes())
             if index < self.chunks and index not in self.finished and own == line + b"\n":
                 self.finished.add(index)
                 log += line + b"\n"
@@ -233,16 +233,16 @@ class FolderTable(RowTable):
         self._log = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o666)
 
     def _write(self, index: int, chunk: Chunk) -> None:
-        first, _ = self.bounds(index)
+        first, _ = self.bounds_of_chunk(index)
         contents = [np.ascontiguousarray(rows).tobytes() for rows in (chunk.values, chunk.summary)]
         try:
             for name, data in zip((VALUES, SUMMARY), contents, strict=True):
                 if name in self._files:
                     file, offset, size = self._files[name]
                     _write_all(file, data, offset + first * size)
-            os.write(self._log, _line(index, *contents))
+            os.write(self._log, _log_line(index, *contents))
         except OSError as error:
-            raise SimulationError(f"the folder '{self.folder}' cannot be written: {why(error)}") from None
+            raise SimulationError(f"the folder '{self.folder}' cannot be written: {system_message(error)}") from None
 
     def close(self) -> None:
         """Let go of the files; another process may use the folder then."""
@@ -265,12 +265,12 @@ class FolderTable(RowTable):
             self.folder.rmdir()
 
 
-def _line(index: int, *contents: bytes) -> bytes:
+def _log_line(index: int, *contents: bytes) -> bytes:
     """Return the line of a chunk with these rows."""
     return f"{index} {hashlib.sha256(b''.join(contents)).hexdigest()[:32]}\n".encode()
 
 
-def _array(path: Path, shape: tuple[int, ...]) -> np.memmap[Any, np.dtype[np.float64]] | None:
+def _read_array(path: Path, shape: tuple[int, ...]) -> np.memmap[Any, np.dtype[np.float64]] | None:
     """Return the array in a file, None where there is none of this shape."""
     try:
         array = np.load(path, mmap_mode="r") if path.is_file() else None
@@ -291,7 +291,7 @@ def check_folder(folder: Path, resume: bool) -> bool:
         If it holds something else, or a sweep that nobody asked to continue.
     """
     where = f"folder '{folder}'"
-    check_name(where, folder)
+    check_file_name(where, folder)
     if not folder.exists():
         if not folder.parent.is_dir() or not os.access(folder.parent, os.W_OK):
             raise InputError(where, "a folder that can be made", f"no folder '{folder.parent}' to make it in")

@@ -57,7 +57,7 @@ def summary_column(summary: Array, name: str) -> Array:
     return np.asarray(summary[..., e.SUMMARY.index(name)])
 
 
-def judge_all(
+def judge_runs(
     summary: Array, done: NDArray[np.bool_], info: ModelInfo, law: LawInfo, spec: RunSpec, events: EventNames
 ) -> tuple[NDArray[np.str_], NDArray[np.object_]]:
     """Return status and reason of every run.
@@ -87,27 +87,29 @@ def judge_all(
     status[~done] = NOT_RUN
     passed = (summary_column(summary, "rank_event_count") > 0.0) | (summary_column(summary, "smallest_pivot") < WARN)
     doubtful = (summary_column(summary, "start") != e.ASSEMBLED) | (summary_column(summary, "code") != abi.DONE)
-    doubtful |= law.energy_correction | _jumped(summary) | (passed & (not law.position_correction))
+    doubtful |= law.energy_correction | _energy_jumped(summary) | (passed & (not law.position_correction))
     for i in np.flatnonzero(done & doubtful):
         row = summary[i]
         if summary_column(row, "start") != e.ASSEMBLED:
             status[i], reason[i] = FAILED, str(start_refusal(row, info))
             continue
-        if (why := _of_events(row, events, info)) is not None:
+        if (why := _reason_of_events(row, events, info)) is not None:
             status[i], reason[i] = FAILED, why
             continue
-        verdict = judge_alone(_ended(row, spec), law)
+        verdict = judge_alone(_reason_of_end(row, spec), law)
         status[i], reason[i] = verdict.status, verdict.reason or ""
     return status, reason
 
 
-def warnings_all(summary: Array, done: NDArray[np.bool_], law: LawInfo, spec: RunSpec) -> dict[int, tuple[str, ...]]:
+def warnings_of_runs(
+    summary: Array, done: NDArray[np.bool_], law: LawInfo, spec: RunSpec
+) -> dict[int, tuple[str, ...]]:
     """Return the verdicts on runs by what their loops saw, by run.
 
     Parameters
     ----------
     summary, done, law, spec
-        As for `judge_all`.
+        As for `judge_runs`.
     """
     odd = (summary_column(summary, "rank_event_count") > 0.0) | (summary_column(summary, "smallest_pivot") < WARN)
     odd |= summary_column(summary, "light_evaluations") > 0.0
@@ -117,11 +119,11 @@ def warnings_all(summary: Array, done: NDArray[np.bool_], law: LawInfo, spec: Ru
     )
     warnings: dict[int, tuple[str, ...]] = {int(i): (_PROJECTED,) for i in np.flatnonzero(ready & projected)}
     for i in np.flatnonzero(ready & odd).tolist():
-        warnings[i] = (*warnings.get(i, ()), *judge_alone(_ended(summary[i], spec), law).warnings)
+        warnings[i] = (*warnings.get(i, ()), *judge_alone(_reason_of_end(summary[i], spec), law).warnings)
     return warnings
 
 
-def _of_events(row: Array, looked: EventNames, info: ModelInfo) -> str | None:
+def _reason_of_events(row: Array, looked: EventNames, info: ModelInfo) -> str | None:
     """Return why an event, modes, or an input ended a run as failed, None where none did."""
     events = looked.events
     code, time, further = int(summary_column(row, "code")), float(summary_column(row, "end")), row[e.N_SUMMARY :]
@@ -143,13 +145,13 @@ def _of_events(row: Array, looked: EventNames, info: ModelInfo) -> str | None:
     return f"event '{name}': reset: expected {expected}, got others at t = {time:.6g} s"
 
 
-def _jumped(summary: Array) -> NDArray[np.bool_]:
+def _energy_jumped(summary: Array) -> NDArray[np.bool_]:
     return np.asarray(
         summary_column(summary, "energy_jump") > 0.5 * JUMP_DOUBT * summary_column(summary, "energy_scale")
     )
 
 
-def _ended(row: Array, spec: RunSpec) -> Ended:
+def _reason_of_end(row: Array, spec: RunSpec) -> Ended:
     numbers = {name: float(row[k]) for k, name in enumerate(e.SUMMARY)}
     code, scale = int(numbers["code"]), numbers["energy_scale"]
     names = ("position_violation", "velocity_violation", "length_scale", "speed_scale")

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 
 from symgen.base import arguments
 from symgen.base.errors import InputError
-from symgen.base.keywords import RunKeywords, takes
+from symgen.base.keywords import RunKeywords, make_entry
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 MOST = 1_000_000
 
 
-@takes
+@make_entry
 def make(
     model: str | Path | Mechanism | Model,
     observe: Sequence[str],
@@ -51,7 +51,7 @@ def make(
     act : sequence of str, or mapping of str to (float, float)
         Inputs that an action sets for a time `dt`, with their bounds; without bounds they take any number.
     reward : str or callable
-        A formula, evaluated behind each step; or a function of observations and actions, whose last axis has their
+        A formula, evaluated after each step; or a function of observations and actions, whose last axis has their
         elements.
     reset : mapping or callable, optional
         Values of the start by name: a number, or a pair of bounds of a uniform distribution. Or a function of a NumPy
@@ -71,13 +71,13 @@ def make(
     InputError
         If an argument is wrong, or Gymnasium is missing.
     """
-    task = _task(model, observe, act, reward, reset, end, dt, settings, changes)
+    task = _make_task(model, observe, act, reward, reset, end, dt, settings, changes)
     from symgen.study.gym.single import Environment
 
     return Environment(task)
 
 
-@takes
+@make_entry
 def make_vec(
     model: str | Path | Mechanism | Model,
     num_envs: int,
@@ -110,22 +110,22 @@ def make_vec(
     InputError
         If an argument is wrong, Gymnasium is missing, or runs of the model are not served by one call.
     """
-    task = _task(model, observe, act, reward, reset, end, dt, settings, changes)
+    task = _make_task(model, observe, act, reward, reset, end, dt, settings, changes)
     from symgen.study.gym.many import Environments
 
-    return Environments(task, arguments.whole("num_envs", num_envs, 1, MOST), jobs)
+    return Environments(task, arguments.whole_number("num_envs", num_envs, 1, MOST), jobs)
 
 
-def _task(model: Any, *parts: Any) -> Task:
+def _make_task(model: Any, *parts: Any) -> Task:
     """Return the task of an environment."""
     try:
         import gymnasium  # noqa: F401  # missing here, it is a sentence
     except ImportError:
         raise InputError("gym", "the package 'gymnasium'", "none", "pip install symgen[gym]") from None
     from symgen.api import load
-    from symgen.study.gym.task import task_of
+    from symgen.study.gym.task import make_task
 
-    return task_of(load(model), *parts)
+    return make_task(load(model), *parts)
 
 
 __all__ = ["make", "make_vec"]

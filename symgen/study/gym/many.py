@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 
 from symgen.base import arguments
 from symgen.base.errors import InputError, StepError
-from symgen.base.memory import processors
-from symgen.base.settings import is_set
+from symgen.base.memory import processor_count
+from symgen.base.settings import differs_from_default
 from symgen.compile.loopcode.entry import ArgumentBlock
-from symgen.describe.bounds.keys import families
-from symgen.result.stepping.meter import compiled_formulas
+from symgen.describe.bounds.keys import all_families
+from symgen.result.stepping.meter import compile_formulas
 from symgen.run.layout import abi
 from symgen.run.layout.probe import rate_functions
 from symgen.run.loops.seams import preparing
@@ -77,13 +77,13 @@ class Environments(VectorEnv):  # type: ignore[misc]  # a class without types
         if options and "reset_mask" in options:
             mask = np.asarray(options["reset_mask"], dtype=bool)
             if mask.shape != (self.num_envs,):
-                raise InputError("reset_mask", f"{self.num_envs} truth values", arguments.shown(mask))
+                raise InputError("reset_mask", f"{self.num_envs} truth values", arguments.kind_of_value(mask))
         self._begin(mask)
         return self._rows.values[:, : len(self.task.observe)].copy(), {}
 
     def _begin(self, mask: NDArray[np.bool_]) -> None:
         for r in np.flatnonzero(mask).tolist():
-            self._rows.begin(r, self.task.start(self.np_random))
+            self._rows.begin(r, self.task.draw_start(self.np_random))
         self._over &= ~mask
         self._rows.step(0.0, np.zeros(self.num_envs, dtype=np.int64))
 
@@ -94,12 +94,12 @@ class Environments(VectorEnv):  # type: ignore[misc]  # a class without types
         if drives.shape != rows.given.shape:
             raise InputError("actions", f"an array of shape {rows.given.shape}", f"one of shape {drives.shape}")
         for r in np.flatnonzero(anew).tolist():
-            rows.begin(r, task.start(self.np_random))
+            rows.begin(r, task.draw_start(self.np_random))
         rows.given[~anew] = drives[~anew]
         rows.step(task.dt, (~anew).astype(np.int64))
-        observations, reward, ended = task.judged(rows.values, drives)
+        observations, reward, ended = task.judge_step(rows.values, drives)
         failed = np.array([reason != "" for reason in rows.reasons]) if rows.reasons else np.zeros_like(anew)
-        truncated = (task.over(rows.times) | failed) & ~anew
+        truncated = (task.is_time_over(rows.times) | failed) & ~anew
         ended = ended & ~anew
         self._over = ended | truncated
         infos = {"failure": np.array(rows.reasons), "_failure": failed} if failed.any() else {}
@@ -127,11 +127,11 @@ class _Rows:
 
     def __init__(self, task: Task, count: int, jobs: int | None) -> None:
         settings = replace(task.settings, times=())
-        if not is_set(settings, "shape"):
+        if not differs_from_default(settings, "shape"):
             settings = replace(settings, shape="straight")
         self._prepared = prepared = prepare(task.model.mechanism, settings)
         self._restarts, own = Restarts(prepared), prepared.simulation()
-        _refuse(prepared, own)
+        _refuse_unsupported(prepared, own)
         self._own, self._first = own, own.snapshot.front.copy()
         self._fronts = np.zeros((count, len(self._first)))
         self.given = np.zeros((count, len(task.act)))
@@ -140,19 +140,19 @@ class _Rows:
         self._last: tuple[Mapping[str, float] | None, Array] | None = None
         self._codes, self._until = np.zeros(count, dtype=np.int64), np.zeros(count)
         self._moving = np.zeros(count, dtype=np.int64)
-        side, rated = compiled_formulas(prepared, task.formulas, "formulas of the environment")
+        side, rated = compile_formulas(prepared, task.formulas, "formulas of the environment")
         places = {q.name: i for i, q in enumerate(prepared.compiled.info.parameters)}
         self._places = np.array([places[name] for name in task.act], dtype=np.int64)
         self._defaults = own.state.p[self._places]
-        threads = processors() if jobs is None else arguments.whole("jobs", jobs, 1, count)
+        threads = processor_count() if jobs is None else arguments.whole_number("jobs", jobs, 1, count)
         threads = max(1, min(threads, count // _LEAST)) if jobs is None else threads
         bounds = np.linspace(0, count, threads + 1).astype(int).tolist()
-        self._parts = [self._part(side.function, rated, first, last) for first, last in pairwise(bounds)]
+        self._parts = [self._call_over_rows(side.function, rated, first, last) for first, last in pairwise(bounds)]
         self._pool = ThreadPoolExecutor(threads - 1, "symgen-gym") if threads > 1 else None
         at = own.state.clock.ctypes.data - own.snapshot.front.ctypes.data
         self._clock = at // self._first.itemsize + abi.TIME
 
-    def _part(self, function: object, rated: bool, first: int, last: int) -> _Part:
+    def _call_over_rows(self, function: object, rated: bool, first: int, last: int) -> _Part:
         """Return the call over some rows, with memory of its own."""
         simulation = self._prepared.simulation()
         state, compiled, setup = simulation.state, simulation.compiled, simulation.setup
@@ -183,10 +183,10 @@ class _Rows:
     def begin(self, r: int, start: Mapping[str, float] | None) -> None:
         """Put a row at a start; its formulas are evaluated by the next step."""
         if self._last is None or self._last[0] != start:
-            self._last = start, self._begun(start)
+            self._last = start, self._memory_at_start(start)
         self._fronts[r], self.given[r] = self._last[1], self._defaults
 
-    def _begun(self, start: Mapping[str, float] | None) -> Array:
+    def _memory_at_start(self, start: Mapping[str, float] | None) -> Array:
         """Return the memory of a run at a start."""
         own, state = self._own, self._own.state
         own.snapshot.front[:] = self._first
@@ -211,10 +211,10 @@ class _Rows:
                 future.result()
         self.reasons = []
         for r in np.flatnonzero(self._codes).tolist():
-            self._finish(r)
+            self._serve_request(r)
         self.times[:] = self._fronts[:, self._clock]
 
-    def _finish(self, r: int) -> None:
+    def _serve_request(self, r: int) -> None:
         """Serve the request of a row's loop, or keep the reason of its failure."""
         own, code = self._own, int(self._codes[r])
         if code < abi.DONE:
@@ -251,14 +251,14 @@ class _Part:
         self._enter()
 
 
-def _refuse(prepared: Prepared, simulation: Simulation) -> None:
+def _refuse_unsupported(prepared: Prepared, simulation: Simulation) -> None:
     """Refuse runs that single runs alone serve."""
     hint = "gymnasium.vector.SyncVectorEnv takes many environments of symgen.gym.make"
     where, compiled = "make_vec", prepared.compiled
     if compiled.shape != "straight":
         raise InputError(where, "code of the shape 'straight'", f"'{compiled.shape}'", hint)
     if prepared.spec.events is not None or compiled.info.bounded:
-        kinds = " and ".join(family.noun for family in reversed(families()))
+        kinds = " and ".join(family.noun for family in reversed(all_families()))
         raise InputError(where, f"a model without events, {kinds}", "one with such", hint)
     if prepared.spec.seams:
         raise InputError(where, "inputs and formulas that do not jump at known times", "one that does", hint)

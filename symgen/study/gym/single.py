@@ -41,7 +41,7 @@ class Environment(gymnasium.Env):  # type: ignore[misc]  # a class without types
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Array, dict[str, Any]]:
         """Begin an episode; ``options["start"]`` has values of the start, which replace `reset`."""
         super().reset(seed=seed)
-        self.run.reset(self.task.start(self.np_random) if not options else options.get("start"))
+        self.run.reset(self.task.draw_start(self.np_random) if not options else options.get("start"))
         return self._meter()[: len(self.task.observe)], {}
 
     def step(self, action: object) -> tuple[Array, float, bool, bool, dict[str, Any]]:
@@ -54,8 +54,8 @@ class Environment(gymnasium.Env):  # type: ignore[misc]  # a class without types
             event = self.run.step(task.dt, dict(zip(task.act, action.tolist(), strict=True)))
         except StepError as error:
             info["failure"] = error.reason
-        observations, reward, ended = task.judged(self._meter(), action)
+        observations, reward, ended = task.judge_step(self._meter(), action)
         if event is not None:
             info["event"] = event.name
-        over = bool(task.over(self.run.t)) or "failure" in info
+        over = bool(task.is_time_over(self.run.t)) or "failure" in info
         return observations, float(reward), bool(ended) or event is not None, over, info

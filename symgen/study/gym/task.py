@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base import arguments
-from symgen.base.errors import InputError, nearest, quoted
-from symgen.base.settings import Settings, changed, is_set
+from symgen.base.errors import InputError, quote, suggest
+from symgen.base.settings import Settings, change_settings, differs_from_default
 from symgen.run.integrators import INTEGRATORS
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ class Task:
         box = gymnasium.spaces.Box
         return box(-np.inf, np.inf, (len(self.observe),), np.float64), box(self.low, self.high, dtype=np.float64)
 
-    def judged(self, values: Array, action: Array) -> tuple[Array, Any, Any]:
+    def judge_step(self, values: Array, action: Array) -> tuple[Array, Any, Any]:
         """Return observations, rewards, and whether episodes are terminated, from values of the formulas."""
         n = len(self.observe)
         observations = np.ascontiguousarray(values[..., :n])
@@ -86,15 +86,15 @@ class Task:
         )
         if reward.shape != observations.shape[:-1]:
             expected = f"an array of shape {observations.shape[:-1]}" if observations.ndim > 1 else "a number"
-            raise InputError("reward", f"a function that returns {expected}", arguments.shown(reward))
+            raise InputError("reward", f"a function that returns {expected}", arguments.kind_of_value(reward))
         ended = np.zeros(observations.shape[:-1], dtype=bool) if self.end is None else values[..., -1] > 0.0
         return observations, reward, ended
 
-    def over(self, t: object) -> Any:
+    def is_time_over(self, t: object) -> Any:
         """Whether episodes have reached their time."""
         return np.asarray(t) >= self.until - _SAME * self.dt
 
-    def start(self, generator: np.random.Generator) -> Mapping[str, float] | None:
+    def draw_start(self, generator: np.random.Generator) -> Mapping[str, float] | None:
         """Return values of a start; None for the start of the run."""
         if self.reset is None:
             return None
@@ -104,7 +104,7 @@ class Task:
         return {name: generator.uniform(*x) if isinstance(x, tuple) else float(x) for name, x in pairs}
 
 
-def task_of(
+def make_task(
     model: Model,
     observe: Any,
     act: Any,
@@ -131,18 +131,18 @@ def task_of(
         raise InputError("act", "at least one input", "none")
     for name in bounds:
         if name not in mechanism.inputs:
-            hint = nearest(str(name), mechanism.inputs) if mechanism.inputs else "it declares none"
-            raise InputError("act", f"an input of {mechanism.name}", quoted(str(name)), hint)
-    pairs = np.array([_bounds(f"act '{name}'", pair, np.inf) for name, pair in bounds.items()])
+            hint = suggest(str(name), mechanism.inputs) if mechanism.inputs else "it declares none"
+            raise InputError("act", f"an input of {mechanism.name}", quote(str(name)), hint)
+    pairs = np.array([_ordered_bounds(f"act '{name}'", pair, np.inf) for name, pair in bounds.items()])
     if not isinstance(reward, str):
-        if reward is None or arguments.function("reward", reward) is None:
+        if reward is None or arguments.callable_or_none("reward", reward) is None:
             raise InputError("reward", "a formula or a function", "None")
     if reset is not None and not callable(reset):
         reset = arguments.mapping("reset", reset, "numbers or pairs of bounds by the names of a start")
-        reset = {name: _value(f"reset '{name}'", x) for name, x in reset.items()}
+        reset = {name: _number_or_bounds(f"reset '{name}'", x) for name, x in reset.items()}
     if end is not None:
         arguments.text("end", end, "a formula")
-    settings = _of_steps(changed(settings, changes), dt, mechanism.defaults.step)
+    settings = _settings_of_environment(change_settings(settings, changes), dt, mechanism.defaults.step)
     for name in bounds:
         if name in settings.inputs:
             raise InputError(f"act '{name}'", "an input that nothing else sets", "one that is set by `inputs`")
@@ -151,11 +151,11 @@ def task_of(
     return Task(model, settings, observed, tuple(bounds), low, high, reward, reset, end, dt, until)
 
 
-def _of_steps(settings: Settings, dt: float, step: float) -> Settings:
+def _settings_of_environment(settings: Settings, dt: float, step: float) -> Settings:
     """Return settings with the integrator, the step and the coordinates that environments take by default."""
     integrator = settings.integrator or "rk4"
     settings = replace(settings, integrator=integrator)
-    if not is_set(settings, "coordinates"):
+    if not differs_from_default(settings, "coordinates"):
         settings = replace(settings, coordinates="auto")
     kind = INTEGRATORS.get(integrator, "integrator") if integrator != "auto" else None
     adaptive = settings.rtol is not None or settings.atol is not None or (kind is not None and kind.adaptive)
@@ -164,21 +164,21 @@ def _of_steps(settings: Settings, dt: float, step: float) -> Settings:
     return settings
 
 
-def _bounds(where: str, pair: object, limit: float) -> tuple[float, float]:
+def _ordered_bounds(where: str, pair: object, limit: float) -> tuple[float, float]:
     """Return two bounds in order, finite or up to a limit."""
-    numbers = arguments.listed(where, pair, "a pair of bounds")
+    numbers = arguments.entries_of(where, pair, "a pair of bounds")
     try:
         low, high = (float(x) for x in numbers)
     except (TypeError, ValueError):
         low, high = 1.0, 0.0
     if not (low < high or (low == high and limit < np.inf)):
-        raise InputError(where, "a pair of bounds, the lower one first", arguments.shown(pair))
+        raise InputError(where, "a pair of bounds, the lower one first", arguments.kind_of_value(pair))
     return low, high
 
 
-def _value(where: str, x: object) -> float | tuple[float, float]:
+def _number_or_bounds(where: str, x: object) -> float | tuple[float, float]:
     """Return a number, or bounds of a distribution."""
     if isinstance(x, tuple | list):
-        low, high = _bounds(where, x, 0.0)
+        low, high = _ordered_bounds(where, x, 0.0)
         return arguments.number(where, low), arguments.number(where, high)
     return arguments.number(where, x)

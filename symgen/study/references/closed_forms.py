@@ -68,16 +68,16 @@ def parallel_cranks(names: Sequence[str], times: Array) -> Closed:
     n = sum(name.startswith("coupler") for name in names)
     factor = 9.81 * ((n + 1) / 2 + n) / ((n + 1) / 3 + n)
 
-    def solve(rtol: float) -> Array:
-        def rate(_: float, y: Array) -> list[float]:
+    def solve_at_tolerance(rtol: float) -> Array:
+        def state_rate(_: float, y: Array) -> list[float]:
             return [y[1], factor * math.sin(y[0])]
 
         end = float(times[-1])
         # short steps: interpolation to the output times must not limit the accuracy
-        solution = solve_ivp(rate, (0.0, end), [0.0, 1.0], "DOP853", times, rtol=rtol, atol=rtol, max_step=0.01)
+        solution = solve_ivp(state_rate, (0.0, end), [0.0, 1.0], "DOP853", times, rtol=rtol, atol=rtol, max_step=0.01)
         return np.asarray(solution.y, dtype=float)
 
-    theta, speed = solve(3e-14)
+    theta, speed = solve_at_tolerance(3e-14)
     s, c, zero = np.sin(theta), np.cos(theta), np.zeros(len(times))
     columns, rates = list[Array](), list[Array]()
     for name in names:
@@ -87,7 +87,7 @@ def parallel_cranks(names: Sequence[str], times: Array) -> Closed:
         else:
             columns += [int(name.removeprefix("coupler")) + 0.5 + s, c, zero]
             rates += [c * speed, -s * speed, zero]
-    estimated = 2.0 * float(np.abs(solve(1e-12)[0] - theta).max(initial=0.0))
+    estimated = 2.0 * float(np.abs(solve_at_tolerance(1e-12)[0] - theta).max(initial=0.0))
     how = "the equation of the regular branch in one coordinate, DOP853 at 3e-14"
     return how, estimated, np.column_stack(columns), np.column_stack(rates)
 
@@ -142,7 +142,7 @@ def flyball_governor(mechanism: Mechanism, parameters: Mapping[str, float], q: A
     own = across - mass * centre**2
     still = 0.3 * 2e-4 / 12.0 + slider * 0.02 / 12.0  # shaft and slider about the vertical
 
-    def inertia(alpha: float) -> tuple[float, float]:
+    def inertia_and_slope(alpha: float) -> tuple[float, float]:
         """Return I and dI/d alpha."""
         s, c = math.sin(alpha), math.cos(alpha)
         far = offset + centre * c
@@ -150,9 +150,9 @@ def flyball_governor(mechanism: Mechanism, parameters: Mapping[str, float], q: A
         return value, 4.0 * ((along - own) * s * c - mass * far * centre * s)
 
     begin, height = math.pi / 6.0, 0.5
-    momentum = inertia(begin)[0] * parameters["speed"]
+    momentum = inertia_and_slope(begin)[0] * parameters["speed"]
 
-    def rate(_: float, y: Array) -> list[float]:
+    def state_rate(_: float, y: Array) -> list[float]:
         alpha, s, alpha_rate, s_rate, _ = y
         sine, cosine = math.sin(alpha), math.cos(alpha)
         level = 1.0 - 0.5 * sine - s
@@ -160,30 +160,30 @@ def flyball_governor(mechanism: Mechanism, parameters: Mapping[str, float], q: A
         by_alpha = (-0.25 * sine * cosine - 0.5 * cosine * level) / length
         by_s = -level / length
         push = -stiffness * (length - free) - damping * (by_alpha * alpha_rate + by_s * s_rate)
-        whole, slope = inertia(alpha)
+        whole, slope = inertia_and_slope(alpha)
         turning = 0.5 * (momentum / whole) ** 2 * slope + 2.0 * mass * gravity * centre * cosine + 2.0 * push * by_alpha
         lifting = -slider * gravity + 2.0 * push * by_s
         return [alpha_rate, s_rate, turning / (2.0 * across), lifting / slider, momentum / whole]
 
-    def slopes(t: float, y: Array) -> Array:
+    def rate_slopes(t: float, y: Array) -> Array:
         """Return d rate / d y by central differences; nothing depends on the angle about the vertical."""
         result = np.zeros((5, 5))
         for j in range(4):
             step = np.zeros(5)
             step[j] = 1e-6
-            result[:, j] = (np.array(rate(t, y + step)) - np.array(rate(t, y - step))) / 2e-6
+            result[:, j] = (np.array(state_rate(t, y + step)) - np.array(state_rate(t, y - step))) / 2e-6
         return result
 
-    def solve(rtol: float) -> Array:
+    def solve_at_tolerance(rtol: float) -> Array:
         start, end = [begin, height, 0.0, 0.0, 0.0], (0.0, float(times[-1]))
-        solution = solve_ivp(rate, end, start, "Radau", times, rtol=rtol, atol=0.1 * rtol, jac=slopes)
+        solution = solve_ivp(state_rate, end, start, "Radau", times, rtol=rtol, atol=0.1 * rtol, jac=rate_slopes)
         if not solution.success:
             raise SimulationError(f"the reference motion cannot be integrated: {solution.message}")
         return np.asarray(solution.y, dtype=np.float64)
 
-    y, rougher = solve(1e-11), solve(1e-10)
+    y, rougher = solve_at_tolerance(1e-11), solve_at_tolerance(1e-10)
     alpha, s, alpha_rate, s_rate, turned = y
-    spin = np.array([momentum / inertia(a)[0] for a in alpha.tolist()])
+    spin = np.array([momentum / inertia_and_slope(a)[0] for a in alpha.tolist()])
     columns, rates = list[Array](), list[Array]()
     for body in mechanism.bodies:
         phi = turned + (math.pi if body.name == "arm2" else 0.0)

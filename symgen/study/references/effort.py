@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from symgen.derive.lower.looped.law import is_loopable
+from symgen.derive.lower.looped.looped_law import is_loopable
 from symgen.derive.methods._base import EXPLICIT_FORMS
 from symgen.run.compiling.choices import straight_seconds
 from symgen.run.compiling.method_choice import choose_method
@@ -73,7 +73,7 @@ def explicit_limits(quick: bool) -> tuple[int, int]:
     return (QUICK_BUDGET, QUICK_BUDGET) if quick else (BUDGET, ADAPTIVE_BUDGET)
 
 
-def budget_of(plan: Plan, mechanism: Mechanism, searched: bool = False, quick: bool = False) -> int:
+def evaluation_budget(plan: Plan, mechanism: Mechanism, searched: bool = False, quick: bool = False) -> int:
     """Return the evaluation limit of a run, or of one of the many of a search; less in a quick study."""
     if is_implicit(plan):
         return implicit_budget(mechanism, quick=quick)
@@ -82,20 +82,20 @@ def budget_of(plan: Plan, mechanism: Mechanism, searched: bool = False, quick: b
         return explicit_budget(mechanism, most, quick)
     budget = explicit_budget(mechanism, most // (QUICK_BOUNDED if quick else BOUNDED), quick)
     if quick and not plan.spec.adaptive and "ode" in plan.integrator.forms:
-        return min(budget, int(EVENTFUL * predicted(plan, 0.0)))
+        return min(budget, int(EVENTFUL * least_evaluations(plan, 0.0)))
     return budget
 
 
 def smallest_step(plan: Plan, budget: int) -> float:
     """Return the smallest constant step of a run within a budget [s]."""
-    return predicted(plan, 0.0) * (plan.spec.step or 0.0) / budget
+    return least_evaluations(plan, 0.0) * (plan.spec.step or 0.0) / budget
 
 
 def further_budget(budget: int, used: int, quick: bool = False, done: float = 1.0) -> int:
     """Return the evaluation limit, without its watch, of a run that stopped itself after `used`.
 
     Off the constraints steps may become tiny, and iterated methods need many iterations. `done` is the part of its time
-    that the run has behind it: a quick study does not wait for runs that come to no end.
+    that the run has taken: a quick study does not wait for runs that come to no end.
     """
     if quick and used > SLOW_PACE * budget * done:
         return min(budget, QUICK_FURTHER)
@@ -107,7 +107,7 @@ def is_implicit(plan: Plan) -> bool:
     return plan.choice.implicit and "index-1" in plan.integrator.forms
 
 
-def predicted(plan: Plan, decay: float) -> float:
+def least_evaluations(plan: Plan, decay: float) -> float:
     """Return a lower bound of a run's evaluations.
 
     Parameters
@@ -142,7 +142,7 @@ def needs_straight(method: str, integrator: str) -> bool:
     return not is_loopable(choice.method, choice.options, choice.implicit)
 
 
-def left_out(
+def pairs_left_out(
     mechanisms: Sequence[Mechanism], pairs: Sequence[tuple[str, str]], seconds: float, straight: bool = False
 ) -> list[tuple[str, str, str, str]]:
     """Return mechanism, method, integrator and reason of the pairs that do not fit into a time of compilation.

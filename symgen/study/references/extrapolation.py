@@ -17,7 +17,7 @@ COLUMNS = 8
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _by_gauss(d: Array, gamma: Array, f: Array, mass: Array, acceleration: Array) -> None:
+def _gauss_accelerations(d: Array, gamma: Array, f: Array, mass: Array, acceleration: Array) -> None:
     """Set `acceleration` to the v' of D v' = gamma that is nearest to M^-1 f in the metric of M."""
     m, n = d.shape
     root, free = np.empty(n), np.empty(n)
@@ -44,7 +44,7 @@ def _by_gauss(d: Array, gamma: Array, f: Array, mass: Array, acceleration: Array
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _with_multipliers(d: Array, gamma: Array, f: Array, mass: Array, acceleration: Array) -> None:
+def _accelerations_by_multipliers(d: Array, gamma: Array, f: Array, mass: Array, acceleration: Array) -> None:
     """Set `acceleration` to the v' of M v' + D^T l = f and D v' = gamma."""
     m, n = d.shape
     heavy, usual = 0, 0.0
@@ -101,20 +101,20 @@ def compute_rate(
         rate[j] = y[n + j]
         heavy = heavy and mass[j] > 0.0
     if heavy:
-        _by_gauss(d, gamma, f, mass, rate[n : 2 * n])
+        _gauss_accelerations(d, gamma, f, mass, rate[n : 2 * n])
     else:
         masses = np.zeros((n, n))
         for j in range(n):
             masses[j, j] = mass[j]
         for e in range(rotors):
             masses[index[1 + 2 * k + e], index[1 + 2 * k + rotors + e]] += out[first + own + e]
-        _with_multipliers(d, gamma, f, masses, rate[n : 2 * n])
+        _accelerations_by_multipliers(d, gamma, f, masses, rate[n : 2 * n])
     for i in range(own):
         rate[2 * n + i] = out[first + i]
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def extrapolated(
+def integrate_by_extrapolation(
     function: Callable[..., None],
     index: Integers,
     m: int,

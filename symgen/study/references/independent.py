@@ -17,14 +17,14 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
-from symgen.describe.bounds.modes import families_of
+from symgen.describe.bounds.bounded_modes import rows_by_family
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Body, Mechanism
 from symgen.study.references.differences import difference_jacobian
 from symgen.study.references.sympy_formulas import TENSOR, ReferenceFormulas
 
 if TYPE_CHECKING:
-    from symgen.describe.tables import Table
+    from symgen.describe.table_functions import Table
 
 Array = NDArray[np.float64]
 
@@ -48,7 +48,7 @@ class IndependentEquations:
     """
 
     def __init__(self, mechanism: Mechanism, parameters: Mapping[str, float]) -> None:
-        for family in families_of(mechanism):
+        for family in rows_by_family(mechanism):
             expected = "a mechanism that is derived a second time, for references"
             raise InputError(
                 mechanism.name, expected, f"one with {family.noun}", "symgen run --verify estimates errors"
@@ -58,7 +58,7 @@ class IndependentEquations:
         self.rank: int | None = None
         formulas = ReferenceFormulas(mechanism, self._parameter_symbols())
         self.n, self.first = len(formulas.q), formulas.first
-        self._weigh()
+        self._set_masses()
         rows = formulas.rows()
         self.m = len(rows)
         self._entries = [(i, j) for i, row in enumerate(rows) for j in row[1]]
@@ -79,7 +79,7 @@ class IndependentEquations:
         outputs = [sp.sympify(e).replace(sp.DiracDelta, lambda *_: sp.S.Zero) for e in outputs]
         self._function = self._compile(formulas, outputs)
 
-    def _weigh(self) -> None:
+    def _set_masses(self) -> None:
         """Set M, and its inverse root as the metric of projections; there massless bodies count as usual ones."""
         mass, tensors, self.regular = list[float](), list[Array](), True
         self._first_e = list[int]()  # where the Euler parameters of each body that turns in space begin
@@ -117,7 +117,7 @@ class IndependentEquations:
             speeds, v = np.split(v, [len(body.speeds)])
             if len(speeds) == 6:
                 e = q[self.first[body.name] + 3 :][:4]
-                speeds = np.concatenate([speeds[:3], 0.5 * _turning(e).T @ speeds[3:]])
+                speeds = np.concatenate([speeds[:3], 0.5 * _rate_matrix(e).T @ speeds[3:]])
             rates.append(speeds)
         return np.concatenate([q, *rates, self.starts if z is None else z])
 
@@ -128,7 +128,7 @@ class IndependentEquations:
             i, size = self.first[body.name], len(body.coordinates)
             rates = y[self.n + i : self.n + i + size]
             if size == 7:
-                rates = np.concatenate([rates[:3], 2.0 * _turning(y[i + 3 : i + 7]) @ rates[3:]])
+                rates = np.concatenate([rates[:3], 2.0 * _rate_matrix(y[i + 3 : i + 7]) @ rates[3:]])
             speeds.append(rates)
         return np.concatenate(speeds)
 
@@ -137,27 +137,27 @@ class IndependentEquations:
 
         States of the file may follow `v`; else they are 0.
         """
-        return self._parted(self._numbers(t, q, v))
+        return self._split_numbers(self._numbers(t, q, v))
 
     def _numbers(self, t: float, q: Array, v: Array) -> Array:
         """Return the numbers that `evaluate` parts, then the rates of states and the masses of rotors."""
         rest = np.zeros(self.n + len(self.mechanism.states) - len(v))
         return np.array(self._function(t, q.tolist(), [*v.tolist(), *rest.tolist()]), dtype=float)
 
-    def _parted(self, flat: Array) -> tuple[Array, Array, Array, Array, Array]:
+    def _split_numbers(self, flat: Array) -> tuple[Array, Array, Array, Array, Array]:
         m, k = self.m, len(self._entries)
         d = np.zeros((m, self.n))
         d[self._row_index, self._column_index] = flat[m : m + k]
         first = 3 * m + k
         return flat[:m], d, flat[m + k : 2 * m + k], flat[2 * m + k : first], flat[first : first + self.n]
 
-    def _behind(self, flat: Array) -> tuple[Array, Array]:
+    def _rates_and_rotor_masses(self, flat: Array) -> tuple[Array, Array]:
         """Return the rates of states, and the masses of rotors in the order of their places."""
         first = 3 * self.m + len(self._entries) + self.n
         count = len(self.mechanism.states)
         return flat[first : first + count], flat[first + count :]
 
-    def project(self, t: float, y: Array, mass_weighted: bool = True) -> Array:
+    def nearest_state(self, t: float, y: Array, mass_weighted: bool = True) -> Array:
         """Return the nearest state that satisfies the constraints, positions first; counts the independent rows."""
         root = self.root if mass_weighted else np.ones(self.n)
         q, v, z = y[: self.n].copy(), y[self.n : 2 * self.n].copy(), y[2 * self.n :]
@@ -181,11 +181,11 @@ class IndependentEquations:
         n = self.n
         q, v = y[:n], y[n : 2 * n]
         flat = self._numbers(t, q, y[n:])
-        _, d, _, gamma, f = self._parted(flat)
-        own, turning = self._behind(flat)
+        _, d, _, gamma, f = self._split_numbers(flat)
+        own, turning = self._rates_and_rotor_masses(flat)
         if not self.regular:
-            return np.concatenate([v, self._with_multipliers(self._mass(q, turning), d, gamma, f), own])
-        root = self._root(q, turning)
+            return np.concatenate([v, self._accelerations_by_multipliers(self._mass(q, turning), d, gamma, f), own])
+        root = self._inverse_mass_root(q, turning)
         free = root.T @ f
         scaled = d @ root
         missing = gamma - scaled @ free
@@ -193,7 +193,7 @@ class IndependentEquations:
             basis, r = np.linalg.qr(scaled.T)
             change = basis @ np.linalg.solve(r.T, missing)
         else:
-            u, values, w = self._independent(scaled)
+            u, values, w = self._independent_rows(scaled)
             change = w.T @ ((u.T @ missing) / values)
         return np.concatenate([v, root @ (free + change), own])
 
@@ -210,11 +210,11 @@ class IndependentEquations:
         """Return the multipliers of ``M q'' + D^T l = f``, of minimum norm where rows are dependent."""
         n = self.n
         flat = self._numbers(t, y[:n], y[n:])
-        _, d, _, _, f = self._parted(flat)
-        forces = f - self._mass(y[:n], self._behind(flat)[1]) @ self.rate(t, y)[n : 2 * n]
+        _, d, _, _, f = self._split_numbers(flat)
+        forces = f - self._mass(y[:n], self._rates_and_rotor_masses(flat)[1]) @ self.rate(t, y)[n : 2 * n]
         return np.asarray(np.linalg.lstsq(d.T, forces, rcond=CUTOFF)[0], dtype=np.float64)
 
-    def undetermined(self, y: Array) -> tuple[str, ...]:
+    def undetermined_joints(self, y: Array) -> tuple[str, ...]:
         """Return the joints that take part in forces which move nothing: their reactions are not determined."""
         d = self.evaluate(0.0, y[: self.n], y[self.n :])[1]
         left, values, _ = np.linalg.svd(d, full_matrices=True)
@@ -223,13 +223,13 @@ class IndependentEquations:
         loose = {name for name, share in zip(joints, np.linalg.norm(idle, axis=1), strict=False) if share > SHARE}
         return tuple(joint.name for joint in self.mechanism.joints if joint.name in loose)
 
-    def _independent(self, d: Array) -> tuple[Array, Array, Array]:
+    def _independent_rows(self, d: Array) -> tuple[Array, Array, Array]:
         """Return the singular values of the independent rows of a matrix, with their vectors."""
         u, values, w = np.linalg.svd(d, full_matrices=False)
         rank = self.rank if self.rank is not None else int(np.sum(values > CUTOFF * values.max(initial=0.0)))
         return u[:, :rank], values[:rank], w[:rank]
 
-    def _root(self, q: Array, turning: Array) -> Array:
+    def _inverse_mass_root(self, q: Array, turning: Array) -> Array:
         """Return R with M^-1 = R R^T, the mass matrix of the rates completed along e; `turning`: masses of rotors."""
         if len(turning):
             lower = np.linalg.cholesky(self._mass(q, turning))
@@ -241,9 +241,9 @@ class IndependentEquations:
             root[i : i + 4, i : i + 4] = block.T
         return root
 
-    def _with_multipliers(self, mass: Array, d: Array, gamma: Array, f: Array) -> Array:
+    def _accelerations_by_multipliers(self, mass: Array, d: Array, gamma: Array, f: Array) -> Array:
         """Return q'' of M q'' + D^T l = f and D q'' = gamma, D by its independent rows: M may have no inverse."""
-        u, values, w = self._independent(d)
+        u, values, w = self._independent_rows(d)
         rows = self.usual * w
         system = np.block([[mass, rows.T], [rows, np.zeros((len(values), len(values)))]])
         right = self.usual * (u.T @ gamma) / values
@@ -261,7 +261,7 @@ class IndependentEquations:
     def _inertia(self, q: Array) -> Array:
         """Return the mass matrices of the rates of Euler parameters, completed along e; shape (bodies, 4, 4)."""
         e = q[np.array(self._first_e, dtype=int)[:, None] + np.arange(4)]
-        turning = np.array([_turning(row) for row in e]).reshape(-1, 3, 4)
+        turning = np.array([_rate_matrix(row) for row in e]).reshape(-1, 3, 4)
         along = np.trace(self._tensors, axis1=1, axis2=2)[:, None, None] * e[:, :, None] * e[:, None, :]
         inertia: Array = 4.0 * np.swapaxes(turning, 1, 2) @ self._tensors @ turning + along
         return inertia
@@ -275,7 +275,7 @@ class IndependentEquations:
     def _compile(self, formulas: ReferenceFormulas, outputs: list[Any]) -> Callable[..., Any]:
         tables: dict[str, Callable[[float], float]] = {}
         for table in self.mechanism.tables:
-            tables |= curves(table)
+            tables |= table_curves(table)
         inputs = [formulas.t, formulas.q, [*formulas.v, *formulas.z], formulas.turns]
         function = sp.lambdify(inputs, [*outputs, *formulas.angles], modules=[tables, "math"], cse=True)
         count = len(formulas.angles)
@@ -289,7 +289,7 @@ class IndependentEquations:
         ]
         before = [0.0] * count
 
-        def begun(t: float, q: list[float], v: list[float]) -> list[float]:
+        def begin_turns(t: float, q: list[float], v: list[float]) -> list[float]:
             """Return the whole turns of a start: those that rows require, one angle by each row, and none otherwise."""
             turns, used = [0.0] * count, set[int]()
             for row, k, factor in asking:
@@ -298,48 +298,52 @@ class IndependentEquations:
                     used.add(row)
             return turns
 
-        def counted(t: float, q: list[float], v: list[float]) -> Any:
+        def evaluate_with_turns(t: float, q: list[float], v: list[float]) -> Any:
             """Evaluate with each angle on the branch nearest to its last value; a run begins at t = 0."""
             raw = function(t, q, v, [0.0] * count)[-count:]
             turns = [math.floor((last - angle) / math.tau + 0.5) for last, angle in zip(before, raw, strict=True)]
             if t == 0.0:
-                turns = begun(t, q, v)
+                turns = begin_turns(t, q, v)
             before[:] = [angle + math.tau * turn for angle, turn in zip(raw, turns, strict=True)]
             return function(t, q, v, turns)[:-count]
 
-        return counted
+        return evaluate_with_turns
 
 
-def _turning(e: Array) -> Array:
+def _rate_matrix(e: Array) -> Array:
     """Return L(e), shape (3, 4), with omega = 2 L e' in body axes."""
     a, b, c, d = e
     return np.array([[-b, a, d, -c], [-c, -d, a, b], [-d, c, -b, a]])
 
 
-def curves(table: Table) -> dict[str, Callable[[float], Any]]:
+def table_curves(table: Table) -> dict[str, Callable[[float], Any]]:
     """Return a table's function and its derivatives by the names that SymPy prints.
 
     They are plain Python, which Numba can compile.
     """
     x, y = np.asarray(table.x, dtype=float), np.asarray(table.y, dtype=float)
-    functions = _lines(x, y) if table.interpolation == "linear" else _pieces(x, y, table.interpolation, table.periodic)
+    functions = (
+        _linear_curve(x, y)
+        if table.interpolation == "linear"
+        else _smooth_curve(x, y, table.interpolation, table.periodic)
+    )
     return {f"{name}_{table.name}": function for name, function in functions.items()}
 
 
-def _lines(x: Any, y: Any) -> dict[str, Callable[[float], Any]]:
-    def value(at: float) -> Any:
+def _linear_curve(x: Any, y: Any) -> dict[str, Callable[[float], Any]]:
+    def linear_value(at: float) -> Any:
         return np.interp(at, x, y)
 
-    def slope(at: float) -> Any:
+    def linear_slope(at: float) -> Any:
         if at <= x[0] or at >= x[-1]:
             return 0.0
         i = np.searchsorted(x, at, side="right")
         return (y[i] - y[i - 1]) / (x[i] - x[i - 1])
 
-    return {"table": value, "slope": slope}
+    return {"table": linear_value, "slope": linear_slope}
 
 
-def _pieces(x: Any, y: Any, interpolation: str, periodic: bool) -> dict[str, Callable[[float], Any]]:
+def _smooth_curve(x: Any, y: Any, interpolation: str, periodic: bool) -> dict[str, Callable[[float], Any]]:
     from scipy.interpolate import CubicSpline, PchipInterpolator
 
     n, period = len(x), x[-1] - x[0] if periodic else np.inf
@@ -353,7 +357,7 @@ def _pieces(x: Any, y: Any, interpolation: str, periodic: bool) -> dict[str, Cal
         spline = PchipInterpolator(x, y)
     slopes, c = spline(x, 1), np.ascontiguousarray(spline.c[:, n - 1 : 2 * n - 2] if len(spline.x) > n else spline.c)
 
-    def table(at: float) -> Any:
+    def smooth_value(at: float) -> Any:
         at = x[0] + (at - x[0]) % period if period < np.inf else at
         if at < x[0]:
             return y[0] + slopes[0] * (at - x[0])
@@ -363,7 +367,7 @@ def _pieces(x: Any, y: Any, interpolation: str, periodic: bool) -> dict[str, Cal
         u = at - x[i]
         return ((c[0, i] * u + c[1, i]) * u + c[2, i]) * u + c[3, i]
 
-    def slope(at: float) -> Any:
+    def linear_slope(at: float) -> Any:
         at = x[0] + (at - x[0]) % period if period < np.inf else at
         if at < x[0] or at > x[-1]:
             return slopes[0] if at < x[0] else slopes[-1]
@@ -371,11 +375,11 @@ def _pieces(x: Any, y: Any, interpolation: str, periodic: bool) -> dict[str, Cal
         u = at - x[i]
         return (3.0 * c[0, i] * u + 2.0 * c[1, i]) * u + c[2, i]
 
-    def second(at: float) -> Any:
+    def second_derivative(at: float) -> Any:
         at = x[0] + (at - x[0]) % period if period < np.inf else at
         if at < x[0] or at > x[-1]:
             return 0.0
         i = min(np.searchsorted(x, at, side="right") - 1, n - 2)
         return 6.0 * c[0, i] * (at - x[i]) + 2.0 * c[1, i]
 
-    return {"table": table, "slope": slope, "second": second}
+    return {"table": smooth_value, "slope": linear_slope, "second": second_derivative}

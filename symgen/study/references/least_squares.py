@@ -21,7 +21,7 @@ DEPENDENT = 1e-7
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _reflect(a: Array, k: int, length: float, diagonal: Array, factors: Array) -> None:
+def _reflect_rows(a: Array, k: int, length: float, diagonal: Array, factors: Array) -> None:
     """Reflect the rows of A from the k-th on, of which columns from k on are left, so that the k-th has one entry."""
     m, n = a.shape
     diagonal[k] = -length if a[k, k] > 0.0 else length
@@ -37,7 +37,7 @@ def _reflect(a: Array, k: int, length: float, diagonal: Array, factors: Array) -
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _turn_back(a: Array, factors: Array, rank: int, x: Array) -> None:
+def _apply_reflections(a: Array, factors: Array, rank: int, x: Array) -> None:
     """Take x back through the reflections in the rows of A; entries from the rank on are set to 0 before."""
     n = a.shape[1]
     for j in range(rank, n):
@@ -52,7 +52,7 @@ def _turn_back(a: Array, factors: Array, rank: int, x: Array) -> None:
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _square(a: Array, i: int, k: int) -> float:
+def _sum_of_squares(a: Array, i: int, k: int) -> float:
     """Return the sum of squares of a row from column k on."""
     square = 0.0
     for j in range(k, a.shape[1]):
@@ -61,7 +61,7 @@ def _square(a: Array, i: int, k: int) -> float:
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _independent(a: Array, b: Array, x: Array) -> bool:
+def _solve_independent_rows(a: Array, b: Array, x: Array) -> bool:
     """Set x to the minimum-norm solution of A x = b by Householder reflections of the rows of A; overwrites A.
 
     Returns
@@ -73,11 +73,11 @@ def _independent(a: Array, b: Array, x: Array) -> bool:
     diagonal, factors = np.empty(m), np.empty(m)
     smallest, largest = math.inf, 0.0
     for k in range(m):
-        length = math.sqrt(_square(a, k, k))
+        length = math.sqrt(_sum_of_squares(a, k, k))
         smallest, largest = min(smallest, length), max(largest, length)
         if not length > 0.0:
             return False
-        _reflect(a, k, length, diagonal, factors)
+        _reflect_rows(a, k, length, diagonal, factors)
     if not smallest > DEPENDENT * largest:
         return False
     for i in range(m):
@@ -85,12 +85,12 @@ def _independent(a: Array, b: Array, x: Array) -> bool:
         for j in range(i):
             x[i] -= a[i, j] * x[j]
         x[i] /= diagonal[i]
-    _turn_back(a, factors, m, x)
+    _apply_reflections(a, factors, m, x)
     return True
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _dependent(a: Array, b: Array, x: Array) -> None:
+def _solve_dependent_rows(a: Array, b: Array, x: Array) -> None:
     """Set x to the minimum-norm least-squares solution of A x = b, rows of any rank; overwrites A and b.
 
     The longest row that is left is reflected next, until `CUTOFF` times the first one is longer than all: A = L Q with
@@ -102,9 +102,9 @@ def _dependent(a: Array, b: Array, x: Array) -> None:
     diagonal, factors = np.empty(most), np.empty(most)
     rank, least = 0, 0.0
     for k in range(most):
-        chosen, square = k, _square(a, k, k)
+        chosen, square = k, _sum_of_squares(a, k, k)
         for i in range(k + 1, m):
-            other = _square(a, i, k)
+            other = _sum_of_squares(a, i, k)
             if other > square:
                 chosen, square = i, other
         if k == 0:
@@ -115,7 +115,7 @@ def _dependent(a: Array, b: Array, x: Array) -> None:
             for j in range(n):
                 a[k, j], a[chosen, j] = a[chosen, j], a[k, j]
             b[k], b[chosen] = b[chosen], b[k]
-        _reflect(a, k, math.sqrt(square), diagonal, factors)
+        _reflect_rows(a, k, math.sqrt(square), diagonal, factors)
         rank = k + 1
     # columns of L as rows, b the last of them: their reflections bring it to the triangle of R^T and to Q^T b
     lower = np.zeros((rank + 1, m))
@@ -127,13 +127,13 @@ def _dependent(a: Array, b: Array, x: Array) -> None:
         lower[rank, i] = b[i]
     turned, unused = np.empty(rank), np.empty(rank)
     for k in range(rank):
-        _reflect(lower, k, math.sqrt(_square(lower, k, k)), turned, unused)
+        _reflect_rows(lower, k, math.sqrt(_sum_of_squares(lower, k, k)), turned, unused)
     for k in range(rank - 1, -1, -1):
         x[k] = lower[rank, k]
         for j in range(k + 1, rank):
             x[k] -= lower[j, k] * x[j]
         x[k] /= turned[k]
-    _turn_back(a, factors, rank, x)
+    _apply_reflections(a, factors, rank, x)
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
@@ -148,5 +148,5 @@ def minimum_norm(a: Array, b: Array, x: Array) -> None:
         Overwritten.
     """
     m, n = a.shape
-    if m > n or not _independent(a.copy(), b, x):
-        _dependent(a.copy(), b.copy(), x)
+    if m > n or not _solve_independent_rows(a.copy(), b, x):
+        _solve_dependent_rows(a.copy(), b.copy(), x)

@@ -25,11 +25,18 @@ from numpy.typing import NDArray
 from symgen.base.errors import SimulationError
 from symgen.describe.mechanism import Mechanism
 from symgen.result.points import Points
-from symgen.study.references.extrapolation import compute_rate, extrapolated
-from symgen.study.references.independent import CUTOFF, IndependentEquations, curves
+from symgen.study.references.extrapolation import compute_rate, integrate_by_extrapolation
+from symgen.study.references.independent import CUTOFF, IndependentEquations, table_curves
 from symgen.study.references.numba_code import machine_code
 from symgen.study.references.reference import Reference
-from symgen.study.references.solvers import OverBudgetError, Scheme, by_steps, in_parts, is_stiff, longest_of
+from symgen.study.references.solvers import (
+    OverBudgetError,
+    Scheme,
+    integrate_by_steps,
+    integrate_in_parts,
+    is_stiff,
+    longest_reference_step,
+)
 from symgen.study.references.sympy_formulas import ReferenceFormulas
 
 Array = NDArray[np.float64]
@@ -74,11 +81,11 @@ class CompiledEquations(IndependentEquations):
         """Set the values of the parameters; compiles nothing."""
         self.parameters = parameters
         self.values = np.array([parameters[p.name] for p in self.mechanism.parameters] or [0.0])
-        self._weigh()
+        self._set_masses()
 
     def evaluate(self, t: float, q: Array, v: Array) -> tuple[Array, Array, Array, Array, Array]:
         """Return Phi, D, nu, gamma and f at a state."""
-        return self._parted(self._numbers(t, q, v))
+        return self._split_numbers(self._numbers(t, q, v))
 
     def _numbers(self, t: float, q: Array, v: Array) -> Array:
         count = len(self.mechanism.states)
@@ -90,7 +97,7 @@ class CompiledEquations(IndependentEquations):
     def rate(self, t: float, y: Array) -> Array:
         """Return (v, v', z'), as `IndependentEquations.rate` does."""
         rates = np.empty(len(y))
-        _for_all(compute_rate, _RATE)(
+        _compile_for_all(compute_rate, _RATE)(
             self._address,
             self._index,
             self.m,
@@ -142,7 +149,7 @@ class CompiledEquations(IndependentEquations):
             If the step collapses or the limit is exceeded.
         """
         y = y.copy()
-        code = _for_all(extrapolated, _EXTRAPOLATE)(
+        code = _compile_for_all(integrate_by_extrapolation, _EXTRAPOLATE)(
             *(self._address, self._index, self.m, self.n, self.mass, self.values, t, y, until, rtol, scale, state),
             *(most, used),
         )
@@ -159,7 +166,7 @@ class CompiledEquations(IndependentEquations):
 
     def _compile(self, formulas: ReferenceFormulas, outputs: list[Any]) -> Callable[..., Any]:
         """Return the outputs as a compiled function (t, q, v, p, out)."""
-        text, space = self._text(formulas, outputs)
+        text, space = self._function_text(formulas, outputs)
         signature = EQUATIONS.signature
         make = numba.njit(signature, error_model="numpy", nogil=True)
         identity = "\n".join((text, *map(repr, self.mechanism.tables)))
@@ -167,7 +174,7 @@ class CompiledEquations(IndependentEquations):
         function: Callable[..., Any] = self._result.entry_point
         return function
 
-    def _text(self, formulas: ReferenceFormulas, outputs: list[Any]) -> tuple[str, dict[str, Any]]:
+    def _function_text(self, formulas: ReferenceFormulas, outputs: list[Any]) -> tuple[str, dict[str, Any]]:
         """Return the text of a function `equations`, and the names with which it has been executed."""
         shared, results = sp.cse(outputs, symbols=sp.numbered_symbols("x"), order="canonical")
         names = [*(f"q{i} = q[{i}]" for i in range(self.n)), *(f"v{i} = v[{i}]" for i in range(self.n))]
@@ -176,7 +183,7 @@ class CompiledEquations(IndependentEquations):
         lines = ["def equations(t, q, v, p, out):", *names]
         space: dict[str, Any] = {"math": math}
         for table in self.mechanism.tables:
-            space |= {name: numba.njit(error_model="numpy")(f) for name, f in curves(table).items()}
+            space |= {name: numba.njit(error_model="numpy")(f) for name, f in table_curves(table).items()}
         own = {name: name for name in space}
         space["__name__"] = __name__  # where a process that loads the code looks for names
         lines += [f"{symbol} = {sp.pycode(e, user_functions=own)}" for symbol, e in shared]
@@ -191,20 +198,20 @@ class InterpretedEquations(CompiledEquations):
 
     def _compile(self, formulas: ReferenceFormulas, outputs: list[Any]) -> Callable[..., Any]:
         """Return the outputs as a function (t, q, v, p, out) that sets what is undefined to not a number."""
-        function = self._text(formulas, outputs)[1]["equations"]
+        function = self._function_text(formulas, outputs)[1]["equations"]
 
-        def evaluated(t: float, q: Array, v: Array, p: Array, out: Array) -> None:
+        def evaluate_formulas(t: float, q: Array, v: Array, p: Array, out: Array) -> None:
             try:
                 with np.errstate(all="ignore"):
                     function(t, q, v, p, out)
             except (ArithmeticError, ValueError):
                 out[:] = np.nan
 
-        return evaluated
+        return evaluate_formulas
 
 
 @cache
-def _for_all(function: Any, signature: Any) -> Any:
+def _compile_for_all(function: Any, signature: Any) -> Any:
     """Return a function compiled for equations of any mechanism, called by address.
 
     It is the machine code itself: the choice among signatures, of which there is one, takes longer than a rate.
@@ -216,7 +223,7 @@ def _for_all(function: Any, signature: Any) -> Any:
 # -- a motion ----------------------------------------------------------------------------------------------------------
 
 
-def motion(equations: CompiledEquations, q: Array, v: Array, times: Array) -> Reference:
+def motion_with_estimate(equations: CompiledEquations, q: Array, v: Array, times: Array) -> Reference:
     """Return the reference motion from a start consistent within rounding.
 
     Parameters
@@ -233,50 +240,54 @@ def motion(equations: CompiledEquations, q: Array, v: Array, times: Array) -> Re
     SimulationError
         If the motion cannot be integrated within the budget, e.g. into a singularity.
     """
-    y = equations.project(0.0, np.concatenate([q, v, equations.starts]))
+    y = equations.nearest_state(0.0, np.concatenate([q, v, equations.starts]))
     d = equations.evaluate(0.0, y[: equations.n], y[equations.n :])[1] * equations.root
     equations.dependent = bool(np.linalg.matrix_rank(d, CUTOFF * np.linalg.norm(d)) < equations.m) if d.size else False
     stiff = is_stiff(equations, y, float(times[-1]))
-    scale = _scale(y, equations.n)
+    scale = _error_scale(y, equations.n)
 
     if stiff:
         tolerances = STIFF_FINE, STIFF_COARSE
         schemes = (Scheme("Radau", rtol, every, most=STIFF_BUDGET) for every, rtol in enumerate(tolerances, 1))
-        fine, coarse = (by_steps(equations, y, times, scheme, scale=scale) for scheme in schemes)
+        fine, coarse = (integrate_by_steps(equations, y, times, scheme, scale=scale) for scheme in schemes)
     else:
-        tolerances, fine, coarse = _extrapolations(equations, y, times, scale)
+        tolerances, fine, coarse = _two_extrapolations(equations, y, times, scale)
     n = equations.n
-    estimated = Points.of(equations.mechanism, equations.parameters).distance(fine[:, :n], coarse[:, :n])
+    estimated = Points.of_mechanism(equations.mechanism, equations.parameters).largest_distance(
+        fine[:, :n], coarse[:, :n]
+    )
     scheme = "SciPy's Radau" if stiff else "Gragg's extrapolation of order 16"
     how = (
         f"independently derived equations, {scheme} at {tolerances[0]:g}, projected at every output; "
         f"estimated from a second run at {tolerances[1]:g}"
     )
-    return Reference.of(equations, how, estimated, times, fine)
+    return Reference.of_states(equations, how, estimated, times, fine)
 
 
-def _extrapolations(
+def _two_extrapolations(
     equations: CompiledEquations, y: Array, times: Array, scale: Array
 ) -> tuple[tuple[float, float], Array, Array]:
     """Return the tolerances of two integrations, and their states: the tightest ones that rounding allows."""
     most = equations.budget
-    rough, used = _by_extrapolation(equations, y, times, ROUGH_COARSE, 2, scale, most)
+    rough, used = _integrate_by_extrapolation(equations, y, times, ROUGH_COARSE, 2, scale, most)
     try:
-        coarse, used = _by_extrapolation(equations, y, times, COARSE, 2, scale, min(most, int(UNATTAINED * used)))
-        fine, _ = _by_extrapolation(equations, y, times, FINE, 1, scale, min(most, int(UNATTAINED * used)))
+        coarse, used = _integrate_by_extrapolation(
+            equations, y, times, COARSE, 2, scale, min(most, int(UNATTAINED * used))
+        )
+        fine, _ = _integrate_by_extrapolation(equations, y, times, FINE, 1, scale, min(most, int(UNATTAINED * used)))
     except SimulationError:
-        fine, _ = _by_extrapolation(equations, y, times, ROUGH_FINE, 1, scale, most)
+        fine, _ = _integrate_by_extrapolation(equations, y, times, ROUGH_FINE, 1, scale, most)
         return (ROUGH_FINE, ROUGH_COARSE), fine, rough
     return (FINE, COARSE), fine, coarse
 
 
-def _by_extrapolation(
+def _integrate_by_extrapolation(
     equations: CompiledEquations, y: Array, times: Array, rtol: float, every: int, scale: Array, most: int
 ) -> tuple[Array, int]:
     """Return the states at `times` and the evaluations; every `every`-th output is projected."""
-    used, longest = np.zeros(1, dtype=np.int64), longest_of(equations, times)
+    used, longest = np.zeros(1, dtype=np.int64), longest_reference_step(equations, times)
 
-    def part(t: float, y: Array, times: Array) -> Array:
+    def integrate_part(t: float, y: Array, times: Array) -> Array:
         states, step = np.empty((len(times), len(y))), np.zeros(1)  # the step to try next
         for k, following in enumerate(times.tolist()):
             if following > t:
@@ -285,14 +296,14 @@ def _by_extrapolation(
                     y = equations.advance(first, y, last, rtol, scale, step, used, most)
                 t = following
             if k % every == 0:
-                y = equations.project(t, y)
+                y = equations.nearest_state(t, y)
             states[k] = y
         return states
 
-    return in_parts(equations, y, times, part), int(used[0])
+    return integrate_in_parts(equations, y, times, integrate_part), int(used[0])
 
 
-def _scale(y: Array, n: int) -> Array:
+def _error_scale(y: Array, n: int) -> Array:
     """Return the error scale of each component: 1 m or rad, and at least 1 m/s or rad/s."""
     scale = np.maximum(np.abs(y), 1.0)
     scale[n : 2 * n] = np.maximum(scale[n : 2 * n], float(np.abs(y[n : 2 * n]).max(initial=0.0)))

@@ -1,7 +1,7 @@
 """Machine code of Numba, kept between processes.
 
 References are compiled by Numba, not by the compiler of the runs that they judge, and Numba takes seconds for what all
-mechanisms share. Numba's own cache stands beside the sources and knows neither functions without a file nor a change
+mechanisms share. Numba's own cache is beside the sources and knows neither functions without a file nor a change
 in another file.
 """
 
@@ -16,8 +16,8 @@ import numba
 from numba.core.compiler import CompileResult
 from numba.core.registry import cpu_target
 
-from symgen.compile.native.machine import processor
-from symgen.compile.store.entries import cached
+from symgen.compile.native.machine import processor_features
+from symgen.compile.store.entries import get_or_make_data
 from symgen.compile.store.sources import reached_digest
 from symgen.compile.store.upkeep import NATIVE
 
@@ -46,12 +46,17 @@ def machine_code(name: str, signature: object, identity: str, make: Callable[[],
     """
     fresh = list[Any]()
 
-    def compiled() -> bytes:
+    def compile_and_pickle() -> bytes:
         (result,) = make().overloads.values()
         fresh.append(result)
         return pickle.dumps(result._reduce())
 
-    code = cached(f"{NATIVE}/references", name, "\n".join((name, repr(signature), identity, _environment())), compiled)
+    code = get_or_make_data(
+        f"{NATIVE}/references",
+        name,
+        "\n".join((name, repr(signature), identity, _numba_environment())),
+        compile_and_pickle,
+    )
     if fresh:
         return fresh[0]
     context = cpu_target.target_context
@@ -60,5 +65,5 @@ def machine_code(name: str, signature: object, identity: str, make: Callable[[],
 
 
 @functools.cache
-def _environment() -> str:
-    return "\n".join((numba.__version__, processor(), reached_digest(*SOURCES)))
+def _numba_environment() -> str:
+    return "\n".join((numba.__version__, processor_features(), reached_digest(*SOURCES)))

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError, SimulationError
 from symgen.describe.mechanism import Mechanism
-from symgen.result.points import AGREEMENT, Agreement, Points, agreement
+from symgen.result.points import AGREEMENT, Agreement, Points, compare_motions
 from symgen.study.references.closed_forms import closed_form
 from symgen.study.references.solvers import (
     AUTO,
@@ -28,10 +28,10 @@ from symgen.study.references.solvers import (
     SOLVERS,
     CollapsedError,
     Scheme,
-    by_steps,
     check_solver,
-    in_one_go,
-    longest_of,
+    integrate_by_multistep,
+    integrate_by_steps,
+    longest_reference_step,
 )
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ class Reference:
     z: Array = field(default_factory=lambda: np.zeros((0, 0)))
 
     @classmethod
-    def of(
+    def of_states(
         cls, equations: IndependentEquations, how: str, estimated: float, times: Array, states: Array, note: str = ""
     ) -> Reference:
         """Return the reference of integrated states: coordinates, their rates and states of the file."""
@@ -91,7 +91,7 @@ class Reference:
         return cls(how, max(estimated, 1e-14), times, states[:, :n], velocities, note, z=states[:, 2 * n :])
 
 
-def reference(
+def reference_motion(
     mechanism: Mechanism,
     parameters: Mapping[str, float],
     q: Array,
@@ -134,9 +134,9 @@ def reference(
     from symgen.study.references.independent import IndependentEquations
 
     equations = IndependentEquations(mechanism, parameters)
-    y = equations.project(0.0, equations.state(q, v, z))
+    y = equations.nearest_state(0.0, equations.state(q, v, z))
     if closed is None:
-        reference = _integrated(equations, y, times, "scipy-dop853" if solver == AUTO else solver)
+        reference = _integrate_twice(equations, y, times, "scipy-dop853" if solver == AUTO else solver)
     else:
         how, estimated, motion, velocities = closed(mechanism, parameters, q, times)
         reference = Reference(how, estimated, times, motion, velocities)
@@ -145,33 +145,35 @@ def reference(
     lam = np.array([equations.multipliers(float(t), y) for t, y in zip(times, states, strict=True)])
     lam = lam.reshape(len(times), equations.m)
     by_name = {name: lam[:, i] for i, name in enumerate(equations.row_names)}
-    return replace(reference, lam=by_name, undetermined=equations.undetermined(y))
+    return replace(reference, lam=by_name, undetermined=equations.undetermined_joints(y))
 
 
 # -- any mechanism -----------------------------------------------------------------------------------------------------
 
 
-def _integrated(equations: IndependentEquations, y: Array, times: Array, solver: str) -> Reference:
+def _integrate_twice(equations: IndependentEquations, y: Array, times: Array, solver: str) -> Reference:
     """Integrate the independently derived equations twice."""
     name, fine_tolerance, coarse_tolerance, goes_on = SOLVERS[solver]
     if not goes_on:
-        fine = in_one_go(equations, y, times, Scheme(name, fine_tolerance, most=MOST_CALLS))
-        coarse = in_one_go(equations, y, times, Scheme(name, coarse_tolerance, most=MOST_CALLS))
+        fine = integrate_by_multistep(equations, y, times, Scheme(name, fine_tolerance, most=MOST_CALLS))
+        coarse = integrate_by_multistep(equations, y, times, Scheme(name, coarse_tolerance, most=MOST_CALLS))
     else:
         watch = SingularWatch(equations, y)
         with suppress(CollapsedError):
-            fine = by_steps(equations, y, times, Scheme(name, fine_tolerance), see=watch.see)
+            fine = integrate_by_steps(equations, y, times, Scheme(name, fine_tolerance), see=watch.record_step)
             watch.collapsed = False
         if watch.collapsed or watch.smallest < NEAR * watch.largest:
             return pass_through(equations, y, times, watch.usual_step or float(times[-1]) / 1000.0)
-        coarse = by_steps(equations, y, times, Scheme(name, coarse_tolerance, 3, False))
+        coarse = integrate_by_steps(equations, y, times, Scheme(name, coarse_tolerance, 3, False))
     n = equations.n
-    estimated = Points.of(equations.mechanism, equations.parameters).distance(fine[:, :n], coarse[:, :n])
+    estimated = Points.of_mechanism(equations.mechanism, equations.parameters).largest_distance(
+        fine[:, :n], coarse[:, :n]
+    )
     how = (
         f"independently derived equations, SciPy {name} at {fine_tolerance:g}, projected at every output; "
         f"estimated from a second run at {coarse_tolerance:g}"
     )
-    return Reference.of(equations, how, estimated, times, fine)
+    return Reference.of_states(equations, how, estimated, times, fine)
 
 
 # -- singular positions ------------------------------------------------------------------------------------------------
@@ -198,7 +200,7 @@ class SingularWatch:
         self.equations, self.sizes, self.collapsed = equations, list[float](), True
         self.rank = int(np.sum(self._values(0.0, y) > 1e-6))
         self.smallest, self.largest = np.inf, 0.0
-        self.see(0.0, 0.0, y)
+        self.record_step(0.0, 0.0, y)
         self.sizes.clear()
 
     def _values(self, t: float, y: Array) -> Array:
@@ -206,7 +208,7 @@ class SingularWatch:
         d = self.equations.evaluate(t, y[:n], y[n:])[1]
         return scaled_values(d) if np.all(np.isfinite(d)) else np.zeros(len(d))
 
-    def see(self, size: float, t: float, y: Array) -> None:
+    def record_step(self, size: float, t: float, y: Array) -> None:
         """Record a step and the state at its end."""
         self.sizes.append(size)
         if self.rank:
@@ -240,19 +242,23 @@ def pass_through(equations: IndependentEquations, y: Array, times: Array, step: 
     SimulationError
         If fewer than two runs reach the end.
     """
-    points, motions, failures = Points.of(equations.mechanism, equations.parameters), list[Array](), list[str]()
-    longest = min(step, longest_of(equations, times) / max(PHASES))
+    points, motions, failures = (
+        Points.of_mechanism(equations.mechanism, equations.parameters),
+        list[Array](),
+        list[str](),
+    )
+    longest = min(step, longest_reference_step(equations, times) / max(PHASES))
     if len(times) > 1:  # steps that were longer than from one output to the next would all fall alike
         longest = min(longest, float(np.median(np.diff(times))) / max(PHASES))
     best: tuple[Agreement, Array, int] | None = None
     for i, phase in enumerate(PHASES):
         try:
-            motion = by_steps(equations, y, times, Scheme("DOP853", np.inf, step=phase * longest))
+            motion = integrate_by_steps(equations, y, times, Scheme("DOP853", np.inf, step=phase * longest))
         except SimulationError as error:
             failures.append(str(error))
             continue
         for other in motions:
-            apart = agreement(points, other[:, : equations.n], motion[:, : equations.n])
+            apart = compare_motions(points, other[:, : equations.n], motion[:, : equations.n])
             if best is None or apart.apart < best[0].apart:
                 best = apart, other, i + 1
         motions.append(motion)
@@ -272,4 +278,4 @@ def pass_through(equations: IndependentEquations, y: Array, times: Array, step: 
             f"t = {float(times[apart.parts]):.4g} s, behind a singular position: from there on it is not known which "
             "branch the motion takes, and errors are distances to one of them"
         )
-    return Reference.of(equations, how, DOUBT * apart.apart, times, states, note)
+    return Reference.of_states(equations, how, DOUBT * apart.apart, times, states, note)

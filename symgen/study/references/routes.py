@@ -20,13 +20,13 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import SimulationError
 from symgen.base.settings import Settings
-from symgen.describe.bounds.by_reaction import held_by_reactions
-from symgen.describe.bounds.modes import families_of, without_bounds
+from symgen.describe.bounds.bounded_modes import rows_by_family, without_bounds
+from symgen.describe.bounds.by_reaction import rows_bounded_by_reactions
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.parts.events import RESET
+from symgen.describe.parts.event_sections import RESET
 from symgen.result.points import Points
-from symgen.result.reactions import Forces, seats
+from symgen.result.reactions import Forces, seats_of_reactions
 from symgen.run.compiling.choices import straight_seconds
 from symgen.run.compiling.pipeline import straight_alone
 from symgen.run.layout import abi
@@ -73,29 +73,29 @@ UNATTAINED = 6
 STIFF_FROM = 6_000_000
 
 
-def underived(mechanism: Mechanism) -> str:
+def parts_without_derivation(mechanism: Mechanism) -> str:
     """Return what no second derivation of a mechanism has; empty where it has all of it."""
     if any(force.flexures for force in mechanism.forces):
         return "beam elements"
-    for family in families_of(mechanism):
+    for family in rows_by_family(mechanism):
         return family.noun
     return "events that change the state" if any(event.action == RESET for event in mechanism.events) else ""
 
 
-def derivable(mechanism: Mechanism) -> Mechanism:
+def derivable_part(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism without what no second derivation has: its positions and constraints are the same."""
-    if not underived(mechanism):
+    if not parts_without_derivation(mechanism):
         return mechanism
     forces = tuple(structs.replace(force, flexures=()) for force in mechanism.forces)
     return structs.replace(without_bounds(mechanism), events=(), forces=forces)
 
 
-def _fitting(mechanism: Mechanism, routes: tuple[Route, ...]) -> tuple[Route, ...]:
+def _fitting_routes(mechanism: Mechanism, routes: tuple[Route, ...]) -> tuple[Route, ...]:
     """Return routes for massless bodies, which have no metric of masses, and for bounds by reactions."""
     first, second = routes
     if mechanism.has_massless:
         first = first._replace(options={})
-    if held_by_reactions(mechanism):
+    if rows_bounded_by_reactions(mechanism):
         second = Route("lagrange", second.integrator, {}, second.rtol, "joint")
     return first, second
 
@@ -108,7 +108,7 @@ def fastest_decay(mechanism: Mechanism, compiled: CompiledModel, start: Start) -
     return float(max(0.0, -np.linalg.eigvals(jacobian).real.min(initial=0.0)))
 
 
-def two_routes(
+def motion_by_two_routes(
     mechanism: Mechanism,
     parameters: Mapping[str, float],
     times: Array,
@@ -149,11 +149,11 @@ def two_routes(
             f"references from {LARGEST_IMPLICIT_REFERENCE} coordinates on"
         )
     common = Settings(parameters=parameters, start=start or {}, until=float(times[-1]), times=list(times))
-    size = Points.of(mechanism, parameter_values(mechanism, parameters)).size
+    size = Points.of_mechanism(mechanism, parameter_values(mechanism, parameters)).size
     reference, failures = None, list[SimulationError]()
-    for attempt in _attempts(mechanism, evaluations, enough, quick):
+    for attempt in _attempts_in_order(mechanism, evaluations, enough, quick):
         try:
-            reference = _by_routes(mechanism, common, attempt)
+            reference = _motion_by_routes(mechanism, common, attempt)
         except SimulationError as error:
             failures.append(error)
             continue
@@ -176,7 +176,7 @@ def _has_implicit(mechanism: Mechanism) -> bool:
     return mechanism.body_coordinates <= LARGEST_IMPLICIT_REFERENCE
 
 
-def _attempts(mechanism: Mechanism, evaluations: float, enough: float, quick: bool) -> Iterator[Attempt]:
+def _attempts_in_order(mechanism: Mechanism, evaluations: float, enough: float, quick: bool) -> Iterator[Attempt]:
     """Yield what is tried in turn, where explicit steps need so many `evaluations` for the decay.
 
     A tight integration that comes to no end may have tolerances that rounding does not allow: rough ones come before a
@@ -200,8 +200,8 @@ def _attempts(mechanism: Mechanism, evaluations: float, enough: float, quick: bo
             yield Attempt(routes, shape, most)
 
 
-def _by_routes(mechanism: Mechanism, common: Settings, attempt: Attempt) -> Reference:
-    motions, routes = [], _fitting(mechanism, attempt.routes)
+def _motion_by_routes(mechanism: Mechanism, common: Settings, attempt: Attempt) -> Reference:
+    motions, routes = [], _fitting_routes(mechanism, attempt.routes)
     for method, integrator, options, rtol, coordinates in routes:
         settings = replace(common, method=method, integrator=integrator, options=options)
         settings = replace(settings, rtol=rtol, atol=1e-2 * rtol, coordinates=coordinates)
@@ -216,15 +216,15 @@ def _by_routes(mechanism: Mechanism, common: Settings, attempt: Attempt) -> Refe
             raise SimulationError(f"the reference by {method} with {integrator} does not come to its end: {reason}")
         motions.append(run.of_bodies(outcome))
     values, nq = parameter_values(mechanism, common.parameters), motions[0].compiled.info.nq
-    apart = Points.of(mechanism, values).distance(*(motion.states[:, :nq] for motion in motions))
+    apart = Points.of_mechanism(mechanism, values).largest_distance(*(motion.states[:, :nq] for motion in motions))
     q, v = motions[0].compiled.info.parts(motions[0].states)
-    forces = Forces(motions[0], seats(mechanism, values))
+    forces = Forces(motions[0], seats_of_reactions(mechanism, values))
     multipliers = forces.multipliers()
     lam = dict(zip(multipliers.names, multipliers.values.T, strict=True))
     (method, integrator, _, rtol, _), (other, with_other, _, _, coordinates) = routes
     how = f"{method} with {integrator} at {rtol:g}; estimated from {other} with {with_other}"
     how += " in joint coordinates" if coordinates == "joint" else ""
-    if lacking := underived(mechanism):
+    if lacking := parts_without_derivation(mechanism):
         how += f"; there is no second derivation of {lacking}"
     times = np.array(common.times)
     return Reference(how, max(apart, 1e-14), times, q, v, lam=lam, undetermined=forces.non_unique)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.arguments import one_of
+from symgen.base.arguments import one_word_of
 from symgen.base.errors import SimulationError
 from symgen.describe.facts.kinks import compares_state, longest_step
 from symgen.run.breaks.seams import foreseen
@@ -97,10 +97,10 @@ def check_solver(name: str) -> str:
     InputError
         If the way does not exist; names the nearest one.
     """
-    return one_of("reference_by", name, (AUTO, *SOLVERS))
+    return one_word_of("reference_by", name, (AUTO, *SOLVERS))
 
 
-def by_steps(
+def integrate_by_steps(
     equations: IndependentEquations,
     y: Array,
     times: Array,
@@ -133,7 +133,9 @@ def by_steps(
     scale = np.maximum(np.abs(y), 1.0) if scale is None else scale
     make: Any = getattr(scipy.integrate, scheme.name)  # SciPy's types lack arrays and infinity as tolerances
     compares = compares_state(equations.mechanism) and scheme.step is None
-    longest = min(longest_of(equations, times), float(times[-1]) / LOOKED_AT if compares and len(times) else np.inf)
+    longest = min(
+        longest_reference_step(equations, times), float(times[-1]) / LOOKED_AT if compares and len(times) else np.inf
+    )
     rate = Limited(equations, scheme.most)
     more: dict[str, Any] = {"rtol": scheme.rtol, "atol": scheme.rtol * scale, "max_step": longest}
     if scheme.step is not None:  # no error exceeds an infinite tolerance, so that every step is the largest allowed
@@ -143,7 +145,7 @@ def by_steps(
     # each jump of a force takes some tiny steps as well
     patience = MORE_PATIENCE if compares else PATIENCE
 
-    def part(first: float, y: Array, times: Array) -> Array:
+    def integrate_part(first: float, y: Array, times: Array) -> Array:
         motion = np.empty((len(times), len(y)))
         solver: Any = None  # nor that a step changes the status
         usual, steps, tiny = scheme.step or 0.0, 0, 0
@@ -161,7 +163,7 @@ def by_steps(
                 with finite_at(at):
                     message = solver.step()
                     looks = compares and solver.status != "failed"
-                    unseen = unseen_in(equations, solver.dense_output(), at, solver.t, scale) if looks else 0.0
+                    unseen = unseen_change(equations, solver.dense_output(), at, solver.t, scale) if looks else 0.0
                     if unseen > UNSEEN * scheme.rtol and solver.step_size > SHORTEST * t:
                         solver = make(rate, at, state, t, first_step=0.5 * solver.step_size, **more)
                         continue
@@ -173,36 +175,36 @@ def by_steps(
                         collapsed = "the step size collapses" if tiny else "the state is not finite"
                         raise CollapsedError(solver.t, message or collapsed)
                     if scheme.step is not None:
-                        project(solver)
+                        project_state(solver)
                 if see is not None:
                     see(float(solver.step_size), float(solver.t), solver.y)
                 usual = before if solver.status == "finished" else solver.h_abs
             if solver is not None:
                 if k % scheme.every == 0 and scheme.step is None:
-                    project(solver)
+                    project_state(solver)
                 y = solver.y
             motion[k] = y
         return motion
 
-    def project(solver: Any) -> None:
-        solver.y = equations.project(float(solver.t), solver.y, scheme.mass_weighted)
+    def project_state(solver: Any) -> None:
+        solver.y = equations.nearest_state(float(solver.t), solver.y, scheme.mass_weighted)
         solver.f = solver.fun(float(solver.t), solver.y)
 
-    return in_parts(equations, y, times, part)
+    return integrate_in_parts(equations, y, times, integrate_part)
 
 
-def in_one_go(equations: IndependentEquations, y: Array, times: Array, scheme: Scheme) -> Array:
+def integrate_by_multistep(equations: IndependentEquations, y: Array, times: Array, scheme: Scheme) -> Array:
     """Return the states at `times` from a multistep solver; outputs are projected: it allows no change on the way."""
     from scipy.integrate import solve_ivp
 
     solve: Any = solve_ivp  # SciPy's types lack arrays of tolerances
     scale, compares = np.maximum(np.abs(y), 1.0), compares_state(equations.mechanism)
-    bound, rate = longest_of(equations, times), Limited(equations, scheme.most)
+    bound, rate = longest_reference_step(equations, times), Limited(equations, scheme.most)
     more: dict[str, Any] = {"rtol": scheme.rtol, "atol": scheme.rtol * scale, "dense_output": compares}
     if scheme.name == "BDF":
         more["jac"] = rate.slopes
 
-    def part(first: float, y: Array, times: Array) -> Array:
+    def integrate_part(first: float, y: Array, times: Array) -> Array:
         if times[-1] <= first:
             return np.tile(y, (len(times), 1))
         span = float(times[-1]) - first
@@ -212,13 +214,15 @@ def in_one_go(equations: IndependentEquations, y: Array, times: Array, scheme: S
             if not solution.success or not np.all(np.isfinite(solution.y)):
                 raise CollapsedError(float(solution.t[-1]) if len(solution.t) else first, solution.message)
             steps = pairwise(solution.sol.ts.tolist()) if compares else ()
-            blind = [b - a for a, b in steps if unseen_in(equations, solution.sol, a, b, scale) > UNSEEN * scheme.rtol]
+            blind = [
+                b - a for a, b in steps if unseen_change(equations, solution.sol, a, b, scale) > UNSEEN * scheme.rtol
+            ]
             longest = 0.5 * max(blind, default=0.0)
             if longest < FEWEST * span:
                 return np.asarray(solution.y.T)
 
-    solution = in_parts(equations, y, times, part)
-    states = [equations.project(float(t), state) for t, state in zip(times, solution, strict=True)]
+    solution = integrate_in_parts(equations, y, times, integrate_part)
+    states = [equations.nearest_state(float(t), state) for t, state in zip(times, solution, strict=True)]
     return np.array(states).reshape(len(times), len(y))
 
 
@@ -247,21 +251,21 @@ class Limited:
 
     def __call__(self, t: float, y: Array) -> Array:
         """Return the rates."""
-        self._count(1)
+        self._count_evaluations(1)
         return self._equations.rate(t, y)
 
     def slopes(self, t: float, y: Array) -> Array:
         """Return the Jacobian of the rates."""
-        self._count(2 * len(y))
+        self._count_evaluations(2 * len(y))
         return self._equations.slopes(t, y)
 
-    def _count(self, more: int) -> None:
+    def _count_evaluations(self, more: int) -> None:
         self._calls += more
         if self._calls > self._most:
             raise OverBudgetError(f"the reference takes more than {self._most:g} evaluations")
 
 
-def unseen_in(
+def unseen_change(
     equations: IndependentEquations, motion: Callable[[float], Array], first: float, last: float, scale: Array
 ) -> float:
     """Return the distance of a step's end from the integral of the rates along it, over `scale`.
@@ -284,12 +288,12 @@ JUMP = 3e-12
 Integrate = Callable[[float, Array, Array], Array]
 
 
-def longest_of(equations: IndependentEquations, times: Array) -> float:
+def longest_reference_step(equations: IndependentEquations, times: Array) -> float:
     """Return the longest step of a reference that resolves the formulas of the time [s]."""
     return longest_step(equations.mechanism, float(times[-1]))[0] if len(times) and times[-1] > 0.0 else np.inf
 
 
-def in_parts(
+def integrate_in_parts(
     equations: IndependentEquations,
     y: Array,
     times: Array,
@@ -314,7 +318,7 @@ def in_parts(
     for first, last in pairwise([*([seam.t for seam in seams] or [0.0]), end]):
         upto = int(np.searchsorted(times, last, side="right"))
         own = times[done:upto]
-        if seams and last - first < JUMP * end:  # what acts before it up to its middle, and then what acts behind it
+        if seams and last - first < JUMP * end:  # what acts before it up to its middle, and then what acts after it
             y = y + 0.5 * (last - first) * (equations.rate(first, y) + equations.rate(last, y))
             states = np.tile(y, (len(own), 1))
         else:

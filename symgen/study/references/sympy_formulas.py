@@ -3,7 +3,7 @@
 Positions of points are written out in the coordinates, and SymPy differentiates the whole constraints with respect to
 them; nothing of `formulate`, `lower` or the emitted code is used but the translation of a file's formulas. In space
 Euler parameters are coordinates like any others: the velocities are their rates, there is no angular velocity in the
-equations, |e| = 1 is a constraint row beside the joints', the rotation matrix stands in its inhomogeneous form
+equations, |e| = 1 is a constraint row beside the joints', the rotation matrix has its inhomogeneous form
 1 - 2 (e2^2 + e3^2), and the inertia terms come from the kinetic energy as Lagrange's equations say.
 """
 
@@ -14,7 +14,7 @@ from typing import Any
 
 import sympy as sp
 
-from symgen.base.vocabulary.expressions import ZERO, Expr, Reading, names_in, readings
+from symgen.base.vocabulary.expressions import ZERO, Expr, Reading, names_in, readings_in
 from symgen.base.vocabulary.measures import (
     GROUND,
     Angle,
@@ -95,7 +95,7 @@ class ReferenceFormulas:
 
     def rows(self) -> list[Row]:
         """Return the rows of joints, and one for the length of each body's Euler parameters."""
-        rows = [self._row(row) for joint in self.mechanism.joints for row in joint.rows]
+        rows = [self._row_expressions(row) for joint in self.mechanism.joints for row in joint.rows]
         for body in self.mechanism.bodies:
             if _turns_in_space(body):
                 i = self.first[body.name] + 3
@@ -111,100 +111,103 @@ class ReferenceFormulas:
         for body in self.mechanism.bodies:
             i = self.first[body.name]
             for k, gravity in enumerate(self.mechanism.gravity):
-                total[i + k] += self._expression(body.mass) * self._expression(gravity)
+                total[i + k] += self._to_expression(body.mass) * self._to_expression(gravity)
             if isinstance(body, SpatialBody) and body.inertia is not None:
-                entries = [self._expression(e) for e in body.inertia]
+                entries = [self._to_expression(e) for e in body.inertia]
                 tensor = sp.Matrix([[entries[k] for k in line] for line in TENSOR])
-                for k, term in enumerate(_gyroscopic(tensor, self.q[i + 3 : i + 7], self.v[i + 3 : i + 7])):
+                for k, term in enumerate(_gyroscopic_terms(tensor, self.q[i + 3 : i + 7], self.v[i + 3 : i + 7])):
                     total[i + 3 + k] += term
         for force in self.mechanism.forces:
             for effort in force.efforts:
-                for i, e in self._effort(effort).items():
+                for i, e in self._force_of_effort(effort).items():
                     total[i] += e
-        for kinetic in self._of_rotors():
+        for kinetic in self._rotor_energies():
             for i, (q, v) in enumerate(zip(self.q, self.v, strict=True)):
-                total[i] += sp.diff(kinetic, q) - self._along(sp.diff(kinetic, v))
+                total[i] += sp.diff(kinetic, q) - self._derivative_along_motion(sp.diff(kinetic, v))
         return total
 
     def state_rates(self) -> list[Any]:
         """Return the rates of the states that the file defines."""
-        return [self._expression(state.rate) for state in self.mechanism.states]
+        return [self._to_expression(state.rate) for state in self.mechanism.states]
 
     def rotor_masses(self) -> dict[tuple[int, int], Any]:
         """Return what rotors add to the mass matrix, by row and column: second derivatives of their energies."""
         masses = dict[tuple[int, int], Any]()
-        for kinetic in self._of_rotors():
-            for i, momentum in self._by_rates(kinetic).items():
-                for j, mass in self._by_rates(momentum).items():
+        for kinetic in self._rotor_energies():
+            for i, momentum in self._derivatives_by_rates(kinetic).items():
+                for j, mass in self._derivatives_by_rates(momentum).items():
                     masses[i, j] = masses.get((i, j), sp.S.Zero) + mass
         return masses
 
-    def _of_rotors(self) -> list[Any]:
+    def _rotor_energies(self) -> list[Any]:
         """Return the kinetic energy of each rotor."""
         rotors = self.mechanism.rotors
-        return [self._expression(x.inertia) * self._along(self._measure(x.angle)) ** 2 / 2 for x in rotors]
+        return [
+            self._to_expression(x.inertia) * self._derivative_along_motion(self._measure_expression(x.angle)) ** 2 / 2
+            for x in rotors
+        ]
 
-    def _expression(self, e: Expr, **placeholders: object) -> Any:
-        measured = {r.name: self._reading(r) for r in readings(e)}
+    def _to_expression(self, e: Expr, **placeholders: object) -> Any:
+        measured = {r.name: self._reading_expression(r) for r in readings_in(e)}
         return to_sympy(e, {**self._symbols, **measured, **placeholders})
 
-    def _reading(self, r: Reading) -> Any:
+    def _reading_expression(self, r: Reading) -> Any:
         """Return a measure's value, or its rate."""
         assert not isinstance(r.source, Speed | Exerted | Driven | Integral | Flexed), (
             "functions of state read measures"
         )
-        value = self._measure(r.source)
-        return self._along(value) if r.order else value
+        value = self._measure_expression(r.source)
+        return self._derivative_along_motion(value) if r.order else value
 
-    def _effort(self, effort: Effort) -> dict[int, Any]:
+    def _force_of_effort(self, effort: Effort) -> dict[int, Any]:
         measure = effort.measure
         reads = effort.potential != ZERO and "s" in set(names_in(effort.potential))
         if isinstance(measure, Spin | PointSpeed):
             assert not reads, "velocities have no value"
-            rate = self._spin(measure) if isinstance(measure, Spin) else self._speed(measure)
-            total = self._expression(effort.magnitude, s=sp.S.Zero, rate=rate)
-            return {i: e * total for i, e in self._by_rates(rate).items()}
-        value = self._measure(measure)
-        total = self._expression(effort.magnitude, s=value, rate=self._along(value))
+            rate = self._relative_spin(measure) if isinstance(measure, Spin) else self._speed_expression(measure)
+            total = self._to_expression(effort.magnitude, s=sp.S.Zero, rate=rate)
+            return {i: e * total for i, e in self._derivatives_by_rates(rate).items()}
+        value = self._measure_expression(measure)
+        total = self._to_expression(effort.magnitude, s=value, rate=self._derivative_along_motion(value))
         if reads:
             s = sp.Symbol("s", real=True)
-            total -= sp.diff(self._expression(effort.potential, s=s), s).subs(s, value)
-        return {i: e * total for i, e in self._gradient(value).items()}
+            total -= sp.diff(self._to_expression(effort.potential, s=s), s).subs(s, value)
+        return {i: e * total for i, e in self._gradient_entries(value).items()}
 
     # -- rows ----------------------------------------------------------------------------------------------------------
 
-    def _gradient(self, s: Any) -> dict[int, Any]:
+    def _gradient_entries(self, s: Any) -> dict[int, Any]:
         free = s.free_symbols
         entries = {i: sp.diff(s, symbol) for i, symbol in enumerate(self.q) if symbol in free}
         return {i: e for i, e in entries.items() if e != 0}
 
-    def _by_rates(self, speed: Any) -> dict[int, Any]:
+    def _derivatives_by_rates(self, speed: Any) -> dict[int, Any]:
         """Return the derivatives of an expression by the rates: the coefficients where it is linear in them."""
         free = speed.free_symbols
         entries = {i: sp.diff(speed, v) for i, v in enumerate(self.v) if v in free}
         return {i: e for i, e in entries.items() if e != 0}
 
-    def _along(self, e: object) -> Any:
+    def _derivative_along_motion(self, e: object) -> Any:
         """Return the derivative of a function of q along the motion."""
-        return sum((d * self.v[i] for i, d in self._gradient(e).items()), sp.S.Zero)
+        return sum((d * self.v[i] for i, d in self._gradient_entries(e).items()), sp.S.Zero)
 
-    def _row(self, row: Holonomic | Nonholonomic) -> Row:
-        value = self._expression(row.value)
+    def _row_expressions(self, row: Holonomic | Nonholonomic) -> Row:
+        value = self._to_expression(row.value)
         slope = sp.diff(value, self.t)
         if isinstance(row, Holonomic):
-            s = self._measure(row.measure)
-            gradient = self._gradient(s)
-            bias = sum((self._along(e) * self.v[i] for i, e in gradient.items()), sp.S.Zero)
+            s = self._measure_expression(row.measure)
+            gradient = self._gradient_entries(s)
+            bias = sum((self._derivative_along_motion(e) * self.v[i] for i, e in gradient.items()), sp.S.Zero)
             slope = slope - sp.diff(s, self.t)
-            return s - value, gradient, slope, sp.diff(slope, self.t) + 2 * self._along(slope) - bias
-        speed = self._speed(row.speed)
+            return s - value, gradient, slope, sp.diff(slope, self.t) + 2 * self._derivative_along_motion(slope) - bias
+        speed = self._speed_expression(row.speed)
         at_rest = speed.subs(dict.fromkeys(self.v, sp.S.Zero))
-        gamma = slope - sp.diff(speed, self.t) - self._along(speed)
-        return sp.S.Zero, self._by_rates(speed), value - at_rest, gamma
+        gamma = slope - sp.diff(speed, self.t) - self._derivative_along_motion(speed)
+        return sp.S.Zero, self._derivatives_by_rates(speed), value - at_rest, gamma
 
     # -- positions -----------------------------------------------------------------------------------------------------
 
-    def _turned(self, body: str, vector: sp.Matrix) -> sp.Matrix:
+    def _turn_to_ground(self, body: str, vector: sp.Matrix) -> sp.Matrix:
         """Return a vector of the body frame in the ground frame."""
         if body == GROUND or self.mechanism.body(body).is_point:
             return vector
@@ -222,51 +225,51 @@ class ReferenceFormulas:
         )
         return matrix * vector
 
-    def _vector(self, components: tuple[Expr, ...]) -> sp.Matrix:
-        return sp.Matrix([self._expression(e) for e in components])
+    def _vector_expressions(self, components: tuple[Expr, ...]) -> sp.Matrix:
+        return sp.Matrix([self._to_expression(e) for e in components])
 
-    def _place(self, marker: Marker) -> sp.Matrix:
-        point = self._vector(marker.point)
+    def _place_of_marker(self, marker: Marker) -> sp.Matrix:
+        point = self._vector_expressions(marker.point)
         if marker.body == GROUND:
             return point
-        centre, i = self._vector(self.mechanism.body(marker.body).centre_of_mass), self.first[marker.body]
-        return sp.Matrix(self.q[i : i + len(point)]) + self._turned(marker.body, point - centre)
+        centre, i = self._vector_expressions(self.mechanism.body(marker.body).centre_of_mass), self.first[marker.body]
+        return sp.Matrix(self.q[i : i + len(point)]) + self._turn_to_ground(marker.body, point - centre)
 
-    def _pointing(self, direction: Direction) -> sp.Matrix:
-        return self._turned(direction.body, self._vector(direction.vector))
+    def _direction_in_ground(self, direction: Direction) -> sp.Matrix:
+        return self._turn_to_ground(direction.body, self._vector_expressions(direction.vector))
 
-    def _measure(self, m: Measure) -> Any:
+    def _measure_expression(self, m: Measure) -> Any:
         if isinstance(m, FormulaMeasure):
-            return self._expression(m.of)
+            return self._to_expression(m.of)
         if isinstance(m, Angle):
             a, b = (sp.S.Zero if body == GROUND else self.q[self.first[body] + 2] for body in (m.a, m.b))
             return b - a
         if isinstance(m, Component | Distance | HalfSquare | LinkStretch):
-            away = self._place(m.b) - self._place(m.a)
+            away = self._place_of_marker(m.b) - self._place_of_marker(m.a)
             if isinstance(m, Component):
-                return self._pointing(m.along).dot(away)
+                return self._direction_in_ground(m.along).dot(away)
             if isinstance(m, Distance):
                 return sp.sqrt(away.dot(away))
             if isinstance(m, HalfSquare):
                 return away.dot(away) / 2
-            length = self._expression(m.length)
+            length = self._to_expression(m.length)
             return (away.dot(away) - length**2) / (2 * length)
         if isinstance(m, Dot):
-            return self._pointing(m.u).dot(self._pointing(m.v))
+            return self._direction_in_ground(m.u).dot(self._direction_in_ground(m.v))
         if isinstance(m, Turn):
-            return self._angle(self._pointing(m.pointer), m.zero, m.quarter)
+            return self._angle_expression(self._direction_in_ground(m.pointer), m.zero, m.quarter)
         if isinstance(m, Bearing):
-            return self._angle(self._place(m.b) - self._place(m.a), m.zero, m.quarter)
+            return self._angle_expression(self._place_of_marker(m.b) - self._place_of_marker(m.a), m.zero, m.quarter)
         if isinstance(m, RimHeight):
-            normal, axis = self._pointing(m.normal), self._pointing(m.axis)
-            height = normal.dot(self._place(m.centre) - self._place(m.plane))
-            return height - self._expression(m.radius) * sp.sqrt(1 - normal.dot(axis) ** 2)
+            normal, axis = self._direction_in_ground(m.normal), self._direction_in_ground(m.axis)
+            height = normal.dot(self._place_of_marker(m.centre) - self._place_of_marker(m.plane))
+            return height - self._to_expression(m.radius) * sp.sqrt(1 - normal.dot(axis) ** 2)
         assert isinstance(m, Sum), f"no such measure: {type(m).__name__}"
-        return sum((self._expression(k) * self._measure(part) for k, part in m.terms), sp.S.Zero)
+        return sum((self._to_expression(k) * self._measure_expression(part) for k, part in m.terms), sp.S.Zero)
 
-    def _angle(self, pointer: sp.Matrix, zero: Direction, quarter: Direction) -> Any:
+    def _angle_expression(self, pointer: sp.Matrix, zero: Direction, quarter: Direction) -> Any:
         """Return an angle about the axis zero x quarter, plus the whole turns that are counted beside it."""
-        angle = sp.atan2(pointer.dot(self._pointing(quarter)), pointer.dot(self._pointing(zero)))
+        angle = sp.atan2(pointer.dot(self._direction_in_ground(quarter)), pointer.dot(self._direction_in_ground(zero)))
         if angle not in self.angles:
             self.angles.append(angle)
             self.turns.append(sp.Symbol(f"n{len(self.angles)}", real=True))
@@ -274,34 +277,34 @@ class ReferenceFormulas:
 
     # -- speeds --------------------------------------------------------------------------------------------------------
 
-    def _omega(self, body: str) -> sp.Matrix:
+    def _omega_of_body(self, body: str) -> sp.Matrix:
         """Return the angular velocity in ground axes."""
         if body == GROUND or self.mechanism.body(body).is_point:
             return sp.zeros(3, 1)
         i = self.first[body] + 3
-        return self._turned(body, sp.Matrix(angular_velocity(self.q[i : i + 4], self.v[i : i + 4])))
+        return self._turn_to_ground(body, sp.Matrix(angular_velocity(self.q[i : i + 4], self.v[i : i + 4])))
 
-    def _spin(self, m: Spin) -> Any:
-        return self._pointing(m.along).dot(self._omega(m.b) - self._omega(m.a))
+    def _relative_spin(self, m: Spin) -> Any:
+        return self._direction_in_ground(m.along).dot(self._omega_of_body(m.b) - self._omega_of_body(m.a))
 
-    def _velocity(self, marker: Marker) -> sp.Matrix:
-        return sp.Matrix([self._along(x) for x in self._place(marker)])
+    def _velocity_of_marker(self, marker: Marker) -> sp.Matrix:
+        return sp.Matrix([self._derivative_along_motion(x) for x in self._place_of_marker(marker)])
 
-    def _speed(self, speed: Speed) -> Any:
+    def _speed_expression(self, speed: Speed) -> Any:
         if isinstance(speed, FormulaSpeed):
-            return self._expression(speed.of)
+            return self._to_expression(speed.of)
         if isinstance(speed, PointSpeed):
-            return self._pointing(speed.along).dot(self._velocity(speed.at))
+            return self._direction_in_ground(speed.along).dot(self._velocity_of_marker(speed.at))
         if isinstance(speed, BladeSpeed):
-            across = self._pointing(speed.normal).cross(self._pointing(speed.blade))
-            return self._velocity(speed.at).dot(across) / sp.sqrt(across.dot(across))
-        along, down = self._pointing(speed.along), -self._pointing(speed.normal)
+            across = self._direction_in_ground(speed.normal).cross(self._direction_in_ground(speed.blade))
+            return self._velocity_of_marker(speed.at).dot(across) / sp.sqrt(across.dot(across))
+        along, down = self._direction_in_ground(speed.along), -self._direction_in_ground(speed.normal)
         if speed.axis is not None:  # a thin disc touches with its lowest point
-            axis = self._pointing(speed.axis)
+            axis = self._direction_in_ground(speed.axis)
             down = down - axis.dot(down) * axis
             down = down / sp.sqrt(down.dot(down))
-        arm = self._expression(speed.radius) * down
-        return along.dot(self._velocity(speed.centre) + self._omega(speed.centre.body).cross(arm))
+        arm = self._to_expression(speed.radius) * down
+        return along.dot(self._velocity_of_marker(speed.centre) + self._omega_of_body(speed.centre.body).cross(arm))
 
 
 def _turns_in_space(body: object) -> bool:
@@ -319,7 +322,7 @@ def angular_velocity(e: list[Any], rates: list[Any]) -> list[Any]:
     ]
 
 
-def _gyroscopic(tensor: sp.Matrix, e: list[Any], rates: list[Any]) -> list[Any]:
+def _gyroscopic_terms(tensor: sp.Matrix, e: list[Any], rates: list[Any]) -> list[Any]:
     """Return dT/de - (d/dt dT/de' without e'') of the rotational energy T."""
     omega = sp.Matrix(angular_velocity(e, rates))
     kinetic = (omega.T * tensor * omega)[0] / 2

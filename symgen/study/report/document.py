@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture that stands in the page itself.
+    """A picture inside the page itself.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class TableCell:
     Attributes
     ----------
     text : str
-        What stands there.
+        Its content.
     mood : str
         ``good``, ``doubtful``, ``bad`` or ``faint``; never the only sign of the meaning.
     """
@@ -83,7 +83,7 @@ class DocumentTable:
 class Section:
     """A part of a report, in this order: text, findings, tables, pictures, parts of its own.
 
-    Where `beside` is set, its pictures stand left of its tables; with `pictures_first` they stand above all else.
+    Where `beside` is set, its pictures are left of its tables; with `pictures_first` they are above all else.
     """
 
     title: str
@@ -98,7 +98,7 @@ class Section:
     @property
     def anchor(self) -> str:
         """Target of links to the section."""
-        return anchor(self.title)
+        return anchor_of_title(self.title)
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ class ReportDocument:
     lead : tuple of str
         Paragraphs below the title.
     facts : tuple of (str, str)
-        Settings and versions, by label, which stand at the end.
+        Settings and versions, by label, at the end of the report.
     command : str
         The command that makes it again; empty where there is none.
     sections : tuple of Section
@@ -129,14 +129,14 @@ class ReportDocument:
     page: str = ""
 
     def pictures(self) -> list[Picture]:
-        """Return all pictures in the order in which they stand."""
-        return [p for section in self.sections for p in _pictures(section)]
+        """Return all pictures in the order of the report."""
+        return [p for section in self.sections for p in _pictures_of_section(section)]
 
 
-def _pictures(section: Section) -> Sequence[Picture]:
-    return [*section.pictures, *(p for part in section.parts for p in _pictures(part))]
+def _pictures_of_section(section: Section) -> Sequence[Picture]:
+    return [*section.pictures, *(p for part in section.parts for p in _pictures_of_section(part))]
 
 
-def anchor(title: str) -> str:
+def anchor_of_title(title: str) -> str:
     """Return a title as the name of a place in a page."""
     return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")

@@ -13,7 +13,7 @@ from symgen.analyses.prescribed.dead_centre_room import room_to_dead_centre
 from symgen.analyses.prescribed.transmission import PIN, transmission_angles
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.measures import GROUND
-from symgen.study.report.words import engineering
+from symgen.study.report.words import engineering_number
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Joint, Mechanism
@@ -50,24 +50,28 @@ def key_numbers(mechanism: Mechanism, result: Result) -> tuple[KeyNumber, ...]:
     of a joint, or the ranges of outputs; the least transmission angle of a mechanism in the plane; the room between
     the travel of its driver and a dead centre.
     """
-    rest = [*_travels(mechanism, result), *_transmission(mechanism, result), *_room(mechanism, result)]
-    first = [*_drives(mechanism, result)][: MOST_NUMBERS - MOST_PINS - len(rest)]
-    return (*first, *_pins(mechanism, result)[: MOST_NUMBERS - len(first) - len(rest)], *rest)
+    rest = [
+        *_range_of_output(mechanism, result),
+        *_least_transmission_angle(mechanism, result),
+        *_room_to_dead_centre(mechanism, result),
+    ]
+    first = [*_loads_of_drivers(mechanism, result)][: MOST_NUMBERS - MOST_PINS - len(rest)]
+    return (*first, *_largest_pin_forces(mechanism, result)[: MOST_NUMBERS - len(first) - len(rest)], *rest)
 
 
-def _at(result: Result, k: int) -> str:
+def _time_in_words(result: Result, k: int) -> str:
     if k in (0, len(result.t) - 1):
         return "at the start" if k == 0 else "at the end"
     return f"at {result.t[k]:.3g} s"
 
 
-def _peak(values: Array) -> int | None:
+def _index_of_peak(values: Array) -> int | None:
     """Return where the largest value is; None where all are 0 or none is finite."""
     size = np.nan_to_num(np.abs(values))
     return int(np.argmax(size)) if size.any() else None
 
 
-def _drives(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
+def _loads_of_drivers(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
     """Yield the loads of drivers; where there is none, of force elements."""
     table = result.whole(("elements",))
     columns = dict(zip(table.names, table.values.T, strict=True))
@@ -76,34 +80,36 @@ def _drives(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
     told = set[str]()
     for name in drivers or [name for name in columns if name.endswith(_EFFORTS)]:
         owner, _, part = name.rpartition(".")
-        if (k := _peak(columns[name])) is None:
+        if (k := _index_of_peak(columns[name])) is None:
             continue
         kind = "torque" if units[name] == "N m" else "force"
         kind += f" along {part[1:]}" if part in ("Fx", "Fy", "Fz") else ""
-        yield KeyNumber(f"{owner}, {kind}", engineering(columns[name][k], units[name]), _at(result, k))
+        yield KeyNumber(
+            f"{owner}, {kind}", engineering_number(columns[name][k], units[name]), _time_in_words(result, k)
+        )
         power = None if owner in told else columns.get(f"{owner}{_POWER}")
         told.add(owner)
-        if power is not None and (k := _peak(power)) is not None:
+        if power is not None and (k := _index_of_peak(power)) is not None:
             work = float(np.trapezoid(np.nan_to_num(power), result.t))
-            where = f"{_at(result, k)}; work of the run {engineering(work, 'J')}"
-            yield KeyNumber(f"{owner}, power", engineering(power[k], "W"), where)
+            where = f"{_time_in_words(result, k)}; work of the run {engineering_number(work, 'J')}"
+            yield KeyNumber(f"{owner}, power", engineering_number(power[k], "W"), where)
 
 
-def _pins(mechanism: Mechanism, result: Result) -> list[KeyNumber]:
+def _largest_pin_forces(mechanism: Mechanism, result: Result) -> list[KeyNumber]:
     """Return the largest forces of joints that are no drivers, the largest one first."""
     drivers = {joint.name for joint in mechanism.joints if joint.kind == "driver"}
     table, peaks = result.whole(("magnitudes",)), list[tuple[float, KeyNumber]]()
     for i, name in enumerate(table.names):
         joint = name.rpartition(".")[0]
-        k = _peak(table.values[:, i])
+        k = _index_of_peak(table.values[:, i])
         if k is None or joint in drivers or table.units[i] != "N":
             continue
         size = float(abs(table.values[k, i]))
-        peaks.append((size, KeyNumber(f"{joint}, force", engineering(size, "N"), _at(result, k))))
+        peaks.append((size, KeyNumber(f"{joint}, force", engineering_number(size, "N"), _time_in_words(result, k))))
     return [number for _, number in sorted(peaks, key=lambda pair: -pair[0])]
 
 
-def _travels(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
+def _range_of_output(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
     """Yield the range of the file's first output that is a length or an angle, else the largest one at the ground."""
     table = result.whole(("outputs",))
     ranges = [
@@ -123,11 +129,11 @@ def _travels(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
     for name, values, unit in ranges[:1]:
         span = float(np.nanmax(values) - np.nanmin(values))
         ends = (float(np.nanmin(values)), float(np.nanmax(values)))
-        low, high = (engineering(x if abs(x) > FINEST * span else 0.0, unit) for x in ends)
-        yield KeyNumber(f"travel of {name}", engineering(span, unit), f"from {low} to {high}")
+        low, high = (engineering_number(x if abs(x) > FINEST * span else 0.0, unit) for x in ends)
+        yield KeyNumber(f"travel of {name}", engineering_number(span, unit), f"from {low} to {high}")
 
 
-def _transmission(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
+def _least_transmission_angle(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
     """Yield the least transmission angle of the pins that have one."""
     if mechanism.space != "planar" or not any(joint.kind == "driver" for joint in mechanism.joints):
         return
@@ -142,15 +148,17 @@ def _transmission(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
         found.append((float(least[k]), k, pin.name))
     if found:
         size, k, name = min(found)
-        yield KeyNumber("transmission angle", engineering(size, "rad"), f"least, at {name}, {_at(result, k)}")
+        yield KeyNumber(
+            "transmission angle", engineering_number(size, "rad"), f"least, at {name}, {_time_in_words(result, k)}"
+        )
 
 
-def _room(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
+def _room_to_dead_centre(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
     """Yield the way from the travel of the driver to the nearer dead centre, where there is one."""
     rooms = [room for room in room_to_dead_centre(mechanism, result.t, result.parameters) if not math.isnan(room.way)]
     for room in sorted(rooms, key=lambda room: room.way)[:1]:
         where = f"{'below' if room.backward else 'above'} the travel of {room.driver}"
-        yield KeyNumber("room to the dead centre", engineering(room.way, room.unit), where)
+        yield KeyNumber("room to the dead centre", engineering_number(room.way, room.unit), where)
 
 
 def _between_links(joint: Joint) -> bool:

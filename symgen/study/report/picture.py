@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any, cast
 
-from symgen.base.files import need
+from symgen.base.files import need_library
 from symgen.study.report.document import Picture, Section
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "p", "*", "h", "d", "8",
 DASHES = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
 GREY = "#5b6470"
 
-#: Width of a picture [inch]: at the width of a phone its letters are still read, and two stand beside each other on a
+#: Width of a picture [inch]: at the width of a phone its letters can still be read, and two fit beside each other on a
 #: desk.
 WIDTH = 5.0
 #: A vector file above this becomes pixels [bytes].
@@ -72,7 +72,7 @@ def line_style(index: int) -> dict[str, Any]:
     }
 
 
-def shade(color: str, level: int) -> str:
+def shade_of_colour(color: str, level: int) -> str:
     """Return a colour, or a lighter shade of it for a level above 0."""
     if level == 0:
         return color
@@ -81,7 +81,7 @@ def shade(color: str, level: int) -> str:
     return "#" + "".join(f"{round(x + share * (215 - x)):02x}" for x in parts)
 
 
-def drawn(
+def draw_picture(
     name: str, caption: str, alternative: str, draw: Callable[[Figure], None], height: float = 4.0, wide: bool = False
 ) -> Picture:
     """Draw a picture.
@@ -95,29 +95,29 @@ def drawn(
     height : float
         Of the figure [inch].
     """
-    need("report", "matplotlib", extra="plot")
+    need_library("report", "matplotlib", extra="plot")
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
     with mpl.rc_context(_LOOK):
         figure = Figure(figsize=(WIDTH * (1.9 if wide else 1.0), height), layout="constrained")
         draw(figure)
-        data, kind = _file(figure)
-    return Picture(name, caption, alternative, data, kind, wide, partial(_pixels, figure))
+        data, kind = _svg_file(figure)
+    return Picture(name, caption, alternative, data, kind, wide, partial(_png_pixels, figure))
 
 
-def of_figure(name: str, caption: str, alternative: str, make: Callable[[], Figure]) -> Picture:
+def picture_of_figure(name: str, caption: str, alternative: str, make: Callable[[], Figure]) -> Picture:
     """Return a picture across the page, of a figure that a function makes in the style of reports."""
-    need("report", "matplotlib", extra="plot")
+    need_library("report", "matplotlib", extra="plot")
     import matplotlib as mpl
 
     with mpl.rc_context(_LOOK):
         figure = make()
-        data, kind = _file(figure)
-    return Picture(name, caption, alternative, data, kind, True, partial(_pixels, figure))
+        data, kind = _svg_file(figure)
+    return Picture(name, caption, alternative, data, kind, True, partial(_png_pixels, figure))
 
 
-def _file(figure: Figure) -> tuple[bytes, str]:
+def _svg_file(figure: Figure) -> tuple[bytes, str]:
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
     stream, canvas = io.BytesIO(), cast("Any", FigureCanvasSVG(figure))
@@ -129,16 +129,16 @@ def _file(figure: Figure) -> tuple[bytes, str]:
     data = text[text.index("<svg") :].encode()
     if len(data) <= LARGEST_SVG:
         return data, "svg"
-    return _pixels(figure), "png"
+    return _png_pixels(figure), "png"
 
 
-def _pixels(figure: Figure) -> bytes:
+def _png_pixels(figure: Figure) -> bytes:
     stream = io.BytesIO()
     figure.savefig(stream, format="png", dpi=DPI, metadata={"Software": None})
     return stream.getvalue()
 
 
-def below(figure: Figure, entries: int, columns: int = 2, handles: object = None) -> None:
+def legend_below(figure: Figure, entries: int, columns: int = 2, handles: object = None) -> None:
     """Put the legend below the axes, and make the figure taller by its height."""
     if entries < 1:
         return
@@ -149,7 +149,7 @@ def below(figure: Figure, entries: int, columns: int = 2, handles: object = None
     figure.legend(loc="outside lower center", ncols=columns, columnspacing=1.4, **arguments)
 
 
-def sketched(sketches: Mapping[str, str]) -> list[Section]:
+def sketches_section(sketches: Mapping[str, str]) -> list[Section]:
     """Return the section of sketches at the head of a report, empty without sketches.
 
     Parameters

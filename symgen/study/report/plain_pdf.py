@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from symgen.base.files import need
+from symgen.base.files import need_library
 from symgen.study.report.document import DocumentTable, Picture, ReportDocument, Section, TableCell
 
 if TYPE_CHECKING:
@@ -26,38 +26,38 @@ _LINE, _GAP = 1.35, 0.2
 
 def plain_pdf(document: ReportDocument) -> bytes:
     """Return a document as a PDF file."""
-    need("report", "matplotlib", extra="plot")
+    need_library("report", "matplotlib", extra="plot")
     paper = _Paper()
-    paper.text(document.title, _HEADINGS[0], bold=True)
+    paper.write_paragraph(document.title, _HEADINGS[0], bold=True)
     for text in document.lead:
-        paper.text(text)
+        paper.write_paragraph(text)
     for section in document.sections:
-        _section(paper, section, 1)
-    paper.space(0.15)
-    paper.text("Settings and versions", _HEADINGS[1], bold=True, together=1.0)
-    paper.table(DocumentTable("", ("made with", ""), document.facts, words=2))
+        _write_section(paper, section, 1)
+    paper.leave_space(0.15)
+    paper.write_paragraph("Settings and versions", _HEADINGS[1], bold=True, together=1.0)
+    paper.write_table(DocumentTable("", ("made with", ""), document.facts, words=2))
     if document.command:
-        paper.text("Reproduce with")
-        paper.typed([document.command])
-    paper.text("Drawn by matplotlib, as there was no browser that prints.")
+        paper.write_paragraph("Reproduce with")
+        paper.write_typed_lines([document.command])
+    paper.write_paragraph("Drawn by matplotlib, as there was no browser that prints.")
     return paper.pdf()
 
 
-def _section(paper: _Paper, section: Section, level: int) -> None:
-    paper.space(0.15)
-    paper.text(section.title, _HEADINGS[min(level, len(_HEADINGS) - 1)], bold=True, together=1.0)
+def _write_section(paper: _Paper, section: Section, level: int) -> None:
+    paper.leave_space(0.15)
+    paper.write_paragraph(section.title, _HEADINGS[min(level, len(_HEADINGS) - 1)], bold=True, together=1.0)
     if section.pictures_first:
-        paper.pictures(section.pictures)
+        paper.draw_pictures(section.pictures)
     for text in section.text:
-        paper.text(text)
+        paper.write_paragraph(text)
     for text in section.findings:
-        paper.text(f"\N{EN DASH} {text}")
+        paper.write_paragraph(f"\N{EN DASH} {text}")
     for table in section.tables:
-        paper.table(table)
+        paper.write_table(table)
     if not section.pictures_first:
-        paper.pictures(section.pictures)
+        paper.draw_pictures(section.pictures)
     for part in section.parts:
-        _section(paper, part, level + 1)
+        _write_section(paper, part, level + 1)
 
 
 class _Paper:
@@ -77,30 +77,30 @@ class _Paper:
                 file.savefig(page)
         return stream.getvalue()
 
-    def space(self, height: float) -> None:
+    def leave_space(self, height: float) -> None:
         """Leave room, but not at the head of a page."""
         self._below = min(HEIGHT, self._below + height)
 
-    def text(self, text: str, size: float = _TEXT, bold: bool = False, together: float = 0.0) -> None:
+    def write_paragraph(self, text: str, size: float = _TEXT, bold: bool = False, together: float = 0.0) -> None:
         """Write a paragraph; `together`: what has to follow it on its page [inch]."""
         lines = textwrap.wrap(text, int(WIDTH * _POINTS / (_LETTER * size))) or [""]
-        self._lines(lines, size, {"fontweight": "bold" if bold else "normal"}, together)
-        self.space(0.06)
+        self._write_lines(lines, size, {"fontweight": "bold" if bold else "normal"}, together)
+        self.leave_space(0.06)
 
-    def typed(self, lines: Sequence[str]) -> None:
+    def write_typed_lines(self, lines: Sequence[str]) -> None:
         """Write lines in letters of one width, as large as they fit."""
         longest = max(map(len, lines), default=1)
         size = min(_LARGE, WIDTH * _POINTS / (_TYPED * max(1, longest)))
         if size < _TINY:
             size = _TINY
             lines = [part for line in lines for part in textwrap.wrap(line, int(WIDTH * _POINTS / (_TYPED * size)))]
-        self._lines(lines, size, {"family": "DejaVu Sans Mono"})
-        self.space(0.1)
+        self._write_lines(lines, size, {"family": "DejaVu Sans Mono"})
+        self.leave_space(0.1)
 
-    def table(self, table: DocumentTable) -> None:
+    def write_table(self, table: DocumentTable) -> None:
         """Write a table."""
         if table.caption:
-            self.text(table.caption, together=0.5)
+            self.write_paragraph(table.caption, together=0.5)
         cells = [table.headings, *(tuple(c.text if isinstance(c, TableCell) else c for c in r) for r in table.rows)]
         wide = [max(map(len, column)) for column in zip(*cells, strict=True)]
         lines = [
@@ -110,32 +110,32 @@ class _Paper:
             ).rstrip()
             for row in cells
         ]
-        self.typed([lines[0], "-" * max(map(len, lines)), *lines[1:]])
+        self.write_typed_lines([lines[0], "-" * max(map(len, lines)), *lines[1:]])
         for note in table.notes:
-            self.text(note, _LARGE)
+            self.write_paragraph(note, _LARGE)
 
-    def pictures(self, pictures: Sequence[Picture]) -> None:
+    def draw_pictures(self, pictures: Sequence[Picture]) -> None:
         """Draw pictures, two beside each other where they are narrow."""
         waiting: list[Picture] = []
         for picture in pictures:
             if picture.wide:
-                self._beside(waiting)
-                self._beside([picture])
+                self._draw_beside(waiting)
+                self._draw_beside([picture])
                 waiting = []
             else:
                 waiting.append(picture)
                 if len(waiting) == 2:
-                    self._beside(waiting)
+                    self._draw_beside(waiting)
                     waiting = []
-        self._beside(waiting)
+        self._draw_beside(waiting)
 
-    def _beside(self, pictures: Sequence[Picture]) -> None:
+    def _draw_beside(self, pictures: Sequence[Picture]) -> None:
         from matplotlib.image import imread
 
         if not pictures:
             return
         width = WIDTH if pictures[0].wide else (WIDTH - _GAP) / 2
-        caption, images = _LARGE * _LINE / _POINTS, [_pixels(picture) for picture in pictures]
+        caption, images = _LARGE * _LINE / _POINTS, [_png_of_picture(picture) for picture in pictures]
         arrays: list[Any] = [None if data is None else imread(io.BytesIO(data), format="png") for data in images]
         tallest = HEIGHT - 3 * caption
         sizes = []
@@ -143,7 +143,7 @@ class _Paper:
             height = 0.0 if array is None else width * array.shape[0] / array.shape[1]
             sizes.append((width if height <= tallest else width * tallest / height, min(height, tallest)))
         whole = max(height for _, height in sizes)
-        self._room(whole + 3 * caption)
+        self._begin_page_unless_room(whole + 3 * caption)
         page = self._pages[-1]
         for i, (picture, array, (wide, high)) in enumerate(zip(pictures, arrays, sizes, strict=True)):
             left = MARGIN + i * (width + _GAP)
@@ -155,18 +155,18 @@ class _Paper:
             words = picture.caption if array is not None else f"{picture.caption}: as a picture in .html"
             lines = textwrap.wrap(words, int(width * _POINTS / (_LETTER * _LARGE)))[:2]
             for k, line in enumerate(lines):
-                self._write(line, left, self._below + whole + (k + 1) * caption, _LARGE, {})
+                self._write_line(line, left, self._below + whole + (k + 1) * caption, _LARGE, {})
         self._below += whole + 3 * caption
 
-    def _lines(self, lines: Sequence[str], size: float, look: dict[str, Any], together: float = 0.0) -> None:
+    def _write_lines(self, lines: Sequence[str], size: float, look: dict[str, Any], together: float = 0.0) -> None:
         high = size * _LINE / _POINTS
-        self._room(min(HEIGHT, high * len(lines) + together) if together else high)
+        self._begin_page_unless_room(min(HEIGHT, high * len(lines) + together) if together else high)
         for line in lines:
-            self._room(high)
+            self._begin_page_unless_room(high)
             self._below += high
-            self._write(line, MARGIN, self._below, size, look)
+            self._write_line(line, MARGIN, self._below, size, look)
 
-    def _room(self, height: float) -> None:
+    def _begin_page_unless_room(self, height: float) -> None:
         """Begin a page unless this one has so much room."""
         from matplotlib.figure import Figure
 
@@ -174,12 +174,12 @@ class _Paper:
             self._pages.append(Figure(figsize=PAGE))
             self._below = 0.0
 
-    def _write(self, line: str, left: float, below: float, size: float, look: dict[str, Any]) -> None:
+    def _write_line(self, line: str, left: float, below: float, size: float, look: dict[str, Any]) -> None:
         place = left / PAGE[0], 1.0 - (MARGIN + below) / PAGE[1]
         self._pages[-1].text(*place, line, fontsize=size, parse_math=False, **look)
 
 
-def _pixels(picture: Picture) -> bytes | None:
+def _png_of_picture(picture: Picture) -> bytes | None:
     """Return a picture as PNG; None where it exists as SVG only."""
     if picture.kind == "png":
         return picture.data

@@ -9,7 +9,7 @@ from symgen.study.comparison.comparison_study import Study
 from symgen.study.report import words
 from symgen.study.report.comparison_findings import USUAL, line_number
 from symgen.study.report.document import DocumentTable, Picture, Section
-from symgen.study.report.picture import GREY, below, drawn, line_style
+from symgen.study.report.picture import GREY, draw_picture, legend_below, line_style
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -37,9 +37,9 @@ _TEXT = (
 )
 
 
-def beside_the_source(studies: list[Study]) -> Section | None:
+def section_beside_source(studies: list[Study]) -> Section | None:
     """Return the section, None where no mechanism of the source was compared with the methods that it times."""
-    ours = {study.mechanism: _ours(study) for study in studies if study.mechanism in RATIOS}
+    ours = {study.mechanism: _rows_beside_source(study) for study in studies if study.mechanism in RATIOS}
     if not any(ours.values()):
         return None
     rows = []
@@ -47,15 +47,15 @@ def beside_the_source(studies: list[Study]) -> Section | None:
         name, ratios = RATIOS[mechanism]
         for method, theirs in zip(METHODS, ratios, strict=True):
             if (row := measured.get(method)) is not None:
-                mine = words.with_spread(row.cost_ratio, row.cost_ratio_spread)
+                mine = words.value_with_spread(row.cost_ratio, row.cost_ratio_spread)
                 step = f"{words.exact_number(row.step or 0.0)} s"
-                rows.append((name, mechanism, method, words.ratio(theirs), mine, step))
+                rows.append((name, mechanism, method, words.ratio_in_words(theirs), mine, step))
     headings = ("mechanism of the source", "ours", "method", "source", "symgen", "step")
     table = DocumentTable("Run time as a ratio to lagrange.", headings, tuple(rows), words=3)
-    return Section("Compared with the source", _TEXT, tables=(table,), pictures=(_picture(ours),))
+    return Section("Compared with the source", _TEXT, tables=(table,), pictures=(_picture_beside_source(ours),))
 
 
-def _ours(study: Study) -> dict[str, Row]:
+def _rows_beside_source(study: Study) -> dict[str, Row]:
     """Return the row of each method with the integrator of the source, at the step nearest to the source's."""
     nearest: dict[str, Row] = {}
     for method in METHODS:
@@ -65,8 +65,8 @@ def _ours(study: Study) -> dict[str, Row]:
     return nearest
 
 
-def _picture(ours: dict[str, dict[str, Row]]) -> Picture:
-    def draw(figure: Figure) -> None:
+def _picture_beside_source(ours: dict[str, dict[str, Row]]) -> Picture:
+    def draw_axes(figure: Figure) -> None:
         ax = figure.subplots()
         places, labels = [], []
         for i, (mechanism, measured) in enumerate(ours.items()):
@@ -101,11 +101,11 @@ def _picture(ours: dict[str, dict[str, Row]]) -> Picture:
         ax.grid(False, axis="y")
         ax.set_xlabel("run time as a ratio to lagrange")
         ax.set_title("The source's ratios and ours")
-        below(figure, 2 * len(METHODS))
+        legend_below(figure, 2 * len(METHODS))
 
     caption = (
         "Open: the source, second hand (Carvalho 2022), interpreted code. Filled: this report, compiled code, with the "
         "spread of repeated runs."
     )
     alternative = "Ratios of run time to lagrange for three methods, the source's and ours."
-    return drawn("beside-the-source", caption, alternative, draw, height=1.6 + 0.5 * len(ours))
+    return draw_picture("beside-the-source", caption, alternative, draw_axes, height=1.6 + 0.5 * len(ours))

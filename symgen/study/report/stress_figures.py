@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.study.report.document import Picture, anchor
-from symgen.study.report.picture import GREY, below, drawn
+from symgen.study.report.document import Picture, anchor_of_title
+from symgen.study.report.picture import GREY, draw_picture, legend_below
 from symgen.study.stress.cell_outcome import OUTCOMES
 from symgen.study.stress.stress_rows import LETTERS, Entry, Map, plane_lines, plane_rows
 
@@ -34,20 +34,20 @@ MARK = np.array([[-0.15, 0.0], [0.15, 0.0]])
 RK4 = 2.785
 
 
-def maps(study: Stress) -> tuple[Picture, ...]:
+def outcome_maps(study: Stress) -> tuple[Picture, ...]:
     """Return one map a model: a row for each pair of method and integrator, a column for each case."""
-    shown = Map.of(study)
-    return tuple(_map(shown, model) for model in dict.fromkeys(row.model for row in shown.rows))
+    shown = Map.of_study(study)
+    return tuple(_outcome_map(shown, model) for model in dict.fromkeys(row.model for row in shown.rows))
 
 
-def _map(shown: Map, model: str) -> Picture:
-    rows = _of_many_pairs([row for row in shown.rows if row.model == model])
+def _outcome_map(shown: Map, model: str) -> Picture:
+    rows = _rows_of_many_pairs([row for row in shown.rows if row.model == model])
     cases = list(dict.fromkeys((row.family, row.case) for row in rows))
     lines = [line for line in shown.lines if any((row.method, row.integrator) == line for row in rows)]
     column = {case: i for i, case in enumerate(cases)}
     place = {line: i for i, line in enumerate(lines)}
 
-    def draw(figure: Figure) -> None:
+    def draw_axes(figure: Figure) -> None:
         ax = figure.subplots()
         field = np.full((len(lines), len(cases)), np.nan)
         for row in rows:
@@ -57,7 +57,7 @@ def _map(shown: Map, model: str) -> Picture:
                 ax.text(at[1], at[0], LETTERS[row.outcome], ha="center", va="center", fontsize=6.0)
             if row.false_success:
                 ax.plot(at[1], at[0], "s", markersize=8.0, markerfacecolor="none", markeredgecolor="black")
-        _paint(ax, field)
+        _paint_outcomes(ax, field)
         ax.set_yticks(range(len(lines)), [m if m == i else f"{m}, {i}" for m, i in lines], fontsize=7.0)
         ax.set_xticks(range(len(cases)), [case for _, case in cases], rotation=90, fontsize=6.5)
         starts = [i for i, case in enumerate(cases) if i == 0 or cases[i - 1][0] != case[0]]
@@ -71,7 +71,7 @@ def _map(shown: Map, model: str) -> Picture:
                 rotation=35,
                 rotation_mode="anchor",
             )
-        _legend(figure, ax, rows)
+        _legend_of_outcomes(figure, ax, rows)
 
     name = "mechanisms of their own" if model == "-" else model
     caption = (
@@ -79,12 +79,17 @@ def _map(shown: Map, model: str) -> Picture:
         "that report success although their error exceeds 1e-3 of the length. The table has families of one pair too."
     )
     alternative = f"Map of outcomes on {name} by method and case; the tables below say the same."
-    return drawn(
-        f"map-{anchor(name)}", caption, alternative, draw, height=2.6 + 0.17 * len(lines), wide=len(cases) > 12
+    return draw_picture(
+        f"map-{anchor_of_title(name)}",
+        caption,
+        alternative,
+        draw_axes,
+        height=2.6 + 0.17 * len(lines),
+        wide=len(cases) > 12,
     )
 
 
-def _of_many_pairs(rows: list[StressRow]) -> list[StressRow]:
+def _rows_of_many_pairs(rows: list[StressRow]) -> list[StressRow]:
     """Return the rows of families that are run with several pairs, whose columns are not empty but for one field."""
     pairs: dict[str, set[tuple[str, str]]] = {}
     for row in rows:
@@ -92,9 +97,9 @@ def _of_many_pairs(rows: list[StressRow]) -> list[StressRow]:
     return [row for row in rows if len(pairs[row.family]) > 1] or rows
 
 
-def overview(study: Stress) -> Picture:
+def overview_picture(study: Stress) -> Picture:
     """Return the share of accurate cells for each pair of method and integrator on each model, planes left out."""
-    shown = Map.of(study)
+    shown = Map.of_study(study)
     models = list(dict.fromkeys(row.model for row in shown.rows))
     shares = np.full((len(shown.lines), len(models)), np.nan)
     wrong = np.zeros(shares.shape, dtype=int)
@@ -103,10 +108,10 @@ def overview(study: Stress) -> Picture:
             entry = Entry(tuple(r for r in shown.entry(line).rows if r.model == model))
             shares[i, j] = 100.0 * entry.good / entry.judged if entry.judged else np.nan
             wrong[i, j] = sum(row.false_success for row in entry.rows)
-    return overview_of(shown.lines, models, shares, wrong)
+    return picture_of_shares(shown.lines, models, shares, wrong)
 
 
-def overview_of(
+def picture_of_shares(
     lines: Sequence[tuple[str, str]], models: Sequence[str], shares: np.ndarray[Any, Any], wrong: np.ndarray[Any, Any]
 ) -> Picture:
     """Return the picture of shares of accurate cells [percent], marked where cells are false successes.
@@ -121,7 +126,7 @@ def overview_of(
         Shares, not a number where nothing was judged; numbers of false successes.
     """
 
-    def draw(figure: Figure) -> None:
+    def draw_axes(figure: Figure) -> None:
         ax = figure.subplots()
         image = ax.imshow(shares, cmap="cividis", vmin=0.0, vmax=100.0, aspect="auto", interpolation="none")
         places = np.argwhere(wrong > 0)
@@ -130,7 +135,7 @@ def overview_of(
         marks = np.concatenate([ends, np.full((len(places), 1, 2), np.nan)], axis=1).reshape(-1, 2)
         ax.plot(*marks.T, color="#D55E00", linewidth=4.0, solid_capstyle="butt", scalex=False, scaley=False)
         ax.grid(False)
-        # a method's name stands once, where its integrators begin: letters are most of the file
+        # a method's name is written once, where its integrators begin: letters are most of the file
         before = ("", *(method for method, _ in lines))
         labels = [
             integrator if method == last else method if method == integrator else f"{method}, {integrator}"
@@ -147,10 +152,10 @@ def overview_of(
         "mark shows where runs report success although their error exceeds 1e-3 of the length; white: not run."
     )
     alternative = "Share of accurate cells by method and model; the tables below say the same for each family."
-    return drawn("overview", caption, alternative, draw, height=2.0 + 0.17 * len(lines), wide=True)
+    return draw_picture("overview", caption, alternative, draw_axes, height=2.0 + 0.17 * len(lines), wide=True)
 
 
-def _paint(ax: Any, field: np.ndarray[Any, Any]) -> None:
+def _paint_outcomes(ax: Any, field: np.ndarray[Any, Any]) -> None:
     from matplotlib.colors import BoundaryNorm, ListedColormap
 
     colours = ListedColormap([COLOURS[name] for name in OUTCOMES])
@@ -163,7 +168,7 @@ def _paint(ax: Any, field: np.ndarray[Any, Any]) -> None:
     ax.tick_params(which="both", length=0)
 
 
-def _legend(figure: Figure, ax: object, rows: Sequence[StressRow]) -> None:
+def _legend_of_outcomes(figure: Figure, ax: object, rows: Sequence[StressRow]) -> None:
     from matplotlib.patches import Patch
 
     names = [name for name in OUTCOMES if any(row.outcome == name for row in rows)]
@@ -171,13 +176,13 @@ def _legend(figure: Figure, ax: object, rows: Sequence[StressRow]) -> None:
         Patch(facecolor=COLOURS[name], edgecolor=GREY, label=f"{LETTERS[name]} {name}" if name in LETTERS else name)
         for name in names
     ]
-    below(figure, len(handles), columns=4, handles=handles)
+    legend_below(figure, len(handles), columns=4, handles=handles)
 
 
 # -- planes ------------------------------------------------------------------------------------------------------------
 
 
-def regions(study: Stress) -> tuple[Picture, ...]:
+def region_pictures(study: Stress) -> tuple[Picture, ...]:
     """Return the pictures of planes: Baumgarte's gains, and step against stiffness."""
     pictures = []
     for family, labels in (
@@ -187,18 +192,18 @@ def regions(study: Stress) -> tuple[Picture, ...]:
         rows = plane_rows(study.rows, family)
         for model, method, integrator in plane_lines(rows):
             own = [row for row in rows if (row.model, row.method, row.integrator) == (model, method, integrator)]
-            pictures.append(_plane(family, labels, model, method, integrator, own))
+            pictures.append(_region_picture(family, labels, model, method, integrator, own))
     return tuple(pictures)
 
 
-def _plane(
+def _region_picture(
     family: str, labels: tuple[str, str], model: str, method: str, integrator: str, rows: Sequence[StressRow]
 ) -> Picture:
     gains = family == "alpha-beta"
     scale = (rows[0].step or 1.0) if gains else 1.0
     xs, ys = (sorted({row.values[k] * scale for row in rows}) for k in (0, 1))
 
-    def draw(figure: Figure) -> None:
+    def draw_axes(figure: Figure) -> None:
         ax = figure.subplots()
         field = np.full((len(ys), len(xs)), np.nan)
         for row in rows:
@@ -206,36 +211,36 @@ def _plane(
             field[i, j] = OUTCOMES.index(row.outcome)
             if row.outcome in LETTERS:
                 ax.text(j, i, LETTERS[row.outcome], ha="center", va="center", fontsize=6.0)
-        _paint(ax, field)
+        _paint_outcomes(ax, field)
         ax.invert_yaxis()
         ax.set_xticks(range(len(xs)), [f"{x:.2g}" for x in xs], rotation=90 if len(xs) > 8 else 0, fontsize=7.0)
         ax.set_yticks(range(len(ys)), [f"{y:.2g}" for y in ys], fontsize=7.0)
         ax.set(xlabel=labels[0], ylabel=labels[1], title=f"{method}, {integrator}")
         if gains:
-            _root_limit(ax, xs, ys)
-        _legend(figure, ax, rows)
+            _draw_root_limit(ax, xs, ys)
+        _legend_of_outcomes(figure, ax, rows)
 
     what = "Baumgarte's gains times the step" if gains else "step and stiffness"
     limit = " The line is |root| h = 2.785, where the roots are real." if gains else ""
     caption = f"Outcomes over {what} on {model}, {method} with {integrator}; runs do not watch themselves here.{limit}"
-    return drawn(
-        f"{anchor(model)}-{family}-{anchor(method)}",
+    return draw_picture(
+        f"{anchor_of_title(model)}-{family}-{anchor_of_title(method)}",
         *(caption, f"Plane of outcomes over {what}, {method} with {integrator}, on {model}."),
-        draw,
+        draw_axes,
         height=3.9,
     )
 
 
-def _root_limit(ax: Any, xs: Sequence[float], ys: Sequence[float]) -> None:
+def _draw_root_limit(ax: Any, xs: Sequence[float], ys: Sequence[float]) -> None:
     """Draw the line on which the larger real root times the step is at rk4's limit; axes count grid points."""
     alphas = np.geomspace(RK4 / 2.0, RK4, 60)
     betas = np.array([np.sqrt(max(1e-300, RK4 * (2.0 * a - RK4))) for a in alphas])
     real = (betas <= alphas * (1.0 + 1e-9)) & (betas >= ys[0] / 3.0)
 
-    def at(values: np.ndarray[Any, Any], grid: Sequence[float]) -> np.ndarray[Any, Any]:
+    def place_on_axis(values: np.ndarray[Any, Any], grid: Sequence[float]) -> np.ndarray[Any, Any]:
         step = np.log(grid[-1] / grid[0]) / max(1, len(grid) - 1)
         return np.asarray(np.log(values / grid[0]) / step)
 
-    ax.plot(at(alphas[real], xs), at(betas[real], ys), color="black", linewidth=1.2)
+    ax.plot(place_on_axis(alphas[real], xs), place_on_axis(betas[real], ys), color="black", linewidth=1.2)
     ax.set_xlim(-0.5, len(xs) - 0.5)
     ax.set_ylim(-0.5, len(ys) - 0.5)

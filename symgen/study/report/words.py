@@ -6,14 +6,14 @@ import math
 import re
 from collections.abc import Sequence
 
-from symgen.base.errors import counted as counted
+from symgen.base.errors import plural as plural
 
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 #: Placeholder of a missing number.
 NONE = "–"
 
 
-def rounded(x: float | None, digits: int = 2) -> str:
+def rounded_number(x: float | None, digits: int = 2) -> str:
     """Return a number to some digits: 0.25, 1500, 3.1×10⁻⁷."""
     if x is None:
         return NONE
@@ -36,13 +36,13 @@ def exact_number(x: float) -> str:
     return power if mantissa == "1" else f"{mantissa}×{power}"
 
 
-def readable(text: str) -> str:
+def readable_number(text: str) -> str:
     """Return a sentence of a result with its numbers and signs as in the rest of the report."""
     text = re.sub(r"\b\d+(\.\d+)?e[-+]\d+", lambda m: exact_number(float(m.group())), text)
     return text.replace("|Phi|", "|Φ|").replace("|D v - nu|", "|D v − ν|")
 
 
-def seconds(x: float | None) -> str:
+def seconds_in_words(x: float | None) -> str:
     """Return a duration with its unit: 85 µs, 1.27 ms, 3.4 s."""
     if x is None or not math.isfinite(x):
         return NONE
@@ -58,42 +58,42 @@ _PREFIXES = {2: "M", 1: "k", 0: "", -1: "m", -2: "µ"}
 _PREFIXED = {"N", "N m", "W", "J", "m"}
 
 
-def engineering(x: float, unit: str) -> str:
+def engineering_number(x: float, unit: str) -> str:
     """Return a number to three digits with its unit as engineers write it: 39.2 kN, 2.49 kW, 40.5 deg, 12 mm."""
     if not math.isfinite(x):
         return f"not finite {unit}".strip()
     if unit in ("rad", "rad/s"):
-        return f"{_three(math.degrees(x))} {unit.replace('rad', 'deg')}"
+        return f"{_three_digits(math.degrees(x))} {unit.replace('rad', 'deg')}"
     if unit not in _PREFIXED or not 1e-6 <= abs(x) < 1e9:
-        return f"{rounded(x, 3)} {unit}".strip()
+        return f"{rounded_number(x, 3)} {unit}".strip()
     level = math.floor(math.log10(float(f"{abs(x):.3g}")) / 3.0)
     if unit == "m" and (level > 0 or abs(x) >= 0.1):  # lengths are metres, or millimetres
         level = 0
     level = min(2, max(-2, level))
-    return f"{_three(x / 1000.0**level)} {_PREFIXES[level]}{unit}"
+    return f"{_three_digits(x / 1000.0**level)} {_PREFIXES[level]}{unit}"
 
 
-def _three(x: float) -> str:
+def _three_digits(x: float) -> str:
     """Return three digits without a power of ten where there are few enough."""
     text = f"{x:.3g}"
     return f"{float(text):.0f}" if "e+" in text and abs(x) < 1e6 else text
 
 
-def percent(x: float | None) -> str:
+def percent_in_words(x: float | None) -> str:
     """Return a fraction as percent."""
     if x is None or not math.isfinite(x):
         return NONE
     return f"{100.0 * x:.0f} %" if x >= 0.0995 else f"{100.0 * x:.1f} %"
 
 
-def ratio(x: float | None) -> str:
+def ratio_in_words(x: float | None) -> str:
     """Return a ratio to two decimals."""
     return NONE if x is None or not math.isfinite(x) else f"{x:.2f}" if x < 100.0 else f"{x:.0f}"
 
 
-def with_spread(x: float | None, spread: float | None) -> str:
+def value_with_spread(x: float | None, spread: float | None) -> str:
     """Return a ratio with its spread."""
-    return f"{ratio(x)} ± {ratio(spread)}" if spread is not None else ratio(x)
+    return f"{ratio_in_words(x)} ± {ratio_in_words(spread)}" if spread is not None else ratio_in_words(x)
 
 
 def enumeration(words: Sequence[str], last: str = "and") -> str:
@@ -103,11 +103,11 @@ def enumeration(words: Sequence[str], last: str = "and") -> str:
     return f"{', '.join(words[:-1])} {last} {words[-1]}"
 
 
-def sentence(text: str) -> str:
+def as_sentence(text: str) -> str:
     """Return text with a capital and a full stop."""
     return text[:1].upper() + text[1:] + ("" if text.endswith((".", ":")) else ".")
 
 
-def setting(step: float | None, rtol: float | None) -> str:
+def setting_in_words(step: float | None, rtol: float | None) -> str:
     """Return a step or a tolerance in words: step 0.001 s, rtol 10⁻⁸."""
     return f"rtol {exact_number(rtol)}" if rtol is not None else f"step {exact_number(step or 0.0)} s"

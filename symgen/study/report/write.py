@@ -11,14 +11,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
-from symgen.base.arguments import path as argument_path
-from symgen.base.arguments import shown
+from symgen.base.arguments import kind_of_value
+from symgen.base.arguments import path_argument as argument_path
 from symgen.base.errors import InputError
 from symgen.base.escapes import markdown_text
-from symgen.base.files import Content, check_path, templates_folder, why, write_all, write_whole
+from symgen.base.files import Content, check_path, system_message, templates_folder, write_all, write_whole
 from symgen.study.comparison.comparison_study import Study
+from symgen.study.report.browser_pdf import find_browser, print_pdf
 from symgen.study.report.document import DocumentTable, Picture, ReportDocument, Section, TableCell
-from symgen.study.report.paper import browser, print_pdf
 from symgen.study.report.plain_pdf import plain_pdf
 from symgen.study.saving import REPORTS
 
@@ -40,8 +40,8 @@ def check_report(where: str, path: Path) -> None:
         If the ending is not known, matplotlib is missing, or the file cannot be written.
     """
     check_path(where, path, WRITTEN, "plot")
-    if path.suffix.lower() == ".md" and _folder(path).exists() and not _folder(path).is_dir():
-        raise InputError(where, f"'{_folder(path)}' to be a folder, for the pictures", "a file of that name")
+    if path.suffix.lower() == ".md" and _report_folder(path).exists() and not _report_folder(path).is_dir():
+        raise InputError(where, f"'{_report_folder(path)}' to be a folder, for the pictures", "a file of that name")
 
 
 def write(document: ReportDocument, path: Path) -> Path:
@@ -57,19 +57,23 @@ def write(document: ReportDocument, path: Path) -> Path:
     """
     check_report("report", path)
     if path.suffix.lower() == ".html":
-        return write_whole(path, html(document))
+        return write_whole(path, html_report(document))
     if path.suffix.lower() == ".pdf":
-        program = browser()
-        return write_whole(path, plain_pdf(document)) if program is None else print_pdf(program, html(document), path)
-    folder, is_new = _folder(path), False
+        program = find_browser()
+        return (
+            write_whole(path, plain_pdf(document))
+            if program is None
+            else print_pdf(program, html_report(document), path)
+        )
+    folder, is_new = _report_folder(path), False
     files: dict[Path, Content] = {folder / f"{p.name}.{p.kind}": p.data for p in document.pictures()}
     try:
         if files and not folder.exists():
             folder.mkdir()
             is_new = True
-        write_all(files | {path: markdown(document, folder.name)})
+        write_all(files | {path: markdown_report(document, folder.name)})
     except OSError as error:
-        raise InputError(str(folder), "a folder that can be made", why(error)) from error
+        raise InputError(str(folder), "a folder that can be made", system_message(error)) from error
     finally:
         if is_new and not any(folder.iterdir()):  # something could not be written
             folder.rmdir()
@@ -91,8 +95,8 @@ def write_report(study: Study | Stress | Sequence[Study], path: str | PathLike[s
     InputError
         If the ending is another one, matplotlib is missing, or the file cannot be written.
     """
-    from symgen.study.report.comparison import comparison
-    from symgen.study.report.stress import stress_report
+    from symgen.study.report.comparison_report import comparison_report
+    from symgen.study.report.stress_report import stress_report
     from symgen.study.stress.stress_rows import Stress
 
     file = argument_path("report", path)
@@ -101,11 +105,11 @@ def write_report(study: Study | Stress | Sequence[Study], path: str | PathLike[s
         return write(stress_report(study), file)
     studies = [study] if isinstance(study, Study) else study
     if not (isinstance(studies, Sequence) and studies and all(isinstance(s, Study) for s in studies)):
-        raise InputError("report", "a comparison or a stress study", shown(study))
-    return write(comparison(studies), file)
+        raise InputError("report", "a comparison or a stress study", kind_of_value(study))
+    return write(comparison_report(studies), file)
 
 
-def _folder(path: Path) -> Path:
+def _report_folder(path: Path) -> Path:
     return path.with_name(f"{path.stem}-files")
 
 
@@ -113,7 +117,7 @@ def _folder(path: Path) -> Path:
 
 
 @lru_cache(maxsize=1)
-def _templates() -> jinja2.Environment:
+def _report_templates() -> jinja2.Environment:
     import jinja2
 
     environment = jinja2.Environment(
@@ -123,55 +127,55 @@ def _templates() -> jinja2.Environment:
         lstrip_blocks=True,
         autoescape=True,
     )
-    environment.filters["embedded"] = _embedded
+    environment.filters["embedded"] = _embed_picture
     environment.tests["cell"] = lambda value: isinstance(value, TableCell)
     return environment
 
 
-def _embedded(picture: Picture) -> str:
+def _embed_picture(picture: Picture) -> str:
     kind = {"svg": "image/svg+xml", "png": "image/png"}[picture.kind]
     return f"data:{kind};base64,{base64.b64encode(picture.data).decode()}"
 
 
-def html(document: ReportDocument) -> str:
+def html_report(document: ReportDocument) -> str:
     """Return a document as one HTML page: style and pictures inside, no scripts, no other files."""
-    return _templates().get_template("page.html.j2").render(document=document)
+    return _report_templates().get_template("page.html.j2").render(document=document)
 
 
 # -- Markdown ----------------------------------------------------------------------------------------------------------
 
 
-def markdown(document: ReportDocument, folder: str) -> str:
+def markdown_report(document: ReportDocument, folder: str) -> str:
     """Return a document as Markdown with tables, pictures being files in `folder`."""
     lines = [f"# {markdown_text(document.title)}", ""]
     lines += [x for text in document.lead for x in (markdown_text(text), "")]
     lines += [f"[Play the motion]({document.page})", ""] if document.page else []
     for section in document.sections:
-        lines += _section(section, 2, folder)
+        lines += _markdown_section(section, 2, folder)
     lines += ["## Settings and versions", ""]
-    lines += _table(DocumentTable("", ("made with", ""), document.facts, words=2))
+    lines += _markdown_table(DocumentTable("", ("made with", ""), document.facts, words=2))
     if document.command:
         fence = "`" * max(3, 1 + max(map(len, re.findall("`+", document.command)), default=0))
         lines += ["Reproduce with", "", f"{fence}sh", document.command, fence, ""]
     return "\n".join(lines).rstrip() + "\n"
 
 
-def _section(section: Section, level: int, folder: str) -> list[str]:
+def _markdown_section(section: Section, level: int, folder: str) -> list[str]:
     lines = [f"{'#' * level} {markdown_text(section.title)}", ""]
-    shown = _pictures(section, folder)
+    shown = _markdown_pictures(section, folder)
     lines += shown if section.pictures_first else []
     lines += [x for text in section.text for x in (markdown_text(text), "")]
     lines += [f"- {markdown_text(text)}" for text in section.findings]
     lines += [""] if section.findings else []
     for table in section.tables:
-        lines += _table(table)
+        lines += _markdown_table(table)
     lines += [] if section.pictures_first else shown
     for part in section.parts:
-        lines += _section(part, level + 1, folder)
+        lines += _markdown_section(part, level + 1, folder)
     return lines
 
 
-def _pictures(section: Section, folder: str) -> list[str]:
+def _markdown_pictures(section: Section, folder: str) -> list[str]:
     lines = list[str]()
     for picture in section.pictures:
         address = quote(f"{folder}/{picture.name}.{picture.kind}")
@@ -179,12 +183,17 @@ def _pictures(section: Section, folder: str) -> list[str]:
     return lines
 
 
-def _table(table: DocumentTable) -> list[str]:
-    def row(cells: tuple[str | TableCell, ...]) -> str:
+def _markdown_table(table: DocumentTable) -> list[str]:
+    def markdown_row(cells: tuple[str | TableCell, ...]) -> str:
         texts = [cell.text if isinstance(cell, TableCell) else cell for cell in cells]
         return f"| {' | '.join(map(markdown_text, texts))} |"
 
     marks = ["---" if i < table.words else "---:" for i in range(len(table.headings))]
     lines = [markdown_text(table.caption), ""] if table.caption else []
-    lines += [row(table.headings), f"| {' | '.join(marks)} |", *(row(cells) for cells in table.rows), ""]
+    lines += [
+        markdown_row(table.headings),
+        f"| {' | '.join(marks)} |",
+        *(markdown_row(cells) for cells in table.rows),
+        "",
+    ]
     return [*lines, *(x for note in table.notes for x in (markdown_text(note), ""))]

@@ -115,7 +115,7 @@ class Base:
     raw: dict[str, Any]
 
     @classmethod
-    def of(cls, model: str | Path) -> Base:
+    def of_mechanism(cls, model: str | Path) -> Base:
         """Read a catalogue entry or a file.
 
         Raises
@@ -149,7 +149,7 @@ class Base:
         return self.mechanism.defaults.step
 
     @property
-    def nominal(self) -> float:
+    def nominal_values(self) -> float:
         """Length of a nominal run [s]."""
         defaults = self.mechanism.defaults
         return min(defaults.until, defaults.predictable_until or math.inf, NOMINAL_STEPS * defaults.step)
@@ -162,7 +162,7 @@ class Base:
 
         mechanism = self.without_events().mechanism
         shape = "straight" if straight_alone(mechanism) else "looped"
-        return first_rate(mechanism, Settings(until=self.nominal, shape=shape))[0]
+        return first_rate(mechanism, Settings(until=self.nominal_values, shape=shape))[0]
 
     @cached_property
     def closed(self) -> str | None:
@@ -177,9 +177,13 @@ class Base:
         names = [body.name for body in self.mechanism.bodies]
         return names[len(names) // 2]
 
-    def level(self, label: str, *values: float, **changes: object) -> Level:
+    def build_level(self, label: str, *values: float, **changes: object) -> Level:
         """Return a case: the stressed mechanism, nominal length and step, but for `changes`."""
-        settings: dict[str, Any] = {"mechanism": self.stressed, "until": self.nominal, "step": self.step} | changes
+        settings: dict[str, Any] = {
+            "mechanism": self.stressed,
+            "until": self.nominal_values,
+            "step": self.step,
+        } | changes
         return Level(label, values, **settings)
 
     def build(self, change: Mapping[str, Any], suffix: str = "stressed") -> Mechanism:
@@ -203,13 +207,13 @@ class Base:
         for key in ("mass", "inertia" if own else "rotary"):
             value = heavy.get(key, 0.0)
             if isinstance(value, list):  # the inertia of a spatial body
-                heavy[key] = [f"({_text(x)})*{MASS}" if x != 0.0 else 0.0 for x in value]
+                heavy[key] = [f"({_toml_text(x)})*{MASS}" if x != 0.0 else 0.0 for x in value]
             elif value != 0.0:
-                heavy[key] = f"({_text(value)})*{MASS}"
+                heavy[key] = f"({_toml_text(value)})*{MASS}"
         dimensions = len(self.anchor)
         gravity = raw["mechanism"].get("gravity", [0.0] * dimensions)
         if any(component != 0.0 for component in gravity):
-            raw["mechanism"]["gravity"] = [f"({_text(g)})*{GRAVITY}" if g != 0.0 else 0.0 for g in gravity]
+            raw["mechanism"]["gravity"] = [f"({_toml_text(g)})*{GRAVITY}" if g != 0.0 else 0.0 for g in gravity]
         else:
             raw["parameters"][GRAVITY]["value"] = 0.0
             raw["mechanism"]["gravity"] = [0.0, f"-{STANDARD_GRAVITY}*{GRAVITY}", 0.0][:dimensions]
@@ -240,11 +244,11 @@ class Base:
         """Half of the largest distance between bodies and points at the start [m], at least 1e-3."""
         from symgen.describe.facts.lengths import own_length
 
-        places = [self.centre(body.name) for body in self.mechanism.bodies]
+        places = [self.centre_of_body(body.name) for body in self.mechanism.bodies]
         spread = max(math.dist(a, b) for a in [*places, (0.0,) * len(places[0])] for b in places)
         return max(1e-3, spread / 2.0, *(own_length(body, self.values) for body in self.mechanism.bodies))
 
-    def centre(self, body: str) -> tuple[float, ...]:
+    def centre_of_body(self, body: str) -> tuple[float, ...]:
         """Return about where a body starts [m]: its centre of mass if its frame were not turned."""
         b = self.mechanism.body(body)
         pairs = zip(b.position, b.centre_of_mass, strict=True)
@@ -253,7 +257,7 @@ class Base:
     @cached_property
     def anchor(self) -> list[float]:
         """Fixed end of the spring: from the body's centre along the diagonal, as far as the mechanism is large [m]."""
-        return [round(x + self.size, 6) for x in self.centre(self.middle)]
+        return [round(x + self.size, 6) for x in self.centre_of_body(self.middle)]
 
     @property
     def has_spring(self) -> bool:
@@ -282,5 +286,5 @@ class Base:
         return math.hypot(*components) or STANDARD_GRAVITY
 
 
-def _text(value: Any) -> str:
+def _toml_text(value: Any) -> str:
     return value if isinstance(value, str) else repr(float(value))

@@ -55,7 +55,7 @@ class Run:
     length: float
 
 
-def classify(run: Run) -> str:
+def classify_outcome(run: Run) -> str:
     """Return one of `OUTCOMES` for a run.
 
     An error up to `ACCURATE` of the length is ok. Beyond that, a run that keeps the constraints by the independent
@@ -101,6 +101,6 @@ def false_success(status: str, outcome: str) -> bool:
     return status == OK and outcome not in (GOOD, UNJUDGED, TOO_SLOW, REFUSED)
 
 
-def counts(outcomes: Sequence[str]) -> dict[str, int]:
+def count_outcomes(outcomes: Sequence[str]) -> dict[str, int]:
     """Return the number of occurrences of every outcome."""
     return {name: outcomes.count(name) for name in OUTCOMES}

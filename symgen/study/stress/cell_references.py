@@ -30,7 +30,7 @@ from symgen.run.planning.prepare import prepare
 from symgen.run.starts.assembly import Start
 from symgen.study.references.closed_forms import Closed, closed_form, parallel_cranks
 from symgen.study.references.reference import scaled_values
-from symgen.study.references.routes import derivable, fastest_decay, two_routes, underived
+from symgen.study.references.routes import derivable_part, fastest_decay, motion_by_two_routes, parts_without_derivation
 from symgen.study.stress.bench import FREE_LENGTH, Level
 from symgen.study.stress.cell_outcome import ACCURATE, TRUSTED
 
@@ -43,16 +43,16 @@ CONSISTENT = 1e-8
 ENOUGH = TRUSTED * ACCURATE / 50.0
 
 
-def reference_of(level: Level, quick: bool = False) -> Fields:
+def reference_of_cell(level: Level, quick: bool = False) -> Fields:
     """Return the motion at the outputs, or the reason why there is none; a quick study looks for a shorter time."""
     try:
         refuse_jumps(level.mechanism, level.parameters, level.until)
-        return _moved(level, quick)
+        return _moved_start(level, quick)
     except (AssemblyError, InputError, SimulationError) as error:
         return {"unusable": str(error)}
 
 
-def _moved(level: Level, quick: bool) -> Fields:
+def _moved_start(level: Level, quick: bool) -> Fields:
     mechanism, parameters = level.mechanism, parameter_values(level.mechanism, level.parameters)
     shape = "straight" if straight_alone(mechanism) else "looped"
     settings = Settings("lagrange", "rk4", level.step, until=level.until, shape=shape, parameters=parameters)
@@ -62,30 +62,30 @@ def _moved(level: Level, quick: bool) -> Fields:
     if level.spring_end is not None:
         column, fixed = int(level.spring_end[0]), level.spring_end[1:]
         parameters[FREE_LENGTH] = math.dist(q[column : column + len(fixed)], fixed)
-    equations = geometry_of(level, parameters, compiled, start)
-    derived = level.mechanism.space == "planar" and not underived(mechanism)
-    points = Points.of(level.mechanism, parameters)
+    equations = emitted_geometry(level, parameters, compiled, start)
+    derived = level.mechanism.space == "planar" and not parts_without_derivation(mechanism)
+    points = Points.of_mechanism(level.mechanism, parameters)
     length = points.size(q[None, :])
     phi, d, nu = equations.evaluate(0.0, q, v)[:3]
     speed = max(1.0, float(np.abs(v).max(initial=0.0)))
     if not (np.linalg.norm(phi) <= CONSISTENT * max(1.0, length) and np.linalg.norm(d @ v - nu) <= CONSISTENT * speed):
         raise SimulationError("the start does not satisfy the independent equations")
-    times = np.array(times_of(level))
-    closed = _closed(level, parameters, q, times)
+    times = np.array(times_of_cell(level))
+    closed = _closed_form_motion(level, parameters, q, times)
     falling = fastest_decay(mechanism, compiled, start)
     if closed is None:
         try:
             if derived:
-                from symgen.study.references.motion import motion  # which imports Numba
+                from symgen.study.references.motion import motion_with_estimate  # which imports Numba
 
-                reference = motion(equations, q, v, times)
+                reference = motion_with_estimate(equations, q, v, times)
             else:
-                reference = two_routes(mechanism, parameters, times, falling, enough=ENOUGH, quick=quick)
+                reference = motion_by_two_routes(mechanism, parameters, times, falling, enough=ENOUGH, quick=quick)
         except SimulationError as error:  # over its budget, or at a singular position
             if not derived:
                 raise
             try:
-                reference = two_routes(mechanism, parameters, times, falling, enough=ENOUGH, quick=quick)
+                reference = motion_by_two_routes(mechanism, parameters, times, falling, enough=ENOUGH, quick=quick)
             except SimulationError as other:
                 raise SimulationError(f"{error}; {other}") from None
         closed = reference.how, reference.estimated_error, reference.q, reference.v
@@ -96,7 +96,7 @@ def _moved(level: Level, quick: bool) -> Fields:
         "estimated_error": float(estimated),
         "q": moved.tolist(),
         "decay": falling,
-        "sines": _sines(equations, times, moved).tolist(),
+        "sines": _sines_of_angles(equations, times, moved).tolist(),
         "length": points.size(moved) if level.length is None else level.length,
         "parameters": {
             name: value for name, value in parameters.items() if name in {**level.parameters, FREE_LENGTH: 0}
@@ -104,7 +104,7 @@ def _moved(level: Level, quick: bool) -> Fields:
     }
 
 
-def without_reference(motion: Mapping[str, Any]) -> str | None:
+def cells_without_reference(motion: Mapping[str, Any]) -> str | None:
     """Return the reason why a reference is unusable, None if it is usable."""
     if motion["unusable"] is not None:
         return str(motion["unusable"])
@@ -113,23 +113,23 @@ def without_reference(motion: Mapping[str, Any]) -> str | None:
     return None
 
 
-def times_of(level: Level) -> list[float]:
+def times_of_cell(level: Level) -> list[float]:
     """Return the output times of a case [s]."""
     return [level.until * k / level.outputs for k in range(level.outputs + 1)]
 
 
-def geometry_of(level: Level, parameters: Mapping[str, float], compiled: CompiledModel, start: Start) -> Any:
+def emitted_geometry(level: Level, parameters: Mapping[str, float], compiled: CompiledModel, start: Start) -> Any:
     """Return what has Phi, D and nu of a case: its independent equations, or in space its emitted functions."""
-    mechanism = derivable(level.mechanism)
+    mechanism = derivable_part(level.mechanism)
     if mechanism.space == "planar":
-        return equations_of(mechanism, parameters, interpreted=mechanism is not level.mechanism)
+        return equations_of_cell(mechanism, parameters, interpreted=mechanism is not level.mechanism)
     if mechanism is not level.mechanism:  # rows that are off are in neither
         own = prepare(mechanism, Settings("lagrange", "rk4", level.step, parameters=parameters), Purpose.STATE)
         compiled, start = own.compiled, own.start
     return EmittedGeometry(compiled, start)
 
 
-def equations_of(mechanism: Mechanism, parameters: Mapping[str, float], interpreted: bool = False) -> Any:
+def equations_of_cell(mechanism: Mechanism, parameters: Mapping[str, float], interpreted: bool = False) -> Any:
     """Return the independent equations of a case, once a process for all cases with the same equations.
 
     They are compiled unless nothing but their geometry is asked for: no reference integrates what they lack.
@@ -148,7 +148,7 @@ def equations_of(mechanism: Mechanism, parameters: Mapping[str, float], interpre
 _COMPILED: dict[str, Any] = {}
 
 
-def _closed(level: Level, parameters: Mapping[str, float], q: Array, times: Array) -> Closed | None:
+def _closed_form_motion(level: Level, parameters: Mapping[str, float], q: Array, times: Array) -> Closed | None:
     if level.closed is None:
         return None
     if level.closed == "parallelogram":
@@ -159,7 +159,7 @@ def _closed(level: Level, parameters: Mapping[str, float], q: Array, times: Arra
     return formula(base, {p.name: parameters[p.name] for p in base.parameters}, q, times)
 
 
-def _sines(equations: Any, times: Array, q: Array) -> Array:
+def _sines_of_angles(equations: Any, times: Array, q: Array) -> Array:
     """Return the smallest singular value of independent rows, scaled to length 1, as a share of the largest."""
     if equations.m == 0:
         return np.ones(len(times))

@@ -41,7 +41,7 @@ class Family:
     own: bool = False
 
 
-def levels_of(family: str, base: Base, quick: bool) -> list[Level]:
+def levels_of_family(family: str, base: Base, quick: bool) -> list[Level]:
     """Return the cases of a family, without repeated values.
 
     Raises
@@ -61,27 +61,27 @@ def levels_of(family: str, base: Base, quick: bool) -> list[Level]:
 def stiffness(base: Base, k: float) -> Level:
     """Return the case of a spring on the middle body, unloaded at the start; stiffer ones last shorter."""
     base.need_spring()
-    until = base.nominal * min(1.0, (1e6 / k) ** 0.25)
-    return base.level(f"{k:g} N/m", k, parameters={STIFFNESS: k}, until=until, spring_end=base.spring_end)
+    until = base.nominal_values * min(1.0, (1e6 / k) ** 0.25)
+    return base.build_level(f"{k:g} N/m", k, parameters={STIFFNESS: k}, until=until, spring_end=base.spring_end)
 
 
 def damping(base: Base, c: float) -> Level:
     """Return the case of a damper between the ground and the middle body."""
     base.need_spring()
-    return base.level(f"{c:g} N s/m", c, parameters={DAMPING: c})
+    return base.build_level(f"{c:g} N s/m", c, parameters={DAMPING: c})
 
 
 def mass_ratio(base: Base, factor: float) -> Level:
     """Return the case of a factor on mass and inertia of the middle body."""
     if len(base.mechanism.bodies) < 2:
         raise NotApplicable("it has one body, so no ratio of masses")
-    return base.level(f"mass x {factor:g}", factor, parameters={MASS: factor})
+    return base.build_level(f"mass x {factor:g}", factor, parameters={MASS: factor})
 
 
 def gravity(base: Base, g: float) -> Level:
     """Return the case of an acceleration; the stronger, the shorter, as the motion is faster."""
-    until = base.nominal / math.sqrt(max(1.0, g / 10.0))
-    return base.level(f"{g:g} m/s^2", g, parameters={GRAVITY: g / base.gravity}, until=until)
+    until = base.nominal_values / math.sqrt(max(1.0, g / 10.0))
+    return base.build_level(f"{g:g} m/s^2", g, parameters={GRAVITY: g / base.gravity}, until=until)
 
 
 def duration(base: Base, steps: float) -> Level:
@@ -92,13 +92,13 @@ def duration(base: Base, steps: float) -> Level:
     """
     until = min(steps * base.step, base.mechanism.defaults.predictable_until or math.inf)
     step = base.step * (2.0 if until >= 1e6 * base.step else 1.0)
-    return base.level(f"{until:g} s", until, until=until, step=step, outputs=100, closed=base.closed)
+    return base.build_level(f"{until:g} s", until, until=until, step=step, outputs=100, closed=base.closed)
 
 
 def step(base: Base, factor: float) -> Level:
     """Return the case of a constant step, as a multiple of the mechanism's own."""
     h = factor * base.step
-    return base.level(f"{h:g} s", h, step=h, constant_steps=True, closed=base.closed)
+    return base.build_level(f"{h:g} s", h, step=h, constant_steps=True, closed=base.closed)
 
 
 # -- starts and joints -------------------------------------------------------------------------------------------------
@@ -115,7 +115,7 @@ def inconsistent_start(base: Base, share: float) -> Level:
     at = base.raw["bodies"][base.middle].get("position", [0.0] * len(signs))
     position = [f"({x}){sign}{away!r}" for x, sign in zip(at, signs, strict=True)]
     moved = {"position": position, "velocity": [away] * len(signs), "hold": None}  # it could not be closed
-    return base.level(f"{away:g} m away", away, mechanism=base.build({"bodies": {base.middle: moved}}))
+    return base.build_level(f"{away:g} m away", away, mechanism=base.build({"bodies": {base.middle: moved}}))
 
 
 def spin_rate(base: Base, rate: float) -> Level:
@@ -133,8 +133,8 @@ def spin_rate(base: Base, rate: float) -> Level:
         body.name: {"velocity": None, "angular_velocity": rate if body.name == turning else None}
         for body in base.mechanism.bodies
     }
-    mechanism, until = base.build({"bodies": bodies}), min(base.nominal, 300.0 / rate)
-    return base.level(f"{rate:g} rad/s", rate, mechanism=mechanism, until=until)
+    mechanism, until = base.build({"bodies": bodies}), min(base.nominal_values, 300.0 / rate)
+    return base.build_level(f"{rate:g} rad/s", rate, mechanism=mechanism, until=until)
 
 
 def redundancy(base: Base, count: float) -> Level | None:
@@ -144,17 +144,17 @@ def redundancy(base: Base, count: float) -> Level | None:
     """
     if base.mechanism.space not in JOINTS.get("distance").SPACES:
         raise NotApplicable(f"there is no distance joint in {base.mechanism.space} mechanisms")
-    bars = _bars(base)[: int(count)]
+    bars = _bar_tables(base)[: int(count)]
     if not bars:
         raise NotApplicable("no body is pinned to the ground and to another body")
     if len(bars) < count:
         return None
     joints = {f"stress_bar{i}": bar for i, bar in enumerate(bars)}
     mechanism = base.build({"joints": joints}, f"redundant-{int(count)}")
-    return base.level(f"{int(count)} bar{'s' if count > 1 else ''} more", count, mechanism=mechanism)
+    return base.build_level(f"{int(count)} bar{'s' if count > 1 else ''} more", count, mechanism=mechanism)
 
 
-def _bars(base: Base) -> list[dict[str, Any]]:
+def _bar_tables(base: Base) -> list[dict[str, Any]]:
     """Return distance joints between a pin in the ground and the next pin, on the body beyond it."""
     pins = [joint for joint in base.raw.get("joints", {}).values() if joint["type"] == "revolute"]
     bars = list[dict[str, Any]]()
@@ -166,7 +166,7 @@ def _bars(base: Base) -> list[dict[str, Any]]:
             if body not in second["between"] or "ground" in second["between"]:
                 continue
             here = second["between"].index(body)
-            length = math.dist(_point(base, body, first["at"][1]), _point(base, body, second["at"][here]))
+            length = math.dist(_point_table(base, body, first["at"][1]), _point_table(base, body, second["at"][here]))
             if length < 1e-9:
                 continue
             between, at = ["ground", second["between"][1 - here]], [first["at"][0], second["at"][1 - here]]
@@ -175,7 +175,7 @@ def _bars(base: Base) -> list[dict[str, Any]]:
     return bars
 
 
-def _point(base: Base, body: str, at: Any) -> tuple[float, ...]:
+def _point_table(base: Base, body: str, at: Any) -> tuple[float, ...]:
     described = base.mechanism.body(body)
     if isinstance(at, str):
         point = described.centre_of_mass if at == "centre" else dict(described.points)[at]
@@ -189,20 +189,22 @@ def _point(base: Base, body: str, at: Any) -> tuple[float, ...]:
 def penalty_factor(base: Base, a: float) -> Level:
     """Return the case of a penalty, of the methods that have one."""
     methods = tuple(name for name, method in METHODS.items() if any(p.name == "penalty" for p in method.parameters))
-    return base.level(f"a = {a:g}", a, options={"method.penalty": a}, methods=methods, closed=base.closed)
+    return base.build_level(f"a = {a:g}", a, options={"method.penalty": a}, methods=methods, closed=base.closed)
 
 
 def baumgarte_gain(base: Base, x: float) -> Level:
     """Return the case of gains alpha = beta = x / h, h being the mechanism's step; both roots are -alpha."""
     gains = {"method.alpha": x / base.step, "method.beta": x / base.step}
-    return base.level(f"alpha h = {x:g}", x / base.step, options=gains, methods=("baumgarte",), closed=base.closed)
+    return base.build_level(
+        f"alpha h = {x:g}", x / base.step, options=gains, methods=("baumgarte",), closed=base.closed
+    )
 
 
 def motion_gain(base: Base, x: float) -> Level:
     """Return the case of gains alpha = beta = x r with `rk4`, r being the rate rms(v') / rms(v) of the first second."""
     if base.rate is None:
         raise NotApplicable(f"nothing moves in the first second of {base.name}")
-    return base.level(
+    return base.build_level(
         f"alpha = {x:.3g} r",
         x,
         options={"method.alpha": x * base.rate, "method.beta": x * base.rate},
@@ -215,7 +217,7 @@ def motion_gain(base: Base, x: float) -> Level:
 def alpha_beta(base: Base, gains: tuple[float, float]) -> Level:
     """Return the case of both gains times the mechanism's step, with `rk4` at that step."""
     alpha, beta = (x / base.step for x in gains)
-    return base.level(
+    return base.build_level(
         "alpha h = {:g}, beta h = {:g}".format(*(round(x, 3) for x in gains)),
         *(alpha, beta),
         options={"method.alpha": alpha, "method.beta": beta},

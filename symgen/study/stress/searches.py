@@ -61,8 +61,8 @@ def largest_steps(
         within; None where not even ``first / SMALLEST``, or the smallest, is.
     """
     grid = Grid(error, first, top, halvings, SATURATED * max(limits), smallest)
-    start = grid.start(expected)
-    found = [grid.largest(limit, start) for limit in limits]
+    start = grid.start_step(expected)
+    found = [grid.largest_step(limit, start) for limit in limits]
     # what is within a smaller limit is within a larger one, also beyond a step that is not
     return [max((step for step in found[i:] if step is not None), default=None) for i in range(len(found))]
 
@@ -90,7 +90,7 @@ class Grid:
         self._lowest = min(math.ceil(math.log(least / first, SCAN) * self._scan - 1e-9), self._last)
         self._tried = dict[int, float]()
 
-    def start(self, expected: float) -> int:
+    def start_step(self, expected: float) -> int:
         """Return the place next to a step below the first; some scans above the first where there is none."""
         if 0.0 < expected < self._first:
             at = round(math.log(expected / self._first, SCAN) * self._scan)
@@ -119,20 +119,20 @@ class Grid:
             self._tried[at] = self._error(self.step(at))
         return self._tried[at]
 
-    def largest(self, limit: float, start: int) -> float | None:
+    def largest_step(self, limit: float, start: int) -> float | None:
         """Return the largest step within a limit; what was tried for another limit is not tried again."""
         within = self.error(start) <= limit
-        low, high = self._upwards(limit, start) if within else self._downwards(limit, start)
+        low, high = self._search_upwards(limit, start) if within else self._search_downwards(limit, start)
         if low == high:
             return self._top if within else None
         tries = 0
         while high - low > 1:
             tries += 1
-            middle = (low + high) // 2 if tries % MIDDLE == 0 else self._between(low, high, limit)
+            middle = (low + high) // 2 if tries % MIDDLE == 0 else self._search_between(low, high, limit)
             low, high = (middle, high) if self.error(middle) <= limit else (low, middle)
         return self.step(low)
 
-    def _upwards(self, limit: float, low: int) -> tuple[int, int]:
+    def _search_upwards(self, limit: float, low: int) -> tuple[int, int]:
         """Return a place within the limit and one beyond it; the last one twice where that is within."""
         jump = 1 if low < 0 else self._scan  # near the expected step it is small, and doubled each time
         while low != self._last:
@@ -142,11 +142,11 @@ class Grid:
             low, jump = high, min(2 * jump, self._scan)
         return low, low
 
-    def _downwards(self, limit: float, high: int) -> tuple[int, int]:
-        """Return a place within the limit and one beyond it; the lowest one twice where that is beyond."""
+    def _search_downwards(self, limit: float, high: int) -> tuple[int, int]:
+        """Return the last place within the limit and the first beyond it; twice the lowest one if that is beyond."""
         near, least = high < 0, 1
         while high != self._lowest:
-            by_errors = self._fall(high, limit)
+            by_errors = self._halve_step(high, limit)
             fall = max(by_errors, least) if by_errors is not None else least if near else self._scan
             low = max((i for i in self._tried if i < high), default=max(high - fall, self._lowest))
             if self.error(low) <= limit:
@@ -155,7 +155,7 @@ class Grid:
             high = low
         return high, high
 
-    def _fall(self, at: int, limit: float) -> int | None:
+    def _halve_step(self, at: int, limit: float) -> int | None:
         """Return how far below a place the limit is kept by its error; None where the error tells nothing."""
         error = self.error(at)
         if not error < self._saturated:
@@ -166,7 +166,7 @@ class Grid:
             power = math.log(self.error(above) / error) / (above - at)
         return min(self._scan, math.ceil(math.log(error / limit) / power))
 
-    def _between(self, low: int, high: int, limit: float) -> int:
+    def _search_between(self, low: int, high: int, limit: float) -> int:
         """Return where the limit is by the errors on either side, the middle where they tell nothing."""
         below, beyond = self.error(low), self.error(high)
         if not 0.0 < below <= beyond < self._saturated:

@@ -8,11 +8,11 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from symgen.base.files import check_writable, headed, need, write_csv
+from symgen.base.files import check_writable, heading_with_unit, need_library, write_csv
 from symgen.result.contract import json_value
 from symgen.study.references.effort import IMPLICIT_BUDGET, explicit_limits
 from symgen.study.saving import save_study
-from symgen.study.stress.cell_outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, counts, false_success
+from symgen.study.stress.cell_outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, count_outcomes, false_success
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -146,7 +146,7 @@ class Stress:
 
     def to_json(self) -> dict[str, Any]:
         """Return the contract of ``symgen stress --json``."""
-        from symgen.study.stress.findings import explained, findings
+        from symgen.study.stress.findings import explain_failures, findings_of_study
 
         constant, adaptive = explicit_limits(self.quick)
         contract = {
@@ -157,7 +157,7 @@ class Stress:
             "accurate": ACCURATE,
             "budget": {"explicit": constant, "adaptive": adaptive, "implicit": IMPLICIT_BUDGET},
             "cells": len(self.rows),
-            "outcomes": counts([row.outcome for row in self.rows]),
+            "outcomes": count_outcomes([row.outcome for row in self.rows]),
             "rows": [asdict(row) for row in self.rows],
             "limits": [asdict(limit) for limit in self.limits],
             "skipped": [dict(zip(("model", "family", "why"), s, strict=True)) for s in self.skipped],
@@ -165,14 +165,14 @@ class Stress:
             "left_out": [
                 dict(zip(("mechanism", "method", "integrator", "why"), s, strict=True)) for s in self.left_out
             ],
-            "false_successes": [{**asdict(row), "why": explained(row)} for row in self.false_successes],
-            "findings": list(findings(self)),
+            "false_successes": [{**asdict(row), "why": explain_failures(row)} for row in self.false_successes],
+            "findings": list(findings_of_study(self)),
         }
         return cast(dict[str, Any], json_value(contract))
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return the cells as a pandas data frame."""
-        need("to_dataframe", "pandas")
+        need_library("to_dataframe", "pandas")
         import pandas as pd
 
         return pd.DataFrame([asdict(row) for row in self.rows], columns=[f.name for f in fields(StressRow)])
@@ -192,7 +192,7 @@ def save_stress_csv(study: Stress, path: Path, units: bool = False) -> Path:
     """Write the rows of a study to a CSV file, with units if requested; it appears whole or not at all."""
     check_writable("csv", path)
     rows = [asdict(row) | {"values": " ".join(f"{x!r}" for x in row.values)} for row in study.rows]
-    heading = [headed(f.name, UNITS.get(f.name, "")) if units else f.name for f in fields(StressRow)]
+    heading = [heading_with_unit(f.name, UNITS.get(f.name, "")) if units else f.name for f in fields(StressRow)]
     return write_csv(path, heading, [list(row.values()) for row in rows])
 
 
@@ -237,7 +237,7 @@ class Entry:
         """Accurate cells of all that were judged, with the letters of the other outcomes: ``3/5 di``."""
         if not self.rows:
             return ""
-        numbers = counts([row.outcome for row in self.rows])
+        numbers = count_outcomes([row.outcome for row in self.rows])
         letters = "".join(LETTERS[name] for name in OUTCOMES if name in LETTERS and numbers[name])
         return f"{self.good}/{self.judged} {letters}".strip()
 
@@ -259,7 +259,7 @@ class Map:
     rows: tuple[StressRow, ...]
 
     @classmethod
-    def of(cls, study: Stress) -> Map:
+    def of_study(cls, study: Stress) -> Map:
         """Return the map of all families in which one quantity is varied."""
         rows = map_rows(study.rows)
         lines = tuple(dict.fromkeys((row.method, row.integrator) for row in rows))
@@ -296,7 +296,7 @@ def plane_lines(rows: Sequence[StressRow]) -> tuple[tuple[str, str, str], ...]:
 def outcomes_of_models(rows: Sequence[StressRow]) -> tuple[tuple[str, dict[str, int]], ...]:
     """Return the number of each outcome on each model, planes included; ``-`` are mechanisms of families."""
     models = dict.fromkeys(row.model for row in rows)
-    return tuple((model, counts([row.outcome for row in rows if row.model == model])) for model in models)
+    return tuple((model, count_outcomes([row.outcome for row in rows if row.model == model])) for model in models)
 
 
 def shares_of_models(rows: Sequence[StressRow]) -> tuple[tuple[str, int, int], ...]:

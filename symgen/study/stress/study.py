@@ -13,26 +13,26 @@ import msgspec
 
 from symgen.base import arguments
 from symgen.base.errors import InputError
-from symgen.base.settings import Settings, default
+from symgen.base.settings import Settings, default_of_setting
 from symgen.derive.methods import METHODS
-from symgen.describe.mechanism import bounded
-from symgen.describe.parts.events import RESET
+from symgen.describe.mechanism import with_largest_step
+from symgen.describe.parts.event_sections import RESET
 from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.planning.automatic import AUTO, constant_integrator
 from symgen.run.planning.plan import refuse_ends, refuse_weightless
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
-from symgen.study.references.effort import BUDGET, left_out
-from symgen.study.references.routes import underived
+from symgen.study.references.effort import BUDGET, pairs_left_out
+from symgen.study.references.routes import parts_without_derivation
 from symgen.study.runner import Cell, run_cells
 from symgen.study.stress.bench import Base, Level, NotApplicable
 from symgen.study.stress.cell_outcome import OUTCOMES
-from symgen.study.stress.cell_references import without_reference
+from symgen.study.stress.cell_references import cells_without_reference
 from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute_cell
-from symgen.study.stress.families import FAMILIES, levels_of
-from symgen.study.stress.kept import identity_of
-from symgen.study.stress.progress import Progress, Whole
+from symgen.study.stress.families import FAMILIES, levels_of_family
+from symgen.study.stress.shared_by_cells import identity_of
 from symgen.study.stress.stress_rows import Limit, Stress, StressRow
+from symgen.study.stress.study_progress import Progress, Whole
 
 #: Integrators of each method besides its own default: an explicit adaptive one and an implicit one.
 FURTHER = ("dop853", "picard", "radau5")
@@ -77,8 +77,8 @@ def stress(
     jobs: int = 1,
     progress: Progress | None = None,
     compilation: float | None = None,
-    max_violation: float = default("max_violation"),
-    max_energy_error: float = default("max_energy_error"),
+    max_violation: float = default_of_setting("max_violation"),
+    max_energy_error: float = default_of_setting("max_energy_error"),
     max_attempts: float | None = None,
     coordinates: str = "absolute",
     max_step: float | None = None,
@@ -130,29 +130,29 @@ def stress(
         coordinates=coordinates,
     )
     cases, methods = arguments.words("cases", cases), arguments.words("methods", methods)
-    quick, jobs = arguments.switch("quick", quick), arguments.whole("jobs", jobs, 1, 4096)
+    quick, jobs = arguments.truth_value("quick", quick), arguments.whole_number("jobs", jobs, 1, 4096)
     if compilation is None:
         compilation = QUICK_COMPILATION if quick else math.inf
     elif compilation != math.inf:
         arguments.number("compilation", compilation, positive=True)
-    arguments.function("progress", progress)
+    arguments.callable_or_none("progress", progress)
     if journal is not None:
-        arguments.of_kind("journal", journal, Journal, "a symgen.study.journal.Journal")
-    models = arguments.listed("models", [models] if isinstance(models, str) else models, "a list of models")
-    bases = [Base.of(model) for model in models or (DEFAULT_MODEL,)]
+        arguments.instance("journal", journal, Journal, "a symgen.study.journal.Journal")
+    models = arguments.entries_of("models", [models] if isinstance(models, str) else models, "a list of models")
+    bases = [Base.of_mechanism(model) for model in models or (DEFAULT_MODEL,)]
     for base in bases:
         refuse_ends("stress", base.mechanism, common)
         refuse_weightless(base.mechanism)
     bases = [base.without_events(but=(RESET,)) for base in bases]
     # mechanisms of families are the same whatever the models: a quick look at a model has them where they are named
     offered = [name for name in FAMILIES if not (quick and FAMILIES[name].own)]
-    chosen = tuple(dict.fromkeys(arguments.one_of("cases", name, FAMILIES) for name in cases or offered))
+    chosen = tuple(dict.fromkeys(arguments.one_word_of("cases", name, FAMILIES) for name in cases or offered))
     names = tuple(dict.fromkeys(methods or (*METHODS.names, AUTO)))
     for name in names:
         if name != AUTO:
             METHODS.get(name, "methods")
     skipped: list[tuple[str, str, str]] = []
-    levels = list(_levels(bases, chosen, quick, skipped, common.max_step))
+    levels = list(_levels_of_families(bases, chosen, quick, skipped, common.max_step))
     study = _Study(
         bases=bases,
         levels=levels,
@@ -167,7 +167,7 @@ def stress(
     return study.run(tuple(skipped))
 
 
-def _levels(
+def _levels_of_families(
     bases: Sequence[Base],
     families: Sequence[str],
     quick: bool,
@@ -180,8 +180,8 @@ def _levels(
                 continue
             model = "-" if FAMILIES[name].own else base.name
             try:
-                for level in levels_of(name, base, quick):
-                    yield replace(level, mechanism=bounded(level.mechanism, max_step), model=model)
+                for level in levels_of_family(name, base, quick):
+                    yield replace(level, mechanism=with_largest_step(level.mechanism, max_step), model=model)
             except (NotApplicable, InputError) as why:  # the latter e.g. where the model uses the name of a handle
                 skipped.append((base.name, name, str(why)))
 
@@ -209,55 +209,63 @@ class _Study:
             mechanisms = [base.stressed, *(level.mechanism for level in self.levels if level.model == base.name)]
             # cases that differ in their start alone share code, and have the name of the base
             distinct = list({mechanism.name: mechanism for mechanism in mechanisms}.values())
-            out += left_out(distinct, everything, self.compilation, self.common.coordinates == "joint")
+            out += pairs_left_out(distinct, everything, self.compilation, self.common.coordinates == "joint")
         return tuple(out)
 
     def run(self, skipped: tuple[tuple[str, str, str], ...]) -> Stress:
         """Compute references, then runs, then largest steps."""
         references = [CellReference(level, self.quick) for level in self.levels]
         unknown = [(task, dict[str, Any]()) for task in references]
-        tasks: tuple[CellReference | RunTask, ...] = *references, *self._runs(unknown), *self._searches(unknown)
-        whole = Whole.of((_cell(task) for task in tasks), self.progress)
-        motions, interrupted = self._computed("references", references, whole)
+        tasks: tuple[CellReference | RunTask, ...] = (
+            *references,
+            *self._run_cells(unknown),
+            *self._search_cells(unknown),
+        )
+        whole = Whole.of_study((_make_cell(task) for task in tasks), self.progress)
+        motions, interrupted = self._compute_cells("references", references, whole)
         runs, searches = list[tuple[RunTask, Outcome]](), list[tuple[RunTask, Outcome]]()
         if not interrupted:
-            runs, interrupted = self._computed("runs", list(self._runs(motions)), whole)
+            runs, interrupted = self._compute_cells("runs", list(self._run_cells(motions)), whole)
         if not interrupted:
-            searches, interrupted = self._computed("largest steps", list(self._searches(motions)), whole)
-        unusable = [(task.level, why) for task, motion in motions if (why := without_reference(motion)) is not None]
+            searches, interrupted = self._compute_cells("largest steps", list(self._search_cells(motions)), whole)
+        unusable = [
+            (task.level, why) for task, motion in motions if (why := cells_without_reference(motion)) is not None
+        ]
         return Stress(
             models=tuple(base.name for base in self.bases),
-            rows=tuple(_row(task, outcome) for task, outcome in runs),
-            limits=tuple(_limit(task, outcome) for task, outcome in searches),
+            rows=tuple(_make_row(task, outcome) for task, outcome in runs),
+            limits=tuple(_make_limit(task, outcome) for task, outcome in searches),
             skipped=skipped,
             unusable=tuple((level.model, level.family, level.label, why) for level, why in unusable),
             left_out=self.left_out,
             quick=self.quick,
             interrupted=interrupted,
             coordinates=self.common.coordinates,
-            underived=tuple((base.name, what) for base in self.bases if (what := underived(base.mechanism))),
+            underived=tuple(
+                (base.name, what) for base in self.bases if (what := parts_without_derivation(base.mechanism))
+            ),
         )
 
-    def _computed(self, what: str, tasks: Sequence[Task], whole: Whole) -> tuple[list[tuple[Task, Outcome]], bool]:
+    def _compute_cells(self, what: str, tasks: Sequence[Task], whole: Whole) -> tuple[list[tuple[Task, Outcome]], bool]:
         """Return the finished tasks with their outcomes, and whether the study was interrupted."""
-        cells = [_cell(task) for task in tasks]
-        done, interrupted = run_cells(cells, compute_cell, self.journal, self.jobs, whole.part(what, cells))
+        cells = [_make_cell(task) for task in tasks]
+        done, interrupted = run_cells(cells, compute_cell, self.journal, self.jobs, whole.begin_part(what, cells))
         return [(cell.task, done[cell.key]) for cell in cells if cell.key in done], interrupted
 
-    def _runs(self, motions: Motions) -> Iterator[RunTask]:
+    def _run_cells(self, motions: Motions) -> Iterator[RunTask]:
         for task, motion in motions:
-            for pair in self._pairs(task.level):
+            for pair in self._pairs_of_models(task.level):
                 if self._is_compiled(task.level, pair):
                     yield RunTask(task.level, *pair, motion, self.common, self.quick)
 
-    def _pairs(self, level: Level) -> tuple[tuple[str, str], ...]:
+    def _pairs_of_models(self, level: Level) -> tuple[tuple[str, str], ...]:
         if level.pairs is not None:
             return tuple(pair for pair in level.pairs if pair[0] in self.methods)
         names = [n for n in self.methods if level.methods is None or n in level.methods]
         fitting = [method_pairs(name, level.constant_steps) for name in names]
         return tuple(pair for fit in fitting for pair in (fit[:1] if self.quick else fit))
 
-    def _searches(self, motions: Motions) -> Iterator[LimitTask]:
+    def _search_cells(self, motions: Motions) -> Iterator[LimitTask]:
         """Yield one case of each model and family with a search for largest steps, with every method."""
         cases: dict[tuple[str, str], list[tuple[Level, Outcome]]] = {}
         for task, motion in motions:
@@ -273,7 +281,7 @@ class _Study:
         return (level.mechanism.name, *pair) not in [out[:3] for out in self.left_out]
 
 
-def _cell(task: CellReference | RunTask) -> Cell:
+def _make_cell(task: CellReference | RunTask) -> Cell:
     """Return the cell of a task, its key from everything that the outcome depends on."""
     level, name = task.level, task.level.mechanism.name
     parts: dict[str, Any] = {
@@ -355,7 +363,7 @@ def _check_limit(entry: Outcome) -> None:
     msgspec.convert(entry, _Steps)
 
 
-def _row(task: RunTask, outcome: Outcome) -> StressRow:
+def _make_row(task: RunTask, outcome: Outcome) -> StressRow:
     level = task.level
     constant = task.integrator != AUTO and not INTEGRATORS.get(task.integrator).adaptive
     return StressRow(
@@ -373,7 +381,7 @@ def _row(task: RunTask, outcome: Outcome) -> StressRow:
     )
 
 
-def _limit(task: RunTask, outcome: Outcome) -> Limit:
+def _make_limit(task: RunTask, outcome: Outcome) -> Limit:
     level = task.level
     steps = outcome["stable_step"], outcome["accurate_step"]
     return Limit(level.model, level.family, level.label, task.method, task.integrator, *steps, level.until)

@@ -5,7 +5,7 @@ import pytest
 
 import symgen
 from benchmarks.bounded.machines import FOLDER
-from symgen.analyses.state.subject import subject_of
+from symgen.analyses.state.subject import make_subject
 from symgen.base.settings import Settings
 
 G = 9.81
@@ -104,5 +104,5 @@ def test_a_machine_at_rest_on_its_stop_has_no_impact(coordinates):
     bucket = symgen.load(FOLDER / "bucket.toml")
     for until in np.linspace(0.06, 0.2, 15):
         run = bucket.simulate(until=until, coordinates=coordinates)
-        subject = subject_of(bucket.mechanism, Settings(start=run, coordinates=coordinates))
+        subject = make_subject(bucket.mechanism, Settings(start=run, coordinates=coordinates))
         assert [row.name for row in subject.shut] == ["cylinder.lower"]

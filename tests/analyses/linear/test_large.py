@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 import symgen
 from analyses import rods
 from analyses.rest.test_equilibrium import CATENARY, STABLE, STARTS
-from symgen.analyses.linear.large import _far_below
+from symgen.analyses.linear.large import _far_negative_square
 from symgen.base.errors import InputError
 
 
@@ -97,9 +97,9 @@ def test_what_falls_far_beyond_what_is_near_is_seen(falling):
     stiffness, mass = (scipy.sparse.diags(x, format="csc") for x in (squares, np.ones(200)))
     rows = scipy.sparse.csc_matrix((0, 200))
     near = np.sort(squares[np.argsort(np.abs(squares))[:10]])
-    found = _far_below(stiffness, mass, rows, near)
+    found = _far_negative_square(stiffness, mass, rows, near)
     assert (near[0] < 0.0) or (found and found[0] == pytest.approx(falling, rel=1e-3))
-    assert not _far_below(scipy.sparse.diags(np.abs(squares), format="csc"), mass, rows, near)
+    assert not _far_negative_square(scipy.sparse.diags(np.abs(squares), format="csc"), mass, rows, near)
 
 
 @pytest.mark.slow

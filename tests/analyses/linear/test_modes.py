@@ -16,7 +16,7 @@ from sympy.physics.mechanics import LagrangesMethod, ReferenceFrame, dynamicsymb
 
 import symgen
 from analyses import rods
-from symgen.analyses.state.algebra import eigenvalues_of
+from symgen.analyses.state.algebra import eigenvalues_with_zeros
 from symgen.base.errors import InputError
 
 
@@ -227,7 +227,7 @@ def test_zeros_are_a_decision_of_rank():
     turn = np.linalg.qr(rng.standard_normal((7, 7)))[0]
     for small, zeros in ((0.0, 5), (1e-4, 4)):
         a = np.diag([0.0, 0.0, 0.0, -small, 0.0, 3.0, -40.0]) + np.diag([1.0, 2.0, 0.0, 1.0, 0.0, 0.0], 1)
-        values, _ = eigenvalues_of(turn @ a @ turn.T)
+        values, _ = eigenvalues_with_zeros(turn @ a @ turn.T)
         assert np.sum(values == 0.0) == zeros
         assert np.isclose(sorted(values.real)[0], -40.0) and np.isclose(sorted(values.real)[-1], 3.0)
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from symgen.analyses.prescribed.tracing import FOLLOWED, SAME, followed
+from symgen.analyses.prescribed.tracing import FOLLOWED, SAME, refine_times
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -12,7 +12,7 @@ def test_no_two_times_are_far_apart_and_none_is_there_twice(seed, sign):
     dice = np.random.default_rng(seed)
     grid = np.arange(1, FOLLOWED) / FOLLOWED  # some outputs are times that would be added
     outputs = sign * np.sort(np.concatenate([dice.uniform(0.0, 3.0, 9), 3.0 * dice.choice(grid, 5, False), [3.0]]))
-    times, are_outputs = followed(outputs)
+    times, are_outputs = refine_times(outputs)
     np.testing.assert_array_equal(times[are_outputs], outputs)
     gaps = np.diff(np.abs(np.append(0.0, times))) / 3.0
     assert gaps.min() > SAME
@@ -21,7 +21,7 @@ def test_no_two_times_are_far_apart_and_none_is_there_twice(seed, sign):
 
 def test_times_that_lie_close_stay_alone():
     outputs = np.linspace(0.0, 1.0, 2 * FOLLOWED)[1:]
-    times, are_outputs = followed(outputs)
+    times, are_outputs = refine_times(outputs)
     assert are_outputs.all()
     np.testing.assert_array_equal(times, outputs)
-    assert followed(np.zeros(2))[1].all()
+    assert refine_times(np.zeros(2))[1].all()

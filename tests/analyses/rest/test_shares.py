@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 
 import symgen
 from analyses import rods
-from symgen.analyses.kinds.modes import shown
+from symgen.analyses.kinds.modes import mode_lines
 
 MASSES, STIFFNESS, DAMPING = (2.0, 1.0), (40.0, 25.0), (0.6, 0.2)
 
@@ -45,7 +45,7 @@ def test_modes_of_one_eigenvalue_are_named(stiffness, damping, groups):
         frozenset(numbers[i - 1].item() for i in group) for group in groups
     }
     assert found.to_dict()["multiple"] == [list(group) for group in found.multiple]
-    said = [line for line in shown(found) if isinstance(line, str) and "not unique" in line]
+    said = [line for line in mode_lines(found) if isinstance(line, str) and "not unique" in line]
     assert len(said) == bool(groups)
     for group in found.multiple:
         of_one = stiffness[0]

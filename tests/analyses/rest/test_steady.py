@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 import symgen
 from analyses import rods
-from symgen.analyses.state.algebra import rank
+from symgen.analyses.state.algebra import numerical_rank
 from symgen.base.errors import InputError
 
 #: Rows of A for the rates of lean and steer rate, constant, by v and by v^2 (Meijaard et al. 2007, and SymPy's test of
@@ -323,4 +323,4 @@ def test_the_rank_of_an_empty_matrix_is_0(matrix, expected, monkeypatch):
         return of_numpy(a, tol)
 
     monkeypatch.setattr(np.linalg, "matrix_rank", as_numpy_2_0)
-    assert rank(matrix) == rank(matrix, 1e-9) == expected
+    assert numerical_rank(matrix) == numerical_rank(matrix, 1e-9) == expected

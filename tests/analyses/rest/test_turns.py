@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
 from analyses import rods
-from symgen.analyses.state.subject import subject_of
+from symgen.analyses.state.subject import make_subject
 from symgen.base.settings import Settings
 
 #: Of the spring on the second hinge [N m/rad].
@@ -40,7 +40,7 @@ def hinged():
 def test_what_a_wound_spring_exerts(shape, turned):
     """The balance at the start is what the spring exerts, k times an angle beyond half a turn."""
     model = hinged()
-    subject = subject_of(model.mechanism, Settings(shape=shape, start={"B.angle": turned}))
+    subject = make_subject(model.mechanism, Settings(shape=shape, start={"B.angle": turned}))
     found = subject.form.at(0.0, subject.y, np.zeros(12), subject.p, subject.w)
     assert abs(turned) < math.pi or subject.compiled.info.windings == 2
     assert_allclose(found.value("balance")[-1], STIFFNESS * turned, rtol=1e-12)

@@ -61,7 +61,7 @@ _EXACT = {
 def exact(graph, outputs, values):
     """Values of nodes with the working precision of mpmath."""
     known = {}
-    for node in graph.needed(outputs):
+    for node in graph.required_nodes(outputs):
         op, args, payload = graph.nodes[node]
         numbers = [known[a] for a in args]
         if op == "const":

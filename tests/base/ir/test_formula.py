@@ -18,7 +18,7 @@ from symgen.base.ir.program import Block, ModelLayout, OutputSlot
 from symgen.base.vocabulary.expressions import Expr, Name, Number
 from symgen.derive.emit.printer import ElementAccess, Printer
 from symgen.derive.formulate.translate import Translator, to_sympy
-from symgen.describe.formulas.graph import Formulas
+from symgen.describe.formulas.formula_nodes import Formulas
 from symgen.describe.formulas.parser import FormulaNames, parse
 
 #: Formulas of a and b, in which the root is undefined where a is below 0.
@@ -125,7 +125,7 @@ def routes() -> dict[str, Any]:
         else:
             symbols = {name: sp.Symbol(name, real=True) for name in names}
             translator = Translator(graph, {symbols[name]: node for name, node in names.items()})
-            nodes = [translator.node(to_sympy(tree(text), symbols)) for text in FORMULAS]
+            nodes = [translator.translate(to_sympy(tree(text), symbols)) for text in FORMULAS]
         found[route] = compiled(graph, nodes)
     return found
 
@@ -158,14 +158,14 @@ def test_no_operation_is_added_where_nothing_can_be_undefined():
     for text in (*FORMULAS, *defined):
         graph = Graph()
         node = node_of(graph, text, {"a": graph.input("q", 0), "b": graph.input("q", 1)})
-        added = any(graph.nodes[n].op == "defined" for n in graph.needed([node]))
+        added = any(graph.nodes[n].op == "defined" for n in graph.required_nodes([node]))
         assert not added or text not in defined, text
 
 
 def test_a_formula_that_is_undefined_everywhere_is_refused():
     x = sp.Symbol("x", real=True)
     with pytest.raises(InputError, match="one that is defined somewhere, got one that is zoo after simplification"):
-        Translator(Graph(), {}).node(
+        Translator(Graph(), {}).translate(
             to_sympy(parse("1/(x - x)", FormulaNames("a formula", {"x": "x"}), "test"), {"x": x})
         )
 
@@ -177,7 +177,7 @@ def test_derivatives_are_undefined_where_formulas_are():
     trees = [
         parse(text, FormulaNames("a formula", {"x": "x"}), "test") for text in ("max(0, log(x))", "min(sqrt(x), 2)")
     ]
-    slopes = [translator.node(sp.diff(to_sympy(e, {"x": x}), x)) for e in trees]
+    slopes = [translator.translate(sp.diff(to_sympy(e, {"x": x}), x)) for e in trees]
     function, w = compiled(graph, slopes), np.zeros(2)
     function(np.array([-1.0, 0.0]), w)
     assert np.isnan(w).all()

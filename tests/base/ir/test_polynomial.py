@@ -48,7 +48,7 @@ def test_forces_of_two_velocities_share_coefficient_and_sines():
         square = g.mul(g.input("v", i), g.input("v", i))
         force = g.sub(g.mul(g.mul(square, s), d), g.mul(g.mul(square, c), t))
         forms.append(NormalForms(g).simpler(g.mul(g.input("p", 0), force)))
-    kinds = [g.nodes[n].op for n in g.needed(forms)]
+    kinds = [g.nodes[n].op for n in g.required_nodes(forms)]
     assert kinds.count("mul") == 2 + 1 + 2 * 2 and kinds.count("sub") == 1
 
 
@@ -57,7 +57,7 @@ def test_positive_terms_stand_first():
     s, c, v = g.call("sin", g.input("q", 0)), g.call("cos", g.input("q", 0)), g.input("v", 0)
     node = g.add(g.neg(g.mul(s, v)), g.mul(c, g.add(g.mul(v, v), g.sub(s, s))))
     result = NormalForms(g).simpler(node)
-    assert "neg" not in {g.nodes[n].op for n in g.needed([result])}
+    assert "neg" not in {g.nodes[n].op for n in g.required_nodes([result])}
 
 
 def test_differences_of_positions_stay_whole():
@@ -74,7 +74,7 @@ def test_differences_of_positions_stay_whole():
 
 def of_state(g, node):
     """Operations at every evaluation: what depends on parameters alone is computed once, and sines stay."""
-    kinds = [g.nodes[n].op for n in g.needed([node]) if g.depends[n] not in (0, PARAMETER)]
+    kinds = [g.nodes[n].op for n in g.required_nodes([node]) if g.depends[n] not in (0, PARAMETER)]
     return sum(kind not in ("input", "sin", "cos") for kind in kinds)
 
 

@@ -64,7 +64,7 @@ def argument(value: Any) -> Any:
 
 def install() -> None:
     """Put Numba into the place of the compiler, before modules are imported whose functions it compiles."""
-    emitted.imported = builtins.__import__
+    emitted.import_library = builtins.__import__
     emitted.plain = numba.njit(error_model="numpy", fastmath={"contract"})
     kernel_addresses.address = lambda function, _, signature=kernel_addresses.KERNEL: int(
         _get_jit_address(function, signature_of(signature))

@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 
 from symgen.compile.loopcode.exact import Exact, compiled_form
-from symgen.compile.native import javascript as js
+from symgen.compile.native import javascript_code as js
 from symgen.compile.native import language as lang
 from symgen.compile.native import types
 from symgen.compile.native.c99_loops import c_loops
-from symgen.compile.native.calls import caller
+from symgen.compile.native.calls import lockless_caller
 from symgen.compile.native.loops import read_loop
 from symgen.compile.native.pieces import Piece
 from symgen.compile.store.jit import RuntimeFunction
@@ -58,7 +58,7 @@ class Library:
 
     def function(self, name: str, signature: types.Signature) -> Any:
         """A function that Python calls like a compiled one."""
-        return caller(self.at(name).place, signature)
+        return lockless_caller(self.at(name).place, signature)
 
 
 class Address:
@@ -179,7 +179,7 @@ def script(functions: Mapping[str, lang.Function], name: str, arguments: list[An
 {js.HELPERS}{js.LOOP_HELPERS}
 const calls = {json.dumps(calls)};
 {HARNESS}
-{js.javascript(functions)}
+{js.javascript_functions(functions)}
 const given = [{", ".join(texts)}];
 const result = {name}(...given);
 if (at !== calls.length) throw new Error("calls are left");

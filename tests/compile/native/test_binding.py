@@ -10,9 +10,9 @@ from compile.native import printed
 from symgen import load
 from symgen.compile.loopcode.exact import plain_form
 from symgen.compile.native import language as lang
-from symgen.compile.native.binding import bind
+from symgen.compile.native.binding import bind_functions
 from symgen.compile.native.c99 import c_functions
-from symgen.compile.native.folding import visited
+from symgen.compile.native.folding import walk_statements
 from symgen.run.compiling.checked import checked_function
 from symgen.run.compiling.printed import meanings_of, source_of
 from symgen.run.layout import abi
@@ -46,7 +46,7 @@ class Bound:
 
         meanings = meanings_of(close_row, arguments, emitted, room)
         passed = frozenset(f.key for f in emitted.values())
-        self.functions = bind({"close_row": (source_of(close_row), meanings)}, passed)
+        self.functions = bind_functions({"close_row": (source_of(close_row), meanings)}, passed)
         names = {f.name: f for f in emitted.values()}
         self.source, self.object = folder / "bound.c", folder / "bound.o"
         members = " ".join(
@@ -170,7 +170,9 @@ def test_what_is_constant_is_no_argument(tmp_path, monkeypatch):
         assert {"close_positions", "least_norm_above", "mask_redundant"} < every.keys()
         assert not {"close_at_once", "fill_further", "is_light", "choose_turns"} & every.keys()
         assert [p.name for p in every["least_norm_above"].parameters if not p.array] == []
-        lengths = [x for f in every.values() for x in visited(f.body) if isinstance(x, lang.ArrayLength | lang.Invoke)]
+        lengths = [
+            x for f in every.values() for x in walk_statements(f.body) if isinstance(x, lang.ArrayLength | lang.Invoke)
+        ]
         assert not lengths
 
     starts_of("four-bar", tmp_path, monkeypatch, compare)

@@ -8,7 +8,7 @@ import pytest
 
 from symgen.compile.native import blocks, llvm, machine
 from symgen.compile.store import emitted
-from symgen.compile.store.modules import load_module
+from symgen.compile.store.loaded_modules import load_module
 
 from .twofold import arguments_of, differences, load_twice, uncontracted, written
 
@@ -41,7 +41,7 @@ def optimised(folder, text: str) -> tuple[str, str]:
     direct = load_module(written(folder, text)).f
     function = direct.read(arguments_of(direct))
     symbol = emitted._symbol(function)
-    return str(machine.optimised(llvm.llvm_module(function, emitted._symbol, lambda called: True))), symbol
+    return str(machine.optimise_module(llvm.llvm_module(function, emitted._symbol, lambda called: True))), symbol
 
 
 def block_lengths(text: str) -> list[int]:
@@ -64,8 +64,8 @@ def test_the_same_numbers_as_in_one_block(tmp_path, monkeypatch, terms):
     monkeypatch.setattr(machine, "LARGEST_BLOCK", 300)
     monkeypatch.setattr(blocks, "LENGTH", 200)
     called = []
-    split = blocks.split
-    monkeypatch.setattr(blocks, "split", lambda *a: called.append(split(*a)) or called[-1])
+    split = blocks.split_into_blocks
+    monkeypatch.setattr(blocks, "split_into_blocks", lambda *a: called.append(split(*a)) or called[-1])
     direct, plain = load_twice(written(tmp_path / f"long{terms}", text))
     with uncontracted():
         assert differences(direct.f, plain.f, arguments_of(direct.f), terms, rounds=3) == []
@@ -74,17 +74,17 @@ def test_the_same_numbers_as_in_one_block(tmp_path, monkeypatch, terms):
 
 def test_short_functions_and_those_with_branches_stay_as_they_are(tmp_path):
     text, symbol = optimised(tmp_path / "short", long_function(100))
-    assert blocks.split(text, symbol, 10_000) is None
-    assert blocks.split(text, "_ZN6symgen5otherE", 10) is None
+    assert blocks.split_into_blocks(text, symbol, 10_000) is None
+    assert blocks.split_into_blocks(text, "_ZN6symgen5otherE", 10) is None
     branches = "def f(y, out):\n    if y[0] > 1.0:\n        out[0] = y[1]\n    out[1] = y[2]\n    return 0\n"
     text, symbol = optimised(tmp_path / "branches", branches)
-    assert blocks.split(text, symbol, 1) is None
+    assert blocks.split_into_blocks(text, symbol, 1) is None
 
 
 def test_blocks_are_about_as_long_as_asked_for_and_read_what_they_want(tmp_path, monkeypatch):
     monkeypatch.setattr(blocks, "LENGTH", 250)
     text, symbol = optimised(tmp_path / "blocks", long_function(2000))
-    divided = blocks.split(text, symbol, 100)
+    divided = blocks.split_into_blocks(text, symbol, 100)
     lengths = block_lengths(divided)
     assert len(lengths) > 8 and max(lengths) < 250 + 60 + 2 * 30  # a line with what it waits for, and all reads at once
     loads = re.findall(r"%(\.b\d+\.\S+) = load", divided)
@@ -97,14 +97,14 @@ def test_a_block_may_end_where_the_function_does(tmp_path, monkeypatch):
     text, symbol = optimised(tmp_path / "ends", long_function(40))
     for length in range(10, 120):
         monkeypatch.setattr(blocks, "LENGTH", length)
-        divided = blocks.split(text, symbol, 10)
+        divided = blocks.split_into_blocks(text, symbol, 10)
         machine.llvm.parse_assembly(divided)
 
 
 def test_a_product_stands_in_the_block_of_the_sum_that_wants_it(tmp_path, monkeypatch):
     monkeypatch.setattr(blocks, "LENGTH", 120)
     text, symbol = optimised(tmp_path / "products", long_function(1500, 3))
-    divided = blocks.split(text, symbol, 100)
+    divided = blocks.split_into_blocks(text, symbol, 100)
     names = re.compile(r"%[-\w.$]+")
     times = Counter(names.findall(divided))
     for block in re.split(r"\n(?=\.block)", divided.partition("\n}")[0]):

@@ -13,13 +13,13 @@ from symgen.compile.native.calls import (
     FUNCTION,
     RESULT,
     SOURCE,
-    caller,
-    kind_of,
+    argument_type,
+    lockless_caller,
+    slot_types,
     slot_values,
-    slots,
     trampoline,
 )
-from symgen.compile.native.machine import compiled, load_machine_code
+from symgen.compile.native.machine import compile_module, load_machine_code
 from symgen.compile.native.types import ArrayType, FunctionType, RecordType, boolean, float64, int64, uint32, void
 
 Pair = namedtuple("Pair", "one other")
@@ -39,7 +39,7 @@ SIGNATURE = float64(float64, float64[::1], boolean)
 
 @pytest.fixture(scope="module")
 def address():
-    return load_machine_code(compiled(TEXT, "symgen.test_calls"), "symgen.test_calls")
+    return load_machine_code(compile_module(TEXT, "symgen.test_calls"), "symgen.test_calls")
 
 
 def test_types_are_written_as_numba_writes_them():
@@ -52,11 +52,15 @@ def test_types_are_written_as_numba_writes_them():
 def test_slots_and_what_is_in_them():
     matrix = np.zeros((2, 3))
     values = Pair(matrix, (7, True))
-    assert list(slots(RECORD)) == ["ptr", "i64", "i64", "i64", "i1"]
+    assert list(slot_types(RECORD)) == ["ptr", "i64", "i64", "i64", "i1"]
     assert list(slot_values(RECORD, values)) == [matrix.ctypes.data, 2, 3, 7, 1]
-    assert kind_of(values) == RECORD and kind_of(np.float64(1.0)) is float64 and kind_of(np.True_) is boolean
+    assert (
+        argument_type(values) == RECORD
+        and argument_type(np.float64(1.0)) is float64
+        and argument_type(np.True_) is boolean
+    )
     with pytest.raises(TypeError, match="no str"):
-        kind_of("x")
+        argument_type("x")
 
 
 @pytest.mark.parametrize("value", [None, [1.0], np.zeros(2, int), np.zeros((1, 2)), np.zeros(4)[::2]])
@@ -66,7 +70,7 @@ def test_another_array_is_refused(value):
 
 
 def test_a_call_takes_arguments_apart(address):
-    call = caller(address, SIGNATURE)
+    call = lockless_caller(address, SIGNATURE)
     assert call(1, np.array([2.0]), True) == 3.0
     assert call(1.0, np.array([2.0]), False) == -3.0
     with pytest.raises(TypeError, match="expected 3 arguments, got 2"):
@@ -74,8 +78,8 @@ def test_a_call_takes_arguments_apart(address):
 
 
 def test_a_trampoline_copies_and_calls(address):
-    call = trampoline(SIGNATURE, compiled)
-    assert call is trampoline(float64(float64, float64[::1], boolean), compiled)
+    call = trampoline(SIGNATURE, compile_module)
+    assert call is trampoline(float64(float64, float64[::1], boolean), compile_module)
     target, source = np.zeros(1), np.array([5.0])
     block = np.zeros(FIRST + 4, np.int64)
     block[[FUNCTION, COPY, SOURCE, BYTES]] = address, target.ctypes.data, source.ctypes.data, source.nbytes

@@ -12,10 +12,10 @@ from support import golden
 from symgen.base.ir.program import LANES
 from symgen.compile.native.language import ArrayLength, Assign, Return
 from symgen.compile.native.llvm import is_copied, llvm_module
-from symgen.compile.native.machine import optimised
-from symgen.compile.native.read import Foreign, read
+from symgen.compile.native.machine import optimise_module
+from symgen.compile.native.read import Foreign, read_function
 from symgen.compile.store.emitted import EmittedFunction
-from symgen.compile.store.modules import load_module
+from symgen.compile.store.loaded_modules import load_module
 
 from .test_read import A, F, Source
 from .twofold import ARRAY, NUMBER, apart, for_avx512, own_functions
@@ -92,7 +92,7 @@ def test_loops_over_lanes_become_vectors(emitted):
     """Of all sums and products half at least: the others are what is left over where lanes do not fill vectors."""
     law = load_module(emitted / "lagrange_lanes.py")
     f = law.rhs.read((NUMBER, ARRAY))
-    text = str(optimised(llvm_module(f, lambda x: x.name, lambda x: False)))
+    text = str(optimise_module(llvm_module(f, lambda x: x.name, lambda x: False)))
     found = re.findall(r"= f(?:add|sub|mul|div)\b[^<\n]*?(<\d+ x double>|double)", text)
     assert sum(x != "double" for x in found) >= len(found) / 2 > 50
     assert not re.search(r'call i32 @"?(sine|cosine|turned)', text)
@@ -101,7 +101,7 @@ def test_loops_over_lanes_become_vectors(emitted):
 def test_functions_over_lanes_have_the_widest_registers(emitted):
     f = load_module(emitted / "lagrange_lanes.py").rhs.read((NUMBER, ARRAY))
     with for_avx512() as target:
-        text = target.emit_assembly(optimised(llvm_module(f, lambda x: x.name, lambda x: False)))
+        text = target.emit_assembly(optimise_module(llvm_module(f, lambda x: x.name, lambda x: False)))
     assert len(re.findall(r"v(?:mul|add|sub|fm)\w+pd\b.*zmm", text)) > 50
 
 
@@ -111,7 +111,7 @@ PAIR = "def pair(x, a):\n    n = x*a\n    n = n + 1.0\n    return n - x, n\n"
 
 def of(line: str, text: str = PAIR):
     pair = Source(text, {"other": 3.0}, inlined=True)
-    return read(Source(f"def f(x, z):\n    {line}\n    return 0\n", {"pair": pair}), (F, A))
+    return read_function(Source(f"def f(x, z):\n    {line}\n    return 0\n", {"pair": pair}), (F, A))
 
 
 def test_several_values_of_a_function_that_is_no_call():

@@ -106,11 +106,11 @@ def test_a_loop_whose_file_was_edited_since_it_was_loaded_is_refused(tmp_path, m
     text = file.read_text()
     assert area.tree() is not None
     file.write_text(text.replace("2.0", "3.0"))
-    store._lines.cache_clear()
+    store._read_lines.cache_clear()
     with pytest.raises(InputError, match=r"'edited_later\.area': .* got 'area', whose definition is not at"):
         area(1.0)
     file.write_text(text)
-    store._lines.cache_clear()
+    store._read_lines.cache_clear()
     assert area(1.0) == 2.0
 
 

@@ -8,11 +8,11 @@ from hypothesis import HealthCheck, given, settings
 
 import symgen
 from symgen.compile.native import types
-from symgen.compile.native.nodes import FAR, SUSPICIOUS
+from symgen.compile.native.node_functions import FAR, SUSPICIOUS
 from symgen.compile.native.read_values import Foreign
 from symgen.compile.native.types import NODES
 from symgen.compile.store.emitted import NodesFunction
-from symgen.compile.store.modules import load_module
+from symgen.compile.store.loaded_modules import load_module
 from symgen.run.compiling.method_choice import choose_method
 from symgen.run.compiling.pipeline import compile_model
 from symgen.run.compiling.side import with_integrals
@@ -134,7 +134,7 @@ def f(y, out):
 def test_other_code_has_no_such_form(tmp_path, body):
     rhs = load_module(written(tmp_path, f"def rhs(t, y, p, w, iw, ydot):\n{body}\n", head=HEAD)).rhs
     array, whole = types.float64[::1], types.int64[::1]
-    from symgen.compile.native.nodes import node_module
+    from symgen.compile.native.node_functions import node_module
 
     with pytest.raises(Foreign):
         node_module(

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from symgen.base.ir.graph import FUNCTIONS, Graph
 from symgen.base.ir.program import Block, ModelLayout, OutputSlot
-from symgen.compile.store.modules import load_module
+from symgen.compile.store.loaded_modules import load_module
 from symgen.derive.emit.printer import ElementAccess, Printer
 
 from .twofold import arguments_of, differences, load_twice, uncontracted, written
@@ -134,7 +134,7 @@ def programs(draw):
             if name == "pow" and base is not None and exponent is not None and base < 0.0 and exponent % 1.0:
                 continue  # complex in Python; formulas of files with such a power are refused
             with suppress(OverflowError):  # of constants, which is told whoever wrote them
-                numbers.append(graph.rebuild(name, arguments) if ":" not in name else graph.call(name, *arguments))
+                numbers.append(graph.apply(name, arguments) if ":" not in name else graph.call(name, *arguments))
     return graph, [some(numbers[-20:]) for _ in range(OUTPUTS)], some(truths) if draw(st.booleans()) else None
 
 
@@ -159,7 +159,7 @@ def test_powers_of_rounded_numbers_are_those_of_floats(tmp_path):
     a, b = (graph.input("q", i) for i in range(2))
     whole, other = graph.call("floor", a), graph.neg(graph.call("floor", b))
     both = graph.call("where", graph.call("lt", a, b), graph.add(whole, other), graph.call("min", whole, other))
-    outputs = [graph.rebuild("pow", pair) for pair in ((a, whole), (whole, b), (whole, other), (b, both), (both, a))]
+    outputs = [graph.apply("pow", pair) for pair in ((a, whole), (whole, b), (whole, other), (b, both), (both, a))]
     text = printed(graph, outputs, None)
     assert judged(tmp_path, text) == []
     function = load_module(written(tmp_path / "powers", text)).f
@@ -187,7 +187,7 @@ def test_each_operation_alone(tmp_path):
             outputs.append(graph.call(name, truth, graph.mul(a, b), c))
         else:
             arguments = (a,) if name in UNARY or ":" in name else (a, b)
-            outputs.append(graph.rebuild(name, arguments) if ":" not in name else graph.call(name, *arguments))
+            outputs.append(graph.apply(name, arguments) if ":" not in name else graph.call(name, *arguments))
     assert judged(tmp_path, printed(graph, outputs, truth)) == []
 
 

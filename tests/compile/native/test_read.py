@@ -19,7 +19,7 @@ from symgen.compile.native.language import (
     Store,
     Variable,
 )
-from symgen.compile.native.read import Foreign, read
+from symgen.compile.native.read import Foreign, read_function
 
 A, F, N = ("float", True), ("float", False), ("int", False)
 
@@ -46,7 +46,7 @@ def function(text: str, **names: object) -> Source:
 
 def of(text: str, *kinds: tuple[str, bool], **names: object):
     """Read a function."""
-    return read(function(text, **names), kinds)
+    return read_function(function(text, **names), kinds)
 
 
 def body_of(line: str, **names: object):
@@ -226,7 +226,7 @@ def test_functions_that_are_outside(text, why):
     f = function(text, N=0)
     f.py_func.__globals__["f"] = f
     with pytest.raises(Foreign) as told:
-        read(f, (A,) * f.py_func.__code__.co_argcount)
+        read_function(f, (A,) * f.py_func.__code__.co_argcount)
     assert str(told.value).startswith(why)
 
 
@@ -234,4 +234,4 @@ def test_a_function_whose_source_is_gone_is_outside():
     gone = function("def f(y):\n    return 0\n")
     gone._tree = None
     with pytest.raises(Foreign, match="'f', whose definition is not at"):
-        read(gone, (A,))
+        read_function(gone, (A,))

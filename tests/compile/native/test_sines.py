@@ -10,8 +10,8 @@ import pytest
 
 from symgen.api import load
 from symgen.compile.native import machine, sines
-from symgen.compile.native.machine import compiled, load_machine_code
-from symgen.compile.store.modules import load_module
+from symgen.compile.native.machine import compile_module, load_machine_code
+from symgen.compile.store.loaded_modules import load_module
 
 from .twofold import arguments_of, by, for_avx512, written
 
@@ -23,16 +23,16 @@ def caller_of(n: int) -> str:
     return f"""
 define void @try_sines{n}(ptr %x, ptr %s, ptr %c) {{
   %v = load <{n} x double>, ptr %x, align 8
-  %r = call {sines.kind(n)} {sines.sine_name(n)}(<{n} x double> %v)
-  %a = extractvalue {sines.kind(n)} %r, 0
-  %b = extractvalue {sines.kind(n)} %r, 1
+  %r = call {sines.result_type(n)} {sines.sine_name(n)}(<{n} x double> %v)
+  %a = extractvalue {sines.result_type(n)} %r, 0
+  %b = extractvalue {sines.result_type(n)} %r, 1
   store <{n} x double> %a, ptr %s, align 8
   store <{n} x double> %b, ptr %c, align 8
   ret void
 }}
 declare double @llvm.sin.f64(double)
 declare double @llvm.cos.f64(double)
-{sines.definition(n)}
+{sines.function_definition(n)}
 """
 
 
@@ -41,7 +41,7 @@ def both(request):
     """The function for vectors of one length: takes angles, returns their sines and cosines."""
     n = request.param
     symbol = f"try_sines{n}"
-    address = load_machine_code(compiled(caller_of(n), symbol), symbol)
+    address = load_machine_code(compile_module(caller_of(n), symbol), symbol)
     function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 3)(address)
 
     def call(angles):
@@ -56,7 +56,7 @@ def both(request):
 def test_registers_of_512_bits_are_not_for_code_of_one_run():
     """It uses a few vectors now and then, for which they take longer."""
     with for_avx512() as target:
-        text = target.emit_assembly(machine.optimised(caller_of(8)))
+        text = target.emit_assembly(machine.optimise_module(caller_of(8)))
     assert set(re.findall("[yz]mm", text)) == {"ymm"}
 
 
@@ -130,7 +130,7 @@ def f(y, out):
 
 def groups_of(tmp_path, name: str, *texts: str) -> list[tuple[object, ...]]:
     function = load_module(written(tmp_path / name, *texts)).f
-    return [call for calls in sines.groups(function.read(arguments_of(function))).values() for call in calls]
+    return [call for calls in sines.groups_of_angles(function.read(arguments_of(function))).values() for call in calls]
 
 
 CALLED = """

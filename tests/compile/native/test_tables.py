@@ -7,10 +7,10 @@ from support.rotation import of_turn
 
 from symgen.compile.native import types
 from symgen.compile.native.language import ArrayView, Assign, Evaluate, Invoke, ScalarOperation, Variable
-from symgen.compile.native.read import Foreign, read
+from symgen.compile.native.read import Foreign, read_function
 from symgen.compile.native.read_tables import Written
 from symgen.compile.store.emitted import EmittedFunction
-from symgen.compile.store.modules import load_module
+from symgen.compile.store.loaded_modules import load_module
 from symgen.compile.store.paths import ENVIRONMENT_VARIABLE
 
 from .test_loops import compared
@@ -58,7 +58,7 @@ def of(lines: str, *kinds: tuple[str, bool]):
     """Read a function of an array of floats, or of others, with its tables."""
     body = "".join(f"    {line}\n" for line in lines.split("; "))
     text = f"def f({', '.join('wxyz'[: len(kinds) or 1])}):\n{body}    return 0\n"
-    return read(Source(text, NAMES), kinds or (A,))
+    return read_function(Source(text, NAMES), kinds or (A,))
 
 
 def test_tables_are_found_and_handed_on():
@@ -106,9 +106,9 @@ def test_what_could_differ_is_outside(lines, why):
 def test_what_returns_nothing_is_called_by_looped_code_alone():
     assert of("x[0] = 1.0", T, A).returned == "int"
     text = "def f(T, w):\n    w[0] = 1.0\n"
-    assert read(Source(text, NAMES), (T, A)).returned == "int"
+    assert read_function(Source(text, NAMES), (T, A)).returned == "int"
     with pytest.raises(Foreign):
-        read(Source(text, NAMES), (A, A))
+        read_function(Source(text, NAMES), (A, A))
 
 
 #: Kinds of joints and forces with an elimination and a projection, the other kind of law, and stages of an integrator.

@@ -8,11 +8,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 
 import symgen
-from symgen.compile.native.machine import optimised
+from symgen.compile.native.machine import optimise_module
 from symgen.compile.native.read_values import Foreign
 from symgen.compile.native.tangents import tangent_module
 from symgen.compile.store.emitted import EmittedFunction, TangentFunction
-from symgen.compile.store.modules import load_module
+from symgen.compile.store.loaded_modules import load_module
 from symgen.run.compiling.method_choice import choose_method
 from symgen.run.compiling.pipeline import compile_model
 
@@ -198,7 +198,7 @@ def test_functions_of_a_module_agree_on_registers_for_directions(tmp_path):
     for i in rates:
         np.testing.assert_allclose(shown[i][:, 1], expected[i], rtol=1e-12, atol=1e-12)
     text = tangent_module(function.read(arguments_of(function)), "f", 8, {"y": 6, "out": 6})
-    assert len(set(re.findall(r'"min-legal-vector-width"="\d+"', str(optimised(text))))) == 1
+    assert len(set(re.findall(r'"min-legal-vector-width"="\d+"', str(optimise_module(text))))) == 1
 
 
 def test_an_array_without_directions_is_refused(tmp_path):

@@ -19,7 +19,7 @@ from symgen.compile.native import machine, types
 from symgen.compile.native.compiler import COMPILER
 from symgen.compile.store import emitted
 from symgen.compile.store.emitted import EmittedFunction
-from symgen.compile.store.modules import load_module
+from symgen.compile.store.loaded_modules import load_module
 
 ARRAY, WHOLE, NUMBER = types.float64[::1], types.int64[::1], types.float64
 TESTS = Path(__file__).parents[2]
@@ -58,7 +58,7 @@ def for_avx512() -> Iterator[Any]:
     triple, processor = "x86_64-unknown-linux-gnu", "icelake-server"
     target = llvm.Target.from_triple(triple).create_target_machine(cpu=processor, opt=3)
     with (
-        mock.patch.object(machine, "_host", lambda: (triple, processor, "")),
+        mock.patch.object(machine, "_host_processor", lambda: (triple, processor, "")),
         mock.patch.object(machine, "_best_machine", lambda: target),
     ):
         yield target
@@ -67,7 +67,7 @@ def for_avx512() -> Iterator[Any]:
 @contextmanager
 def uncontracted() -> Iterator[None]:
     """See to it that machine code made inside is for a processor without fused multiply-add."""
-    known = machine._host, machine.processor, machine._best_machine
+    known = machine._host_processor, machine.processor_features, machine._best_machine
     for each in known:
         each.cache_clear()
     with mock.patch.dict(os.environ, GENERIC):
@@ -79,7 +79,7 @@ def uncontracted() -> Iterator[None]:
 def load_twice(path: Path) -> tuple[ModuleType, ModuleType]:
     """Return a module with functions compiled here, and one with functions compiled by Numba."""
     direct = load_module(path)
-    with mock.patch.object(emitted, "imported", builtins.__import__):
+    with mock.patch.object(emitted, "import_library", builtins.__import__):
         return direct, load_module(path, f"by_numba.{path.parent.name.replace('.', '_')}.{path.stem}")
 
 

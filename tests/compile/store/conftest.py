@@ -77,7 +77,7 @@ def never_called(x):
 RUN = """\
 import json, sys
 import numpy as np
-from symgen.compile.store.modules import load_module
+from symgen.compile.store.loaded_modules import load_module
 from symgen.compile.store.stats import cache_stats
 import loops
 

@@ -10,7 +10,7 @@ import pytest
 from symgen.base.errors import InputError
 from symgen.compile.native.types import float64, int64
 from symgen.compile.store import emitted, jit
-from symgen.compile.store.modules import load_module
+from symgen.compile.store.loaded_modules import load_module
 from symgen.compile.store.stats import cache_stats
 from symgen.run.layout.kernel_addresses import address
 
@@ -57,12 +57,12 @@ class TestKey:
     def test_another_version_has_code_of_its_own(self, law, monkeypatch):
         function = load_module(law).rhs
         before = function.symbol(KINDS)
-        jit._environment.cache_clear()
+        jit._digest_of_environment.cache_clear()
         monkeypatch.setattr(llvmlite, "__version__", "0.1")
         try:
             assert function.symbol(KINDS) != before
         finally:
-            jit._environment.cache_clear()
+            jit._digest_of_environment.cache_clear()
 
     def test_sines_of_the_library_have_code_of_their_own(self, law, monkeypatch):
         function = load_module(law).rhs
@@ -170,7 +170,7 @@ class TestLanguage:
             law.unlink()
         else:
             law.write_text(LAW.replace("-p[0]", "+p[0]") if change == "edited" else "def rhs(")
-        emitted._lines.cache_clear()
+        emitted._read_lines.cache_clear()
         module.rhs(*values)
         assert right(values, module.rhs)
 

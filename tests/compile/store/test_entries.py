@@ -12,7 +12,7 @@ import pytest
 
 from symgen.base.errors import SymgenError
 from symgen.compile.store import private, upkeep
-from symgen.compile.store.entries import Entries, cached, folder_name
+from symgen.compile.store.entries import Entries, folder_name, get_or_make_data
 from symgen.compile.store.paths import cache_location
 
 FOLDER = "four-bar_0123456789abcdef_1"
@@ -108,7 +108,7 @@ for i in itertools.count():
         print("ready", flush=True)
     for stem in ("model", "lagrange"):
         source = f"i = {i}\\n" * (1 + i % 3000)
-        with entries.building(sys.argv[1]):
+        with entries.lock_folder(sys.argv[1]):
             entries.put(sys.argv[1], stem, source, {"i": i, "length": len(source)})
     private.write(private_file, "key", bytes([i % 256]) * 100000)
 """
@@ -137,7 +137,7 @@ def test_a_kill_at_any_moment_leaves_a_valid_pair_or_a_miss(entries):
         data = private.read_entry(file, "key")
         assert data is None or (len(data) == 100000 and len(set(data)) == 1)
     assert valid  # else nothing was tested
-    with entries.building(FOLDER):  # the lock of a killed process is free
+    with entries.lock_folder(FOLDER):  # the lock of a killed process is free
         entries.put(FOLDER, "model", SOURCE, {})
     assert entries.get(FOLDER, "model") == {}
 
@@ -148,10 +148,10 @@ def test_what_a_killed_process_left_is_removed_after_a_while(entries, monkeypatc
     left = [entries.path(FOLDER, "model").with_name(".tmp-1"), entries.root / upkeep.NATIVE / "x" / ".tmp-2"]
     for path in left:
         path.write_text("half")
-    upkeep.prune(entries.root, upkeep.LIMIT)
+    upkeep.prune_cache(entries.root, upkeep.LIMIT)
     assert all(path.exists() for path in left)  # it may still be being written
     monkeypatch.setattr(upkeep, "_ABANDONED", 0.0)
-    upkeep.prune(entries.root, upkeep.LIMIT)
+    upkeep.prune_cache(entries.root, upkeep.LIMIT)
     assert not any(path.exists() for path in left)
 
 
@@ -160,7 +160,7 @@ import sys, time
 from symgen.compile.store.entries import Entries
 entries = Entries()
 folder, log = sys.argv[1:]
-with entries.building(folder):
+with entries.lock_folder(folder):
     if entries.get(folder, "model") is None:
         with open(log, "a") as file:
             file.write("made ")
@@ -186,7 +186,7 @@ from symgen.compile.store.entries import Entries
 entries = Entries()
 print("ready", flush=True)
 for i in range(60):
-    with entries.building(sys.argv[1]):
+    with entries.lock_folder(sys.argv[1]):
         entries.put(sys.argv[1], "model", f"i = {i}", {"i": i})
         assert entries.get(sys.argv[1], "model") == {"i": i}, i
 """
@@ -198,13 +198,13 @@ def test_clearing_while_another_process_generates(entries):
     process.stdout.readline()
     rounds = 0
     while process.poll() is None:
-        upkeep.clear(entries.root)
+        upkeep.clear_cache(entries.root)
         rounds += 1
     process.stdout.close()
     assert process.returncode == 0
     assert rounds > 3
-    upkeep.clear(entries.root)
-    assert upkeep.info(entries.root) == EMPTY
+    upkeep.clear_cache(entries.root)
+    assert upkeep.cache_info(entries.root) == EMPTY
 
 
 class TestUpkeep:
@@ -215,14 +215,14 @@ class TestUpkeep:
         private.write_entry(entries.root / upkeep.BYTECODE / "model-1.bin", "key", b"x" * 100)
 
     def test_info(self, entries):
-        assert upkeep.info(entries.root) == EMPTY
+        assert upkeep.cache_info(entries.root) == EMPTY
         self.fill(entries)
         files = [path for path in entries.root.rglob("*") if path.is_file() and path.suffix in (".py", ".json", ".bin")]
-        assert upkeep.info(entries.root) == upkeep.CacheInfo(2, 1, sum(path.stat().st_size for path in files))
+        assert upkeep.cache_info(entries.root) == upkeep.CacheInfo(2, 1, sum(path.stat().st_size for path in files))
 
     def test_clear_removes_everything_of_ours_and_nothing_else(self, entries):
         self.fill(entries)
-        with entries.building(FOLDER):
+        with entries.lock_folder(FOLDER):
             pass
         foreign = [
             entries.root / "thesis.tex",
@@ -232,17 +232,17 @@ class TestUpkeep:
         ]
         for path in foreign:
             path.write_text("precious")
-        upkeep.clear(entries.root)
-        assert upkeep.info(entries.root) == EMPTY
+        upkeep.clear_cache(entries.root)
+        assert upkeep.cache_info(entries.root) == EMPTY
         left = sorted(path for path in entries.root.rglob("*") if path.is_file())
         lock = entries.root / "locks" / f"{FOLDER}.lock"
         assert left == sorted([*foreign, entries.root / "CACHEDIR.TAG", lock])
 
     def test_clear_leaves_nothing_but_the_tag_and_the_locks(self, entries):
         self.fill(entries)
-        with entries.building(FOLDER):
+        with entries.lock_folder(FOLDER):
             pass
-        upkeep.clear(entries.root)
+        upkeep.clear_cache(entries.root)
         assert sorted(path.name for path in entries.root.iterdir()) == ["CACHEDIR.TAG", "locks"]
 
     def test_prune_removes_what_was_not_used_for_longest(self, entries):
@@ -256,37 +256,37 @@ class TestUpkeep:
             ]
         ):
             os.utime(path, (1e9 - age * 1000, 1e9 - age * 1000))
-        total = upkeep.info(entries.root).bytes
-        upkeep.prune(entries.root, total)
-        assert upkeep.info(entries.root) == upkeep.CacheInfo(2, 1, total)
-        upkeep.prune(entries.root, total - 1)
-        left = upkeep.info(entries.root)
+        total = upkeep.cache_info(entries.root).bytes
+        upkeep.prune_cache(entries.root, total)
+        assert upkeep.cache_info(entries.root) == upkeep.CacheInfo(2, 1, total)
+        upkeep.prune_cache(entries.root, total - 1)
+        left = upkeep.cache_info(entries.root)
         assert left.bytes < total and left.entries == 2  # the byte code went
         entries.get(FOLDER, "model")  # now lagrange is the older one
-        upkeep.prune(entries.root, left.bytes - 1)
+        upkeep.prune_cache(entries.root, left.bytes - 1)
         assert entries.get(FOLDER, "model") == {}
         assert entries.get(FOLDER, "lagrange") is None
         assert not entries.path(FOLDER, "lagrange").exists()
-        upkeep.prune(entries.root, 0)
-        assert upkeep.info(entries.root) == EMPTY
+        upkeep.prune_cache(entries.root, 0)
+        assert upkeep.cache_info(entries.root) == EMPTY
 
     def test_a_process_that_writes_much_prunes_now_and_then(self, entries, monkeypatch):
         monkeypatch.setattr(upkeep, "LIMIT", 20_000)
-        rounds, prune = [], upkeep.prune
-        monkeypatch.setattr(upkeep, "prune", lambda *a: rounds.append(a) or prune(*a))
+        rounds, prune = [], upkeep.prune_cache
+        monkeypatch.setattr(upkeep, "prune_cache", lambda *a: rounds.append(a) or prune(*a))
         for i in range(120):
             if i % 2 == 0:
                 entries.put(FOLDER, f"law{i}", "#" * 400, {})
             else:
-                cached(f"{upkeep.NATIVE}/package", "f", f"{i}", lambda: b"x" * 600)
-            assert upkeep.info(entries.root).bytes <= 22_000 + 600
+                get_or_make_data(f"{upkeep.NATIVE}/package", "f", f"{i}", lambda: b"x" * 600)
+            assert upkeep.cache_info(entries.root).bytes <= 22_000 + 600
         assert entries.get(FOLDER, "law118") == {}  # the newest stays
-        assert upkeep.info(entries.root).bytes > 10_000
+        assert upkeep.cache_info(entries.root).bytes > 10_000
         assert 10 < len(rounds) < 60  # not at every entry
 
     def test_the_cache_is_pruned_once_a_day(self, entries, monkeypatch):
         rounds = []
-        monkeypatch.setattr(upkeep, "prune", lambda *a: rounds.append(a))
+        monkeypatch.setattr(upkeep, "prune_cache", lambda *a: rounds.append(a))
         pruned = entries.root / upkeep.LOCKS / "pruned"
         for age in (None, None, 90_000, -90_000):
             if age is not None:
@@ -355,7 +355,7 @@ class TestWhatIsNoCacheFolder:
         entries.put(FOLDER, "model", SOURCE, {"x": 1})
         assert entries.get(FOLDER, "model") == {"x": 1}
         assert entries.path(FOLDER, "model").read_text() == SOURCE
-        with entries.building(FOLDER):
+        with entries.lock_folder(FOLDER):
             pass
         if kind == "folder":
             assert (path / "precious").is_dir()

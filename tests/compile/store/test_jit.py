@@ -222,7 +222,9 @@ class TestMade:
     def test_an_object_file_is_made_once(self, cache, monkeypatch):
         name = "symgen.test_jit.first"
         code = jit.object_file(self.TEXT.format(name=name, more=3), name)
-        monkeypatch.setattr("symgen.compile.native.machine.compiled", lambda text, symbol: pytest.fail("made twice"))
+        monkeypatch.setattr(
+            "symgen.compile.native.machine.compile_module", lambda text, symbol: pytest.fail("made twice")
+        )
         assert jit.object_file(self.TEXT.format(name=name, more=3), name) == code
         call = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64)(load_machine_code(code, name))
         assert call(39) == 42
@@ -252,4 +254,4 @@ class TestIdentity:
 
 
 def test_the_head_of_a_file_holds_its_key(tmp_path):
-    assert private._head("ab", b"c") != private._head("a", b"bc")
+    assert private._entry_head("ab", b"c") != private._entry_head("a", b"bc")

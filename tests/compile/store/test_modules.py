@@ -7,7 +7,7 @@ import pytest
 
 from symgen.base.errors import InputError
 from symgen.compile.store.emitted import EmittedFunction
-from symgen.compile.store.modules import load_module
+from symgen.compile.store.loaded_modules import load_module
 
 from .conftest import FOLDER, LAW, MODEL
 
@@ -123,7 +123,7 @@ import sys
 import symgen.compile.store.entries, symgen.compile.store.stats, symgen.compile.store.paths
 known = {"numba", "llvmlite", "numpy", "platformdirs", "filelock", "sympy"}
 assert not known & {*sys.modules}, known & {*sys.modules}
-import symgen.compile.store.modules
+import symgen.compile.store.loaded_modules
 print(sorted(known & {*sys.modules} - {"llvmlite", "numpy"}))
 """
     project = str(Path(__file__).parents[3])

@@ -53,7 +53,7 @@ def unchanged(copied):
 
 def forget():
     """Forget what has been read: as in another process."""
-    for kept in (sources.source_table, sources.package_digest, sources.reached_digest, sources._stamp_of):
+    for kept in (sources.source_table, sources.package_digest, sources.reached_digest, sources._digest_of_sources):
         kept.cache_clear()
 
 
@@ -103,8 +103,8 @@ def test_what_is_put_back_makes_the_same_results(package, unchanged):
         ("run/modes/choice.py", {"stepping"}),
         ("run/starts/starting.py", {"code", "stepping"}),
         ("base/ir/program.py", {"code", "stepping"}),
-        ("base/vocabulary/functions.py", {"code", "stepping", "compiler"}),
-        ("describe/formulas/graph.py", {"code"}),
+        ("base/vocabulary/elementary_functions.py", {"code", "stepping", "compiler"}),
+        ("describe/formulas/formula_nodes.py", {"code"}),
         ("derive/lower/looped/kernels.py", {"code"}),
         ("derive/methods/lagrange.py", {"code"}),
         ("run/integrators/dop853.py", {"stepping"}),
@@ -141,7 +141,7 @@ def test_a_new_module_is_another_code(package):
 @pytest.mark.slow
 def test_imports_are_those_that_python_sees():
     """At any place of a module, in parentheses and under other names."""
-    files = dict(sources.files_of(str(PACKAGE)))
+    files = dict(sources.files_of_package(str(PACKAGE)))
     for name, (_, found) in sources.read_sources(files).items():
         if name.endswith(".py"):
             assert set(found) == imported(Path(files[name]), set(files)) - {name}, name

@@ -12,7 +12,7 @@ from symgen.describe.catalogue import names
 EMIT_ALL = """
 import hashlib, sys
 from symgen.api import load
-from symgen.derive.lower.looped.law import is_loopable
+from symgen.derive.lower.looped.looped_law import is_loopable
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS
 from symgen.run.compiling.pipeline import choose_method, generate

@@ -8,10 +8,10 @@ from symgen.base.files import templates_folder
 from symgen.base.ir.interpolation import Interpolation
 from symgen.base.ir.program import Correction
 from symgen.derive.emit.emit import table_codes
-from symgen.derive.emit.lanes import Inlined
-from symgen.derive.emit.looped import emit_machine, emit_rotors, emit_shared_model, pressed_rates
+from symgen.derive.emit.lane_modules import Inlined
+from symgen.derive.emit.law_parts import Parts
+from symgen.derive.emit.looped_modules import emit_machine, emit_rotors, emit_shared_model, rates_with_reactions
 from symgen.derive.emit.module import module_source
-from symgen.derive.emit.parts import Parts
 
 #: Those that are rendered by themselves; what else stands beside them are functions with loops, printed by `Parts`.
 ALONE = {"parts/module.j2", "parts/table.j2", "curves/pieces.j2"}
@@ -37,7 +37,7 @@ def test_templates_that_are_rendered_alone(monkeypatch):
     emit_machine("generator")
     emit_shared_model("generator")
     emit_rotors("generator")
-    pressed_rates()
+    rates_with_reactions()
     module_source("title", [], [], {}, {})
     x, y = (0.0, 1.0, 2.0), (1.0, 2.0, 4.0)
     table_codes([Interpolation("line", x, y), Interpolation("curve", x, y, ((1.0, 0.0, 0.0, 0.0),) * 2)])

@@ -20,7 +20,7 @@ from support.random_space import make
 
 from symgen.base.errors import InputError
 from symgen.base.escapes import LONGEST, comment_text
-from symgen.compile.store.modules import load_module
+from symgen.compile.store.loaded_modules import load_module
 from symgen.derive.emit.printer import table_name
 from symgen.derive.methods._base import MethodOption, MethodParameter, MultiplierMethod
 from symgen.describe.files.section_names import SECTIONS

@@ -10,8 +10,8 @@ from support.graph_values import node_values, state_inputs
 from support.space import rotation, skew, triad, unit
 
 from symgen.derive.formulate.formulate import formulate
-from symgen.describe.formulas.evaluate import scalars
-from symgen.describe.formulas.start import from_matrix
+from symgen.describe.formulas.evaluate import scalar_values
+from symgen.describe.formulas.start import euler_parameters_of_matrix
 
 
 def turn(axis, angle):
@@ -78,7 +78,7 @@ class Pair:
         matrix = self.turned @ self.frames[0] @ turned @ self.frames[1].T
         place = self.place + self.turned @ (self.at[0] + self.frames[0] @ shift) - matrix @ self.at[1]
         poses = [
-            [*p, *from_matrix(tuple(map(tuple, m)), scalars({}))]
+            [*p, *euler_parameters_of_matrix(tuple(map(tuple, m)), scalar_values({}))]
             for p, m in ((self.place, self.turned), (place, matrix))
         ]
         return [float(x) for pose in poses for x in pose], coordinates

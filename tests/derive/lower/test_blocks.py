@@ -15,7 +15,7 @@ import symgen
 from derive.lower.test_rank import SCHUR, equations_of, laid_out
 from symgen.base.ir.program import EliminationPlan, FixedVelocities
 from symgen.derive.formulate.formulate import formulate
-from symgen.derive.lower.closing import closed_loops, loop_pairs
+from symgen.derive.lower.closed_loops import loop_pairs, loops_in_order
 from symgen.derive.lower.fixed_velocities import fixed_velocities
 from symgen.derive.lower.plans import cheapest_plan
 from symgen.derive.lower.scalar import ScalarNodes
@@ -198,7 +198,7 @@ def test_every_plan_gives_the_motion_of_the_dense_equations(name, coordinates):
 
 def closing(equations, free=()):
     fixed = fixed_velocities(equations, False)
-    return EliminationPlan(fixed, schur=False, normal=True, loops=closed_loops(equations, fixed, free))
+    return EliminationPlan(fixed, schur=False, normal=True, loops=loops_in_order(equations, fixed, free))
 
 
 @pytest.mark.slow_cases("joint-jansen-leg-3")
@@ -262,7 +262,7 @@ def test_the_cheapest_plan_takes_no_more_operations_than_others(name):
     for plan in dict.fromkeys((SCHUR, fixing(e), fixing(e, True), best)):
         scalars, (a, multipliers, flag) = laid_out(e, flagged, plan)
         ends = [*a, *multipliers, *(() if flag is None else (flag,))]
-        counts[plan] = scalars.graph.operations(ends)
+        counts[plan] = scalars.graph.count_operations(ends)
     assert counts[best] == min(counts.values())
 
 
@@ -272,6 +272,6 @@ def test_quadratic_velocity_terms_in_the_plane_are_entries_of_other_rows_times_s
     e = formulate(symgen.load(name).mechanism)
     g, entries = e.graph, [(j, node) for row in e.rows for j, node in row.entries]
     turning = [j for j, node in entries if e.velocities[j].unit == "rad/s" and g.value(node) is None]
-    before = g.operations([node for _, node in entries])
-    both = g.operations([*(node for _, node in entries), *(row.gamma for row in e.rows)])
+    before = g.count_operations([node for _, node in entries])
+    both = g.count_operations([*(node for _, node in entries), *(row.gamma for row in e.rows)])
     assert both - before <= len(set(turning)) + 2 * len(turning)

@@ -93,7 +93,7 @@ def test_printed_code_is_what_was_built(steps):
 def test_nothing_trivial_is_left(steps):
     """No product with a literal 0, 1 or -1, no sum with 0, no double negation, no operation on two literals."""
     graph, nodes, _ = run(steps)
-    for node in graph.needed(nodes):
+    for node in graph.required_nodes(nodes):
         op, args, _ = graph.nodes[node]
         literals = [graph.value(a) for a in args]
         if op == "mul":
@@ -112,6 +112,6 @@ def test_the_same_operation_is_stored_once(steps):
     graph, nodes, _ = run(steps)
     assert len(set(graph.nodes)) == len(graph.nodes)
     copied = graph.copy()
-    again = [copied.rebuild(op, args, payload) for op, args, payload in map(graph.nodes.__getitem__, nodes) if args]
+    again = [copied.apply(op, args, payload) for op, args, payload in map(graph.nodes.__getitem__, nodes) if args]
     assert again == [n for n in nodes if graph.nodes[n].args]
-    assert graph.operations(nodes) <= graph.tree_operations(nodes)
+    assert graph.count_operations(nodes) <= graph.count_tree_operations(nodes)

@@ -45,7 +45,7 @@ def test_planar_operations():
     )
 
     def operations(e, nodes):
-        return sum(e.graph.nodes[n][0] not in ("const", "input") for n in e.graph.needed(nodes))
+        return sum(e.graph.nodes[n][0] not in ("const", "input") for n in e.graph.required_nodes(nodes))
 
     # 6 pins' arms of one nonzero coordinate: c d and s d each; cos and sin of 3 angles; 8 rows of sums
     phi = operations(flat, [row.phi for row in flat.rows])

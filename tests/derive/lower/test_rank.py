@@ -15,7 +15,7 @@ from symgen.base.ir.program import EliminationPlan
 from symgen.derive.formulate.equations import ConstraintRow, Equations, MassBlock, Quantity
 from symgen.derive.lower.record import Part, RecordedLaw
 from symgen.derive.lower.scalar import ScalarNodes
-from symgen.derive.methods._formula import System
+from symgen.derive.methods._system import System
 
 SCHUR = EliminationPlan()
 
@@ -69,11 +69,11 @@ def laid_out(equations: Equations, formula, plan=SCHUR, closed=False):
     system = System()
     ends = formula(system)
     part = Part("rhs", "", tuple(("", end.index) for end in ends))
-    record = RecordedLaw(tuple(system.tape.operations), (part,)).resolved(plan.schur)
+    record = RecordedLaw(tuple(system.tape.operations), (part,)).choose_solution(plan.schur)
     scalars = ScalarNodes(equations, record.operations, plan=plan)
     scalars = scalars.with_closed_loops(record.operations, plan) if closed else scalars
-    scalars.compute(record.ends)
-    return scalars, [scalars.values[index] for index in record.ends]
+    scalars.compute(record.output_operations)
+    return scalars, [scalars.values[index] for index in record.output_operations]
 
 
 def corrected(equations: Equations, values, d, b, weight=None):

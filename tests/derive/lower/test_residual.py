@@ -8,8 +8,8 @@ from symgen.base.ir.graph import Graph
 from symgen.base.ir.program import BY_RESIDUAL, COUNTERS, SLOPES
 from symgen.compile.native import types
 from symgen.compile.store.emitted import AdjointFunction
-from symgen.derive.lower.residual import slopes
-from symgen.result.sensitivities import prepared
+from symgen.derive.lower.residual import count_slope_products
+from symgen.result.sensitivities import prepare_for_directions
 from symgen.run.directions.directed_model import DirectedModel
 from symgen.run.layout import abi
 from symgen.run.planning.prepare import prepare
@@ -20,7 +20,7 @@ LANES = 2
 def differentiated(name, coordinates, method, disturbance=0.01):
     """Return a run, its model with directions, a generator, and the state and parameters with random directions."""
     settings = Settings(method=method, integrator="dop853", coordinates=coordinates, until=0.1)
-    run, _ = prepared(load(name).mechanism, settings)
+    run, _ = prepare_for_directions(load(name).mechanism, settings)
     model, start, rng = DirectedModel(run.compiled, LANES), run.start, np.random.default_rng(3)
     y = start.y + disturbance * rng.standard_normal(len(start.y))
     y = model.longer(y, "y", rng.standard_normal((model.sizes["y"], LANES)))
@@ -99,7 +99,7 @@ def test_confirmed_rates_have_the_same_derivatives_without_the_rows_left_out(nam
 def test_only_runs_with_derivatives_have_it():
     settings = Settings(method="lagrange", integrator="dop853", until=0.1)
     mechanism = load("four-bar").mechanism
-    assert hasattr(prepared(mechanism, settings)[0].compiled.law_module, BY_RESIDUAL)
+    assert hasattr(prepare_for_directions(mechanism, settings)[0].compiled.law_module, BY_RESIDUAL)
     assert not hasattr(prepare(mechanism, settings).compiled.law_module, BY_RESIDUAL)
 
 
@@ -107,8 +107,8 @@ def test_products_in_derivatives():
     g = Graph()
     x, k = g.input("q", 0), g.input("p", 0)
     product, square = g.mul(x, k), g.mul(x, x)
-    assert slopes(g, [product]) == 2
-    assert slopes(g, [g.add(square, product)]) == 4
-    assert slopes(g, [g.mul(g.call("held", square), product)]) == 3
-    assert slopes(g, [g.call("carried", square, x)]) == 0
-    assert slopes(g, [g.mul(g.input("w", 0), g.constant(2.0))]) == 0
+    assert count_slope_products(g, [product]) == 2
+    assert count_slope_products(g, [g.add(square, product)]) == 4
+    assert count_slope_products(g, [g.mul(g.call("held", square), product)]) == 3
+    assert count_slope_products(g, [g.call("carried", square, x)]) == 0
+    assert count_slope_products(g, [g.mul(g.input("w", 0), g.constant(2.0))]) == 0

@@ -13,8 +13,8 @@ from symgen.compile.native import types
 from symgen.compile.store.jit import jit
 from symgen.compile.store.paths import ENVIRONMENT_VARIABLE
 from symgen.derive.formulate.formulate import formulate
-from symgen.derive.formulate.measures import ModelNodes as Derivation
-from symgen.derive.lower.looped.instances import instances
+from symgen.derive.formulate.measure_nodes import ModelNodes as Derivation
+from symgen.derive.lower.looped.instances import instances_of_mechanism
 from symgen.derive.lower.windings import winding_order
 from symgen.describe import catalogue
 from symgen.describe.formulas.parser import FormulaNames, parse
@@ -98,5 +98,5 @@ def test_angles_stand_where_each_shape_has_them(name):
     assert len(order) == len(equations.windings)
     model = Derivation(mechanism, equations.graph)  # nodes that are there already are found again
     assert [model.measure(m).value for m in order] == list(equations.windings)
-    in_loops = dict.fromkeys(angle for instance in instances(mechanism) for angle in instance.angles)
+    in_loops = dict.fromkeys(angle for instance in instances_of_mechanism(mechanism) for angle in instance.angles)
     assert tuple(in_loops) == winding_order(mechanism, "looped")

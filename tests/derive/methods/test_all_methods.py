@@ -42,7 +42,7 @@ def motions(name, method):
 
 def distance(name, a, b):
     model = load(name)
-    return Points.of(model.mechanism, model.parameters()).distance(a, b)
+    return Points.of_mechanism(model.mechanism, model.parameters()).largest_distance(a, b)
 
 
 def check_agreement(name, methods):

@@ -8,7 +8,7 @@ from support.textbook import Textbook, first_step
 from symgen.api import load
 from symgen.derive.lower.record_form import record_form
 from symgen.derive.methods import METHODS
-from symgen.derive.methods._tape import needed
+from symgen.derive.methods._tape import needed_operations
 
 A = ((1 / 3,), (-1.0, 2.0), (0.0, 3 / 4, 1 / 4))
 C = (0.0, 1 / 3, 1.0, 1.0)
@@ -46,7 +46,7 @@ def test_gamma_enters_nothing_that_moves():
     method = METHODS.get("half-explicit")
     form = record_form(method, method.complete_options({}))
     (part,) = form.parts
-    reached = needed((i for _, i in part.outputs), lambda i: form.operations[i].operands)
+    reached = needed_operations((i for _, i in part.outputs), lambda i: form.operations[i].operands)
     names = {form.operations[i].payload for i in reached if form.operations[i].kind == "quantity"}
     assert ("nu",) in names and ("gamma",) not in names
 

@@ -5,7 +5,7 @@ from support.laws_at import LawAt, described, on_rails
 
 from symgen.derive.lower.record import record_law
 from symgen.derive.methods import METHODS
-from symgen.derive.methods._tape import needed
+from symgen.derive.methods._tape import needed_operations
 
 ALPHA = 5.0
 
@@ -43,7 +43,7 @@ def test_second_derivatives_of_constraints_enter_reported_multipliers_only():
 
     def reads_gamma(name, *places):
         ends = [index for place, index in parts[name].outputs if not places or place in places]
-        reached = needed(ends, lambda i: record.operations[i].operands)
+        reached = needed_operations(ends, lambda i: record.operations[i].operands)
         return any(record.operations[i].payload == ("gamma",) for i in reached)
 
     assert not any(reads_gamma(name) for name in ("begin", "iterate"))

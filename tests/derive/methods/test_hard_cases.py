@@ -13,7 +13,7 @@ from symgen.base.errors import InputError
 from symgen.base.ir.program import COUNTERS
 from symgen.derive.methods import METHODS
 from symgen.describe import MechanismBuilder
-from symgen.study.comparison.compare import compare
+from symgen.study.comparison.compare_models import compare
 
 FEW = ("lagrange", "direct-correction", "augmented-lagrangian", "ggl")
 #: Method -> largest error [m] where it is not 1e-6: a penalty is an error of its own, M^-1/2 loses digits and says so.

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from symgen.describe.drawing import build_scene
-from symgen.describe.drawing.paper import Path, View, on_paper
+from symgen.describe.drawing.paper import Path, View, items_on_paper
 from symgen.describe.drawing.scene import Scene
 from symgen.describe.files.validate import validate
 
@@ -41,7 +41,7 @@ def spatial(pair: dict[str, Any] | None = None, driver: dict[str, Any] | None = 
 
 def strokes(scene: Scene, q: list[float]) -> list[np.ndarray]:
     """Return the points on paper of what is drawn of the force: a line, and a head that begins at its tip."""
-    (drawn,) = (d for d in on_paper(scene, np.array(q), ASIDE) if d.item.name == "f")
+    (drawn,) = (d for d in items_on_paper(scene, np.array(q), ASIDE) if d.item.name == "f")
     return [part.points for part in drawn.parts if isinstance(part, Path)]
 
 

@@ -15,7 +15,7 @@ from symgen.base.errors import AssemblyError, InputError
 from symgen.cli import main
 from symgen.describe.drawing import build_scene
 from symgen.describe.drawing.paper import Path as Stroke
-from symgen.describe.drawing.paper import View, on_paper, view_axes
+from symgen.describe.drawing.paper import View, items_on_paper, view_axes
 from symgen.describe.drawing.scene import Disc, Poses, Solid
 from symgen.describe.files.validate import validate
 
@@ -155,7 +155,7 @@ def test_a_box_and_a_sphere_are_where_the_file_has_them() -> None:
     # every face is seen counter-clockwise from outside, so that what is turned away is left out
     for face in np.array(solid.faces):
         assert np.cross(face[1] - face[0], face[2] - face[1]) @ face.mean(axis=0) > 0.0
-    seen = on_paper(scene, np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]))[0]
+    seen = items_on_paper(scene, np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]))[0]
     assert sum(isinstance(part, Stroke) and len(part.points) == 4 for part in seen.parts) == 3
 
 

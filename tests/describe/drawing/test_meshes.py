@@ -11,12 +11,12 @@ import pytest
 
 from symgen.base.errors import InputError
 from symgen.cli import main
-from symgen.describe.drawing.mechanism_scene import build_scene, hull
-from symgen.describe.drawing.meshes import LARGEST, MOST_TRIANGLES, decimated
+from symgen.describe.drawing.mechanism_scene import build_scene, convex_hull
+from symgen.describe.drawing.meshes import LARGEST, MOST_TRIANGLES, simplify_triangles
 from symgen.describe.drawing.paper import Path as Stroke
-from symgen.describe.drawing.paper import on_paper
+from symgen.describe.drawing.paper import items_on_paper
 from symgen.describe.drawing.scene import Solid
-from symgen.describe.facts.digest import digest, identity
+from symgen.describe.facts.digest import digest, mechanism_digest
 from symgen.describe.files.load import load_mechanism
 
 QUADS = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
@@ -52,9 +52,9 @@ def written(folder: Path, shape: str) -> Path:
 
 def silhouette(path: Path) -> np.ndarray:
     scene = build_scene(load_mechanism(path))
-    item = on_paper(scene, np.array([0.1, 0.2, 0.3, 0.8, 0.1, -0.5, 0.3]))[0]
+    item = items_on_paper(scene, np.array([0.1, 0.2, 0.3, 0.8, 0.1, -0.5, 0.3]))[0]
     points = np.vstack([part.points for part in item.parts if isinstance(part, Stroke) and len(part.points) in (3, 4)])
-    corners = points[hull(points.round(9))]
+    corners = points[convex_hull(points.round(9))]
     return corners
 
 
@@ -68,7 +68,7 @@ def test_a_cube_has_the_silhouette_of_a_box(end: str, write: Any, tmp_path: Path
     turn = "orientation = { rotation_vector = [0.0, 0.0, 1.5707963267948966] }, scale = [-0.4, 2.0, 0.6]"
     mesh = load_mechanism(written(tmp_path, f'type = "mesh", file = "parts/cube.{end}", at = [0.1, 0.2, 0.3], {turn}'))
     assert silhouette(tmp_path / "m.toml") == pytest.approx(wanted, abs=1e-6)
-    assert digest(box) == digest(mesh) and identity(box) == identity(mesh)
+    assert digest(box) == digest(mesh) and mechanism_digest(box) == mechanism_digest(mesh)
     solid = build_scene(mesh).items[0].marks[0]
     assert isinstance(solid, Solid) and len(solid.faces) == 12
     faces = np.array(solid.faces)
@@ -86,7 +86,7 @@ def ball(n: int) -> np.ndarray:
 
 
 def test_many_triangles_become_few() -> None:
-    few = decimated(ball(120), MOST_TRIANGLES)
+    few = simplify_triangles(ball(120), MOST_TRIANGLES)
     assert MOST_TRIANGLES / 4 < len(few) <= MOST_TRIANGLES
     assert np.linalg.norm(few, axis=2) == pytest.approx(np.ones(few.shape[:2]), abs=0.05)
     # the volume by the divergence theorem, which holes would change

@@ -11,8 +11,8 @@ from symgen.api import load
 from symgen.base.errors import InputError
 from symgen.describe import catalogue
 from symgen.describe.drawing import build_scene, sketch
-from symgen.describe.drawing.mechanism_scene import hull
-from symgen.describe.drawing.paper import Circle, on_paper
+from symgen.describe.drawing.mechanism_scene import convex_hull
+from symgen.describe.drawing.paper import Circle, items_on_paper
 from symgen.describe.drawing.scene import Disc
 from symgen.describe.files.validate import validate
 
@@ -61,7 +61,7 @@ def test_pins_stand_where_the_bodies_put_them() -> None:
     q = [1.0 + 0.5 * math.cos(0.3), -1.0 + 0.5 * math.sin(0.3), 0.3, x, y]
     scene = build_scene(mechanism, q)
     pin = next(item for item in scene.items if (item.role, item.name) == ("joint", "pin"))
-    drawn = next(d for d in on_paper(scene, np.array(q)) if d.item is pin)
+    drawn = next(d for d in items_on_paper(scene, np.array(q)) if d.item is pin)
     (circle,) = drawn.parts
     assert isinstance(circle, Circle) and isinstance(pin.marks[0], Disc)
     assert (circle.x, circle.y) == pytest.approx((x, y), abs=1e-12)
@@ -80,13 +80,15 @@ def test_a_turned_body_in_space_is_where_its_rotation_says() -> None:
     q = np.array([0.1, -0.2, 0.3, math.cos(turn / 2), math.sin(turn / 2), 0.0, 0.0])
     from symgen.describe.drawing.scene import Poses
 
-    found = Poses(build_scene(mechanism).frames, 3.0 * np.array([*q[:3] / 3.0, *q[3:]]), True).out(0, [(0.0, 0.0, 1.0)])
+    found = Poses(build_scene(mechanism).frames, 3.0 * np.array([*q[:3] / 3.0, *q[3:]]), True).to_ground(
+        0, [(0.0, 0.0, 1.0)]
+    )
     assert found[0] == pytest.approx([0.1, -0.2 - math.sin(turn), 0.3 + math.cos(turn)], abs=1e-15)
 
 
 def test_the_hull_holds_all_points_and_turns_left() -> None:
     points = np.random.default_rng(5).standard_normal((40, 2))
-    corners = points[hull(points)]
+    corners = points[convex_hull(points)]
     edges = np.roll(corners, -1, axis=0) - corners
     for a, e in zip(corners, edges, strict=True):
         assert np.all(e[0] * (points[:, 1] - a[1]) - e[1] * (points[:, 0] - a[0]) >= -1e-12)

@@ -6,7 +6,7 @@ from matplotlib.path import Path as Outline
 
 from symgen.api import Model, load
 from symgen.describe.drawing import Drawing, build_scene
-from symgen.describe.drawing.paper import Circle, on_paper, view_axes
+from symgen.describe.drawing.paper import Circle, items_on_paper, view_axes
 from symgen.describe.drawing.paper import Path as Stroke
 from symgen.describe.drawing.scene import Line
 from symgen.describe.drawing.viewpoint import USUAL
@@ -48,7 +48,7 @@ def test_the_crank_of_a_slider_crank_in_space_is_no_part_of_its_rod() -> None:
     drawing = model.draw()
     poses = drawing.scene.poses(drawing.q)
     ends = ((0, (0.0, 0.0, 0.04)), (1, (0.15, 0.0, 0.0)))  # a point of each, from its centre of mass
-    lines = [poses.out(k, [(0.0, 0.0, 0.0), end]) for k, end in ends]
+    lines = [poses.to_ground(k, [(0.0, 0.0, 0.0), end]) for k, end in ends]
     usual, own = (across(*(seen(view, drawing.scene, x) for x in lines)) for view in (USUAL, drawing.view))
     assert own > 15.0 and usual < 8.0
 
@@ -61,7 +61,9 @@ def test_the_usual_view_stays_where_it_hides_nothing(name: str) -> None:
 
 def least_visible(drawing: Drawing) -> float:
     """Return the least visible share of a body's outline, on a grid; what is in front counts with its opacity."""
-    drawn = [each for each in on_paper(drawing.scene, np.array(drawing.q), drawing.view) if each.item.role == "body"]
+    drawn = [
+        each for each in items_on_paper(drawing.scene, np.array(drawing.q), drawing.view) if each.item.role == "body"
+    ]
 
     def covered(part: Part, grid: np.ndarray) -> np.ndarray:
         if isinstance(part, Circle):
@@ -91,7 +93,7 @@ def test_no_body_is_mostly_hidden(name: str) -> None:
 
 def test_a_body_inside_another_one_is_drawn_after_it() -> None:
     drawing = load("flyball-governor").draw()
-    order = [each.item.name for each in on_paper(drawing.scene, np.array(drawing.q), drawing.view)]
+    order = [each.item.name for each in items_on_paper(drawing.scene, np.array(drawing.q), drawing.view)]
     assert order.index("shaft") < order.index("slider") < order.index("sleeve")
 
 

@@ -43,4 +43,4 @@ def math_of_pages() -> object:
 
 def test_tables_are_not_for_pages() -> None:
     with pytest.raises(NotInLines):
-        FormulaLines({}).apply("table:lift", 1.0)
+        FormulaLines({}).apply_function("table:lift", 1.0)

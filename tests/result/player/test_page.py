@@ -23,7 +23,7 @@ from symgen.cli import main
 from symgen.describe.files.validate import validate
 from symgen.result.player import live
 from symgen.result.player.moving import write_film
-from symgen.result.player.recording import PlottedGroup, Recording, is_coarse, packed, shorts
+from symgen.result.player.recording import PlottedGroup, Recording, encode_shorts, is_coarse, pack_recording
 from symgen.result.viewed import playable_motion, view_file
 
 
@@ -59,7 +59,7 @@ def test_the_same_run_gives_the_same_bytes(result: Any) -> None:
 
 def test_sixteen_bits_between_the_smallest_and_the_largest() -> None:
     values = np.array([[1.0, 5.0], [2.0, 5.0], [4.0, np.nan]])
-    found = shorts(values)
+    found = encode_shorts(values)
     numbers = np.frombuffer(base64.b64decode(found["data"]), "<u2").reshape(2, 3)
     assert found["low"] == [1.0, 5.0] and list(numbers[1]) == [0, 0, 65535]
     back = found["low"][0] + numbers[0] / 65534.0 * found["span"][0]
@@ -303,11 +303,11 @@ def test_rounding_is_no_curve_of_a_plot() -> None:
     values = np.array([[1.0, 2e-17], [-3.0, -1e-13]])
     group = PlottedGroup("position", "m", ("a.x", "a.z"), values)
     recording = Recording(load("pendulum").mechanism, {}, np.arange(2.0), np.zeros((2, 2)), groups=(group,))
-    (shown,) = packed(recording, np.arange(2))["groups"]
+    (shown,) = pack_recording(recording, np.arange(2))["groups"]
     assert shown["low"] == [-3.0, 0.0] and shown["span"] == [4.0, 1.0]
     assert group.values[0, 1] == 2e-17
     angles = PlottedGroup("angle", "rad", ("a.theta",), np.array([[3e-18], [4e-18]]))
-    (shown,) = packed(replace(recording, groups=(angles,)), np.arange(2))["groups"]
+    (shown,) = pack_recording(replace(recording, groups=(angles,)), np.arange(2))["groups"]
     assert shown["low"] == [0.0] and shown["span"] == [1.0]
 
 
@@ -323,7 +323,7 @@ def test_sixteen_bits_show_0_where_it_is_0() -> None:
     values = np.array([[-0.13], [0.0], [0.1437]])
     script = (Path(live.__file__).parent / "web" / "plots.js").read_text(encoding="utf-8")
     functions = script[script.index("function decoded") : script.index("function ticks")]
-    read = f"console.log(JSON.stringify(Array.from(shortColumns({json.dumps(shorts(values))}, 3)[0])))"
+    read = f"console.log(JSON.stringify(Array.from(shortColumns({json.dumps(encode_shorts(values))}, 3)[0])))"
     node = shutil.which("node")
     if node is None:  # another machine reads the same script
         return

@@ -13,9 +13,9 @@ from symgen.derive.formulate.formulate import formulate
 from symgen.describe import catalogue
 from symgen.describe.files.load import read_raw
 from symgen.describe.files.validate import validate
-from symgen.result.reading.latex_document import document as whole_document
-from symgen.result.reading.law import law
-from symgen.result.reading.lengths import with_symbols
+from symgen.result.reading.latex_document import latex_document as whole_document
+from symgen.result.reading.law_steps import law_as_steps
+from symgen.result.reading.length_symbols import put_length_symbols
 
 
 def document(capsys, *arguments):
@@ -52,7 +52,7 @@ def test_no_two_parameters_are_typeset_alike():
     }
     mechanism = validate(raw, "test")
     values = {"l1": 1.0, "l_1": 2.0, "m2": 3.0}
-    text = whole_document(mechanism, formulate(mechanism), law("lagrange"), values)
+    text = whole_document(mechanism, formulate(mechanism), law_as_steps("lagrange"), values)
     assert r"$\mathrm{l1}$ & \raggedright l1" in text and r"$l_{1}$ & \raggedright l\_\allowbreak 1" in text
     assert r"$m_{2}$" in text  # no other is called so
     assert text.count(r"\mathrm{l1}") > 1 and text.count("l_{1}") > 1
@@ -82,7 +82,7 @@ def test_lengths_are_known_by_where_they_stand():
         "two": {"type": "gear", "between": ["a", "b"], "ratio": 0.3, "offset": 0.3},
     }
     raw = {"bodies": {"a": bar, "b": bar}, "joints": {"pin": pin, **gears}, "forces": {"s": spring}}
-    found = with_symbols(raw)
+    found = put_length_symbols(raw)
     assert found["bodies"]["a"] == {"mass": 1.0, "inertia": 1.0, "points": {"P": ["-l_1", 0], "Q": ["l_2", "h"]}}
     assert found["bodies"]["b"]["points"] == {"P": ["-l_3", 0], "Q": ["l_4", "h"]}
     assert found["joints"]["pin"]["at"] == [["l_5", 0.0], "P"]
@@ -99,7 +99,7 @@ def test_lengths_are_known_by_where_they_stand():
 
 def test_symbols_change_names_only():
     raw, source = read_raw("slider-crank")
-    plain, named = (formulate(validate(r, source)) for r in (raw, with_symbols(raw)))
+    plain, named = (formulate(validate(r, source)) for r in (raw, put_length_symbols(raw)))
     lengths = [p.name for p in named.parameters if p.name.startswith("l_")]
     assert lengths and len(named.parameters) == len(plain.parameters) + len(lengths)
     assert [r.name for r in named.rows] == [r.name for r in plain.rows]
@@ -108,10 +108,10 @@ def test_symbols_change_names_only():
 
 def test_a_name_that_is_taken_is_left_to_its_owner():
     raw, _ = read_raw("pendulum")
-    found = with_symbols({**raw, "parameters": {**raw.get("parameters", {}), "l_1": 3.0}})
+    found = put_length_symbols({**raw, "parameters": {**raw.get("parameters", {}), "l_1": 3.0}})
     assert found["parameters"]["l_1"] == 3.0
     assert "l_2" in found["parameters"]
-    found = with_symbols({**raw, "parameters": {**raw.get("parameters", {}), "l1": 3.0}})
+    found = put_length_symbols({**raw, "parameters": {**raw.get("parameters", {}), "l1": 3.0}})
     assert "l_2" in found["parameters"] and "l_1" not in found["parameters"]  # which is typeset as l1 is
 
 
@@ -127,7 +127,7 @@ def test_a_power_of_a_sine_is_none_of_its_angle():
     force = {"type": "force", "body": "a", "at": "centre", "force": ["3*sin(a.theta)**2", "tan(2*a.theta)**2"]}
     raw = {"mechanism": {"name": "m"}, "bodies": {"a": {"mass": 1.0, "inertia": 1.0}}, "forces": {"f": force}}
     mechanism = validate(raw, "test")
-    text = whole_document(mechanism, formulate(mechanism), law("lagrange"), {}, ["f"])
+    text = whole_document(mechanism, formulate(mechanism), law_as_steps("lagrange"), {}, ["f"])
     assert r"3 {\left( \sin \theta_{\mathrm{a}} \right)}^{2}" in text
     assert r"{\tan\left( 2 \theta_{\mathrm{a}} \right)}^{2}" in text
 

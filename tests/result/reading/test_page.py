@@ -7,12 +7,12 @@ import pytest
 
 import symgen
 from symgen.cli import main
-from symgen.compile.native.compiler import interpreted
+from symgen.compile.native.compiler import is_interpreted
 from symgen.derive.formulate.formulate import formulate
 from symgen.derive.lower.model import lower_model
 from symgen.describe.files.load import load_mechanism
 from symgen.result.reading import page as pages
-from symgen.result.reading.html import of_factor, prose
+from symgen.result.reading.html import pattern_of_factor, prose_html
 
 #: Elements without an end.
 VOID = {"meta", "link"}
@@ -92,7 +92,7 @@ def test_the_equations_of_motion_come_first_and_are_typeset(four_bar):
 
 
 def test_powers_and_backticks_of_sentences_are_typeset():
-    shown = prose("`direct` solves M^-1 D^T and D^+ where ``a < b``, with x^2 in [m/s^2]")
+    shown = prose_html("`direct` solves M^-1 D^T and D^+ where ``a < b``, with x^2 in [m/s^2]")
     assert shown == (
         "<code>direct</code> solves M<sup>−1</sup> D<sup>T</sup> and D<sup>+</sup> where <code>a &lt; b</code>, "
         "with x<sup>2</sup> in [m/s<sup>2</sup>]"
@@ -174,7 +174,7 @@ def test_a_page_that_would_be_too_large_leaves_out_the_code(tmp_path, monkeypatc
 
 def test_the_listing_makes_room_for_the_right_hand_side(four_bar, tmp_path, monkeypatch):
     text, _ = four_bar
-    if interpreted():  # there is no machine code to list, and the page says so
+    if is_interpreted():  # there is no machine code to list, and the page says so
         assert "Python, by NUMBA_DISABLE_JIT." in text and "const rates = null;" in text
         return
     script = re.search(r"const rates = (\(\(\) => \{.*?\}\)\(\));", text, re.DOTALL)[1]
@@ -224,7 +224,7 @@ def test_a_mechanism_that_does_not_close_is_drawn_as_described(tmp_path):
 def test_the_factor_that_is_drawn_is_the_one_that_is_compiled(name):
     equations = formulate(load_mechanism(name))
     program = lower_model(equations, "")
-    entries = of_factor(equations, program.order)
+    entries = pattern_of_factor(equations, program.order)
     assert sum(kind == "f" for kind in entries.values()) == program.fill
     if program.plan.schur:  # others keep no factor
         assert len(entries) - equations.m == program.layout.sections["lower"][1]

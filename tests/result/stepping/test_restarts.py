@@ -66,7 +66,7 @@ def test_a_start_that_differs_in_values_alone_is_that_of_a_fresh_run(name, monke
     sim.reset(ALIKE[name])
     others = [{key: factor * x for key, x in ALIKE[name].items()} for factor in (1.1, 0.9, 1.0)]
     fresh = [model.start(start=start, **settings) for start in others]
-    monkeypatch.setattr(restarts, "holds_of", None)  # names are looked up once
+    monkeypatch.setattr(restarts, "read_holds", None)  # names are looked up once
     for start, other in zip(others, fresh, strict=True):
         sim.reset(start)
         for array, expected in zip(sim.save().arrays.items(), other.save().arrays.items(), strict=True):

@@ -8,7 +8,7 @@ import pytest
 
 from symgen import load
 from symgen.cli import main
-from symgen.derive.emit.module import render
+from symgen.derive.emit.module import render_template
 from symgen.describe import catalogue
 from symgen.result.targets import Request
 from symgen.result.targets._c_model import CModel, sources
@@ -68,8 +68,8 @@ def test_code_of_every_name_compiles(fmi, model, tmp_path):
         values = {**common, "name": name, "prefix": prefix, "upper": prefix.upper()}
         folder = tmp_path / name
         folder.mkdir()
-        files = sources(values) | {"main.c": render("c/main.c.j2", values)}
-        fmu = render("c/fmu.c.j2", {**values, **at, "fmi": fmi, "guid": "", "version": ""})
+        files = sources(values) | {"main.c": render_template("c/main.c.j2", values)}
+        fmu = render_template("c/fmu.c.j2", {**values, **at, "fmi": fmi, "guid": "", "version": ""})
         assert not {"main.c", "fmu.c"} & {*sources(values)}
         for file, text in (files | {"fmu.c": fmu}).items():
             (folder / file).write_text(text)

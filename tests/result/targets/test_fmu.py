@@ -337,7 +337,7 @@ def test_the_whole_catalogue(name, fmi, tmp_path):
 
 @pytest.mark.slow
 def test_a_pins_force_is_an_output_of_both_kinds(tmp_path):
-    text = (catalogue.file_of("four-bar")).read_text() + '\n[outputs]\npin = { value = "C.F", unit = "N" }\n'
+    text = (catalogue.file_of_entry("four-bar")).read_text() + '\n[outputs]\npin = { value = "C.F", unit = "N" }\n'
     (tmp_path / "four-bar.toml").write_text(text)
     model = load(tmp_path / "four-bar.toml")
     path = fmu_of(model, tmp_path / "four-bar.fmu")

@@ -28,8 +28,8 @@ from support.rotation import of_turn
 from symgen.base.errors import InputError
 from symgen.base.escapes import comment_text
 from symgen.cli import main
-from symgen.study.report.comparison import comparison
-from symgen.study.report.write import html, markdown
+from symgen.study.report.comparison_report import comparison_report
+from symgen.study.report.write import html_report, markdown_report
 from tests.study.report.made import row, study, trace
 
 #: A way out of each kind of place.
@@ -359,7 +359,7 @@ def test_reports():
     """Titles, reasons and notes: a journal may be of somebody else."""
     texts = [" ".join(TEXTS), *of_turn(TITLES, 5)]
     made = [
-        comparison(
+        comparison_report(
             [
                 study(
                     [row("lagrange", 1e-3, None, 0.1, status="failed", reason=text or "plain")],
@@ -370,11 +370,11 @@ def test_reports():
         )
         for text in ("plain", *texts)
     ]
-    honest, *hostile = (Elements(html(document)) for document in made)
+    honest, *hostile = (Elements(html_report(document)) for document in made)
     for page in hostile:
         assert set(page.elements) == set(honest.elements) and not page.scripts
     for document in made:
-        lines = markdown(document, "files")
+        lines = markdown_report(document, "files")
         assert not re.search(r"(?<!\\)<(?!!--)|(?<![\\!])\[[^\]\n]*[^\\\]]\]\(javascript", lines)
         assert all(c.isprintable() or c == "\n" for c in lines)
 

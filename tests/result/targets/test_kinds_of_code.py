@@ -9,8 +9,8 @@ from symgen import Settings
 from symgen.base.errors import InputError
 from symgen.compile.native.c99_words import HELPERS as HELPERS_OF_C
 from symgen.compile.native.c99_words import RESERVED
-from symgen.compile.native.javascript import HELPERS, LOOP_HELPERS
-from symgen.derive.emit.module import render
+from symgen.compile.native.javascript_code import HELPERS, LOOP_HELPERS
+from symgen.derive.emit.module import render_template
 from symgen.result.player.live import live_part
 from symgen.result.player.motion_page import model_script
 from symgen.result.targets import Request
@@ -37,7 +37,7 @@ def model_of(kind, coordinates, folder, target):
 @pytest.mark.parametrize("kind", FILES)
 def test_c_and_fmus_compile_without_a_warning(kind, coordinates, tmp_path):
     model = model_of(kind, coordinates, tmp_path, "fmu")
-    texts = {"c": sources(model.values) | {"main.c": render("c/main.c.j2", model.values)}}
+    texts = {"c": sources(model.values) | {"main.c": render_template("c/main.c.j2", model.values)}}
     for fmi in (2, 3):
         files = {name.removeprefix("sources/"): text.decode() for name, text in fmu_files(model, fmi).items()}
         texts[f"fmu{fmi}"] = {name: text for name, text in files.items() if name.endswith((".c", ".h"))}

@@ -12,10 +12,10 @@ from symgen.base.errors import InputError
 from symgen.cli import main
 from symgen.describe.files.builder import MechanismBuilder
 from symgen.describe.files.load import load_mechanism
-from symgen.describe.parts.inputs import driven
+from symgen.describe.parts.driven_mechanism import apply_inputs
 from symgen.run.breaks import seams
 from symgen.run.breaks.seams import seams_of_motion
-from symgen.study.ensemble.sweep import sweep
+from symgen.study.ensemble.parameter_sweep import sweep
 
 STIFFNESS = 40.0
 OMEGA = math.sqrt(STIFFNESS)
@@ -295,7 +295,7 @@ force = ["push - {STIFFNESS}*block.x", 0.0]
     ],
 )
 def test_times_of_jumps(model, formula, expected):
-    found = driven(model.mechanism, {"push": formula})
+    found = apply_inputs(model.mechanism, {"push": formula})
     pieces = seams_of_motion(found, model.parameters() | {s.switch: 0.0 for s in found.jumps}, 1.0)
     assert [p.t for p in pieces[1:]] == pytest.approx(expected, abs=1e-12)
 

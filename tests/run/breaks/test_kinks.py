@@ -14,11 +14,11 @@ import symgen
 from symgen.describe import catalogue
 from symgen.describe.facts.kinks import compares_state, discontinuities_of, jumps_in_time
 from symgen.describe.formulas.parser import FormulaNames, parse
-from symgen.describe.parts.inputs import Jump
+from symgen.describe.parts.driven_mechanism import Jump
 from symgen.run.breaks.in_time import line_of
 from symgen.run.breaks.seams import merged, times_between
 from symgen.run.loops.run_spec import Seam
-from symgen.study.ensemble.sweep import sweep
+from symgen.study.ensemble.parameter_sweep import sweep
 
 #: Force over time, linear between points that no step would meet, and beyond them constant.
 X, Y = (0.13, 0.29, 0.41, 0.77), (0.0, 5.0, -3.0, 2.0)

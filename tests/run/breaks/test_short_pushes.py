@@ -17,7 +17,7 @@ from symgen.base.vocabulary.expressions import Expr
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.run.breaks.in_time import InTime, crossings
 from symgen.run.breaks.seams import foreseen
-from symgen.study.ensemble.sweep import sweep
+from symgen.study.ensemble.parameter_sweep import sweep
 from symgen.study.ensemble.sweep_plan import make_ensemble
 
 SCHEMES = ["dop853", "dopri5", "picard", "abm", "sdirk", "radau5"]

@@ -16,7 +16,7 @@ import symgen
 from symgen.describe.catalogue import MACHINES, entries
 from symgen.describe.catalogue import names as names_of_catalogue
 from symgen.describe.facts.kinks import longest_step
-from symgen.study.ensemble.sweep import sweep
+from symgen.study.ensemble.parameter_sweep import sweep
 
 SCHEMES = ["dop853", "dopri5", "picard", "abm", "sdirk", "radau5"]
 END = 10.0

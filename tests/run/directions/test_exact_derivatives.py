@@ -13,8 +13,8 @@ import symgen
 from symgen import Settings
 from symgen.api import Model
 from symgen.derive.methods import METHODS
-from symgen.describe.facts.lifted import lifted
-from symgen.result.sensitivities import prepared
+from symgen.describe.facts.lifted import lift_numbers
+from symgen.result.sensitivities import prepare_for_directions
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
 
@@ -162,8 +162,8 @@ def largest_difference(name, numbers, method, integrator, steps, step=1e-2, coor
         max_violation=1.0,
         max_energy_error=1e3,
     )
-    own = lifted("numbers", symgen.load(name).mechanism, numbers)
-    run, _ = prepared(own.mechanism, settings)
+    own = lift_numbers("numbers", symgen.load(name).mechanism, numbers)
+    run, _ = prepare_for_directions(own.mechanism, settings)
     assert (run.tree is None) == (coordinates == "absolute")
     directed = Model(own.mechanism).simulate(settings, sensitivities=tuple(own.keys.values()))
     found = directed.sensitivities._evaluated.course.states[-1, : run.compiled.info.work]

@@ -10,7 +10,7 @@ import symgen
 from symgen import InputError
 from symgen.api import Model
 from symgen.describe.facts.digest import digest
-from symgen.describe.facts.lifted import lifted
+from symgen.describe.facts.lifted import lift_numbers
 from symgen.describe.files.origins import origin_of
 from tests.run.directions.lengths import FOUR_BAR, ROD, ROD_BY, ROD_STATE, model
 
@@ -68,10 +68,10 @@ def test_a_number_is_the_parameter_in_its_place(tmp_path):
 
 
 def test_only_numbers_that_are_named_become_parameters(rod):
-    nothing = lifted("here", rod.mechanism, ("rod.omega",))
+    nothing = lift_numbers("here", rod.mechanism, ("rod.omega",))
     assert nothing.mechanism is rod.mechanism
     before = digest(rod.mechanism)
-    own = lifted("here", rod.mechanism, ("bodies.rod.mass",))
+    own = lift_numbers("here", rod.mechanism, ("bodies.rod.mass",))
     assert [p.name for p in own.mechanism.parameters if p.name not in rod.parameters()] == ["bodies_rod_mass"]
     assert digest(rod.mechanism) == before != digest(own.mechanism)
     assert {**own.keys} == {"bodies.rod.mass": "bodies_rod_mass"}
@@ -108,7 +108,7 @@ stiffness = 3.0
 def test_numbers_of_tables_that_a_description_has_twice():
     # both couplers of this module have the same list, and a parameter is in the place of one number
     model, path = symgen.load("n-four-bar:2"), "bodies.coupler1.points.B[0]"
-    own = lifted("here", model.mechanism, (path,))
+    own = lift_numbers("here", model.mechanism, (path,))
     bodies = origin_of(own.mechanism).raw["bodies"]
     points = [bodies[name]["points"]["B"][0] for name in ("coupler0", "vertical1", "coupler1")]
     assert points == [0.5, 0.5, "bodies_coupler1_points_B_0"]
@@ -126,7 +126,7 @@ def test_quantities_at_the_end_and_fits(rod):
 
     t = np.linspace(0.1, 2.0, 20)
     data = {"t": t, "rod.theta": rod.simulate(times=t, **TIGHT)["rod.theta"]}
-    heavier = Model(lifted("here", rod.mechanism, ("bodies.rod.inertia",)).mechanism)
+    heavier = Model(lift_numbers("here", rod.mechanism, ("bodies.rod.inertia",)).mechanism)
     fit = heavier.identify(data, free=("bodies_rod_inertia",), parameters={"bodies_rod_inertia": 0.1})
     assert fit.parameters["bodies_rod_inertia"] == pytest.approx(1.0 / 12.0, rel=1e-7)
     same = rod.identify(data, free=("bodies.rod.inertia",))

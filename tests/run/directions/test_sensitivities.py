@@ -12,7 +12,7 @@ import symgen
 from symgen import InputError
 from symgen.api import Model
 from symgen.derive.methods import METHODS
-from symgen.describe.facts.lifted import lifted
+from symgen.describe.facts.lifted import lift_numbers
 from tests.run.directions.differences import differences
 from tests.run.directions.lengths import (
     BY_NAME,
@@ -334,7 +334,7 @@ ODE = [name for name in METHODS.names if {"ode", "one-step"} & set(METHODS.get(n
     ],
 )
 def test_mechanisms_of_the_catalogue(name, number, quantity, settings, coordinates):
-    own = lifted("here", symgen.load(name).mechanism, (number,))
+    own = lift_numbers("here", symgen.load(name).mechanism, (number,))
     model, key = Model(own.mechanism), own.keys[number]
     value = model.parameters()[key]
     settings = {**settings, "integrator": "rk4", "times": [settings["until"]], "coordinates": coordinates}

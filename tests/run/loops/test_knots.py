@@ -17,9 +17,9 @@ from support.pushed import pushed_mass
 import symgen
 from symgen.describe import catalogue
 from symgen.describe.facts.kinks import Discontinuity
-from symgen.describe.tables import Table
+from symgen.describe.table_functions import Table
 from symgen.run.compiling.events import switch_of
-from symgen.study.ensemble.sweep import sweep
+from symgen.study.ensemble.parameter_sweep import sweep
 
 #: Force over position, linear between points; constant beyond them.
 X, Y = (0.2, 0.37, 0.61, 0.85, 1.1), (1.0, -6.0, 9.0, -8.0, 2.0)

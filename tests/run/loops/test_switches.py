@@ -17,7 +17,7 @@ import symgen
 from symgen.describe.facts.sticking import advice_on_jumps
 from symgen.run.compiling.events import compile_events
 from symgen.run.layout import abi
-from symgen.study.ensemble.sweep import sweep
+from symgen.study.ensemble.parameter_sweep import sweep
 
 #: Two kilograms under 3 N, and what is added between two values, beside an oscillation that has steps of usual length.
 WINDOW = """[mechanism]

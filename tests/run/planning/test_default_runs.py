@@ -192,7 +192,7 @@ def test_a_chaotic_motion_beyond_its_horizon_is_unverified(monkeypatch):
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_long_run_is_checked_over_a_first_part(monkeypatch, coordinates):
     """The part follows from the operations of the run; what it shows holds for the part alone."""
-    pendulum, count = symgen.load("pendulum"), judge.operations_of
+    pendulum, count = symgen.load("pendulum"), judge.count_operations_of_run
     run = prepare(pendulum.mechanism, Settings(until=10.0, coordinates=coordinates))
     whole = pendulum.simulate(until=10.0, coordinates=coordinates)
     assert whole.ok and whole.unchecked is None

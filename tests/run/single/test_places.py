@@ -12,8 +12,8 @@ import symgen
 from run.layout.test_scales import in_units, of_catalogue
 from symgen.base.errors import AssemblyError
 from symgen.derive.methods import METHODS
-from symgen.describe.facts.lengths import datum_of
-from symgen.describe.formulas.evaluate import parameter_values, scalars
+from symgen.describe.facts.lengths import origin_of_sizes
+from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
 from symgen.run.starts.start_words import StartChange, _from_to
@@ -202,7 +202,7 @@ def test_a_bar_of_1e9_metres():
 def test_what_coordinates_are_measured_from(name, place):
     """The first point of the ground that a joint has."""
     mechanism = symgen.load(name).mechanism
-    datum = datum_of(mechanism, scalars(parameter_values(mechanism)))
+    datum = origin_of_sizes(mechanism, scalar_values(parameter_values(mechanism)))
     first = mechanism.bodies[0]
     assert datum[: len(first.coordinates)] == [*place, *[0.0] * (len(first.coordinates) - len(place))]
 

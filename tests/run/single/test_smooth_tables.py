@@ -93,7 +93,7 @@ TIMES = np.linspace(0.0, 2.0, 21)
 
 
 def test_lanes_take_smooth_tables():
-    from symgen.study.ensemble.sweep import sweep
+    from symgen.study.ensemble.parameter_sweep import sweep
 
     model = forced("cubic", False)
     asked = {"vary": {"block.x": np.linspace(-0.9, 1.2, 11)}, "until": 0.5, "integrator": "rk4"} | {

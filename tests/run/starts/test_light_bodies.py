@@ -27,7 +27,7 @@ def test_plain_python_finds_what_machine_code_finds(
     assert start.light == light == expected
     np.testing.assert_array_equal(start.y[: compiled.info.nq], state.y[: compiled.info.nq])
     np.testing.assert_array_equal(start.w, state.w)
-    monkeypatch.setattr(assembler, "whole_plain_function", lambda f: lambda *_: 1 // 0)
+    monkeypatch.setattr(assembler, "plain_function_with_callees", lambda f: lambda *_: 1 // 0)
     assert described.start(()).light == expected  # an error in plain Python is no answer
 
 

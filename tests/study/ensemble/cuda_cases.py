@@ -141,9 +141,9 @@ def as_a_device_asks() -> None:
 
 def launched(sweep) -> bool:
     """Whether a kernel for a device was made for a sweep."""
-    from symgen.study.ensemble.kernel import kernel_of
+    from symgen.study.ensemble.kernel import kernel_of_recipe
 
-    return "_kernel" in vars(kernel_of(sweep.ensemble.recipe).first.runs)
+    return "_kernel" in vars(kernel_of_recipe(sweep.ensemble.recipe).first_model.runs)
 
 
 def main(out: str, *names: str) -> None:
@@ -153,7 +153,7 @@ def main(out: str, *names: str) -> None:
 
     dirty_memory()
     as_a_device_asks()
-    DeviceRuns._most = lambda self: 2  # little memory: three runs take two launches
+    DeviceRuns._runs_at_once = lambda self: 2  # little memory: three runs take two launches
     for name in names:
         model, vary, settings = CASES[name]
         model = model() if callable(model) else model

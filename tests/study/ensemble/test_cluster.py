@@ -11,7 +11,7 @@ import pytest
 import symgen
 from symgen.base.errors import InputError
 from symgen.compile.store.paths import cache_root
-from symgen.study.ensemble.cluster import connect
+from symgen.study.ensemble.cluster import connect_scheduler
 
 MANY = {"vary": {"crank_mass": "lin(1, 3, 60)", "coupler_mass": "values(6, 8)"}, "until": 4.0, "quantities": ("q",)}
 
@@ -85,4 +85,4 @@ def test_an_address_where_nothing_is_gets_one_sentence(monkeypatch):
 
     monkeypatch.setattr(distributed, "Client", refuse)
     with pytest.raises(InputError, match=r"scheduler: expected the address of a running Dask scheduler.*127.0.0.1:1"):
-        connect("tcp://127.0.0.1:1")
+        connect_scheduler("tcp://127.0.0.1:1")

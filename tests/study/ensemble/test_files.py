@@ -251,10 +251,14 @@ def test_a_chunk_is_not_taken_twice():
     from symgen.study.ensemble.kernel import Chunk
 
     chunk = Chunk(ensemble.values, ensemble.summary)
-    table.put(1, chunk)
-    assert table.missing() == [0] and table.runs_done == 2 and list(table.done()) == [False, False, True, True]
+    table.keep_chunk(1, chunk)
+    assert (
+        table.missing_chunks() == [0]
+        and table.runs_done == 2
+        and list(table.runs_done_mask()) == [False, False, True, True]
+    )
     with pytest.raises(ValueError, match="chunk 1 is done already"):
-        table.put(1, chunk)
+        table.keep_chunk(1, chunk)
 
 
 # -- other runs, other versions ---------------------------------------------------------------------------------------

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import symgen
-from symgen.study.ensemble.over_time import FUNCTIONS, parted
+from symgen.study.ensemble.time_statistics import FUNCTIONS, split_statistic
 
 VARIED = {"crank_mass": "lin(1, 3, 4)"}
 TIMES = {"until": 0.3, "output_step": 0.01}
@@ -65,4 +65,7 @@ def test_a_wrong_name_is_one_sentence(name, sentence):
 
 
 def test_parts_of_a_name():
-    assert parted("max(ram.effort)") == ("max", "ram.effort") and parted("ram.effort") == ("", "ram.effort")
+    assert split_statistic("max(ram.effort)") == ("max", "ram.effort") and split_statistic("ram.effort") == (
+        "",
+        "ram.effort",
+    )

@@ -77,7 +77,7 @@ def test_rows_have_what_single_runs_say_of_singular_positions():
 @pytest.mark.parametrize("target", ["cpu", "lanes"])
 @pytest.mark.parametrize("method", ["direct-correction", "velocity-projection"])
 def test_rows_are_in_doubt_where_energy_jumps_as_single_runs_are(target, method):
-    model = symgen.load(singular_passage(Base.of("four-bar"), 1e-2).mechanism)
+    model = symgen.load(singular_passage(Base.of_mechanism("four-bar"), 1e-2).mechanism)
     chosen = {"method": method, "integrator": "rk4", "step": 1e-3, "until": 2.0}
     found = symgen.sweep(model, {"crank.omega": [-1.0, -1.2]}, target=target, **chosen)
     alone = model.simulate(start={"crank.omega": -1.0}, **chosen)
@@ -130,6 +130,8 @@ def test_outputs_that_a_device_does_not_integrate_do_not_count(monkeypatch):
     model = symgen.load(mechanism_of(raw))
     with pytest.raises(InputError, match="integral"):
         symgen.sweep(model, {"m": [1.0]}, quantities=("way",), target="cuda", **ADAPTIVE)
-    monkeypatch.setattr("symgen.study.ensemble.sweep_plan.kernel_of", lambda recipe: recipe.spec)  # there is no device
+    monkeypatch.setattr(
+        "symgen.study.ensemble.sweep_plan.kernel_of_recipe", lambda recipe: recipe.spec
+    )  # there is no device
     with pytest.raises(AttributeError, match="first"):
         symgen.sweep(model, {"m": [1.0]}, quantities=("b.x",), target="cuda", **ADAPTIVE)

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from symgen.study.comparison.comparison_rows import Row, Trace, with_ratios
+from symgen.study.comparison.comparison_rows import Row, Trace, add_ratios
 from symgen.study.comparison.comparison_study import Study
 from symgen.study.stress.stress_rows import StressRow
 
@@ -68,7 +68,7 @@ def study(rows=None, **changes):
         "digest": "0123456789abcdef",
         "repeat": 3,
     }
-    return Study(**{**values, "rows": with_ratios(rows), **changes})
+    return Study(**{**values, "rows": add_ratios(rows), **changes})
 
 
 def stress_row(model, method, outcome, error, **changes):

@@ -4,7 +4,7 @@ import pytest
 
 from study.report.made import row, study
 from symgen.study.report import words
-from symgen.study.report.comparison_findings import costs, findings_of_rows, order
+from symgen.study.report.comparison_findings import costs_of_methods, findings_of_rows, observed_order
 
 
 def one(found, begin):
@@ -25,7 +25,7 @@ def test_every_sentence_is_one():
     [(0.9996, "1 s"), (0.9994, "999 ms"), (9.996e-4, "1 ms"), (9.994e-4, "999 µs"), (3.4, "3.4 s")],
 )
 def test_durations_are_told_in_the_unit_that_they_round_to(duration, told):
-    assert words.seconds(duration) == told
+    assert words.seconds_in_words(duration) == told
 
 
 def test_the_reference_and_the_rows_below_it():
@@ -72,7 +72,7 @@ def test_violations_by_method():
 
 
 def test_costs_are_medians_over_equal_settings():
-    found = {method: (middle, low, high, n) for method, middle, low, high, n in costs(study())}
+    found = {method: (middle, low, high, n) for method, middle, low, high, n in costs_of_methods(study())}
     assert "lagrange" not in found
     assert found["direct-correction"] == pytest.approx((1.25, 1.2, 1.3, 2))
     assert found["baumgarte"] == pytest.approx((1.1, 1.1, 1.1, 1))  # the failed run has no ratio
@@ -83,15 +83,15 @@ def test_costs_are_medians_over_equal_settings():
 
 def test_order_of_convergence():
     rows = [row("lagrange", h, 3.0 * h**4, 1.0) for h in (8e-3, 4e-3, 2e-3)]
-    assert order(rows, 0.0) == pytest.approx(4.0)
-    assert order([*rows, row("lagrange", 1e-3, 1e-12, 1.0)], 1e-12) == pytest.approx(
+    assert observed_order(rows, 0.0) == pytest.approx(4.0)
+    assert observed_order([*rows, row("lagrange", 1e-3, 1e-12, 1.0)], 1e-12) == pytest.approx(
         4.0
     )  # at the reference's own error
     # where rounding has made errors grow again with smaller steps, they say nothing of the order
     rounding = [row("lagrange", 1e-3, 1e-13, 1.0), row("lagrange", 5e-4, 3e-13, 1.0)]
-    assert order([*rows, *rounding], 0.0) == pytest.approx(order([*rows, rounding[0]], 0.0))
-    assert order(rounding, 0.0) is None
-    assert order(rows[:1], 0.0) is None
+    assert observed_order([*rows, *rounding], 0.0) == pytest.approx(observed_order([*rows, rounding[0]], 0.0))
+    assert observed_order(rounding, 0.0) is None
+    assert observed_order(rows[:1], 0.0) is None
     assert (
         "with rk4 the error falls with the power 4.0 of the step"
         in one(findings_of_rows(study(rows)), "with rk4").lower()
@@ -109,11 +109,11 @@ def test_an_empty_study_says_little():
 
 
 def test_words():
-    assert [words.rounded(x) for x in (0.0, 0.25, 1234.0, 3.14e-7, 1e-7, -2.5e-5, None, float("nan"))] == [
+    assert [words.rounded_number(x) for x in (0.0, 0.25, 1234.0, 3.14e-7, 1e-7, -2.5e-5, None, float("nan"))] == [
         *("0", "0.25", "1200", "3.1×10⁻⁷", "10⁻⁷", "−2.5×10⁻⁵", "–", "not finite"),
     ]
     assert [words.exact_number(x) for x in (0.001, 5e-5, 1e-8, 0.004)] == ["0.001", "5×10⁻⁵", "10⁻⁸", "0.004"]
-    assert [words.seconds(x) for x in (2.0, 1.27e-3, 8.5e-5)] == ["2 s", "1.27 ms", "85 µs"]
-    assert [words.percent(x) for x in (0.004, 0.05, 0.1, 5.8)] == ["0.4 %", "5.0 %", "10 %", "580 %"]
+    assert [words.seconds_in_words(x) for x in (2.0, 1.27e-3, 8.5e-5)] == ["2 s", "1.27 ms", "85 µs"]
+    assert [words.percent_in_words(x) for x in (0.004, 0.05, 0.1, 5.8)] == ["0.4 %", "5.0 %", "10 %", "580 %"]
     assert words.enumeration(["a", "b", "c"]) == "a, b and c" and words.enumeration([]) == ""
-    assert words.readable("|Phi| > 1e-06 at 0.5 s") == "|Φ| > 10⁻⁶ at 0.5 s"
+    assert words.readable_number("|Phi| > 1e-06 at 0.5 s") == "|Φ| > 10⁻⁶ at 0.5 s"

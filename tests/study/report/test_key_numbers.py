@@ -5,9 +5,9 @@ import pytest
 
 import symgen
 from symgen.study.report.key_numbers import MOST_NUMBERS, key_numbers
-from symgen.study.report.machine import machine
-from symgen.study.report.words import engineering
-from symgen.study.report.write import html, markdown
+from symgen.study.report.machine_report import machine_report
+from symgen.study.report.words import engineering_number
+from symgen.study.report.write import html_report, markdown_report
 
 
 @pytest.mark.parametrize(
@@ -29,7 +29,7 @@ from symgen.study.report.write import html, markdown
     ],
 )
 def test_engineering_units(value: float, unit: str, text: str) -> None:
-    assert engineering(value, unit) == text
+    assert engineering_number(value, unit) == text
 
 
 @pytest.fixture(scope="module")
@@ -43,26 +43,26 @@ def test_numbers_of_a_driven_linkage_are_those_of_its_run(driven: tuple[symgen.M
     numbers = {number.what: number for number in key_numbers(model.mechanism, result)}
     assert len(numbers) <= MOST_NUMBERS
     k = int(np.argmax(np.abs(result["motor.effort"])))
-    assert numbers["motor, torque"].value == engineering(result["motor.effort"][k], "N m")
+    assert numbers["motor, torque"].value == engineering_number(result["motor.effort"][k], "N m")
     assert numbers["motor, torque"].where == f"at {result.t[k]:.3g} s"
     power = result["motor.power"]
     work = float(np.sum(0.5 * (power[1:] + power[:-1]) * np.diff(result.t)))
-    assert numbers["motor, power"].where.endswith(f"work of the run {engineering(work, 'J')}")
+    assert numbers["motor, power"].where.endswith(f"work of the run {engineering_number(work, 'J')}")
     pins = sorted("ABCD", key=lambda pin: -np.max(result[f"{pin}.F"]))
     assert next(what for what in numbers if what.endswith(", force")) == f"{pins[0]}, force"
     swing = result["D.angle"]
-    assert numbers["travel of D.angle"].value == engineering(np.ptp(swing), "rad")
+    assert numbers["travel of D.angle"].value == engineering_number(np.ptp(swing), "rad")
     angles = model.kinematics(times=result.t, transmission=("B", "C")).transmission.values
     least = np.minimum(angles, np.pi - angles)
-    assert numbers["transmission angle"].value == engineering(float(least.min()), "rad")
+    assert numbers["transmission angle"].value == engineering_number(float(least.min()), "rad")
     assert numbers["transmission angle"].where.startswith(f"least, at {'BC'[int(np.argmin(least.min(axis=0)))]}, ")
 
 
 @pytest.mark.slow
 def test_the_first_screen_comes_first_and_versions_last(driven: tuple[symgen.Model, symgen.Result]) -> None:
-    document = machine(*driven, "symgen report driven-four-bar")
+    document = machine_report(*driven, "symgen report driven-four-bar")
     assert document.sections[0].title == "At a glance" and document.sections[0].beside
-    for text in (html(document), markdown(document, "files")):
+    for text in (html_report(document), markdown_report(document, "files")):
         order = [text.index(words) for words in ("motor, torque", "Torques and moments", "Reproduce with")]
         assert order == sorted(order)
 
@@ -72,4 +72,4 @@ def test_a_mechanism_without_drives_or_transmission() -> None:
     model = symgen.load("pendulum")
     result = model.simulate(until=0.5)
     (number,) = key_numbers(model.mechanism, result)
-    assert number.what == "link, force" and number.value == engineering(float(np.max(result["link.F"])), "N")
+    assert number.what == "link, force" and number.value == engineering_number(float(np.max(result["link.F"])), "N")

@@ -8,11 +8,11 @@ import pytest
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.study.report import paper
+from symgen.study.report import browser_pdf as paper
 from symgen.study.report.document import DocumentTable, ReportDocument, Section
-from symgen.study.report.machine import machine
+from symgen.study.report.machine_report import machine_report
 from symgen.study.report.plain_pdf import plain_pdf
-from symgen.study.report.write import html, markdown, write
+from symgen.study.report.write import html_report, markdown_report, write
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +24,7 @@ def driven():
 @pytest.mark.slow
 def test_the_largest_loads_are_those_of_the_run(driven):
     model, result = driven
-    document = machine(model, result, "symgen report driven-four-bar", "crank.theta")
+    document = machine_report(model, result, "symgen report driven-four-bar", "crank.theta")
     (loads,) = (s for s in document.sections if s.title == "Largest loads")
     rows = {row[0]: row for table in loads.tables for row in table.rows}
     assert {*rows} == {"motor.effort", "motor.power", "A.F", "B.F", "C.F", "D.F"}
@@ -40,19 +40,19 @@ def test_the_largest_loads_are_those_of_the_run(driven):
 @pytest.mark.slow
 def test_the_report_has_pictures_and_what_repeats_it(driven):
     model, result = driven
-    document = machine(model, result, "symgen report driven-four-bar")
+    document = machine_report(model, result, "symgen report driven-four-bar")
     titles = ["At a glance", "Motion", "Largest loads", "Curves", "Frequencies at rest"]
     assert [s.title for s in document.sections] == titles
     assert len([*document.pictures()]) == 2 + 6 + 3
-    page = html(document)
+    page = html_report(document)
     assert "symgen report driven-four-bar" in page and "prefers-color-scheme: dark" in page
     assert "no degree of freedom is left" in page.lower()
-    assert "# Planar four-bar" in markdown(document, "files")
+    assert "# Planar four-bar" in markdown_report(document, "files")
 
 
 def test_frequencies_at_rest_are_those_of_modes():
     model = symgen.load("pendulum")
-    document = machine(model, model.simulate(until=0.2))
+    document = machine_report(model, model.simulate(until=0.2))
     (rest,) = (s for s in document.sections if s.title == "Frequencies at rest")
     (table,) = rest.tables
     frequency = float(table.rows[0][table.headings.index("frequency [Hz]")])
@@ -69,7 +69,7 @@ def no_browser(monkeypatch):
 @pytest.mark.usefixtures("no_browser")
 def test_a_pdf_is_drawn_where_no_browser_is(driven, tmp_path):
     """Every picture of the report is in it as pixels, on pages of A4."""
-    document = machine(*driven)
+    document = machine_report(*driven)
     data = write(document, tmp_path / "a.pdf").read_bytes()
     assert data.startswith(b"%PDF") and len(re.findall(rb"/Type /Page\b", data)) >= 4
     assert re.search(rb"/MediaBox \[ 0 0 595\.4\d* 841\.6\d* \]", data)
@@ -100,7 +100,7 @@ def test_a_browser_that_prints_nothing_is_named(driven, tmp_path, monkeypatch):
     silent.chmod(0o755)
     monkeypatch.setenv("SYMGEN_BROWSER", str(silent))
     with pytest.raises(InputError, match=r"which ended with 3"):
-        write(machine(*driven), tmp_path / "a.pdf")
+        write(machine_report(*driven), tmp_path / "a.pdf")
     assert not (tmp_path / "a.pdf").exists()
 
 
@@ -130,7 +130,7 @@ def test_a_report_links_to_the_page_beside_it(cli, tmp_path, monkeypatch):
 def test_author_revision_and_day_are_in_the_appendix(driven):
     model, result = driven
     mechanism = msgspec.structs.replace(model.mechanism, author="A. Builder", revision="C")
-    facts = dict(machine(symgen.Model(mechanism), result).facts)
+    facts = dict(machine_report(symgen.Model(mechanism), result).facts)
     assert (facts["author"], facts["revision"]) == ("A. Builder", "C")
     assert re.fullmatch(r"\d{4}-\d\d-\d\d", facts["date"])
-    assert {"author", "revision"}.isdisjoint(dict(machine(model, result).facts))
+    assert {"author", "revision"}.isdisjoint(dict(machine_report(model, result).facts))

@@ -14,11 +14,11 @@ from markdown_it import MarkdownIt
 from study.report.made import row, study, trace
 from symgen.base.errors import InputError
 from symgen.base.escapes import markdown_text
-from symgen.study.report import comparison as sections
+from symgen.study.report import comparison_report as sections
 from symgen.study.report import picture
-from symgen.study.report.comparison import comparison
-from symgen.study.report.figures import pictures
-from symgen.study.report.write import check_report, html, markdown, write
+from symgen.study.report.comparison_report import comparison_report
+from symgen.study.report.figures import pictures_of_study
+from symgen.study.report.write import check_report, html_report, markdown_report, write
 
 VOID = {"meta", "img", "br", "hr", "link", "input"}
 
@@ -61,23 +61,23 @@ def pictures_drawn_once():
         untitled = replace(study, title="")
         found = next((made for other, made in known if other == untitled), None)
         if found is None:
-            known.append((untitled, found := pictures(untitled)))
+            known.append((untitled, found := pictures_of_study(untitled)))
         return found
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(sections, "pictures", drawn)
+        patch.setattr(sections, "pictures_of_study", drawn)
         yield
 
 
 @pytest.fixture(scope="module")
 def document():
     """What both kinds of files are written from."""
-    return comparison(STUDIES, "symgen compare four-bar 'a & b' -o report.html", [("Steps", "1 < 2")])
+    return comparison_report(STUDIES, "symgen compare four-bar 'a & b' -o report.html", [("Steps", "1 < 2")])
 
 
 @pytest.fixture(scope="module")
 def text(document):
-    return html(document)
+    return html_report(document)
 
 
 @pytest.fixture(scope="module")
@@ -167,7 +167,7 @@ def test_the_source_stands_beside_ours(page):
     assert rows and set(rows) == {"planar four-bar"}  # what was compared, and nothing else
     assert "1.62" in whole and "1.21" in whole
     assert "1.30 ± 0.13" in whole  # direct-correction at 1 ms
-    alone = html(comparison([study(mechanism="pendulum")]))
+    alone = html_report(comparison_report([study(mechanism="pendulum")]))
     assert "Carvalho" not in alone
 
 
@@ -190,7 +190,7 @@ def test_the_same_studies_give_the_same_page(text):
 
 def test_large_pictures_become_pixels(monkeypatch):
     monkeypatch.setattr(picture, "LARGEST_SVG", 10)
-    made = picture.drawn("x", "caption", "words", lambda figure: figure.subplots().plot([1, 2]))
+    made = picture.draw_picture("x", "caption", "words", lambda figure: figure.subplots().plot([1, 2]))
     assert made.kind == "png" and made.data.startswith(b"\x89PNG")
 
 
@@ -204,7 +204,7 @@ def test_lines_of_methods_can_be_told_apart():
 
 
 def test_a_variant_has_a_shade_of_its_methods_colour_and_an_integrator_its_marker():
-    from symgen.study.report.figures import integrator_markers, looks
+    from symgen.study.report.figures import integrator_markers, looks_of_labels
 
     rows = [
         row("baumgarte", 1e-3, 1e-6, 0.1),
@@ -213,7 +213,7 @@ def test_a_variant_has_a_shade_of_its_methods_colour_and_an_integrator_its_marke
         row("lagrange", 1e-3, 1e-6, 0.1),
     ]
     made = study(rows)
-    found = looks(made)
+    found = looks_of_labels(made)
     colours = [found[label]["color"] for label in ("baumgarte", "baumgarte, alpha=20", "baumgarte, alpha=50")]
     assert colours[0] == picture.line_style(1)["color"] and len({*colours, found["lagrange"]["color"]}) == 4
     assert [sum(int(c[i : i + 2], 16) for i in (1, 3, 5)) for c in colours] == sorted(
@@ -226,7 +226,7 @@ def test_a_variant_has_a_shade_of_its_methods_colour_and_an_integrator_its_marke
 def test_studies_with_nothing_to_draw_still_make_a_page():
     failed = [row("lagrange", 1e-3, None, 0.0, status="failed", reason="no", position_violation_max=float("nan"))]
     for made in (study(failed, traces=(trace(),)), study([], traces=(), interrupted=True)):
-        found = Page(html(comparison([made])))
+        found = Page(html_report(comparison_report([made])))
         assert found.all("h2")
     assert "interrupted" in " ".join(found.text)
 
@@ -252,7 +252,7 @@ def test_markdown_says_the_same_with_pictures_beside_it(document, tmp_path):
     for name in files:
         assert (tmp_path / name).stat().st_size > 1000
     assert len(list((tmp_path / "report-files").iterdir())) == len(files)
-    assert sum(token.type == "table_open" for token in tokens) == len(Page(html(document)).all("table")) + 1
+    assert sum(token.type == "table_open" for token in tokens) == len(Page(html_report(document)).all("table")) + 1
     cells = re.findall(r"^\|.*\|$", content, re.MULTILINE)
     assert cells and all(line.count("|") - line.count("\\|") >= 3 for line in cells)
     assert "\\|Φ\\|" in content  # bars within a cell
@@ -271,20 +271,20 @@ def test_markdown_says_the_same_with_pictures_beside_it(document, tmp_path):
     ],
 )
 def test_a_title_is_text_in_every_page(title):
-    document = comparison([study(title=title)])
+    document = comparison_report([study(title=title)])
     shown = title.rstrip(".") + "."
-    tokens = MarkdownIt("commonmark").enable(["table", "strikethrough"]).parse(markdown(document, "x"))
+    tokens = MarkdownIt("commonmark").enable(["table", "strikethrough"]).parse(markdown_report(document, "x"))
     inline = [token for token in tokens if token.type == "inline"]
     assert [t.children for t in inline if "".join(c.content for c in t.children) == shown] != []
     plain = next(t for t in inline if "".join(c.content for c in t.children) == shown)
     assert {child.type for child in plain.children} == {"text"}
     assert not [token for token in tokens if token.type in ("html_block", "blockquote_open", "ordered_list_open")]
-    found = Page(html(document))
+    found = Page(html_report(document))
     assert shown in "".join(found.text) and not found.all("script")
 
 
 def test_a_command_stays_in_its_fence():
-    text = markdown(comparison([study()], "symgen compare '```\n# x'"), "x")
+    text = markdown_report(comparison_report([study()], "symgen compare '```\n# x'"), "x")
     tokens = MarkdownIt("commonmark").parse(text)
     assert [t.content for t in tokens if t.type == "fence"] == ["symgen compare '```\n# x'\n"]
 

@@ -17,11 +17,11 @@ import msgspec
 from symgen.base.ir.derivative import jacobian
 from symgen.base.ir.graph import Graph
 from symgen.base.ir.program import Block, ElementProgram, OutputSlot
-from symgen.derive.lower.drag import length
+from symgen.derive.lower.drag import length_of_vector
 from symgen.derive.lower.record import BEHIND, EQUATIONS
 from symgen.derive.lower.record_form import record_form
 from symgen.derive.lower.scalar import ScalarNodes
-from symgen.derive.methods._tape import needed
+from symgen.derive.methods._tape import needed_operations
 
 if TYPE_CHECKING:
     from symgen.derive.formulate.elements import Element
@@ -55,15 +55,15 @@ FormProgram = ElementProgram[FormInfo]
 def form_key(method: Method, options: Mapping[str, str], kind: str = "joint", shifted: bool = False) -> str:
     """Return a short name of a method's formula for a kind of elements: equal formulas have equal names.
 
-    `shifted`: rows for projections stand behind equations of states of the file.
+    `shifted`: rows for projections follow equations of states of the file.
     """
-    record = record_form(method, options, _recorded(kind))
+    record = record_form(method, options, _recorded_kind(kind))
     (part,) = record.parts
     operations = record.operations
-    indices = needed((i for _, i in part.outputs), lambda i: operations[i].operands)
+    indices = needed_operations((i for _, i in part.outputs), lambda i: operations[i].operands)
     place = {index: k for k, index in enumerate(indices)}
     parameters = [p.name for p in method.parameters]
-    level = record.form if _recorded(kind) == "joint" or record.form == "explicit" else ""
+    level = record.form if _recorded_kind(kind) == "joint" or record.form == "explicit" else ""
     text: list[object] = [[(name, place[i]) for name, i in part.outputs], level]
     for o in (operations[i] for i in indices):
         payload = parameters.index(str(o.payload[0])) if o.kind == "parameter" else o.payload
@@ -77,12 +77,12 @@ def form_stem(key: str, stem: str) -> str:
     return f"form_{key}_{stem[-45:]}"
 
 
-def _recorded(kind: str) -> str:
+def _recorded_kind(kind: str) -> str:
     """Return the kind of elements whose formula a kind has: a row with bounds is a joint with a force."""
     return {"bound": "joint", "drag": "force", "rotor": "body"}.get(kind, kind)
 
 
-def _of_bound(g: Graph, e: Equations, groups: list[tuple[str, Any]]) -> list[tuple[str, Any]]:
+def _groups_of_bounded_row(g: Graph, e: Equations, groups: list[tuple[str, Any]]) -> list[tuple[str, Any]]:
     """Return the groups of a row with bounds: where it is off, its multipliers are 0, and its force acts."""
     held, changed = e.rows[0].held, list[tuple[str, Any]]()
     assert held is not None, "a row with bounds has a mode"
@@ -98,11 +98,11 @@ def _of_bound(g: Graph, e: Equations, groups: list[tuple[str, Any]]) -> list[tup
     return changed
 
 
-def _of_drag(g: Graph, e: Equations) -> list[tuple[str, Any]]:
+def _groups_of_drag(g: Graph, e: Equations) -> list[tuple[str, Any]]:
     """Return the groups of an effort that depends on a reaction: on the unknown multipliers of a joint."""
     (drag,) = e.drags
-    parts = [g.total(g.mul(n, g.input("k_first", row)) for row, n in line) for line in drag.pressed]
-    force = g.mul(drag.sign, g.mul(drag.coefficient, length(g, parts)))
+    parts = [g.sum_of(g.mul(n, g.input("k_first", row)) for row, n in line) for line in drag.pressed]
+    force = g.mul(drag.sign, g.mul(drag.coefficient, length_of_vector(g, parts)))
     entries = dict(e.rows[drag.row].entries)
     along = tuple(g.mul(force, entries[j]) if j in entries else g.zero for j in range(e.nv))
     return [("v", along), ("power", g.neg(g.mul(force, drag.rate)))]
@@ -122,17 +122,17 @@ def lower_form(
     stem : str
         Name of the module.
     """
-    e, record = element.equations, record_form(method, options, _recorded(instance.kind))
+    e, record = element.equations, record_form(method, options, _recorded_kind(instance.kind))
     names = [p.name for p in method.parameters]
     scalars = ScalarNodes(e, record.operations, names, {})
     (part,) = record.parts
-    scalars.run(needed((i for _, i in part.outputs), lambda i: record.operations[i].operands))
+    scalars.evaluate_remaining(needed_operations((i for _, i in part.outputs), lambda i: record.operations[i].operands))
     g = scalars.graph
     groups = [(group, scalars.values[index]) for group, index in part.outputs]
     if instance.kind == "bound":
-        groups = _of_bound(g, e, groups)
+        groups = _groups_of_bounded_row(g, e, groups)
     if instance.kind == "drag":
-        groups = _of_drag(g, e)
+        groups = _groups_of_drag(g, e)
     if instance.kind == "rotor":
         groups = [(group, nodes) for group, nodes in groups if group == "v"]
     rows = [(group, i, n) for group, nodes in groups if group in EQUATIONS for i, n in enumerate(nodes) if n != g.zero]
@@ -160,7 +160,7 @@ def lower_form(
     ):
         if outputs:
             graph = Graph()
-            nodes = element.over_records([n for _, n in outputs], graph, g)
+            nodes = element.copy_over_records([n for _, n in outputs], graph, g)
             copied = tuple((target, node) for (target, _), node in zip(outputs, nodes, strict=True))
             blocks.append(Block(name, purpose, graph, copied, ()))
     info = FormInfo(tuple(entries), {b.name: b.operations for b in blocks})

@@ -24,15 +24,15 @@ from symgen.base.vocabulary.expressions import (
     Reading,
     call,
     names_in,
-    readings,
+    readings_in,
     table_of,
 )
 from symgen.base.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Sum
-from symgen.derive.lower.windings import measures_of, turns
+from symgen.derive.lower.windings import counted_turns, measures_of_element
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.bounds.by_reaction import held_by_reactions, refuse_repeated
+from symgen.describe.bounds.by_reaction import refuse_shared_reactions, rows_bounded_by_reactions
 from symgen.describe.facts.repeats import without_repeats
-from symgen.describe.formulas.graph import Formulas
+from symgen.describe.formulas.formula_nodes import Formulas
 from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter, Rotor, StateVariable
 
 #: Fields of the vocabulary's structs that hold the name of a body.
@@ -82,7 +82,7 @@ class Instance:
     joint: str = ""
 
 
-def instances(mechanism: Mechanism) -> tuple[Instance, ...]:
+def instances_of_mechanism(mechanism: Mechanism) -> tuple[Instance, ...]:
     """Return all parts of a mechanism as instances in the order of their kinds, rows that repeat others left out.
 
     Parameters
@@ -91,17 +91,17 @@ def instances(mechanism: Mechanism) -> tuple[Instance, ...]:
         A validated mechanism.
     """
     mechanism, repeats = without_repeats(mechanism)
-    rewriting, pressed = _Rewriting(mechanism), held_by_reactions(mechanism)
+    rewriting, pressed = _Rewriting(mechanism), rows_bounded_by_reactions(mechanism)
     for row in pressed:
-        refuse_repeated(row, repeats)
+        refuse_shared_reactions(row, repeats)
     return (
-        *(rewriting.body(body) for body in mechanism.bodies),
-        *(rewriting.element("joint", joint) for joint in mechanism.joints),
-        *(rewriting.bound(row.without_reaction) for row in mechanism.bounded),
-        *(rewriting.drag(row) for row in pressed),
-        *(rewriting.rotor(rotor) for rotor in mechanism.rotors),
-        *(rewriting.element("force", force) for force in mechanism.forces),
-        *(rewriting.state(state) for state in mechanism.states),
+        *(rewriting.body_instance(body) for body in mechanism.bodies),
+        *(rewriting.element_instance("joint", joint) for joint in mechanism.joints),
+        *(rewriting.bounded_row_instance(row.without_reaction) for row in mechanism.bounded),
+        *(rewriting.drag_instance(row) for row in pressed),
+        *(rewriting.rotor_instance(rotor) for rotor in mechanism.rotors),
+        *(rewriting.element_instance("force", force) for force in mechanism.forces),
+        *(rewriting.state_instance(state) for state in mechanism.states),
     )
 
 
@@ -114,9 +114,9 @@ class _Rewriting:
         self.parameters = frozenset(p.name for p in mechanism.parameters)
         self.tables = {t.name: t for t in mechanism.tables}
         self.states = frozenset(x.name for x in mechanism.states)
-        self.begin()
+        self.begin_element()
 
-    def begin(self) -> None:
+    def begin_element(self) -> None:
         """Begin another element."""
         self.frames: dict[str, str] = {}
         self.constants: list[Expr] = []
@@ -125,84 +125,84 @@ class _Rewriting:
         self.memo: dict[object, object] = {}
         self.own: frozenset[str] = frozenset()  # words of the element itself, which are no parameters
 
-    def body(self, body: Any) -> Instance:
+    def body_instance(self, body: Any) -> Instance:
         """Return a body as an instance: its inertia, its weight and its frame."""
-        self.begin()
+        self.begin_element()
         self.frames[body.name] = "f0"
-        mass = self.formula(body.mass)
-        inertia = None if body.inertia is None else self.walk(body.inertia)
-        gravity = tuple(self.formula(e) for e in self.mechanism.gravity)
+        mass = self.rewrite_formula(body.mass)
+        inertia = None if body.inertia is None else self.rewrite(body.inertia)
+        gravity = tuple(self.rewrite_formula(e) for e in self.mechanism.gravity)
         abstract = type(body)(name="f0", mass=mass, inertia=inertia)
         return self.instance("body", body.name, "point" if body.is_point else "body", gravity, (abstract,))
 
-    def element(self, kind: str, element: Joint | Force) -> Instance:
+    def element_instance(self, kind: str, element: Joint | Force) -> Instance:
         """Return a joint or force as an instance."""
-        self.begin()
+        self.begin_element()
         content: Any
         if isinstance(element, Joint):
-            rows = tuple(self.walk(row) for row in element.rows)
+            rows = tuple(self.rewrite(row) for row in element.rows)
             coordinates = tuple(
-                (f"{'angle' if label == 'angle' else 'c'}{i}", self.walk(m))
+                (f"{'angle' if label == 'angle' else 'c'}{i}", self.rewrite(m))
                 for i, (label, m) in enumerate(element.coordinates)
             )
             content = Joint("e", "", (), rows, coordinates)
         else:
             content = Force(
-                "e", "", (), *(tuple(self.walk(e) for e in part) for part in (element.efforts, element.flexures))
+                "e", "", (), *(tuple(self.rewrite(e) for e in part) for part in (element.efforts, element.flexures))
             )
-        instance = self.massless(kind, element.name, element.kind, content)
-        angles = turns(measures_of(element))
+        instance = self.massless_instance(kind, element.name, element.kind, content)
+        angles = counted_turns(measures_of_element(element))
         return replace(instance, angles=angles) if angles else instance
 
-    def bound(self, row: BoundedRow) -> Instance:
+    def bounded_row_instance(self, row: BoundedRow) -> Instance:
         """Return a row with bounds as an instance: its row, in force at times, and its effort where it is off."""
-        self.begin()
-        whole: Any = self.walk(row)
+        self.begin_element()
+        whole: Any = self.rewrite(row)
         named = {field: "e" for field in ("name", "joint", "owner") if field in whole.__struct_fields__}
         content = msgspec.structs.replace(whole, **named)
-        instance = self.massless("bound", row.row, row.family.one, content)
-        angles = turns([row.measure])
+        instance = self.massless_instance("bound", row.row, row.family.one, content)
+        angles = counted_turns([row.measure])
         return replace(instance, angles=angles) if angles else instance
 
-    def drag(self, row: BoundedRow) -> Instance:
+    def drag_instance(self, row: BoundedRow) -> Instance:
         """Return what of a row with bounds depends on a reaction as an instance, with the rows of its joint."""
-        self.begin()
+        self.begin_element()
         joint = self.mechanism.joint_named(row.owner)
         labels = {f"{joint.name}.{each.label}": f"r{i}" for i, each in enumerate(joint.rows)}
-        rows = zip((self.walk(each) for each in joint.rows), labels.values(), strict=True)
+        rows = zip((self.rewrite(each) for each in joint.rows), labels.values(), strict=True)
         held = tuple(msgspec.structs.replace(each, label=label) for each, label in rows)
         whole: Any = row  # all kinds are structs
         pressed = msgspec.structs.replace(whole, pressed=tuple(f"e.{labels[name]}" for name in row.pressed))
-        content = msgspec.structs.replace(self.walk(pressed), name="e", joint="e")
-        instance = self.massless("drag", row.row, row.family.one, content)
+        content = msgspec.structs.replace(self.rewrite(pressed), name="e", joint="e")
+        instance = self.massless_instance("drag", row.row, row.family.one, content)
         abstract = msgspec.structs.replace(instance.abstract, joints=(Joint("e", "", (), held),), bounded=(content,))
         key = instance.key + msgspec.json.encode([*held, content])
-        angles = turns([*measures_of(Joint("e", "", (), joint.rows)), row.measure])
+        angles = counted_turns([*measures_of_element(Joint("e", "", (), joint.rows)), row.measure])
         return replace(instance, abstract=abstract, key=key, angles=angles, joint=joint.name)
 
-    def rotor(self, rotor: Rotor) -> Instance:
+    def rotor_instance(self, rotor: Rotor) -> Instance:
         """Return a rotor on a joint as an instance: its inertia, and the rate of its angle."""
-        self.begin()
-        content = Rotor("e", self.walk(rotor.angle), self.formula(rotor.inertia), self.walk(rotor.axes))
-        instance = self.massless("rotor", rotor.joint, "rotor")
+        self.begin_element()
+        content = Rotor("e", self.rewrite(rotor.angle), self.rewrite_formula(rotor.inertia), self.rewrite(rotor.axes))
+        instance = self.massless_instance("rotor", rotor.joint, "rotor")
         abstract = msgspec.structs.replace(instance.abstract, rotors=(content,))
-        angles = turns([rotor.angle])
+        angles = counted_turns([rotor.angle])
         return replace(instance, abstract=abstract, key=instance.key + msgspec.json.encode(content), angles=angles)
 
-    def state(self, state: StateVariable) -> Instance:
+    def state_instance(self, state: StateVariable) -> Instance:
         """Return a state of the file as an instance: its rate."""
-        self.begin()
+        self.begin_element()
         self.aliases[state.name] = "z0"
-        rate = self.formula(state.rate)
-        instance = self.massless("state", state.name, "state")
+        rate = self.rewrite_formula(state.rate)
+        instance = self.massless_instance("state", state.name, "state")
         first, *others = instance.abstract.states
         abstract = msgspec.structs.replace(instance.abstract, states=(StateVariable(first.name, ZERO, rate), *others))
-        angles = turns(measure.source for measure in readings(state.rate))
+        angles = counted_turns(measure.source for measure in readings_in(state.rate))
         return replace(instance, abstract=abstract, key=instance.key + msgspec.json.encode(rate), angles=angles)
 
-    def massless(self, kind: str, name: str, label: str, content: object = None) -> Instance:
+    def massless_instance(self, kind: str, name: str, label: str, content: object = None) -> Instance:
         """Return an instance without inertia of its own, on bodies as mere frames."""
-        frames = tuple(self.frame(self.bodies[body], alias) for body, alias in self.frames.items())
+        frames = tuple(self.body_as_frame(self.bodies[body], alias) for body, alias in self.frames.items())
         return self.instance(kind, name, label, (ZERO,) * len(self.mechanism.gravity), frames, content)
 
     def instance(
@@ -227,7 +227,7 @@ class _Rewriting:
         of = (tuple(self.frames), tuple(self.constants), abstract, key)
         return Instance(kind, name, label, *of, states=tuple(self.aliases))
 
-    def frame(self, body: Any, alias: str) -> Any:
+    def body_as_frame(self, body: Any, alias: str) -> Any:
         """Return a body as a mere frame; its markers are relative to the centre of mass already."""
         inertia: Any = None
         if body.inertia is not None:
@@ -237,83 +237,85 @@ class _Rewriting:
 
     # -- rewriting ---------------------------------------------------------------------------------------------------
 
-    def walk(self, value: object, field: str = "") -> Any:
+    def rewrite(self, value: object, field: str = "") -> Any:
         """Return a value of the vocabulary with bodies and numbers replaced."""
         if isinstance(value, Number | Name | Call | Reading):
-            return self.formula(value)
+            return self.rewrite_formula(value)
         if isinstance(value, str):
             if field == "unit":
                 return value if value == "rad" else ""
-            return self.alias(value) if field in _BODY_FIELDS else "" if field in _LABELS else value
+            return self.abstract_body(value) if field in _BODY_FIELDS else "" if field in _LABELS else value
         if isinstance(value, tuple):
-            return tuple(self.walk(item) for item in value)
+            return tuple(self.rewrite(item) for item in value)
         if not isinstance(value, msgspec.Struct):
             return value
         if isinstance(value, Marker | Direction):
             if value not in self.memo:
-                self.memo[value] = self.marker(value) if isinstance(value, Marker) else self.direction(value)
+                self.memo[value] = (
+                    self.rewrite_marker(value) if isinstance(value, Marker) else self.rewrite_direction(value)
+                )
             return self.memo[value]
         if isinstance(value, Sum):
-            return Sum(tuple((self.coefficient(k), self.walk(m)) for k, m in value.terms))
+            return Sum(tuple((self.rewrite_coefficient(k), self.rewrite(m)) for k, m in value.terms))
         before, self.own = self.own, frozenset(("s", "rate")) if isinstance(value, Effort) else self.own
-        result = type(value)(**{f: self.walk(getattr(value, f), f) for f in value.__struct_fields__})
+        result = type(value)(**{f: self.rewrite(getattr(value, f), f) for f in value.__struct_fields__})
         self.own = before
         return result
 
-    def alias(self, body: str) -> str:
+    def abstract_body(self, body: str) -> str:
         """Return the name of a body in the abstract mechanism."""
         return body if body == GROUND else self.frames.setdefault(body, f"f{len(self.frames)}")
 
-    def marker(self, marker: Any) -> Marker:
+    def rewrite_marker(self, marker: Any) -> Marker:
         """Return a marker: at the centre of mass, on the x axis, or anywhere; on the ground anywhere."""
-        alias = self.alias(marker.body)
+        alias = self.abstract_body(marker.body)
         if alias == GROUND:
-            return Marker(alias, tuple(self.constant(e) for e in marker.point))
+            return Marker(alias, tuple(self.abstract_parameter(e) for e in marker.point))
         centre = self.bodies[marker.body].centre_of_mass
         point = [call("sub", x, c) for x, c in zip(marker.point, centre, strict=True)]
-        last = max((i for i, e in enumerate(point) if self.literal(e) != 0.0), default=-1)
-        return Marker(alias, tuple(self.constant(e) if i <= last else ZERO for i, e in enumerate(point)))
+        last = max((i for i, e in enumerate(point) if self.literal_value(e) != 0.0), default=-1)
+        return Marker(alias, tuple(self.abstract_parameter(e) if i <= last else ZERO for i, e in enumerate(point)))
 
-    def direction(self, direction: Any) -> Direction:
+    def rewrite_direction(self, direction: Any) -> Direction:
         """Return a direction: along an axis, or any."""
-        alias, vector = self.alias(direction.body), direction.vector
-        literals = [self.literal(e) for e in vector]
+        alias, vector = self.abstract_body(direction.body), direction.vector
+        literals = [self.literal_value(e) for e in vector]
         if all(x in _UNITS for x in literals):
             return Direction(alias, tuple(Number(x) for x in literals if x is not None))
-        return Direction(alias, tuple(self.constant(e) for e in vector))
+        return Direction(alias, tuple(self.abstract_parameter(e) for e in vector))
 
-    def coefficient(self, e: Expr) -> Expr:
+    def rewrite_coefficient(self, e: Expr) -> Expr:
         """Return a coefficient of a sum; 0, 1 and -1 are unchanged."""
-        literal = self.literal(e)
-        return Number(literal) if literal in _UNITS and literal is not None else self.formula(e)
+        literal = self.literal_value(e)
+        return Number(literal) if literal in _UNITS and literal is not None else self.rewrite_formula(e)
 
-    def literal(self, e: Expr) -> float | None:
+    def literal_value(self, e: Expr) -> float | None:
         """Return the value of a formula of parameters after simplification; None where it depends on them."""
         return e.value if isinstance(e, Number) else self.formulas.graph.value(self.formulas.expression(e))
 
-    def constant(self, e: Expr) -> Expr:
+    def abstract_parameter(self, e: Expr) -> Expr:
         """Return the abstract parameter for a formula of parameters."""
         self.constants.append(e)
         return Name(f"k{len(self.constants) - 1}")
 
-    def formula(self, e: Expr) -> Expr:
+    def rewrite_formula(self, e: Expr) -> Expr:
         """Return a formula with its constant parts replaced; zeros stay."""
         if self.is_constant(e):
-            return ZERO if self.literal(e) == 0.0 else self.constant(e)
+            return ZERO if self.literal_value(e) == 0.0 else self.abstract_parameter(e)
         if isinstance(e, Name):
             if e.name in self.states and e.name not in self.own:
                 return Name(self.aliases.setdefault(e.name, f"z{len(self.aliases)}"))
             body, dot, coordinate = e.name.rpartition(".")
-            return Name(f"{self.alias(body)}.{coordinate}") if dot else e
+            return Name(f"{self.abstract_body(body)}.{coordinate}") if dot else e
         if isinstance(e, Reading):
-            return Reading("", self.walk(e.source), e.order)
+            return Reading("", self.rewrite(e.source), e.order)
         assert isinstance(e, Call), "a literal is constant"
         name = table_of(e.function)
         if name is not None:
             self.used_tables[name] = self.tables[name]
         if e.function == "pow" and isinstance(e.arguments[1], Number):
-            return Call("pow", (self.formula(e.arguments[0]), e.arguments[1]))
-        return Call(e.function, tuple(self.formula(a) for a in e.arguments))
+            return Call("pow", (self.rewrite_formula(e.arguments[0]), e.arguments[1]))
+        return Call(e.function, tuple(self.rewrite_formula(a) for a in e.arguments))
 
     def is_constant(self, e: Expr) -> bool:
         """Whether a formula depends on parameters alone."""

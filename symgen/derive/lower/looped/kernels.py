@@ -11,8 +11,8 @@ import msgspec
 from symgen.base.ir.graph import Graph
 from symgen.base.ir.program import Block, ElementProgram, OutputSlot
 from symgen.derive.lower.hoist import Hoister
-from symgen.derive.lower.manifold import manifold_blocks
 from symgen.derive.lower.model import diagonal_at_origin
+from symgen.derive.lower.position_changes import position_change_blocks
 from symgen.derive.lower.scalar import ScalarNodes
 
 if TYPE_CHECKING:
@@ -111,7 +111,7 @@ def lower_kernel(element: Element, instance: Instance) -> KernelProgram:
     instance : Instance
         Any instance of it.
     """
-    return _Kernel(element, instance).program()
+    return _Kernel(element, instance).kernel_program()
 
 
 #: Purpose of each function, for its docstring.
@@ -143,20 +143,20 @@ class _Kernel:
         self.constants = len(instance.constants)
         self.hoister = Hoister(self.graph, self.constants)
 
-    def copied(self, nodes: Sequence[int]) -> list[int]:
-        return self.element.over_records(nodes, self.graph)
+    def copy_nodes(self, nodes: Sequence[int]) -> list[int]:
+        return self.element.copy_over_records(nodes, self.graph)
 
-    def program(self) -> KernelProgram:
+    def kernel_program(self) -> KernelProgram:
         outputs: dict[str, Outputs] = getattr(self, self.instance.kind)()
         blocks = []
         for name, written in outputs.items():
             purpose: Any = _PURPOSES[name]
             purpose = purpose if isinstance(purpose, str) else purpose[self.instance.kind]
             if written:
-                blocks.append(self.hoister.block(name, purpose, written, ()))
+                blocks.append(self.hoister.block_with_hoisted(name, purpose, written, ()))
         if self.instance.kind == "body":
-            blocks += manifold_blocks(self.hoister, self.e)
-        prepare = self.prepare()
+            blocks += position_change_blocks(self.hoister, self.e)
+        prepare = self.prepare_block()
         hoisted = len(self.hoister.slots)
         assert len(self.e.windings) == len(self.instance.angles), "angles are counted in the order of derivation"
         if prepare.outputs:
@@ -178,37 +178,37 @@ class _Kernel:
         )
         return KernelProgram(kernel_stem(self.instance), self.instance.label, kernel, tuple(blocks), e.tables)
 
-    def prepare(self) -> Block:
+    def prepare_block(self) -> Block:
         """Return the block of numbers computed once a run: hoisted ones, and masses of a body or of a rotor."""
-        block = self.hoister.prepare()
+        block = self.hoister.prepare_block()
         if self.instance.kind not in ("body", "rotor"):
             return block
         outputs: Outputs = []
         system = ScalarNodes(self.e)
         inputs = {("p", i): block.graph.input("p", i) for i in range(self.constants)}
 
-        def moved(node: int) -> int:
-            return block.graph.inline(system.graph, [node], inputs)[0]
+        def move_node(node: int) -> int:
+            return block.graph.copy_from(system.graph, [node], inputs)[0]
 
         first = self.constants + len(self.hoister.slots)
         if self.instance.kind == "rotor":
             diagonal = {target.index: node for target, node in diagonal_at_origin(system)}
             entries = self.e.rows[0].entries
-            outputs += [(OutputSlot("p", first + i), moved(diagonal[j])) for i, (j, _) in enumerate(entries)]
+            outputs += [(OutputSlot("p", first + i), move_node(diagonal[j])) for i, (j, _) in enumerate(entries)]
             return Block("prepare", block.purpose, block.graph, (*block.outputs, *outputs), ())
         for b in self.e.mass:
             n = len(b.columns)
             for k, j in enumerate(b.columns):
-                outputs.append((OutputSlot("mass_diagonal", j), moved(b.entries[k][k])))
+                outputs.append((OutputSlot("mass_diagonal", j), move_node(b.entries[k][k])))
                 # a massless body has no inverse: methods that use it are refused
                 massless = system.graph.value(b.entries[k][k]) == 0.0
                 inverse = system.graph.zero if massless else system.inverse_mass[j].get(j, system.graph.zero)
-                outputs.append((OutputSlot("inverse_mass", j), moved(inverse)))
+                outputs.append((OutputSlot("inverse_mass", j), move_node(inverse)))
                 if n > 1:
                     for i, column in enumerate(b.columns):
                         entry = system.inverse_mass[j].get(column, system.graph.zero)
-                        outputs.append((OutputSlot("p", first + n * k + i), moved(b.entries[k][i])))
-                        outputs.append((OutputSlot("p", first + n * n + n * k + i), moved(entry)))
+                        outputs.append((OutputSlot("p", first + n * k + i), move_node(b.entries[k][i])))
+                        outputs.append((OutputSlot("p", first + n * n + n * k + i), move_node(entry)))
             first += 2 * n * n if n > 1 else 0
         return Block("prepare", block.purpose, block.graph, (*block.outputs, *outputs), ())
 
@@ -219,16 +219,16 @@ class _Kernel:
         e, g, frame = self.e, self.graph, self.element.frames[0]
         nq, nv = len(frame.q), len(frame.v)
         plain = {("q", i): g.input("q", i) for i in range(nq)} | {("v", i): g.input("v", i) for i in range(nv)}
-        slots = g.inline(e.graph, frame.slots, plain)
+        slots = g.copy_from(e.graph, frame.slots, plain)
         speeds: Outputs = [(OutputSlot("record", nq + i), g.input("v", i)) for i in range(nv)]
         record: Outputs = [(OutputSlot("record", i), g.input("q", i)) for i in range(nq)] + speeds
         record += [(OutputSlot("record", nq + nv + i), n) for i, n in enumerate(slots)]
         steps = [g.add(g.input("q", i), g.input("change", i)) for i in range(nv)] if not e.spins else []
-        kinetic, potential, *forces = self.copied([e.kinetic, e.potential, *e.forces])
+        kinetic, potential, *forces = self.copy_nodes([e.kinetic, e.potential, *e.forces])
         return {
             "frame": record,
             "speeds": speeds,
-            "rates": [(OutputSlot("ydot", i), n) for i, n in enumerate(self.copied(e.q_rates))],
+            "rates": [(OutputSlot("ydot", i), n) for i, n in enumerate(self.copy_nodes(e.q_rates))],
             "move": [(OutputSlot("y", i), n) for i, n in enumerate(steps)],
             "motion": [(OutputSlot("force=", i), n) for i, n in enumerate(forces)],
             "energy": [(OutputSlot("kinetic", 0), kinetic), (OutputSlot("potential", 0), potential)],
@@ -238,45 +238,47 @@ class _Kernel:
         """Return the outputs of a joint's functions."""
         e, g = self.e, self.graph
         rows = e.rows
-        phi = self.copied([r.phi for r in rows if r.phi is not None])
+        phi = self.copy_nodes([r.phi for r in rows if r.phi is not None])
         holonomic = [i for i, r in enumerate(rows) if r.phi is not None]
-        nu, gamma = self.copied([r.nu for r in rows]), self.copied([r.gamma for r in rows])
+        nu, gamma = self.copy_nodes([r.nu for r in rows]), self.copy_nodes([r.gamma for r in rows])
         position: Outputs = [(OutputSlot("residual", i), n) for i, n in zip(holonomic, phi, strict=True)]
         other: Outputs = [(OutputSlot("phi", i), n) for i, n in zip(holonomic, phi, strict=True)]
         common: Outputs = [(OutputSlot("nu", i), n) for i, n in enumerate(nu) if n != g.zero]
-        for slot, node in zip(self.slots(), self.copied([n for r in rows for _, n in r.entries]), strict=True):
+        for slot, node in zip(
+            self.slots_of_rows(), self.copy_nodes([n for r in rows for _, n in r.entries]), strict=True
+        ):
             common.append((OutputSlot("jacobian", slot), node))
         quadratic: Outputs = [(OutputSlot("gamma", i), n) for i, n in enumerate(gamma) if n != g.zero]
         report: Outputs = []
         for i, c in enumerate(e.joint_coordinates):
-            value, rate = self.copied([c.value, c.rate])
+            value, rate = self.copy_nodes([c.value, c.rate])
             report += [(OutputSlot("report", 2 * i), value), (OutputSlot("report", 2 * i + 1), rate)]
         return {
             "geometry": position + common,
             "motion": common + quadratic,
             "full": other + common + quadratic,
             "report": report,
-            "wind": self.winding(),
+            "wind": self.counted_angles(),
         }
 
     def bound(self) -> dict[str, Outputs]:
         """Return the outputs of the functions of a row with bounds.
 
-        Where it is off the row of D is zero, so that it takes no part in anything. Its entries as they are in force
-        stand behind its blocks, for transitions and starts, which know themselves which rows are off. The square of the
+        Where it is off the row of D is zero, so that it takes no part in anything. The entries that it has in force
+        follow its blocks, for transitions and starts, which know which rows are off. The square of the
         last slot is added to the diagonal of D W D^T, whatever W is, and keeps the pivot of a row that is off above 0.
         """
         e, g = self.e, self.graph
         (row,) = e.rows
         assert row.held is not None and row.phi is not None, "a row with bounds has a mode and a position"
-        held, phi, nu, gamma, *entries = self.copied(
+        held, phi, nu, gamma, *entries = self.copy_nodes(
             [row.held, row.phi, row.nu, row.gamma, *(n for _, n in row.entries)]
         )
-        slots, first = self.slots(), self.row_width
+        slots, first = self.slots_of_rows(), self.row_width
         common: Outputs = [] if nu == g.zero else [(OutputSlot("nu", 0), g.mul(held, nu))]
         common += [(OutputSlot("jacobian", slot), g.mul(held, n)) for slot, n in zip(slots, entries, strict=True)]
         common += [(OutputSlot("jacobian", first + i), n) for i, n in enumerate(entries)]
-        size = g.call("sqrt", g.total(g.mul(n, n) for n in entries))
+        size = g.call("sqrt", g.sum_of(g.mul(n, n) for n in entries))
         idle = g.mul(g.sub(g.one, held), size)
         common += [(OutputSlot(section, first + len(entries)), idle) for section in ("jacobian", "left")]
         quadratic: Outputs = [] if gamma == g.zero else [(OutputSlot("gamma", 0), g.mul(held, gamma))]
@@ -295,41 +297,43 @@ class _Kernel:
     def force(self) -> dict[str, Outputs]:
         """Return the outputs of a force's functions."""
         e, g = self.e, self.graph
-        power, potential, *forces = self.copied([e.power, e.potential, *e.forces])
+        power, potential, *forces = self.copy_nodes([e.power, e.potential, *e.forces])
         motion: Outputs = [(OutputSlot("force+", i), n) for i, n in enumerate(forces) if n != g.zero]
         if power != g.zero:
             motion.append((OutputSlot("power", 0), power))
         energy: Outputs = [(OutputSlot("potential", 0), potential)] if potential != g.zero else []
-        return {"motion": motion, "energy": energy, "wind": self.winding()}
+        return {"motion": motion, "energy": energy, "wind": self.counted_angles()}
 
     def drag(self) -> dict[str, Outputs]:
         """Return the outputs of a drag's function: its bound over the reaction, with its sign, and the reaction."""
         e, g = self.e, self.e.graph
         (drag,) = e.drags
-        parts = (g.total(g.mul(n, g.input("multipliers", row)) for row, n in line) for line in drag.pressed)
-        nodes = self.copied([g.mul(drag.sign, drag.coefficient), *parts])
+        parts = (g.sum_of(g.mul(n, g.input("multipliers", row)) for row, n in line) for line in drag.pressed)
+        nodes = self.copy_nodes([g.mul(drag.sign, drag.coefficient), *parts])
         return {"press": [(OutputSlot("drag", i), n) for i, n in enumerate(nodes)]}
 
     def rotor(self) -> dict[str, Outputs]:
         """Return the outputs of a rotor's functions: R, which is written where D is, -J r b, and its energy."""
         e, g = self.e, self.graph
-        kinetic, *forces = self.copied([e.kinetic, *e.forces])
-        entries = self.copied([n for _, n in e.rows[0].entries])
-        row: Outputs = [(OutputSlot("jacobian", slot), n) for slot, n in zip(self.slots(), entries, strict=True)]
+        kinetic, *forces = self.copy_nodes([e.kinetic, *e.forces])
+        entries = self.copy_nodes([n for _, n in e.rows[0].entries])
+        row: Outputs = [
+            (OutputSlot("jacobian", slot), n) for slot, n in zip(self.slots_of_rows(), entries, strict=True)
+        ]
         force: Outputs = [(OutputSlot("force+", i), n) for i, n in enumerate(forces) if n != g.zero]
         return {"geometry": row, "motion": row + force, "energy": [(OutputSlot("kinetic", 0), kinetic)]}
 
     def state(self) -> dict[str, Outputs]:
         """Return the outputs of a state's functions; joints count the turns of angles that it reads."""
-        return {"rates": [(OutputSlot("own", 0), self.copied(self.e.state_rates[:1])[0])]}
+        return {"rates": [(OutputSlot("own", 0), self.copy_nodes(self.e.state_rates[:1])[0])]}
 
-    def winding(self) -> Outputs:
+    def counted_angles(self) -> Outputs:
         """Return the angles whose turns are counted."""
-        return [(OutputSlot("winding", i), n) for i, n in enumerate(self.copied(self.e.windings))]
+        return [(OutputSlot("winding", i), n) for i, n in enumerate(self.copy_nodes(self.e.windings))]
 
     # -- shapes --------------------------------------------------------------------------------------------------------
 
-    def owner(self, velocity: int) -> tuple[int, int]:
+    def owner_of_velocity(self, velocity: int) -> tuple[int, int]:
         """Return frame and place in the frame of a velocity."""
         for f, frame in enumerate(self.element.frames):
             if velocity in frame.v:
@@ -343,7 +347,7 @@ class _Kernel:
             return ()
         return tuple(
             RowShape(
-                tuple(self.owner(j) for j, _ in row.entries),
+                tuple(self.owner_of_velocity(j) for j, _ in row.entries),
                 tuple(None if varies else g.value(n) for _, n in row.entries),
                 row.phi is not None,
                 row.nu != g.zero,
@@ -352,7 +356,7 @@ class _Kernel:
             for row in self.e.rows
         )
 
-    def slots(self) -> list[int]:
+    def slots_of_rows(self) -> list[int]:
         """Return the offset of each entry of D from the joint's first: rows by blocks, blocks as wide as the frame."""
         slots, first = [], 0
         for shape in self.rows():

@@ -120,8 +120,8 @@ class LoopedShape:
         entry = coordinate = computed = 0
         self.entries: list[tuple[int, int, int]] = []  # row, column, slot of structurally nonzero entries
         self.placed: list[tuple[int, int, int]] = []  # the same, of rows with bounds as they are, in force or off
-        self.idle: list[tuple[int, int]] = []  # rows with bounds, and slots whose squares stand on the diagonal
-        self.rotors: list[int] = []  # their rows R, which are numbered behind those of D; R^T R is their part of M
+        self.idle: list[tuple[int, int]] = []  # rows with bounds, and slots whose squares are on the diagonal
+        self.rotors: list[int] = []  # their rows R, which are numbered after those of D; R^T R is their part of M
         self.rotor_blocks: list[RowBlock] = []
         rows_of: dict[str, int] = {}  # of joints, the first
         for instance, stem in zip(self.instances, self.stems, strict=True):
@@ -258,7 +258,7 @@ class LoopedShape:
         runs: dict[int, list[int]] = {}
         slots: dict[int, int] = {}
         for a, b in self.pairs:
-            target = self.gram.target(a.row, b.row)
+            target = self.gram.place_of_entry(a.row, b.row)
             varying = []
             for j, literal in b.entries.items():
                 if j in a.reach:
@@ -277,16 +277,16 @@ class LoopedShape:
                     runs.setdefault(k + 1 - start, []).extend(at)
                     start = k + 1
         for row, slot in self.idle:
-            runs.setdefault(1, []).extend((slot, slot, self.gram.target(row, row)))
+            runs.setdefault(1, []).extend((slot, slot, self.gram.place_of_entry(row, row)))
         single = runs.pop(1, [])
-        outer, single = _paired([(single[k], single[k + 1], single[k + 2]) for k in range(0, len(single), 3)])
+        outer, single = _pair_products([(single[k], single[k + 1], single[k + 2]) for k in range(0, len(single), 3)])
         runs |= {width: terms for width, terms in ((0, outer), (1, single)) if terms}
         return ProductTerms(tuple(constant), {width: runs[width] for width in sorted(runs)}, slots)
 
     @cached_property
     def gram(self) -> Elimination:
         """Elimination of D W D^T."""
-        return _elimination(self.m + len(self.rotors), (*self.pairs, *self.rotor_pairs))
+        return _elimination_of_pairs(self.m + len(self.rotors), (*self.pairs, *self.rotor_pairs))
 
     @cached_property
     def rotor_pairs(self) -> list[tuple[RowBlock, RowBlock]]:
@@ -304,7 +304,7 @@ class LoopedShape:
     def rotor_gram(self) -> Elimination:
         """Elimination of 1 + R M^-1 R^T, M being without rotors, whose rows are numbered from 0."""
         pairs = [(a, b) for a, b in self.rotor_pairs if b.row >= self.m]
-        return _elimination(len(self.rotors), pairs, self.m)
+        return _elimination_of_pairs(len(self.rotors), pairs, self.m)
 
     def rotor_products(self, among: bool) -> list[int]:
         """Return slots in R M^-1 and D or R, and each product's target, in the elimination of all or of R alone."""
@@ -312,7 +312,11 @@ class LoopedShape:
         for a, b in self.rotor_pairs:
             if b.row < self.m and among:
                 continue
-            target = self.rotor_gram.target(a.row - self.m, b.row - self.m) if among else self.gram.target(a.row, b.row)
+            target = (
+                self.rotor_gram.place_of_entry(a.row - self.m, b.row - self.m)
+                if among
+                else self.gram.place_of_entry(a.row, b.row)
+            )
             for j in b.entries:
                 if j in a.reach:
                     products += [a.offset + j - a.first, b.offset + j - b.first, target]
@@ -342,7 +346,7 @@ class LoopedShape:
             columns = [j for j, _ in row]
             for j in columns:
                 near[j].update(columns)
-        return Elimination.of([frozenset(n - {j}) for j, n in enumerate(near)])
+        return Elimination.lay_out([frozenset(n - {j}) for j, n in enumerate(near)])
 
     def sizes(self, augmented: bool) -> dict[str, int]:
         """Return the sizes by which sections are defined."""
@@ -360,17 +364,17 @@ class LoopedShape:
         }
 
 
-def _elimination(size: int, pairs: Iterable[tuple[RowBlock, RowBlock]], first: int = 0) -> Elimination:
+def _elimination_of_pairs(size: int, pairs: Iterable[tuple[RowBlock, RowBlock]], first: int = 0) -> Elimination:
     """Return the elimination of a matrix in which pairs of rows, numbered from `first` on, have an entry."""
     near: list[set[int]] = [set() for _ in range(size)]
     for a, b in pairs:
         if a.row != b.row:
             near[a.row - first].add(b.row - first)
             near[b.row - first].add(a.row - first)
-    return Elimination.of([frozenset(n) for n in near])
+    return Elimination.lay_out([frozenset(n) for n in near])
 
 
-def _paired(terms: Sequence[tuple[int, int, int]]) -> tuple[list[int], list[int]]:
+def _pair_products(terms: Sequence[tuple[int, int, int]]) -> tuple[list[int], list[int]]:
     """Return products of single entries as products of two with two, where four belong together, and the others.
 
     The rows of a joint, x and y of a pin for instance, vary in the same column of a body: their entries meet those of

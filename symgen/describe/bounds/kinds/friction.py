@@ -12,10 +12,10 @@ from symgen.base.vocabulary.expressions import ZERO, Expr, Number, call
 from symgen.base.vocabulary.measures import Measure
 from symgen.describe.bounds.by_reaction import directions_across, reacting_rows
 from symgen.describe.bounds.changing import is_constant, read_bound
-from symgen.describe.bounds.dry_friction import FRICTION, Friction, at_rate
-from symgen.describe.bounds.keys import KeyOfJoints, by_coordinate
+from symgen.describe.bounds.dry_friction import FRICTION, Friction, bound_at_rate
+from symgen.describe.bounds.keys import KeyOfJoints, tables_by_coordinate
 from symgen.describe.mechanism import Joint
-from symgen.describe.parts.fields import Scalar, StateBound, StateFunction, read_table, words_of
+from symgen.describe.parts.fields import Scalar, StateBound, StateFunction, read_table, value_in_words
 from symgen.describe.parts.scope import Scope
 
 FrictionTable = Annotated[
@@ -98,22 +98,29 @@ def read_friction(scope: Scope, joint: Joint, raw: object) -> tuple[Friction, ..
         With the key that is wrong.
     """
     labels = dict(joint.coordinates)
-    tables = by_coordinate(scope, joint, "friction", raw, "{ sliding = 4.0 }")
-    return tuple(_along(scope, joint, label, labels[label], table, len(labels) == 1) for label, table in tables.items())
+    tables = tables_by_coordinate(scope, joint, "friction", raw, "{ sliding = 4.0 }")
+    return tuple(
+        _friction_along_coordinate(scope, joint, label, labels[label], table, len(labels) == 1)
+        for label, table in tables.items()
+    )
 
 
-def _along(scope: Scope, joint: Joint, label: str, measure: Measure, raw: object, single: bool) -> Friction:
+def _friction_along_coordinate(
+    scope: Scope, joint: Joint, label: str, measure: Measure, raw: object, single: bool
+) -> Friction:
     key = "friction" if single else f"friction.{label}"
     section = read_table(FrictionSection, raw, scope.where(key))
-    pressed = _pressed(scope, joint, label, key, section)
-    bounds = _bounds(scope, key, section, ("coefficient", "static_coefficient") if pressed else ("sliding", "static"))
+    pressed = _reaction_rows(scope, joint, label, key, section)
+    bounds = _read_bounds(
+        scope, key, section, ("coefficient", "static_coefficient") if pressed else ("sliding", "static")
+    )
     sliding, static, backwards, changing = bounds
     if section.radius is not None:
         radius = scope.constant(f"{key}.radius", section.radius, positive=True)
         sliding, static = call("mul", sliding, radius), call("mul", static, radius)
     speed, smooth = section.stribeck_speed, section.law == "tanh"
     if smooth != (section.speed is not None):
-        got = "no such key" if smooth else words_of(section.speed)
+        got = "no such key" if smooth else value_in_words(section.speed)
         raise scope.error(
             f"{key}.speed", 'a rate beside law = "tanh"' if smooth else 'no such key without law = "tanh"', got
         )
@@ -129,7 +136,7 @@ def _along(scope: Scope, joint: Joint, label: str, measure: Measure, raw: object
         static=static,
         viscous=read_bound(scope, f"{key}.viscous", section.viscous),
         stribeck_speed=None if speed is None else scope.constant(f"{key}.stribeck_speed", speed, positive=True),
-        exponent=_exponent(scope, key, section),
+        exponent=_stribeck_exponent(scope, key, section),
         backwards=backwards,
         changing=changing,
         pressed=pressed,
@@ -138,22 +145,22 @@ def _along(scope: Scope, joint: Joint, label: str, measure: Measure, raw: object
     )
 
 
-def _bounds(
+def _read_bounds(
     scope: Scope, key: str, section: FrictionSection, names: tuple[str, str]
 ) -> tuple[Expr, Expr, Expr | None, bool]:
     """Return the bounds in motion, at rest and of motions backwards, and whether any is more than a number."""
     (least, most), backwards = (getattr(section, name) for name in names), None
     if isinstance(least, dict):
-        sliding, backwards = _both_ways(scope, f"{key}.{names[0]}", section, least)
+        sliding, backwards = _bounds_by_direction(scope, f"{key}.{names[0]}", section, least)
     else:
         sliding = read_bound(scope, f"{key}.{names[0]}", least, ("rate",))
-    static = at_rate(sliding, ZERO) if most is None else read_bound(scope, f"{key}.{names[1]}", most)
+    static = bound_at_rate(sliding, ZERO) if most is None else read_bound(scope, f"{key}.{names[1]}", most)
     if backwards is not None:
-        static = call("mul", Number(0.5), call("add", static, at_rate(backwards, ZERO)))
-    at_rest = (at_rate(x, ZERO) for x in (sliding, static, backwards) if x is not None)
+        static = call("mul", Number(0.5), call("add", static, bound_at_rate(backwards, ZERO)))
+    at_rest = (bound_at_rate(x, ZERO) for x in (sliding, static, backwards) if x is not None)
     changing = not all(is_constant(scope, x) for x in at_rest)
     if not changing and backwards is None:
-        pairs = zip((at_rate(sliding, ZERO), static), names, strict=True)
+        pairs = zip((bound_at_rate(sliding, ZERO), static), names, strict=True)
         low, high = (scope.value(x, f"{key}.{name}") for x, name in pairs)
         if high < low:
             raise scope.error(f"{key}.{names[1]}", f"a bound of at least that in motion ({low!r})", repr(high))
@@ -162,25 +169,27 @@ def _bounds(
     return sliding, static, backwards, changing
 
 
-def _both_ways(scope: Scope, key: str, section: FrictionSection, raw: Mapping[str, object]) -> tuple[Expr, Expr]:
+def _bounds_by_direction(
+    scope: Scope, key: str, section: FrictionSection, raw: Mapping[str, object]
+) -> tuple[Expr, Expr]:
     """Return the bounds of motions forwards and backwards."""
     ways = read_table(BothWays, raw, scope.where(key))
     for name in ("static", "stribeck_speed"):
         if (value := getattr(section, name)) is not None:
             expected = "no such key beside bounds of two directions, which may be formulas of rate"
-            raise scope.error(f"{key.rpartition('.')[0]}.{name}", expected, words_of(value))
+            raise scope.error(f"{key.rpartition('.')[0]}.{name}", expected, value_in_words(value))
     forwards, backwards = (
         read_bound(scope, f"{key}.{name}", getattr(ways, name), ("rate",)) for name in ("forwards", "backwards")
     )
     return forwards, backwards
 
 
-def _exponent(scope: Scope, key: str, section: FrictionSection) -> Expr | None:
+def _stribeck_exponent(scope: Scope, key: str, section: FrictionSection) -> Expr | None:
     """Return the exponent of the fall over the rate; None for 2."""
     if section.stribeck_exponent is None:
         return None
     if section.stribeck_speed is None:
-        got = words_of(section.stribeck_exponent)
+        got = value_in_words(section.stribeck_exponent)
         raise scope.error(f"{key}.stribeck_exponent", "the key stribeck_speed beside it", got)
     exponent = scope.constant(f"{key}.stribeck_exponent", section.stribeck_exponent)
     if not (value := scope.value(exponent, f"{key}.stribeck_exponent")) >= 1.0:
@@ -188,7 +197,7 @@ def _exponent(scope: Scope, key: str, section: FrictionSection) -> Expr | None:
     return exponent
 
 
-def _pressed(scope: Scope, joint: Joint, label: str, key: str, section: FrictionSection) -> tuple[str, ...]:
+def _reaction_rows(scope: Scope, joint: Joint, label: str, key: str, section: FrictionSection) -> tuple[str, ...]:
     """Return the rows whose forces are the reaction that bounds depend on; none where they are constant."""
     by_reaction = ("coefficient", "static_coefficient", "radius")
     of_reaction = [name for name in by_reaction if getattr(section, name) is not None]

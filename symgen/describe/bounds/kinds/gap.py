@@ -27,7 +27,7 @@ class GapSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
     restitution : scalar
         Rate of the gap after an impact over that before, from 0 to 1; 0 by default.
     stiffness, damping : scalar
-        Of an elastic stop, force over the depth behind the gap [N/m or N m/rad], and over the rate of that
+        Of an elastic stop, force over the depth beyond the gap [N/m or N m/rad], and over the rate of that
         [N s/m or N m s/rad].
     """
 

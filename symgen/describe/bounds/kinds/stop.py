@@ -12,9 +12,9 @@ from symgen.base.vocabulary.measures import FormulaMeasure, Measure, Sum
 from symgen.describe.bounds.changing import is_constant
 from symgen.describe.bounds.elastic_stop import ElasticStop
 from symgen.describe.bounds.end_stop import LOWER, STOPS, UPPER, EndStop
-from symgen.describe.bounds.keys import KeyOfJoints, by_coordinate
+from symgen.describe.bounds.keys import KeyOfJoints, tables_by_coordinate
 from symgen.describe.mechanism import Joint
-from symgen.describe.parts.fields import Scalar, StateFunction, read_table, words_of
+from symgen.describe.parts.fields import Scalar, StateFunction, read_table, value_in_words
 from symgen.describe.parts.scope import Scope
 
 StopTable = Annotated[
@@ -53,7 +53,7 @@ class LimitSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     restitution : scalar
         Rate after an impact over that before, from 0 to 1; 0 by default.
     stiffness : scalar
-        Of an elastic stop, force over the depth behind it [N/m or N m/rad]; without it the stop is rigid.
+        Of an elastic stop, force over the depth beyond it [N/m or N m/rad]; without it the stop is rigid.
     damping : scalar
         Of an elastic stop, force over the rate of the depth [N s/m or N m s/rad]; 0 by default. The force never pulls.
     """
@@ -84,7 +84,7 @@ def read_limits(scope: Scope, joint: Joint, raw: object) -> tuple[EndStop | Elas
     """
     stops = list[EndStop | ElasticStop]()
     labels = dict(joint.coordinates)
-    for label, table in by_coordinate(scope, joint, "stop", raw, "{ lower = -1.0, upper = 2.0 }").items():
+    for label, table in tables_by_coordinate(scope, joint, "stop", raw, "{ lower = -1.0, upper = 2.0 }").items():
         single = len(labels) == 1
         key = "stop" if single else f"stop.{label}"
         section = read_table(LimitSection, table, scope.where(key))
@@ -101,7 +101,7 @@ def read_limits(scope: Scope, joint: Joint, raw: object) -> tuple[EndStop | Elas
                 raise scope.error(f"{key}.upper", f"a value above that of lower ({low!r})", repr(high))
         name = joint.name if single else f"{joint.name}.{label}"
         for word, sign, limit in limits:
-            gap = _gap(scope, f"{joint.name}.{label}", labels[label], sign, limit)
+            gap = _gap_of_limit(scope, f"{joint.name}.{label}", labels[label], sign, limit)
             stops.append(read_stop(scope, key, f"{name}.{word}", joint.name, *gap, joint.unit(label), section))
     return tuple(stops)
 
@@ -111,7 +111,7 @@ def read_limit(scope: Scope, key: str, value: float | str) -> Expr:
     return scope.of_row(key, value, speeds=False, inputs=True, moves=False)
 
 
-def _gap(scope: Scope, name: str, coordinate: Measure, sign: float, limit: Expr) -> tuple[Measure, Expr]:
+def _gap_of_limit(scope: Scope, name: str, coordinate: Measure, sign: float, limit: Expr) -> tuple[Measure, Expr]:
     """Return the measure and the value whose difference is the gap; a limit that moves is part of the measure."""
     if not is_constant(scope, limit):
         ends = Reading(name, coordinate), limit
@@ -152,12 +152,12 @@ def read_stop(
     within = f"{key}." if key else ""
     if section.stiffness is None:
         if section.damping is not None:
-            raise scope.error(f"{within}damping", "the key stiffness beside it", words_of(section.damping))
+            raise scope.error(f"{within}damping", "the key stiffness beside it", value_in_words(section.damping))
         given = 0.0 if section.restitution is None else section.restitution
         restitution = read_restitution(scope, f"{within}restitution", given)
         return EndStop(name, owner, measure, value, unit, restitution)
     if section.restitution is not None:
-        got = words_of(section.restitution)
+        got = value_in_words(section.restitution)
         raise scope.error(f"{within}restitution", "no such key beside stiffness, as damping takes the energy", got)
     stiffness = scope.constant(f"{within}stiffness", section.stiffness, positive=True)
     damping = scope.constant(f"{within}damping", 0.0 if section.damping is None else section.damping)
