@@ -110,7 +110,7 @@ def mapping(where: str, value: object, expected: str) -> dict[str, Any]:
     return {text(where, key, f"{expected}, named by texts"): item for key, item in value.items()}
 
 
-def entries_of(where: str, value: object, expected: str) -> list[Any]:
+def list_entries(where: str, value: object, expected: str) -> list[Any]:
     """Return the entries of a list, a tuple or an array of one dimension; None is an empty one."""
     if value is None:
         return []
@@ -125,14 +125,16 @@ def numbers(where: str, value: object, *, positive: bool = False) -> tuple[float
     what = "a list of finite numbers above 0" if positive else "a list of finite numbers"
     single = not isinstance(value, Iterable) and value is not None
     return tuple(
-        number(where, item, positive=positive) for item in ([value] if single else entries_of(where, value, what))
+        number(where, item, positive=positive) for item in ([value] if single else list_entries(where, value, what))
     )
 
 
 def words(where: str, value: object) -> tuple[str, ...]:
     """Return a list of texts; a single one is a list of one."""
     what = "a list of names"
-    return tuple(text(where, x, what) for x in ([value] if isinstance(value, str) else entries_of(where, value, what)))
+    return tuple(
+        text(where, x, what) for x in ([value] if isinstance(value, str) else list_entries(where, value, what))
+    )
 
 
 def path_argument(where: str, value: object) -> Path:

@@ -150,7 +150,7 @@ def test_latex_reads_a_figure_or_says_why_it_cannot_be_measured(result, tmp_path
         assert "lualatex" in str(error) or "pdflatex" in str(error) or "xelatex" in str(error)
     monkeypatch.setenv("PATH", str(tmp_path))
     other = tmp_path / "other.pgf"
-    with pytest.raises(InputError, match="lualatex or pdflatex or xelatex for a"):
+    with pytest.raises(InputError, match="lualatex or pdflatex or xelatex, which measure the texts of a"):
         result.plot(other)
     latex(tmp_path, monkeypatch, "echo no format file; exit 1")
     with pytest.raises(InputError, match="plot: expected a pdflatex that measures texts, with the packages of matplot"):

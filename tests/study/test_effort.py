@@ -195,17 +195,17 @@ def equations_of(name, **changes):
 def test_what_conserves_energy_is_not_stiff_however_long_it_lasts():
     """Its modes decay and grow in pairs: the slider-crank's fastest is 16 1/s, which over 2000 s is 3e4 e-foldings."""
     equations, q, v = equations_of("slider-crank")
-    y = equations.project(0.0, np.concatenate([q, v]))
+    y = equations.nearest_state(0.0, np.concatenate([q, v]))
     assert fastest_modes(equations, y)[0] * 2000.0 > STIFF_FOLDINGS
     assert not is_stiff(equations, y, 2000.0)
     damped, q, v = equations_of("slider-crank", stress_damping=1e8)
-    assert is_stiff(damped, damped.project(0.0, np.concatenate([q, v])), 1.0)
+    assert is_stiff(damped, damped.nearest_state(0.0, np.concatenate([q, v])), 1.0)
 
 
 @pytest.mark.slow
 def test_compiled_rates_are_those_of_numpy():
     equations, q, v = equations_of("slider-crank", stress_stiffness=100.0)
-    y = equations.project(0.0, np.concatenate([q, v + 0.1]))
+    y = equations.nearest_state(0.0, np.concatenate([q, v + 0.1]))
     expected = super(CompiledEquations, equations).rate(0.0, y)
     np.testing.assert_allclose(equations.rate(0.0, y), expected, rtol=1e-9, atol=1e-9)
 

@@ -56,7 +56,7 @@ def both(name, times, parameters=None):
 def test_formulas_agree_with_the_general_route(name, until, parameters):
     closed, general, points = both(name, np.linspace(0.0, until, 31), parameters)
     assert closed.how != general.how
-    distance = points.distance(closed.q, general.q)
+    distance = points.largest_distance(closed.q, general.q)
     assert distance < 1e-11
     assert points.speed_distances((closed.q, closed.v), (general.q, general.v)).max() < 1e-10
     assert all(np.allclose(closed.lam[row], general.lam[row], rtol=1e-8, atol=1e-8) for row in general.lam)
@@ -111,7 +111,7 @@ def test_singular_positions_are_passed_by_runs_whose_steps_fall_differently(wind
     closed, general, points = both(f"n-four-bar:{windows}", np.linspace(0.0, 10.0, 41))
     assert "through singular positions" in general.how and general.note == ""
     # estimates are no bounds: a second run differs from the motion by as much as the first
-    assert points.distance(closed.q, general.q) < 2.0 * (closed.estimated_error + general.estimated_error)
+    assert points.largest_distance(closed.q, general.q) < 2.0 * (closed.estimated_error + general.estimated_error)
     assert general.estimated_error < 1e-6
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from study.report.made import stress_row
 from symgen.study.runner import Cell, Status
-from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES, Run, classify_outcome, false_success
+from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES, CellRun, classify_outcome, false_success
 from symgen.study.stress.findings import cause_of_failure, explain_failures, findings_of_study, largest_root
 from symgen.study.stress.searches import largest_steps
 from symgen.study.stress.stress_rows import Map, Stress
@@ -16,7 +16,7 @@ from symgen.study.stress.study_progress import Whole
 
 REGULAR = np.ones(11)
 FLAT = np.array([1.0, 0.8, 0.5, 0.3, 0.1, 0.05, 0.2, 0.4, 0.6, 0.8, 1.0])
-GOOD = Run(True, np.full(11, 1e-6), REGULAR, 0.0, 2.0)
+GOOD = CellRun(True, np.full(11, 1e-6), REGULAR, 0.0, 2.0)
 SMALL, LARGE = np.linspace(0.0, 0.05, 11), np.linspace(0.0, 5.0, 11)
 #: On the reference until output 5, elsewhere from then on.
 JUMP = np.array([0.0] * 5 + [1.0] * 6)

@@ -133,7 +133,7 @@ def names_with_bounds(where: str, free: Mapping[str, Bounds | None] | Sequence[s
 
 def _read_bounds(where: str, bounds: object) -> Bounds:
     expected = "a lower and an upper bound, each a number or None"
-    pair = arguments.entries_of(where, bounds, expected) or [None, None]
+    pair = arguments.list_entries(where, bounds, expected) or [None, None]
     if len(pair) != 2 or not all(x is None or isinstance(x, Real) for x in pair):
         raise InputError(where, expected, arguments.kind_of_value(bounds))
     return pair[0], pair[1]

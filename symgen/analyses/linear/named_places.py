@@ -26,7 +26,7 @@ from symgen.analyses.rest.equilibria import (
 from symgen.analyses.rest.settle import Settled, settle_position
 from symgen.analyses.rest.steady import at_rest, named_states
 from symgen.analyses.state.moving_drivers import note_on_moving_drivers, refuse_moving_drivers
-from symgen.analyses.state.one_sided import refuse_fault
+from symgen.analyses.state.one_sided import refuse_impossible_mode
 from symgen.analyses.state.reduced import tangent_system
 from symgen.analyses.state.subject import LARGE, Subject, make_subject
 from symgen.base import arguments
@@ -154,7 +154,7 @@ def subject_at(place: NamedPlace, by: Sequence[str] = ()) -> tuple[Subject, Arra
     else:
         _refuse_moving_drivers(rest)
         if subject.mode:
-            refuse_fault(rest.subject, rest.y, judge_equilibrium(rest).lam)
+            refuse_impossible_mode(rest.subject, rest.y, judge_equilibrium(rest).lam)
     return rest.subject, rest.y
 
 
@@ -168,7 +168,7 @@ def _refuse_moving_drivers(rest: Settled) -> None:
 def _refuse_mode(subject: Subject, y: Array) -> None:
     """Refuse a state in motion at which a one-sided row cannot be in its mode."""
     if subject.mode:
-        refuse_fault(subject, y, tangent_system(subject, y).lam)
+        refuse_impossible_mode(subject, y, tangent_system(subject, y).lam)
 
 
 def rest_at(subject: Subject, values: Mapping[str, float]) -> Settled:
@@ -234,7 +234,7 @@ def rest_from(mechanism: Mechanism, settings: Settings) -> Equilibrium:
             raise
     settled = find_equilibrium(subject)
     rest = judge_equilibrium(settled)
-    refuse_fault(settled.subject, rest.y, rest.lam)
+    refuse_impossible_mode(settled.subject, rest.y, rest.lam)
     return _add_notes(mechanism, settings, _rests_of_bodies(mechanism, settings, subject, (rest,)), (settled,))[0]
 
 

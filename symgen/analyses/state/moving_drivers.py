@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
-from symgen.base.vocabulary.expressions import Expr, names_in
+from symgen.base.vocabulary.expressions import Expr, names_in_expression
 from symgen.base.vocabulary.measures import Holonomic
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Mechanism
@@ -37,7 +37,7 @@ def moving_drivers(mechanism: Mechanism, compiled: CompiledModel, p: Array, t: f
     t : float
         Time [s].
     """
-    formulas = {name: e for name, e in _driver_formulas(mechanism) if "t" in names_in(e)}
+    formulas = {name: e for name, e in _driver_formulas(mechanism) if "t" in names_in_expression(e)}
     names = (q.name for q in compiled.info.parameters)
     in_time = InTime(mechanism, dict(zip(names, map(float, p), strict=False)))
     moving = (name for name, e in formulas.items() if _has_rate(in_time, e, t, mechanism.defaults.until))

@@ -136,7 +136,7 @@ def fault_of_mode(subject: Subject, y: Array, lam: Array) -> str:
     return ""
 
 
-def refuse_fault(subject: Subject, y: Array, lam: Array) -> None:
+def refuse_impossible_mode(subject: Subject, y: Array, lam: Array) -> None:
     """Refuse a state at which a one-sided row cannot be in its mode.
 
     Raises

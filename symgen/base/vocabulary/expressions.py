@@ -98,7 +98,7 @@ FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
 BENT = ("abs", "min", "max", "both", "either")
 
 
-def names_in(expression: Expr) -> Iterator[str]:
+def names_in_expression(expression: Expr) -> Iterator[str]:
     """Yield every name that `expression` refers to, readings included, in order of appearance (with repeats)."""
     for node in _leaf_expressions(expression):
         if not isinstance(node, Number):

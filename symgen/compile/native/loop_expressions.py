@@ -10,7 +10,7 @@ import ast
 import types as python
 
 from symgen.compile.native import language as lang
-from symgen.compile.native.loop_values import EXPRESSIONS, Array, Record, Value, is_number, leaves_of_value
+from symgen.compile.native.loop_values import EXPRESSIONS, Array, RecordValue, Value, is_number, leaves_of_value
 from symgen.compile.native.read import Reader
 from symgen.compile.native.read_values import Foreign, number_value
 
@@ -67,7 +67,7 @@ class LoopValues(Reader):
     def value(self, node: ast.expr) -> Value:
         """Return the value of an expression: a number, a record, an array or a function."""
         if isinstance(node, ast.Tuple):
-            return Record(tuple(self.name_number(v, node) for v in self.values_in_order(node.elts)))
+            return RecordValue(tuple(self.name_number(v, node) for v in self.values_in_order(node.elts)))
         if isinstance(node, ast.Name) and node.id in self.bound:
             return self.bound[node.id]
         if isinstance(node, ast.IfExp):
@@ -103,10 +103,10 @@ class LoopValues(Reader):
             if isinstance(module, python.ModuleType) and node.value.id not in self.variables:
                 return number_value(getattr(module, node.attr), node)
         owner = self.value(node.value)
-        if isinstance(owner, Record) and node.attr in owner.fields:
+        if isinstance(owner, RecordValue) and node.attr in owner.fields:
             return owner.values[owner.fields.index(node.attr)]
         if isinstance(owner, Array) and node.attr == "shape":
-            return Record(tuple(lang.ArrayLength(owner.name, axis) for axis in range(owner.rank)))
+            return RecordValue(tuple(lang.ArrayLength(owner.name, axis) for axis in range(owner.rank)))
         if isinstance(owner, Array) and node.attr == "size" and owner.rank == 1:
             return lang.ArrayLength(owner.name)
         raise Foreign("an attribute", node)
@@ -115,7 +115,7 @@ class LoopValues(Reader):
         """Return an element of an array or of a tuple."""
         if isinstance(node.value, ast.Attribute | ast.Name):
             owner = self.array_of_element(node.value)
-            if isinstance(owner, Record):
+            if isinstance(owner, RecordValue):
                 index = self.expression(node.slice)
                 if isinstance(index, lang.Constant) and 0 <= int(index.value) < len(owner.values):
                     return owner.values[int(index.value)]
@@ -263,7 +263,7 @@ class LoopValues(Reader):
             statements.append(self.pending)
         self.depth, self.pending = self.depth - 1, outer
         chosen, otherwise = values
-        if any(statements) or isinstance(chosen, Record):
+        if any(statements) or isinstance(chosen, RecordValue):
             return self.choose_with_statements(test, values, statements, node)
         if isinstance(chosen, Array) and isinstance(otherwise, Array) and chosen.type == otherwise.type:
             name = self.new_array(chosen.type)
@@ -293,7 +293,7 @@ class LoopValues(Reader):
         )
         self.pending.append(lang.If(test, then, otherwise))
         variables = tuple(lang.Variable(value.type, name) for name, value in zip(names, first, strict=True))
-        return Record(variables) if isinstance(values[0], Record) else variables[0]
+        return RecordValue(variables) if isinstance(values[0], RecordValue) else variables[0]
 
     def new_array(self, kind: lang.Scalar, rank: int = 1) -> str:
         """Return the name of a new array."""

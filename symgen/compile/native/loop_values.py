@@ -43,7 +43,7 @@ class Address(NamedTuple):
     signature: Any
 
 
-class Record(NamedTuple):
+class RecordValue(NamedTuple):
     """A tuple, with the names of its fields if any."""
 
     values: tuple[Any, ...]
@@ -53,7 +53,7 @@ class Record(NamedTuple):
 #: Value of a name: a number, an array, a function, or a record of such.
 Value = Any
 #: Result of a copied function without a result.
-NOTHING = Record(())
+NOTHING = RecordValue(())
 
 
 def argument_value(name: str, kind: object) -> tuple[Value, list[lang.FunctionParameter]]:
@@ -81,13 +81,13 @@ def argument_value(name: str, kind: object) -> tuple[Value, list[lang.FunctionPa
     if isinstance(kind, types.RecordType):
         names = kind.fields or tuple(str(i) for i in range(len(kind)))
         parts = [argument_value(f"{name}.{field}", part) for field, part in zip(names, kind, strict=True)]
-        return Record(tuple(v for v, _ in parts), kind.fields), [p for _, ps in parts for p in ps]
+        return RecordValue(tuple(v for v, _ in parts), kind.fields), [p for _, ps in parts for p in ps]
     raise Foreign(f"an argument of type {kind}")
 
 
 def leaves_of_value(value: Value) -> Iterator[Value]:
     """Yield numbers, arrays and functions of a value in their order."""
-    if isinstance(value, Record):
+    if isinstance(value, RecordValue):
         for part in value.values:
             yield from leaves_of_value(part)
     else:
@@ -109,7 +109,7 @@ def pass_value(kind: object, value: Value) -> Iterator[lang.Expression | str]:
     Foreign
         If it is not of the type.
     """
-    if isinstance(value, Record) and isinstance(kind, types.RecordType) and len(kind) == len(value.values):
+    if isinstance(value, RecordValue) and isinstance(kind, types.RecordType) and len(kind) == len(value.values):
         for part, item in zip(kind, value.values, strict=True):
             yield from pass_value(part, item)
     elif isinstance(value, Array) and isinstance(kind, types.ArrayType):
@@ -126,9 +126,9 @@ def pass_value(kind: object, value: Value) -> Iterator[lang.Expression | str]:
 
 def value_in_callee(name: str, value: Value) -> tuple[Value, list[lang.FunctionParameter]]:
     """Return a value in the callee that takes it, and its parameters."""
-    if isinstance(value, Record):
+    if isinstance(value, RecordValue):
         parts = [value_in_callee(f"{name}.{i}", part) for i, part in enumerate(value.values)]
-        return Record(tuple(v for v, _ in parts), value.fields), [p for _, ps in parts for p in ps]
+        return RecordValue(tuple(v for v, _ in parts), value.fields), [p for _, ps in parts for p in ps]
     if isinstance(value, Array):
         return Array(name, value.type, value.rank), [lang.FunctionParameter(name, value.type, True, value.rank)]
     if isinstance(value, Address):

@@ -26,7 +26,7 @@ from symgen.compile.native.loop_values import (
     SCALARS,
     Address,
     Array,
-    Record,
+    RecordValue,
     Value,
     argument_value,
     is_number,
@@ -201,7 +201,7 @@ class LoopReader(LoopValues):
     def assign_value(self, target: ast.expr, value: Value) -> list[lang.Statement]:
         """Return the assignment of a value to a name or an element, or of several to several."""
         if isinstance(target, ast.Tuple):
-            values = list(value.values) if isinstance(value, Record) else []
+            values = list(value.values) if isinstance(value, RecordValue) else []
             if len(values) != len(target.elts):
                 raise Foreign("an assignment of unequal lengths", target)
             return [s for t, v in zip(target.elts, values, strict=True) for s in self.assign_value(t, v)]
@@ -253,7 +253,7 @@ class LoopReader(LoopValues):
         if isinstance(called, type) and issubclass(called, tuple) and hasattr(called, "_fields"):
             if len(called._fields) != len(arguments):
                 raise Foreign("a record with other fields", node)
-            return Record(tuple(self.name_number(v, node) for v in arguments), called._fields)
+            return RecordValue(tuple(self.name_number(v, node) for v in arguments), called._fields)
         called = getattr(called, "compiled", called)  # also of interpreted functions
         plain = getattr(called, "py_func", None)
         if not isinstance(plain, python.FunctionType):
@@ -283,7 +283,7 @@ class LoopReader(LoopValues):
         if not isinstance(node, ast.Starred):
             return self.values_in_order([node])
         value = self.value(node.value)
-        if not isinstance(value, Record):
+        if not isinstance(value, RecordValue):
             raise Foreign("arguments that are no tuple", node)
         return list(value.values)
 
@@ -331,7 +331,7 @@ class LoopReader(LoopValues):
             self.shared[key] = reader.function()
         function = self.called[called, parameters] = self.shared[key]  # type: ignore[index]  # its identity
         leaf_arguments = (
-            v.name if isinstance(v, Array | Address) else v for v in leaves_of_value(Record(tuple(arguments)))
+            v.name if isinstance(v, Array | Address) else v for v in leaves_of_value(RecordValue(tuple(arguments)))
         )
         return lang.FunctionCall(function.returned, function, tuple(leaf_arguments))
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import sympy as sp
 
 from symgen.base.ir.derivative import jacobian
-from symgen.base.vocabulary.expressions import Expr, names_in
+from symgen.base.vocabulary.expressions import Expr, names_in_expression
 from symgen.derive.formulate.equations import DriverPower
 from symgen.derive.formulate.translate import NotReal, Translator, to_sympy
 
@@ -26,7 +26,9 @@ if TYPE_CHECKING:
 
 def symbols_of_names(e: Expr, *placeholders: str) -> dict[str, Any]:
     """Return a symbol for each name of a formula and each placeholder."""
-    return {n: sp.Symbol(f"x{i}", real=True) for i, n in enumerate(dict.fromkeys([*placeholders, *names_in(e)]))}
+    return {
+        n: sp.Symbol(f"x{i}", real=True) for i, n in enumerate(dict.fromkeys([*placeholders, *names_in_expression(e)]))
+    }
 
 
 def translate_expressions(
@@ -40,7 +42,7 @@ def translate_expressions(
 def time_function(model: ModelNodes, e: Expr) -> tuple[int, int, int]:
     """Return the value and the first two time derivatives of a formula of t and parameters."""
     g = model.graph
-    if "t" not in names_in(e):
+    if "t" not in names_in_expression(e):
         return model.expression(e), g.zero, g.zero
     symbols = symbols_of_names(e)
     t = symbols["t"]

@@ -104,7 +104,7 @@ class FactorNodes:
         return x
 
 
-def factorise(
+def factorise_symmetric(
     graph: Graph,
     matrix: Mapping[tuple[int, int], int],
     order: Sequence[int],

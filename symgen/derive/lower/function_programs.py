@@ -19,7 +19,7 @@ from symgen.base.ir.program import MODE_NUMBERS, Block, OutputSlot, table_of_pay
 from symgen.derive.formulate.equations import Equations
 from symgen.derive.formulate.formulate import formulate
 from symgen.derive.formulate.measure_nodes import ModelNodes
-from symgen.derive.lower.factor import FactorNodes, factorise, minimum_degree
+from symgen.derive.lower.factor import FactorNodes, factorise_symmetric, minimum_degree
 from symgen.derive.lower.placed_point import PlacedPoint
 from symgen.derive.lower.side_program import copy_to_own_graph
 from symgen.describe.mechanism import Mechanism, Vec
@@ -219,7 +219,7 @@ class StateFunctions:
         g = self.equations.graph
         near = [frozenset(j for i, j in matrix if i == k and j != k) for k in range(size)]
         order, _ = minimum_degree(near)
-        factor = factorise(g, matrix, order, lambda row, pivot, diagonal: g.div(g.one, pivot))
+        factor = factorise_symmetric(g, matrix, order, lambda row, pivot, diagonal: g.div(g.one, pivot))
         for k, pivot in factor.pivots.items():
             sound = g.call("gt", pivot, g.mul(g.constant(NO_MASS), factor.diagonal[k]))
             light = g.call("not", sound) if light == g.zero else g.call("or", light, g.call("not", sound))

@@ -10,7 +10,7 @@ from typing import Self
 
 from symgen.base.ir.graph import PARAMETER, Graph
 from symgen.derive.formulate.equations import MassBlock
-from symgen.derive.lower.factor import FactorNodes, factorise, minimum_degree
+from symgen.derive.lower.factor import FactorNodes, factorise_symmetric, minimum_degree
 from symgen.derive.lower.replay import Nodes
 from symgen.derive.lower.scalar_values import NodeValues, Rows
 from symgen.derive.methods._tape import FormulaStep
@@ -77,7 +77,7 @@ class OfMass(NodeValues):
             if i != j:
                 near[i].add(j)
         order, _ = minimum_degree([frozenset(n) for n in near])
-        return factorise(self.graph, matrix, order, self._reciprocal_pivot)
+        return factorise_symmetric(self.graph, matrix, order, self._reciprocal_pivot)
 
     @cached_property
     def coupled(self) -> Sequence[Mapping[int, int]]:
@@ -132,7 +132,7 @@ class OfMass(NodeValues):
         result: list[dict[int, int]] = [{} for _ in range(self.equations.nv)]
         for block in self.equations.mass:
             n, matrix = len(block.columns), _structural_entries(g, block, range(len(block.columns)))
-            factor = factorise(g, matrix, range(n), self._reciprocal_pivot)
+            factor = factorise_symmetric(g, matrix, range(n), self._reciprocal_pivot)
             for j in range(n):
                 unit = [g.one if i == j else g.zero for i in range(n)]
                 for i, node in enumerate(factor.solve(g, unit)):

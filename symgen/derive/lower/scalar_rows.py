@@ -9,7 +9,7 @@ from symgen.base.ir.numerics import SKIP, SUSPICIOUS, TINY
 from symgen.base.ir.polynomial import NormalForms
 from symgen.base.ir.program import STATUS, EliminationPlan, OutputSlot
 from symgen.derive.formulate.equations import Equations
-from symgen.derive.lower.factor import FactorNodes, factorise, minimum_degree
+from symgen.derive.lower.factor import FactorNodes, factorise_symmetric, minimum_degree
 from symgen.derive.lower.replay import Nodes
 from symgen.derive.lower.saddle_matrix import SaddleMatrix
 from symgen.derive.lower.scalar_mass import OfMass
@@ -56,7 +56,7 @@ class OfRows(OfMass):
         def reciprocal(row: int, pivot: int, _: int) -> int:
             return self._masked_reciprocal(self._is_held(row), g.add(pivot, g.add(compliance, self.mask[row])))
 
-        return factorise(g, self.mass_gram(self.rows), self.order, reciprocal)
+        return factorise_symmetric(g, self.mass_gram(self.rows), self.order, reciprocal)
 
     def _on_pseudoinverse(self, operation: FormulaStep, matrix: Rows) -> FactorNodes:
         return self._masked_factor(self.gram(matrix))
@@ -71,7 +71,7 @@ class OfRows(OfMass):
                 self.flags.append(g.call("lt", masked, least))
             return self._masked_reciprocal(self._is_held(row), masked)
 
-        return factorise(g, matrix, self.order, reciprocal)
+        return factorise_symmetric(g, matrix, self.order, reciprocal)
 
     def _is_held(self, row: int) -> int:
         """Return 1 where a row is in force, 0 where it is off."""
@@ -104,7 +104,7 @@ class OfRows(OfMass):
         def reciprocal(row: int, pivot: int, diagonal: int) -> int:
             return self._masked_reciprocal(self._is_kept(row, pivot, diagonal), pivot)
 
-        return factorise(self.graph, self.gram(self.rows, self.gauge), self.order, reciprocal)
+        return factorise_symmetric(self.graph, self.gram(self.rows, self.gauge), self.order, reciprocal)
 
     def _pivots_after_fixed(self) -> FactorNodes:
         """Return the same pivots after fixed velocities, without L: they do not depend on the order before them."""
@@ -161,7 +161,7 @@ class OfRows(OfMass):
         def reciprocal(row: int, pivot: int, _: int) -> int:
             return self._masked_reciprocal(keep(row), pivot)
 
-        return factorise(self.graph, matrix, self.order, reciprocal)
+        return factorise_symmetric(self.graph, matrix, self.order, reciprocal)
 
     def _weighted_factor_at_decision(self, rank: FactorNodes, matrix: Mapping[tuple[int, int], int]) -> FactorNodes:
         """Return the same in the function that decides rank."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from symgen.base.vocabulary.expressions import ZERO, Call, Expr, call, names_in, readings_in, table_of
+from symgen.base.vocabulary.expressions import ZERO, Call, Expr, call, names_in_expression, readings_in, table_of
 from symgen.describe.parts.scope import Scope
 
 
@@ -12,7 +12,7 @@ def is_constant(scope: Scope, formula: Expr) -> bool:
     """Return whether a formula depends on parameters alone."""
     return (
         not (any(readings_in(formula)) or _reads_table(formula))
-        and set(names_in(formula)) <= scope.context.values.keys()
+        and set(names_in_expression(formula)) <= scope.context.values.keys()
     )
 
 

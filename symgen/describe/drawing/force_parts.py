@@ -7,7 +7,7 @@ from contextlib import suppress
 import numpy as np
 
 from symgen.base.errors import InputError
-from symgen.base.vocabulary.expressions import ZERO, Number, names_in
+from symgen.base.vocabulary.expressions import ZERO, Number, names_in_expression
 from symgen.base.vocabulary.measures import (
     Angle,
     Component,
@@ -80,7 +80,7 @@ def _kind_of_element(pen: Pen, force: Force) -> str:
     if isinstance(effort.magnitude, Number):
         actuator = effort.magnitude != ZERO
     else:
-        damper = "rate" in set(names_in(effort.magnitude))
+        damper = "rate" in set(names_in_expression(effort.magnitude))
         with suppress(InputError):
             still, moving = (numbers.value_of_formula(effort.magnitude, {**state, "rate": r}) for r in (0.0, 1.0))
             damper, actuator = still != moving, still != 0.0
@@ -169,7 +169,7 @@ def _direction_in_two_poses(pen: Pen, force: Force, body: int) -> list[tuple[Arr
     numbers, probes = pen.numbers, []
     state = {**numbers.values, **numbers.state, "s": 0.0, "rate": 0.0}
     state |= dict.fromkeys(
-        (name for effort in force.efforts for name in names_in(effort.magnitude) if name not in state), 0.0
+        (name for effort in force.efforts for name in names_in_expression(effort.magnitude) if name not in state), 0.0
     )
     state = {name: x or 0.31 + 0.017 * k for k, (name, x) in enumerate(state.items())}
     frame = numbers.frames[body]

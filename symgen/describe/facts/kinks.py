@@ -24,7 +24,7 @@ from symgen.base.vocabulary.expressions import (
     Reading,
     call,
     difference,
-    names_in,
+    names_in_expression,
     readings_in,
     sum_of_terms,
     table_of,
@@ -87,7 +87,7 @@ def _kinks_in_formulas(mechanism: Mechanism, formulas: tuple[Any, ...]) -> tuple
             jump = Jump(e.arguments[0], table.x, period=period, derivative=KINKS.get(table.interpolation, 0))
         else:
             continue
-        if "t" in (used := set(names_in(jump.argument))) and used <= timely:
+        if "t" in (used := set(names_in_expression(jump.argument))) and used <= timely:
             (sides if e.function in _SIDES else kinks)[jump] = None
     return tuple(kinks), tuple(sides)
 
@@ -165,7 +165,7 @@ def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
         argument = argument if effort is None else _effort_formula_of_run(argument, effort)
         if argument in own:
             continue
-        if any(readings_in(argument)) or not set(names_in(argument)) <= plain:
+        if any(readings_in(argument)) or not set(names_in_expression(argument)) <= plain:
             jumping[argument, table] = jumping.get((argument, table), False) or e.function in _SIDES
     held = dict.fromkeys((e, None) for row in rows_with_kinks(mechanism) for e in row.switches)
     for key in held:
@@ -249,7 +249,9 @@ def rows_with_kinks(mechanism: Mechanism) -> tuple[ChangingRow, ...]:
             held = measure.of if isinstance(measure, FormulaMeasure | FormulaSpeed) else Reading(row.label, measure)
             motion, rest = _split_by_time(held, timely)
             switches = tuple(dict.fromkeys(x for e, _ in _calls_with_efforts(rest) for x in _zero_at_kinks(e)))
-            moves = tuple(x for x in switches if any(readings_in(x)) or not set(names_in(x)) <= timely - {"t"})
+            moves = tuple(
+                x for x in switches if any(readings_in(x)) or not set(names_in_expression(x)) <= timely - {"t"}
+            )
             key = "value" if not own else f"rows[{i}].{'position' if isinstance(row, Holonomic) else 'velocity'}"
             result.append(
                 ChangingRow(
@@ -272,7 +274,7 @@ def _switching_calls(part: object) -> Iterator[Call]:
 
 def _split_by_time(e: Expr, timely: set[str], sign: float = 1.0) -> tuple[Expr, Expr]:
     """Return the sums of the terms of a formula, times a sign, that depend on time alone, and of all others."""
-    if not any(readings_in(e)) and set(names_in(e)) <= timely:
+    if not any(readings_in(e)) and set(names_in_expression(e)) <= timely:
         return (e if sign > 0.0 else call("neg", e)), ZERO
     if isinstance(e, Call) and e.function in ("add", "sub", "neg"):
         signs = (-sign,) if e.function == "neg" else (sign, sign if e.function == "add" else -sign)
@@ -376,9 +378,10 @@ def _may_hide_changes(part: object, mechanism: Mechanism) -> bool:
     if _TIME not in msgspec.msgpack.encode(part):
         return False
     timely, tables = _names_of_time(mechanism), frozenset(_tables_with_halts(mechanism))
-    largest = _calls_with_efforts(part, enters=lambda e: not set(names_in(e)) <= timely)
+    largest = _calls_with_efforts(part, enters=lambda e: not set(names_in_expression(e)) <= timely)
     return any(
-        "t" in (used := set(names_in(e))) and used <= timely and _power_and_sine(e, tables) is None for e, _ in largest
+        "t" in (used := set(names_in_expression(e))) and used <= timely and _power_and_sine(e, tables) is None
+        for e, _ in largest
     )
 
 

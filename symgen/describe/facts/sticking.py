@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from symgen.base.vocabulary.expressions import ZERO, Call, Expr, Name, Reading, names_in, readings_in
+from symgen.base.vocabulary.expressions import ZERO, Call, Expr, Name, Reading, names_in_expression, readings_in
 from symgen.describe.bounds.advice import advice_at_large, advice_on_joint
 from symgen.describe.bounds.bounded_modes import two_sided_rows
 from symgen.describe.facts.kinks import discontinuities_of
@@ -37,7 +37,7 @@ def _compared_velocity(mechanism: Mechanism, argument: Expr) -> tuple[Expr, Read
     """Return a formula that is compared with zero and the velocity in it, or None."""
     speeds = {f"{body.name}.{speed}" for body in mechanism.bodies for speed in body.speeds}
     rate = next((reading for reading in readings_in(argument) if reading.order == 1), None)
-    velocity = rate or next((Name(name) for name in names_in(argument) if name in speeds), None)
+    velocity = rate or next((Name(name) for name in names_in_expression(argument) if name in speeds), None)
     return None if velocity is None else (argument, velocity)
 
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from symgen.base.errors import InputError
 from symgen.base.units import Unit, read_amount, read_unit
-from symgen.base.vocabulary.expressions import Expr, names_in
+from symgen.base.vocabulary.expressions import Expr, names_in_expression
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.files.places import Path
 from symgen.describe.files.text_changes import is_decimal_number
@@ -255,7 +255,7 @@ class _Handles:
 
     def deciding_number(self, spot: _Spot, k: int, expression: Expr) -> tuple[tuple[int, int], float] | None:
         """Return the characters of the number that decides a coordinate, and metres for a unit of the number."""
-        names = sorted(set(names_in(expression)))
+        names = sorted(set(names_in_expression(expression)))
         if not names:
             span = self.spans.get((*spot.path, k))
             digits = None if span is None else _span_of_number(self.text, span)

@@ -8,7 +8,16 @@ from graphlib import CycleError, TopologicalSorter
 
 from symgen.base import arguments
 from symgen.base.errors import InputError, suggest
-from symgen.base.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading, names_in, table_of
+from symgen.base.vocabulary.expressions import (
+    FUNCTIONS,
+    Call,
+    Expr,
+    Name,
+    Number,
+    Reading,
+    names_in_expression,
+    table_of,
+)
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.formulas.start import Scalars
 from symgen.describe.mechanism import Mechanism, Parameter
@@ -143,7 +152,9 @@ def evaluation_order(formulas: Mapping[str, Expr | None], where: str) -> list[st
         If formulas form a cycle, which the message lists.
     """
     needs = {
-        name: () if formula is None else [need for need in dict.fromkeys(names_in(formula)) if need in formulas]
+        name: ()
+        if formula is None
+        else [need for need in dict.fromkeys(names_in_expression(formula)) if need in formulas]
         for name, formula in formulas.items()
     }
     try:

@@ -24,7 +24,7 @@ from symgen.base.vocabulary.expressions import (
     Name,
     Number,
     call,
-    names_in,
+    names_in_expression,
     readings_in,
     table_of,
 )
@@ -184,7 +184,7 @@ def _check_gaps(mechanism: Mechanism, samples: Mapping[str, Data], formulas: Map
             raise InputError(f"input '{name}'", expected, "data that are held", "interpolation linear, pchip or cubic")
         formula = formulas.get(name, ZERO)
         timely = {p.name for p in mechanism.parameters if not p.input} | {"t"}
-        if any(readings_in(formula)) or not set(names_in(formula)) <= timely:
+        if any(readings_in(formula)) or not set(names_in_expression(formula)) <= timely:
             raise InputError(f"input '{name}'", expected, "a formula of the state", hint)
 
 
@@ -193,7 +193,7 @@ def inputs_of_gaps(mechanism: Mechanism) -> dict[str, str]:
     found = dict[str, str]()
     for row in mechanism.bounded:
         if isinstance(row.measure, FormulaMeasure):
-            found |= {name: row.family.one for name in names_in(row.measure.of) if name in mechanism.inputs}
+            found |= {name: row.family.one for name in names_in_expression(row.measure.of) if name in mechanism.inputs}
     return found
 
 
@@ -256,7 +256,7 @@ class _Switching:
         if not isinstance(e, Call):
             return e
         arguments = tuple(self.without_jumps(a) for a in e.arguments)
-        if "t" in (used := set(names_in(e))) and used <= self.timely:
+        if "t" in (used := set(names_in_expression(e))) and used <= self.timely:
             if e.function in (*_COMPARISONS, "sign"):
                 return self.replace_by_switch(e)
             table = self.tables.get(table_of(e.function) or "")
@@ -268,7 +268,7 @@ class _Switching:
 
     def record_jump(self, jump: Jump) -> None:
         """Record a kink, where it depends on t."""
-        if "t" in set(names_in(jump.argument)):
+        if "t" in set(names_in_expression(jump.argument)):
             self.jumps.append(jump)
 
     def replace_by_switch(self, e: Call) -> Expr:

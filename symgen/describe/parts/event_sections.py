@@ -8,7 +8,7 @@ from typing import Any, Literal
 import msgspec
 
 from symgen.base.errors import InputError, quote
-from symgen.base.vocabulary.expressions import Call, Expr, Name, Number, call, names_in
+from symgen.base.vocabulary.expressions import Call, Expr, Name, Number, call, names_in_expression
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.formulas.identifiers import check_identifier
 from symgen.describe.mechanism import Event, Mechanism
@@ -127,7 +127,7 @@ def _switching_function(scope: Scope, key: str, text: str) -> tuple[Expr, bool]:
     """Return a function above 0 where the condition holds, and whether the text is a condition."""
     expression = scope.of_state(key, text, conditions=True)
     changing = ("t", *scope.context.inputs, *scope.context.state_names)
-    if not any(name in changing or "." in name for name in names_in(expression)):
+    if not any(name in changing or "." in name for name in names_in_expression(expression)):
         raise scope.error(key, "a condition that time or motion changes", quote(text))
     condition = isinstance(expression, Call) and expression.function in _LOGIC
     return (_positive_where_true(expression), True) if condition else (expression, False)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from symgen.base.errors import InputError, quote
 from symgen.base.units import Unit, known_unit, read_amount, read_unit, unit_of
-from symgen.base.vocabulary.expressions import Call, Expr, Name, Number, Reading, names_in
+from symgen.base.vocabulary.expressions import Call, Expr, Name, Number, Reading, names_in_expression
 from symgen.base.vocabulary.quantities import Quantity
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.parser import FormulaNames, parse
@@ -42,7 +42,7 @@ def parameter_value(
         unit = unit if text else own
     elif isinstance(value, str):
         expression = parse(value, allowed, where)
-        if any(names_in(expression)):
+        if any(names_in_expression(expression)):
             if not unit.is_si and (literal := _added_number(expression)) is not None:
                 hint = f"make {literal!r} a parameter with its unit"
                 raise InputError(where, "a formula of values in SI units, as names stand for these", quote(value), hint)

@@ -7,7 +7,7 @@ from typing import Any
 
 import msgspec
 
-from symgen.base.vocabulary.expressions import names_in
+from symgen.base.vocabulary.expressions import names_in_expression
 from symgen.describe.formulas.evaluate import evaluate, evaluation_order
 from symgen.describe.formulas.identifiers import one_line
 from symgen.describe.formulas.parser import FormulaNames
@@ -68,7 +68,7 @@ class Parameters:
                 values[name] = parameters[name].value
                 continue
             with self.errors.part_of_description(name):
-                self.errors.leave_if_wrong(*names_in(formula))
+                self.errors.leave_if_wrong(*names_in_expression(formula))
                 section = "inputs" if name in self.sections["inputs"] else "parameters"
                 values[name] = evaluate(formula, values, self.place_in_file(section, name))
         return tuple(

@@ -20,7 +20,7 @@ _DECIMAL = (2, 4, 5, 8, 10, 16, 20, 25, 40, 50, 80)
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class TextBox:
     """A piece of a formula.
 
     Parameters
@@ -38,20 +38,20 @@ class Box:
     """
 
     kind: str
-    parts: tuple[Box, ...] = ()
+    parts: tuple[TextBox, ...] = ()
     text: str = ""
     index: str = ""
     width: float = 0.0
 
 
-def name_box(text: str, whole: bool = False) -> Box:
+def name_box(text: str, whole: bool = False) -> TextBox:
     """Return a name of the file, a letter of the notation or a shared term as it is typeset; `whole`: without index."""
     letter, index = (text, "") if whole else letter_and_index(text)
     wide = _LETTER * (1 if letter in GREEK or len(letter) == 1 else 0.9 * len(letter))
-    return Box("name", text=letter, index=index, width=wide + _SMALL * len(index) + 0.1)
+    return TextBox("name", text=letter, index=index, width=wide + _SMALL * len(index) + 0.1)
 
 
-def boxes_apart(names: Iterable[str]) -> dict[str, Box]:
+def boxes_apart(names: Iterable[str]) -> dict[str, TextBox]:
     """Return names of one kind as they are typeset; if both ``l1`` and ``l_1`` are names, the first is whole."""
     every = set(names)
     return {
@@ -74,7 +74,7 @@ def letter_and_index(text: str) -> tuple[str, str]:
     return quantity, body
 
 
-def literal_box(value: float, exact: bool = False) -> Box:
+def literal_box(value: float, exact: bool = False) -> TextBox:
     """Return a literal: whole, a small fraction, or rounded to six digits; with all digits where `exact`."""
     if value == int(value) and abs(value) < (1e15 if exact else 1e9):
         return _width_of_digits(str(int(value)))
@@ -87,72 +87,72 @@ def literal_box(value: float, exact: bool = False) -> Box:
     return _width_of_digits(f"{value:.6g}")
 
 
-def _width_of_digits(text: str) -> Box:
+def _width_of_digits(text: str) -> TextBox:
     mantissa, exponent, power = text.partition("e")
     wide = _DIGIT * len(mantissa) + (2.0 + _SMALL * len(power) if exponent else 0.0)
-    return Box("number", text=text, width=wide)
+    return TextBox("number", text=text, width=wide)
 
 
-def is_literal(box: Box) -> bool:
+def is_literal(box: TextBox) -> bool:
     """Whether a box is a literal."""
     return box.kind == "number" or (box.kind == "over" and all(p.kind == "number" for p in box.parts))
 
 
-def count_atoms(box: Box) -> int:
+def count_atoms(box: TextBox) -> int:
     """Return the number of names and literals of a box."""
     return sum(map(count_atoms, box.parts)) if box.parts else 1
 
 
-def sign_box(text: str) -> Box:
+def sign_box(text: str) -> TextBox:
     """Return an operator or relation."""
-    return Box("sign", text=text, width=_SIGN)
+    return TextBox("sign", text=text, width=_SIGN)
 
 
-def row_box(*parts: Box) -> Box:
+def row_box(*parts: TextBox) -> TextBox:
     """Return boxes side by side."""
-    return Box("row", parts, width=sum(p.width for p in parts) + 0.17 * max(0, len(parts) - 1))
+    return TextBox("row", parts, width=sum(p.width for p in parts) + 0.17 * max(0, len(parts) - 1))
 
 
-def bracket_box(inside: Box) -> Box:
+def bracket_box(inside: TextBox) -> TextBox:
     """Return a box in brackets."""
-    return Box("bracket", (inside,), width=inside.width + 1.1)
+    return TextBox("bracket", (inside,), width=inside.width + 1.1)
 
 
-def fraction_box(above: Box, below: Box) -> Box:
+def fraction_box(above: TextBox, below: TextBox) -> TextBox:
     """Return a fraction."""
-    return Box("over", (above, below), width=max(above.width, below.width) + 0.3)
+    return TextBox("over", (above, below), width=max(above.width, below.width) + 0.3)
 
 
-def power_box(base: Box, exponent: Box) -> Box:
+def power_box(base: TextBox, exponent: TextBox) -> TextBox:
     """Return a power; where the base has an index, the exponent follows it."""
-    return Box("power", (base, exponent), width=base.width + 0.75 * exponent.width)
+    return TextBox("power", (base, exponent), width=base.width + 0.75 * exponent.width)
 
 
-def transposed_box(base: Box) -> Box:
+def transposed_box(base: TextBox) -> TextBox:
     """Return the transposed of a matrix."""
     return power_box(base, name_box("T"))
 
 
-def function_box(function: str, arguments: Sequence[Box], python: str = "") -> Box:
+def function_box(function: str, arguments: Sequence[TextBox], python: str = "") -> TextBox:
     """Return a function of arguments; `python`: its name for Python, where that is another one."""
     wide = 0.55 * len(function) + sum(a.width for a in arguments) + 1.0 * len(arguments) + 0.8
-    return Box("call", tuple(arguments), text=function, index=python, width=wide)
+    return TextBox("call", tuple(arguments), text=function, index=python, width=wide)
 
 
-def matrix_box(entries: Sequence[Sequence[Box]]) -> Box:
+def matrix_box(entries: Sequence[Sequence[TextBox]]) -> TextBox:
     """Return a matrix."""
     widths = [max([box.width for box in column]) for column in zip(*entries, strict=True)]
     flat = tuple(box for line in entries for box in line)
-    return Box("matrix", flat, text=str(len(widths)), width=sum(widths, 1.5) + len(widths))
+    return TextBox("matrix", flat, text=str(len(widths)), width=sum(widths, 1.5) + len(widths))
 
 
-def cases_box(pieces: Sequence[tuple[Box, Box | None]]) -> Box:
+def cases_box(pieces: Sequence[tuple[TextBox, TextBox | None]]) -> TextBox:
     """Return values with their conditions; None: otherwise."""
-    flat = [p if p is not None else Box("name", text="otherwise", width=4.5) for pair in pieces for p in pair]
+    flat = [p if p is not None else TextBox("name", text="otherwise", width=4.5) for pair in pieces for p in pair]
     wide = max(value.width for value, _ in pieces) + max((c.width if c else 4.5) for _, c in pieces) + 2.5
-    return Box("cases", tuple(flat), width=wide)
+    return TextBox("cases", tuple(flat), width=wide)
 
 
-def rate_box(base: Box) -> Box:
+def rate_box(base: TextBox) -> TextBox:
     """Return the rate of a quantity."""
-    return Box("dot", (base,), width=base.width)
+    return TextBox("dot", (base,), width=base.width)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from typing import TYPE_CHECKING
 
-from symgen.result.reading.boxes import Box
+from symgen.result.reading.boxes import TextBox
 from symgen.result.reading.notations import mathml
 from symgen.result.reading.sheet import Equation
 from symgen.result.reading.typeset import break_lines
@@ -61,7 +61,7 @@ def html_table(lines: Sequence[Sequence[str]], numbers: int = 0) -> str:
     return f"<table>{''.join(rows)}</table>"
 
 
-def formula_html(box: Box) -> str:
+def formula_html(box: TextBox) -> str:
     """Return a formula."""
     return f"<math>{mathml(box)}</math>"
 

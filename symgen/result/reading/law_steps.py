@@ -10,7 +10,7 @@ from symgen.derive.lower.record import Part, RecordedLaw, record_law
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._tape import FormulaStep, needed_operations
 from symgen.result.reading.boxes import (
-    Box,
+    TextBox,
     bracket_box,
     fraction_box,
     function_box,
@@ -57,12 +57,12 @@ class Step:
 
     function: str
     purpose: str
-    left: Box
-    right: Box
+    left: TextBox
+    right: TextBox
     solved: bool = False
 
     @property
-    def box(self) -> Box:
+    def box(self) -> TextBox:
         """The whole equation."""
         return row_box(self.left, sign_box("="), self.right)
 
@@ -150,7 +150,7 @@ class _LawReader:
     def __init__(self, record: RecordedLaw, part: Part) -> None:
         self.operations, self.part = record.operations, part
         self.result: list[Step] = []
-        self.boxes: dict[int, Box] = {}
+        self.boxes: dict[int, TextBox] = {}
 
     def read_steps(self) -> list[Step]:
         ends = [index for _, index in self.part.outputs]
@@ -160,7 +160,7 @@ class _LawReader:
             for operand in self.operations[index].operands:
                 uses[operand] = uses.get(operand, 0) + 1
         places = {index: _box_of_place(place) for place, index in self.part.outputs}
-        ends_as: dict[int, Box] = {}
+        ends_as: dict[int, TextBox] = {}
         letters = iter("xyzadeghijklnoprsu")
         for index in order:
             operation = self.operations[index]
@@ -184,10 +184,10 @@ class _LawReader:
                 self._add_step(_box_of_place(place), ends_as[index])
         return self.result
 
-    def _add_step(self, left: Box, right: Box, solved: bool = False) -> None:
+    def _add_step(self, left: TextBox, right: TextBox, solved: bool = False) -> None:
         self.result.append(Step(self.part.name, self.part.purpose, left, right, solved))
 
-    def _box_of_operation(self, operation: FormulaStep) -> Box:
+    def _box_of_operation(self, operation: FormulaStep) -> TextBox:
         kind, parts = operation.kind, [self.boxes[i] for i in operation.operands]
         if kind in _SIGNS:
             left, right = parts
@@ -204,33 +204,33 @@ class _LawReader:
         return _box_of_name(payload or kind)
 
 
-def _box_of_name(text: str) -> Box:
+def _box_of_name(text: str) -> TextBox:
     box = _PLACES.get(text)
     return box if box is not None else name_box(text)
 
 
-def _box_of_place(place: str) -> Box:
+def _box_of_place(place: str) -> TextBox:
     return _box_of_name(place.removeprefix("status.") or "factor")
 
 
-def _factor_box(box: Box) -> Box:
+def _factor_box(box: TextBox) -> TextBox:
     """Return a box as a factor: a sum in brackets."""
     signs = box.kind == "row" and any(p.kind == "sign" for p in box.parts)
     return bracket_box(box) if signs else box
 
 
-def _inverse_box(box: Box) -> Box:
+def _inverse_box(box: TextBox) -> TextBox:
     return power_box(box, literal_box(-1.0))
 
 
-def _product_box(*boxes: Box) -> Box:
+def _product_box(*boxes: TextBox) -> TextBox:
     return row_box(*map(_factor_box, boxes))
 
 
 _D, _M, _G = name_box("D"), name_box("M"), name_box("G")
 #: The identity of bodies' velocities u = B v + b, pulled back to those of the state.
 _BODIES = row_box(transposed_box(name_box("B")), name_box("B"))
-_FORMS: dict[str, Callable[..., Box]] = {
+_FORMS: dict[str, Callable[..., TextBox]] = {
     "neg": lambda x: row_box(sign_box("-"), _factor_box(x)),
     "mul": lambda a, b: _product_box(a, b),
     "div": lambda a, b: fraction_box(a, b),

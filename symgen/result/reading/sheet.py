@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from symgen.base.vocabulary.expressions import call
 from symgen.describe.formulas.formula_text import to_text
-from symgen.result.reading.boxes import Box, bracket_box, matrix_box, name_box, rate_box, row_box, sign_box
+from symgen.result.reading.boxes import TextBox, bracket_box, matrix_box, name_box, rate_box, row_box, sign_box
 from symgen.result.reading.structure import nodes_with_names
 from symgen.result.reading.typeset import Sum, Typesetter, as_term
 
@@ -26,7 +26,7 @@ LINE = 43.0
 class Equation:
     """An equation: its left side, and a sum."""
 
-    left: Box
+    left: TextBox
     right: Sum
     key: str = ""
 
@@ -105,11 +105,11 @@ class Sheet:
         for group, indices in self.groups.items():
             entries = [[dict(r.entries).get(i, self.equations.graph.zero) for i in indices] for r in rows]
             if any(n != self.equations.graph.zero for line in entries for n in line):
-                left = Box("name", text="D", index=f"{joint},{group}", width=1.0 + 0.42 * len(joint + group))
+                left = TextBox("name", text="D", index=f"{joint},{group}", width=1.0 + 0.42 * len(joint + group))
                 blocks.append(self._narrow_matrix(left, entries, joint))
         return blocks
 
-    def _narrow_matrix(self, left: Box, nodes: list[list[int]], key: str = "") -> Equation:
+    def _narrow_matrix(self, left: TextBox, nodes: list[list[int]], key: str = "") -> Equation:
         """Return a matrix that is no wider than a line: its widest entries get names."""
         waiting = {n for line in nodes for n in line}
         entries = self._matrix_of_nodes(nodes)
@@ -120,7 +120,7 @@ class Sheet:
             entries = self._matrix_of_nodes(nodes)
         return Equation(left, as_term(entries), key)
 
-    def _matrix_of_nodes(self, nodes: Iterable[Iterable[int]]) -> Box:
+    def _matrix_of_nodes(self, nodes: Iterable[Iterable[int]]) -> TextBox:
         return matrix_box([[self.writer.box_of_node(n) for n in line] for line in nodes])
 
     def whole_matrices(self) -> list[Equation]:
@@ -236,12 +236,12 @@ class Sheet:
         return [*moving, *states, ("Parameters", own), ("Inputs", inputs)]
 
 
-def indexed_letter(letter: str, index: str) -> Box:
+def indexed_letter(letter: str, index: str) -> TextBox:
     """Return a letter of the notation with the name of a row."""
-    return Box("name", text=letter, index=index, width=0.8 + 0.42 * len(index))
+    return TextBox("name", text=letter, index=index, width=0.8 + 0.42 * len(index))
 
 
-def _velocity_arguments(*names: str) -> Box:
+def _velocity_arguments(*names: str) -> TextBox:
     """Return the names of velocities as arguments."""
     parts = [name_box(names[0])]
     for other in names[1:]:

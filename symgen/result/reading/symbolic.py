@@ -13,7 +13,7 @@ from symgen.base.errors import InputError
 from symgen.base.ir.graph import Graph
 from symgen.derive.formulate.equations import Equations
 from symgen.derive.formulate.translate import TO_SYMPY, NotReal, Translator, table_function
-from symgen.result.reading.boxes import Box, matrix_box, name_box, rate_box
+from symgen.result.reading.boxes import TextBox, matrix_box, name_box, rate_box
 from symgen.result.reading.notations import latex
 from symgen.result.reading.quantity_names import input_names
 from symgen.result.reading.typeset import Writer
@@ -107,10 +107,10 @@ class Boxed(Translator):
     def __init__(self) -> None:
         super().__init__(Graph(), {})
         self.functions = self.graph  # type: ignore[assignment]  # each function as it is, undefined where it may be
-        self._names: dict[tuple[str, int], Box] = {}
+        self._names: dict[tuple[str, int], TextBox] = {}
         self._writer = Writer(self.graph, self._names, exact=True)
 
-    def box(self, value: object) -> Box:
+    def box(self, value: object) -> TextBox:
         """Return an expression or a matrix, with all digits of numbers."""
         if isinstance(value, sp.MatrixBase):
             return matrix_box([[self.box(x) for x in line] for line in value.tolist()])
@@ -129,7 +129,7 @@ class Boxed(Translator):
             return self.graph.input(*key)
 
 
-def _name_of_expression(e: object) -> Box:
+def _name_of_expression(e: object) -> TextBox:
     if isinstance(e, sp.Derivative) and {str(x) for x in e.variables} == {"t"}:
         return reduce(lambda box, _: rate_box(box), e.variables, _name_of_expression(e.expr))
     return name_box(e.func.__name__ if isinstance(e, AppliedUndef) else str(e))

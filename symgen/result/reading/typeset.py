@@ -13,7 +13,7 @@ from symgen.base.ir.graph import Graph
 from symgen.base.ir.program import DERIVATIVES, table_of_payload
 from symgen.derive.formulate.equations import Equations
 from symgen.result.reading.boxes import (
-    Box,
+    TextBox,
     boxes_apart,
     bracket_box,
     cases_box,
@@ -47,11 +47,11 @@ class Term:
     """A product with its sign."""
 
     negative: bool
-    factors: tuple[Box, ...]
-    below: tuple[Box, ...] = ()
+    factors: tuple[TextBox, ...]
+    below: tuple[TextBox, ...] = ()
 
     @property
-    def box(self) -> Box:
+    def box(self) -> TextBox:
         """The product without its sign."""
         above = _product_box(self.factors)
         if not self.below:
@@ -59,7 +59,7 @@ class Term:
         return fraction_box(above, _product_box(self.below))
 
 
-def _product_box(factors: Sequence[Box]) -> Box:
+def _product_box(factors: Sequence[TextBox]) -> TextBox:
     """Return a product, with a dot between numbers, which would otherwise read as one."""
     if len(factors) == 1:
         return factors[0]
@@ -72,19 +72,19 @@ def _product_box(factors: Sequence[Box]) -> Box:
 Sum = tuple[Term, ...]
 
 
-def as_term(box: Box) -> Sum:
+def as_term(box: TextBox) -> Sum:
     """Return a box as a sum of one term."""
     return (Term(False, (box,)),)
 
 
-def line_of_sum(terms: Sum) -> Box:
+def line_of_sum(terms: Sum) -> TextBox:
     """Return a sum in one line."""
     if len(terms) == 1 and not terms[0].negative:
         return terms[0].box
     return row_box(*(part for i, term in enumerate(terms) for part in (*leading_sign(term, i == 0), term.box)))
 
 
-def leading_sign(term: Term, first: bool) -> tuple[Box, ...]:
+def leading_sign(term: Term, first: bool) -> tuple[TextBox, ...]:
     """Return the sign before a term; none before a first one that is positive."""
     if first and not term.negative:
         return ()
@@ -109,7 +109,7 @@ class Writer:
     def __init__(
         self,
         graph: Graph,
-        inputs: Mapping[tuple[str, int], Box],
+        inputs: Mapping[tuple[str, int], TextBox],
         exact: bool = False,
         terms: Mapping[int, str] | None = None,
     ) -> None:
@@ -124,11 +124,11 @@ class Writer:
                     self._written[n] = self._terms(n)
         return self._written[node]
 
-    def box_of_node(self, node: int) -> Box:
+    def box_of_node(self, node: int) -> TextBox:
         """Return a node in one line."""
         return line_of_sum(self.sum_of_node(node))
 
-    def definition(self, node: int) -> Box:
+    def definition(self, node: int) -> TextBox:
         """Return a node with a name of its own by its operands."""
         for operand in self.graph.nodes[node].args:
             self.sum_of_node(operand)
@@ -168,7 +168,7 @@ class Writer:
             return as_term(function_box(table + marks, [line_of_sum(s) for s in sums], python_name(payload)))
         return as_term(function_box(op, [line_of_sum(s) for s in sums], _PYTHON.get(op, "")))
 
-    def _condition(self, node: int) -> Box:
+    def _condition(self, node: int) -> TextBox:
         """Return a node, 0 or 1 in the graph, as a condition."""
         op, args, _ = self.graph.nodes[node]
         if op in _RELATIONS:
@@ -234,7 +234,7 @@ class Typesetter(Writer):
     ) -> None:
         self._parameters = boxes_apart(quantity.name for quantity in equations.parameters)
         super().__init__(equations.graph, {key: self.symbol(text) for key, text in input_names(equations).items()})
-        self.definitions: dict[int, tuple[Box, Sum]] = {}
+        self.definitions: dict[int, tuple[TextBox, Sum]] = {}
         self._full: dict[int, Sum] = {}
         self._numbered = free_names(others)
         listed = list(ends)
@@ -242,7 +242,7 @@ class Typesetter(Writer):
         for node in self.graph.required_nodes(listed):
             self._write(node, used[node], named.get(node))
 
-    def symbol(self, text: str) -> Box:
+    def symbol(self, text: str) -> TextBox:
         """Return the name of a quantity as it is typeset: no two parameters alike."""
         return self._parameters.get(text) or name_box(text)
 
@@ -288,7 +288,7 @@ def _single_term(terms: Sum) -> Term:
     return terms[0] if len(terms) == 1 else Term(False, (bracket_box(line_of_sum(terms)),))
 
 
-def _base_of_power(terms: Sum) -> Box:
+def _base_of_power(terms: Sum) -> TextBox:
     """Return a sum as the base of a power."""
     simple = len(terms) == 1 and not terms[0].negative and not terms[0].below and len(terms[0].factors) == 1
     box = line_of_sum(terms)
@@ -306,7 +306,7 @@ def _product_term(a: Term, b: Term) -> Term:
     return Term(a.negative != b.negative, tuple(factors), a.below + b.below)
 
 
-def break_lines(terms: Sum, first: float, others: float) -> list[list[Box]]:
+def break_lines(terms: Sum, first: float, others: float) -> list[list[TextBox]]:
     """Return the lines of a sum: boxes side by side, signs among them.
 
     Parameters
@@ -316,7 +316,7 @@ def break_lines(terms: Sum, first: float, others: float) -> list[list[Box]]:
     first, others : float
         Widths of the first line and of those that follow.
     """
-    lines: list[list[Box]] = [[]]
+    lines: list[list[TextBox]] = [[]]
     left = first
     for i, term in enumerate(terms):
         parts = [*leading_sign(term, i == 0), term.box]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
-from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, call, names_in
+from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, call, names_in_expression
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.driven_mechanism import Jump
@@ -192,7 +192,7 @@ def line_parts(e: Expr) -> tuple[Expr, Expr] | None:
     """Return the formulas of the value at 0 and of the slope of a straight line over time; None for another formula."""
     if isinstance(e, Name) and e.name == "t":
         return ZERO, ONE
-    if "t" not in set(names_in(e)):
+    if "t" not in set(names_in_expression(e)):
         return e, ZERO
     assert isinstance(e, Call), "a name or a number has no other names in it"
     parts = [line_parts(a) for a in e.arguments]

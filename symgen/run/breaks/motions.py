@@ -14,7 +14,7 @@ from functools import partial
 from itertools import pairwise
 
 from symgen.base.errors import InputError
-from symgen.base.vocabulary.expressions import names_in
+from symgen.base.vocabulary.expressions import names_in_expression
 from symgen.describe.facts.kinks import ChangingRow, kink_expressions, rows_with_kinks
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
@@ -58,7 +58,7 @@ def refuse_jumps(mechanism: Mechanism, parameters: Mapping[str, float], until: f
 
 def names_of_motions(mechanism: Mechanism) -> frozenset[str]:
     """Return the names in the terms of time that may jump."""
-    return frozenset(name for row, _ in _moved(mechanism) for name in names_in(row.motion))
+    return frozenset(name for row, _ in _moved(mechanism) for name in names_in_expression(row.motion))
 
 
 def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> InputError | None:
@@ -147,7 +147,7 @@ def _sides(f: Callable[[float], float], t: float, h: float) -> tuple[float, floa
 def _moved(mechanism: Mechanism) -> tuple[tuple[ChangingRow, tuple[Jump, ...]], ...]:
     """Return rows whose terms of time may jump, with the changes of these."""
     rows = (
-        (row, [e for e in kink_expressions(row.motion) if "t" in set(names_in(e))])
+        (row, [e for e in kink_expressions(row.motion) if "t" in set(names_in_expression(e))])
         for row in rows_with_kinks(mechanism)
     )
     return tuple((row, tuple(map(Jump, changes))) for row, changes in rows if changes)

@@ -16,7 +16,7 @@ from itertools import pairwise
 from typing import Any
 
 from symgen.base.errors import InputError
-from symgen.base.vocabulary.expressions import names_in
+from symgen.base.vocabulary.expressions import names_in_expression
 from symgen.describe.facts.kinks import jumps_in_time, jumps_of_gaps
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Event, Mechanism
@@ -147,7 +147,9 @@ class Foreseen:
     @cached_property
     def reads(self) -> frozenset[str]:
         """Names on which the times depend: parameters, and t."""
-        return frozenset(name for jump in (*self.kinks, *self.sides, *self.gaps) for name in names_in(jump.argument))
+        return frozenset(
+            name for jump in (*self.kinks, *self.sides, *self.gaps) for name in names_in_expression(jump.argument)
+        )
 
     def seams(self, values: Mapping[str, float], until: float) -> tuple[Seam, ...]:
         """Return the seams of a run to `until` [s], at which no number changes; empty for a run in one piece.
@@ -280,7 +282,7 @@ def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
     happening = (
         jump
         for jump in (Jump(event.when) for event in events)
-        if "t" in (read := {*names_in(jump.argument)}) and read <= timely and line_of(jump, values) is None
+        if "t" in (read := {*names_in_expression(jump.argument)}) and read <= timely and line_of(jump, values) is None
     )
     kinks, sides = jumps_in_time(mechanism, events)
     return Foreseen(mechanism, kinks, (*sides, *happening), jumps_of_gaps(mechanism))

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.base.vocabulary.expressions import names_in
+from symgen.base.vocabulary.expressions import names_in_expression
 from symgen.describe.parts.driven_mechanism import Jump
 from symgen.run.breaks.in_time import line_of, line_parts
 from symgen.run.breaks.seams import BESIDE as BESIDE_A_SIDE
@@ -118,7 +118,7 @@ def _kinds(foreseen: Foreseen) -> Iterator[tuple[Jump, int]]:
 def is_laid_out(foreseen: Foreseen, until: float) -> bool:
     """Return whether the times of all passages are known before a run to `until`, whatever its parameters are."""
     return not any(
-        {*names_in(jump.argument)} != {"t"} or jump.period or not _ends_before(jump, until)
+        {*names_in_expression(jump.argument)} != {"t"} or jump.period or not _ends_before(jump, until)
         for jump in (*foreseen.kinks, *foreseen.sides, *foreseen.gaps)
     )
 

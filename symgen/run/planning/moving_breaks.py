@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from symgen.base.errors import InputError
-from symgen.base.vocabulary.expressions import names_in
+from symgen.base.vocabulary.expressions import names_in_expression
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.run.breaks.seams import foreseen, seams_beside, times_between
 
@@ -65,5 +65,5 @@ def _moving(jumps: Sequence[Jump], start: StartDirections) -> tuple[Jump, ...]:
 
 def _moves(jump: Jump, start: StartDirections, k: int) -> bool:
     """Whether direction `k` changes a number in the argument of a jump."""
-    own = (start.duals.values.get(name) for name in set(names_in(jump.argument)))
+    own = (start.duals.values.get(name) for name in set(names_in_expression(jump.argument)))
     return any(x is not None and len(x.slopes) > k and x.slopes[k] != 0.0 for x in own)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.base.errors import InputError
-from symgen.base.vocabulary.expressions import names_in
+from symgen.base.vocabulary.expressions import names_in_expression
 from symgen.describe.formulas.evaluate import dependent_parameters, parameter_values
 from symgen.run.breaks.motions import jump_of, names_of_motions
 from symgen.run.breaks.seams import merged, seams_of_motion
@@ -57,7 +57,10 @@ class Driving:
         """Whether jumps and kinks are elsewhere in each run."""
         driven = self.inputs.driven
         depends = {*self.varied, *(name for name, _ in dependent_parameters(self.inputs.mechanism.parameters))}
-        reads = [{*names_in(jump.argument), *names_in(jump.value)} for jump in (() if driven is None else driven.jumps)]
+        reads = [
+            {*names_in_expression(jump.argument), *names_in_expression(jump.value)}
+            for jump in (() if driven is None else driven.jumps)
+        ]
         return any(depends & read for read in (*reads, self.foreseen.reads if self.foreseen else frozenset[str]()))
 
     @cached_property

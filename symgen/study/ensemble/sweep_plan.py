@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from symgen.base.errors import InputError, suggest
 from symgen.base.plugins import loaded_plugin_files
 from symgen.base.settings import Settings
-from symgen.base.vocabulary.expressions import names_in
+from symgen.base.vocabulary.expressions import names_in_expression
 from symgen.describe.facts.kinks import discontinuities_of
 from symgen.describe.facts.lengths import origin_of_sizes
 from symgen.describe.facts.sides import sided_joints
@@ -282,7 +282,7 @@ def _check_jumps(
     """Refuse formulas that jump at known times of a run, where no loop ends constant steps there."""
     for jump in times.sides:
         inside, whole = times_between((jump,), times.mechanism, values, until, True)
-        if inside or not whole or {*names_in(jump.argument)} & {*varied}:
+        if inside or not whole or {*names_in_expression(jump.argument)} & {*varied}:
             text = to_text(jump.argument)
             expected = "no formulas that jump at times known beforehand"
             raise InputError(f"target '{target}'", expected, f"one where {text} passes 0", "leave `target` out")

@@ -166,7 +166,7 @@ def _settings_of_environment(settings: Settings, dt: float, step: float) -> Sett
 
 def _ordered_bounds(where: str, pair: object, limit: float) -> tuple[float, float]:
     """Return two bounds in order, finite or up to a limit."""
-    numbers = arguments.entries_of(where, pair, "a pair of bounds")
+    numbers = arguments.list_entries(where, pair, "a pair of bounds")
     try:
         low, high = (float(x) for x in numbers)
     except (TypeError, ValueError):

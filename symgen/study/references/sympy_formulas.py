@@ -14,7 +14,7 @@ from typing import Any
 
 import sympy as sp
 
-from symgen.base.vocabulary.expressions import ZERO, Expr, Reading, names_in, readings_in
+from symgen.base.vocabulary.expressions import ZERO, Expr, Reading, names_in_expression, readings_in
 from symgen.base.vocabulary.measures import (
     GROUND,
     Angle,
@@ -161,7 +161,7 @@ class ReferenceFormulas:
 
     def _force_of_effort(self, effort: Effort) -> dict[int, Any]:
         measure = effort.measure
-        reads = effort.potential != ZERO and "s" in set(names_in(effort.potential))
+        reads = effort.potential != ZERO and "s" in set(names_in_expression(effort.potential))
         if isinstance(measure, Spin | PointSpeed):
             assert not reads, "velocities have no value"
             rate = self._relative_spin(measure) if isinstance(measure, Spin) else self._speed_expression(measure)

@@ -30,7 +30,7 @@ CLOSED = 1e-3
 
 
 @dataclass(frozen=True)
-class Run:
+class CellRun:
     """Facts about a run, apart from its own status.
 
     Parameters
@@ -55,7 +55,7 @@ class Run:
     length: float
 
 
-def classify_outcome(run: Run) -> str:
+def classify_outcome(run: CellRun) -> str:
     """Return one of `OUTCOMES` for a run.
 
     An error up to `ACCURATE` of the length is ok. Beyond that, a run that keeps the constraints by the independent
@@ -88,7 +88,7 @@ def largest_error(errors: Array) -> float | None:
     return float(np.max(errors))
 
 
-def _lost_near_a_singular_position(run: Run) -> bool:
+def _lost_near_a_singular_position(run: CellRun) -> bool:
     """Whether the error grew beyond bounds within a few outputs of a position where the rows are almost dependent."""
     lost = int(np.argmax(run.errors > LOST * run.length))
     began = int(np.argmax(run.errors > ACCURATE * run.length))

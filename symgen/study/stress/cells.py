@@ -38,7 +38,7 @@ from symgen.study.references.effort import evaluation_budget, further_budget, le
 from symgen.study.stress import cell_outcome as judged
 from symgen.study.stress import shared_by_cells as kept
 from symgen.study.stress.bench import Level
-from symgen.study.stress.cell_outcome import Run, classify_outcome, largest_error
+from symgen.study.stress.cell_outcome import CellRun, classify_outcome, largest_error
 from symgen.study.stress.cell_references import (
     cells_without_reference,
     emitted_geometry,
@@ -207,7 +207,7 @@ def _choose_shape(mechanism: Mechanism, settings: Settings) -> Settings:
     return replace(settings, coordinates=coordinates, shape="looped" if looped else "straight")
 
 
-def _compare_with_reference(level: Level, parameters: Mapping[str, float], outcome: Outcome, motion: Fields) -> Run:
+def _compare_with_reference(level: Level, parameters: Mapping[str, float], outcome: Outcome, motion: Fields) -> CellRun:
     """Return the facts that classification uses."""
     values = parameter_values(level.mechanism, parameters)
     points = Points.of_mechanism(level.mechanism, values)
@@ -223,7 +223,7 @@ def _compare_with_reference(level: Level, parameters: Mapping[str, float], outco
             v = outcome.states[-1, nq : nq + outcome.compiled.info.nv]
             phi = equations.evaluate(float(outcome.times[-1]), states[-1].copy(), v.copy())[0]
             violation = float(np.linalg.norm(phi))
-    return Run(
+    return CellRun(
         finished=outcome.code == abi.DONE,
         errors=errors,
         sines=np.array(motion["sines"]),

@@ -60,14 +60,14 @@ def largest_steps(
         In the order of `limits`: a step of the grid whose successor is beyond the limit; `top` where all tried are
         within; None where not even ``first / SMALLEST``, or the smallest, is.
     """
-    grid = Grid(error, first, top, halvings, SATURATED * max(limits), smallest)
+    grid = StepGrid(error, first, top, halvings, SATURATED * max(limits), smallest)
     start = grid.start_step(expected)
     found = [grid.largest_step(limit, start) for limit in limits]
     # what is within a smaller limit is within a larger one, also beyond a step that is not
     return [max((step for step in found[i:] if step is not None), default=None) for i in range(len(found))]
 
 
-class Grid:
+class StepGrid:
     """Errors of the steps of a grid.
 
     Parameters

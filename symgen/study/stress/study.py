@@ -138,7 +138,7 @@ def stress(
     arguments.callable_or_none("progress", progress)
     if journal is not None:
         arguments.instance("journal", journal, Journal, "a symgen.study.journal.Journal")
-    models = arguments.entries_of("models", [models] if isinstance(models, str) else models, "a list of models")
+    models = arguments.list_entries("models", [models] if isinstance(models, str) else models, "a list of models")
     bases = [Base.of_mechanism(model) for model in models or (DEFAULT_MODEL,)]
     for base in bases:
         refuse_ends("stress", base.mechanism, common)

@@ -7,7 +7,7 @@ from support.checks import RANDOM, close
 from support.graph_values import node_values
 
 from symgen.base.ir.graph import Graph
-from symgen.derive.lower.factor import factorise, minimum_degree
+from symgen.derive.lower.factor import factorise_symmetric, minimum_degree
 
 
 def neighbours(pattern: np.ndarray) -> list[frozenset[int]]:
@@ -42,7 +42,7 @@ def test_factor_and_solve(seed, n, density, literal):
     a, b, graph = random_matrix(rng, n, density), rng.normal(size=n), Graph()
     matrix, values = nodes_of(graph, a, rng.random((n, n)) < literal)
     order, _ = minimum_degree(neighbours(a != 0.0))
-    factor = factorise(graph, matrix, order, lambda _, pivot, __: graph.div(graph.one, pivot))
+    factor = factorise_symmetric(graph, matrix, order, lambda _, pivot, __: graph.div(graph.one, pivot))
     right = [graph.input("b", i) for i in range(n)]
     found = node_values(graph, factor.solve(graph, right), values | {("b", i): x for i, x in enumerate(b)})
     close(found, np.linalg.solve(a, b), "x")
@@ -101,5 +101,5 @@ def fill(pattern: np.ndarray) -> int:
     graph = Graph()
     matrix = {(int(i), int(j)): graph.input("a", min(i, j) * len(pattern) + max(i, j)) for i, j in np.argwhere(pattern)}
     order, _ = minimum_degree(neighbours(pattern))
-    factor = factorise(graph, matrix, order, lambda _, pivot, __: graph.div(graph.one, pivot))
+    factor = factorise_symmetric(graph, matrix, order, lambda _, pivot, __: graph.div(graph.one, pivot))
     return sum(map(len, factor.lower.values())) - (len(matrix) - len(pattern)) // 2

@@ -23,7 +23,7 @@ from symgen.base.vocabulary.expressions import (
     Number,
     Reading,
     call,
-    names_in,
+    names_in_expression,
     readings_in,
     table_of,
 )
@@ -321,4 +321,4 @@ class _Rewriting:
         """Whether a formula depends on parameters alone."""
         if isinstance(e, Number):
             return True
-        return all(name in self.parameters and name not in self.own for name in names_in(e))
+        return all(name in self.parameters and name not in self.own for name in names_in_expression(e))
