@@ -28,6 +28,8 @@ _F8, _A, _K, _N = types.float64, types.float64[::1], types.int64[::1], types.int
 STILL, NO_ACCELERATION = 1e-10, 1e-10
 #: Gaps below this part of the mechanism's length are closed.
 TOUCHING = 1e-9
+#: A coordinate that has moved by less than this part of the mechanism's length has just broken loose.
+UNMOVED = 1e-9
 #: A gap that a change of parameters or inputs leaves is closed from this part of the mechanism's length behind it on.
 DEEP = 1e-6
 #: A formula for a bound in motion may be this part above that for the bound at rest, by rounding; a bound that falls
@@ -83,6 +85,12 @@ class Choice(Record):
         For each constraint row its number among the rows with bounds, -1 for others.
     pushes : Array of int64, shape (k,)
         1 for one-sided rows, which come last, else 0.
+    starting : Array of int64, shape (k,)
+        1 for coordinates at rest with a sign that have just broken loose; others with a sign come to rest.
+    begins : Array of int64, shape (1,)
+        1 where a run begins, or its inputs have changed; 0 at events.
+    let_go, place : Array, shapes (k,)
+        Time at which each coordinate has broken loose [s], and the coordinate there.
     pushed, at_rest : Array of int64, shapes (1,)
         Coordinate that a probe pushes, -1 for none; number of rows at rest.
     broken, stopped, left : Array of int64, shapes (k,)
@@ -142,6 +150,10 @@ class Choice(Record):
     angular: Integers
     place_of: Integers
     pushes: Integers
+    starting: Integers
+    begins: Integers
+    let_go: Array
+    place: Array
     pushed: Integers
     at_rest: Integers
     broken: Integers
@@ -228,6 +240,10 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         angular=np.array([info.rows[i].unit == "rad" for i in info.bounded], dtype=np.int64),
         place_of=places,
         pushes=(np.arange(k) >= rows.dry).astype(np.int64),
+        starting=flags(),
+        begins=flags(1),
+        let_go=np.full(k, np.nan),
+        place=numbers(k),
         pushed=np.full(1, -1),
         at_rest=flags(1),
         broken=flags(),

@@ -45,6 +45,7 @@ from symgen.run.modes.bounded_rows import (
     SAME,
     SIGN,
     STILL,
+    UNMOVED,
     Choice,
     is_held,
     is_shut,
@@ -107,6 +108,19 @@ def find_fault(c: Choice, w: Array) -> int:
             c.named[0] = i
             break
     return NO_BOUNDS
+
+
+@exact(entry=True)
+def find_starting(t: float, c: Choice, w: Array) -> int:
+    """Find the coordinates at rest with a sign that have just broken loose; return the number of rows with two bounds.
+
+    Others with a sign have moved and come to rest. What a choice has let go at this instant under other inputs is at
+    rest: its static bound may hold it under those of now.
+    """
+    for i in range(c.dry):
+        near = abs(c.value[i] - c.place[i]) <= UNMOVED * row_scale(c, w, i, abi.LENGTH)
+        c.starting[i] = 1 if near and c.let_go[i] <= t and not (c.begins[0] != 0 and c.let_go[i] == t) else 0
+    return int(c.dry)
 
 
 @exact(entry=True)
@@ -235,7 +249,7 @@ def find_rest(c: Choice, w: Array) -> int:
         at, pushes = MODE_NUMBERS * i, c.pushes[i] != 0
         still = abs(c.speed[i]) <= STILL * row_scale(c, w, i, abi.SPEED) or c.broken[i] + c.stopped[i] != 0
         still = (still or is_held(c, w, i)) and not (pushes and not is_shut(c, w, i))
-        loose = (still and c.before[at + SIGN] != 0.0) or c.broken[i] != 0
+        loose = (still and c.starting[i] != 0 and c.before[at + SIGN] != 0.0) or c.broken[i] != 0
         loose = (loose and c.stopped[i] == 0) or c.left[i] != 0
         owner = int(c.before[at + CONSTANT]) - 1
         if c.before[at + HELD] == 0.0 and c.before[at + SIGN] == 0.0 and owner >= 0:

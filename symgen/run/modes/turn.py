@@ -42,7 +42,15 @@ from symgen.run.modes.bounded_rows import (
     Choice,
     put_off,
 )
-from symgen.run.modes.choice import choose_modes, find_fault, follow_modes, look_anew, measure_margins, read_rows
+from symgen.run.modes.choice import (
+    choose_modes,
+    find_fault,
+    find_starting,
+    follow_modes,
+    look_anew,
+    measure_margins,
+    read_rows,
+)
 from symgen.run.modes.strikes import Strikes, find_struck, forget_passed, gather, strike
 from symgen.run.modes.transition_log import HIT, Transitions, log_changes, log_transition, remember_modes
 
@@ -185,6 +193,10 @@ def take_chosen(modes: OfModes, state: EventState) -> int:
     code = choose_modes(t, c, state.y, state.p, state.w, state.iw, state.control)
     if code > OTHERS:
         return int(code)
+    for i in range(c.count):
+        sign = c.after[MODE_NUMBERS * i + SIGN]
+        if sign != 0.0 and sign != c.before[MODE_NUMBERS * i + SIGN]:
+            c.let_go[i], c.place[i] = t, c.value[i]
     measure_margins(c, state.w, state.hunt)
     if code == OTHERS:
         if follow_modes(t, c, state.y, state.p, state.w) != 0:
@@ -204,6 +216,7 @@ def choose_here(modes: OfModes, state: EventState) -> int:
     starts = state.control[abi.BEGUN] == 0 and state.control[abi.STEPS] == 0
     code = read_rows(t, c, state.y, state.p, state.w)
     if code == SAME:
+        find_starting(t, c, state.w)
         code = meet_impacts(t, modes, state)
     if code == SAME:
         code = take_chosen(modes, state)
@@ -211,6 +224,8 @@ def choose_here(modes: OfModes, state: EventState) -> int:
         code = gather_impacts(t, modes, state)
         if code == OTHERS:
             clear_flags(c)
+            c.begins[0] = 0
+            find_starting(t, c, state.w)
             code = take_chosen(modes, state)
     if code != SAME:
         return int(refuse_modes(code, modes, state))
@@ -223,6 +238,7 @@ def begin_modes(modes: OfModes, state: EventState) -> int:
     """Choose modes where a run begins, or something has changed; return `DONE` or `NO_MODES`."""
     c = modes.choice
     clear_flags(c)
+    c.begins[0] = 1
     for i in range(c.count):
         c.shut[i] = 0 if state.control[abi.BEGUN] == 0 else c.shut[i]
     c.depth[0] = TOUCHING if state.control[abi.BEGUN] == 0 else DEEP
@@ -240,6 +256,8 @@ def forget_modes(modes: OfModes) -> None:
     for i in range(modes.strikes.series.shape[0]):
         modes.strikes.series[i] = 0.0
     modes.transitions.count[0] = 0
+    for i in range(modes.choice.count):
+        modes.choice.let_go[i] = math.nan
 
 
 # -- the turn ----------------------------------------------------------------------------------------------------------
@@ -274,6 +292,7 @@ def take_turn(code: int, modes: OfModes, state: EventState) -> int:
     c, effects, hunt, t = modes.choice, modes.strikes.effects, state.hunt, state.clock[abi.TIME]
     first, size, chooses, jammed = first_note(state), 2 + state.y.shape[0], False, -1
     clear_flags(c)
+    c.begins[0] = 0
     c.depth[0] = math.inf  # positions inside a run are what its steps have made of them
     for i in range(int(hunt[records.NOTED])):
         at, k = hunt[first + i * size], int(hunt[first + i * size + 1])
