@@ -250,5 +250,5 @@ Observers = tuple[Sizes, abi.Rhs, abi.Rhs, abi.Accept, abi.Observe]
 System = tuple[Any, ...]
 
 #: Types of the records in compiled loops.
-SIZES, SPAN, STATE, OUTPUTS, OBSERVED = map(record_type, (Sizes, Span, State, Outputs, Observed))
+SIZES, SPAN, STATE, OUTPUTS = map(record_type, (Sizes, Span, State, Outputs))
 KEPT_OF_RUN, CHUNK = record_type(Kept), record_type(RowChunk)
