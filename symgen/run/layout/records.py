@@ -148,6 +148,12 @@ class Run(Record):
     room: Array
 
 
+class EventRun(Run):
+    """A `Run` with the data of events, see `symgen.run.loops.search_records`."""
+
+    hunt: Array
+
+
 class Outputs(Record):
     """Output times, states, and the status that ``accept`` measured, followed by angles that count turns and modes.
 
