@@ -8,14 +8,11 @@ from typing import Any
 import numpy as np
 
 from symgen.compile.loopcode.exact import exact
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout import abi
 from symgen.run.layout.scales import larger
 from symgen.run.layout.start_records import Instant
 from symgen.run.loops.search_records import DIRECTION, N_HEAD, N_VALUES
-
-_F, _A, _K = types.float64, types.float64[::1], types.int64[::1]
 
 #: Times until events accumulate below this part of the time count as zero.
 NOTHING_LEFT = 1e-9

@@ -8,15 +8,12 @@ from typing import Any
 import numpy as np
 
 from symgen.compile.loopcode.exact import exact
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.effects.impulse import Impulse, new_impulse, smallest_impulse
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import is_off
 from symgen.run.layout.scales import fill_jacobian
 from symgen.run.layout.start_records import Instant, Layout
-
-_N, _A, _K = types.int64, types.float64[::1], types.int64[::1]
 
 #: Codes: the state has changed; velocities, or values of states, contradict each other or are not finite.
 APPLIED, NO_VELOCITIES, NO_VALUES = range(3)

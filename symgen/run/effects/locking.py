@@ -8,14 +8,11 @@ from typing import Any
 import numpy as np
 
 from symgen.compile.loopcode.exact import exact
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import farthest
 from symgen.run.layout.scales import square_rows
 from symgen.run.layout.start_records import Instant, Layout
-
-_A, _K = types.float64[::1], types.int64[::1]
 
 #: Sine of the angle between rows below which they vanish together, the share of the largest factor below which a row
 #: takes no part, and the number of inverse iterations.
@@ -35,7 +32,7 @@ class LockWork(Record):
     Attributes
     ----------
     numbers, scale, factors, sums : Array
-        Of the choice of rows; reciprocal lengths of rows, and factors of rows in the combination that vanishes,
+        Memory of the choice of rows; reciprocal lengths of rows; factors of rows in the combination that vanishes,
         before and after an iteration.
     jumps : Array, shape (nv,)
         How far coordinates would jump, relative to each other.

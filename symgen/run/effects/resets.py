@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.compile.loopcode.loop_instances import Meanings
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.effects.accumulation import Past, accumulation, add_resets, latest_events
 from symgen.run.effects.applying import APPLIED, EffectModel, EffectWork, apply_effects
@@ -24,8 +23,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from symgen.run.effects.effects import Effects
-
-_A, _K = types.float64[::1], types.int64[::1]
 
 
 class KeptEffect(Record):

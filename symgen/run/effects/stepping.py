@@ -8,13 +8,10 @@ from typing import Any
 import numpy as np
 
 from symgen.compile.loopcode.exact import copy_numbers, exact
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.effects.applying import EffectModel, EffectWork, apply_effects
 from symgen.run.layout import abi
 from symgen.run.layout.start_records import Instant, Layout
-
-_F, _A, _K = types.float64, types.float64[::1], types.int64[::1]
 
 #: Bisections of a step, and roundings of the time at which they end.
 MOST_HALVES, FINEST = 60, 5.0 * 2.0**-52
@@ -30,7 +27,7 @@ RunModel = tuple[StepModel, EffectModel, Integers]
 
 
 class StepWork(Record):
-    """Working memory.
+    """Working memory of steps.
 
     Attributes
     ----------

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array
 from symgen.compile.store.jit import jit
 from symgen.run.layout.records import ModelSystem, Run
-
-_A = types.float64[::1]
 
 
 @jit(entry=True)

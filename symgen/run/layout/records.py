@@ -148,6 +148,12 @@ class Run(Record):
     room: Array
 
 
+class EventRun(Run):
+    """A `Run` with the data of events, see `symgen.run.loops.search_records`."""
+
+    hunt: Array
+
+
 class Outputs(Record):
     """Output times, states, and the status that ``accept`` measured, followed by angles that count turns and modes.
 
@@ -250,5 +256,5 @@ Observers = tuple[Sizes, abi.Rhs, abi.Rhs, abi.Accept, abi.Observe]
 System = tuple[Any, ...]
 
 #: Types of the records in compiled loops.
-SIZES, SPAN, STATE, OUTPUTS, OBSERVED = map(record_type, (Sizes, Span, State, Outputs, Observed))
+SIZES, SPAN, STATE, OUTPUTS = map(record_type, (Sizes, Span, State, Outputs))
 KEPT_OF_RUN, CHUNK = record_type(Kept), record_type(RowChunk)

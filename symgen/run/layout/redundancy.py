@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compile.loopcode.exact import exact
-from symgen.compile.native import types
 from symgen.compile.store.jit import jit
 from symgen.run.layout import abi
 from symgen.run.layout.records import Run, Sizes
@@ -25,7 +24,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_A, _N = types.float64[::1], types.int64
 
 #: The rows are chosen again where the smallest pivot has fallen to this fraction of its largest value since the choice.
 FALLEN = 0.25

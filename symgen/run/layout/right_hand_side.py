@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array
 from symgen.compile.store.emitted import EmittedFunction, NodesFunction
 from symgen.compile.store.jit import jit
@@ -14,7 +13,6 @@ if TYPE_CHECKING:
 
 #: Prefix of modules of right-hand sides in straight code.
 STRAIGHT = "rhs_direct"
-_A = types.float64[::1]
 _functions: dict[Any, Any] = {}
 
 

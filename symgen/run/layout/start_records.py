@@ -132,7 +132,7 @@ class Work(Record):
     y, w : Array, shapes (ny,), (nw,)
         Another state with its scratch.
     numbers : Array
-        Of the least-norm solver, or of the choice of turns.
+        Memory of the least-norm solver, or of the choice of turns.
     order, counters : Array of int64
         Order of rows; counters for calls of ``rhs``.
     """

@@ -20,8 +20,6 @@ from symgen.run.layout.records import ModelSystem, Outputs, Span, State, System
 from symgen.run.loops.frame_parts import evaluate
 from symgen.run.loops.step_control import part_of
 
-_A, _K = types.float64[::1], types.int64[::1]
-
 #: Code of an end beside those of loops: the step ends elsewhere than that of the run.
 ELSEWHERE = 200
 #: Numbers of `Ahead.head`: steps, passes and lanes; outputs; 1 where steps vary, and where the end of the one step is
@@ -38,12 +36,12 @@ class Ahead(Record):
     Attributes
     ----------
     head, numbers : Array of int64, Array
-        See above.
+        At the places of `STEPS` and following, and of `END` and following.
     y, p, w, iw, clock, gauges, control : Array, Array of int64
         The state before, without directions; overwritten. Numbers that are computed of parameters stand at the
         end of p, more or fewer than in the run with directions, which computes its own.
     end : Array
-        The state behind the one step, where it is compared.
+        The state after the one step, where it is compared.
     places : Array of int64
         Places in y of the states.
     inputs : Array of int64

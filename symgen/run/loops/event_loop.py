@@ -20,7 +20,7 @@ from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Record, record_type
 from symgen.compile.store.jit import RuntimeFunction
 from symgen.run.layout import abi
-from symgen.run.layout.records import OUTPUTS, SPAN, ModelSystem, Run, Sizes, Span, State
+from symgen.run.layout.records import OUTPUTS, SPAN, EventRun, ModelSystem, Sizes, Span, State
 from symgen.run.loops import frame
 from symgen.run.loops import search_records as searching
 from symgen.run.loops.frame_parts import DOUBT, LOOK, NOTHING, REMEMBER, TRY, evaluate
@@ -44,12 +44,6 @@ class EventState(State):
     hunt : Array
         See `symgen.run.loops.search_records`.
     """
-
-    hunt: Array
-
-
-class EventRun(Run):
-    """A `Run` with the data of events."""
 
     hunt: Array
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 
 from symgen.compile.loopcode.bare import bare
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers, Matrix, Record
 from symgen.compile.store.jit import jit
 from symgen.run.layout import abi
@@ -42,8 +41,6 @@ N_CLOCK = 9
 #: Entries of the counts: times done, steps, and whether a state was settled.
 AT, TAKEN, SETTLED = range(3)
 N_COUNTS = 3
-
-_A, _K, _M, _I8, _F = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.int64, types.float64
 
 
 class Course(Record):

@@ -15,7 +15,7 @@ from symgen.compile.loopcode.vectors import copied, received
 from symgen.compile.native import types
 from symgen.compile.native.annotations import Record
 from symgen.run.layout import abi
-from symgen.run.layout.records import OUTPUTS, SIZES, SPAN, STATE, ModelSystem, Outputs, Run, Span, State, System
+from symgen.run.layout.records import OUTPUTS, SIZES, SPAN, STATE, EventRun, ModelSystem, Outputs, Span, State, System
 from symgen.run.layout.redundancy import rows_fell
 from symgen.run.layout.scales import settle_scales
 from symgen.run.loops.frame_parts import (
@@ -58,7 +58,7 @@ _BEFORE = 1e-3
 # -- the frame ---------------------------------------------------------------------------------------------------------
 
 
-def begin_loop(system: ModelSystem, scheme: Record, span: Span, run: Run, outputs: Outputs) -> int:
+def begin_loop(system: ModelSystem, scheme: Record, span: Span, run: EventRun, outputs: Outputs) -> int:
     """Measure and store the first state of a run, if it is new; begin the scheme, or discard its past steps.
 
     Returns the code of an end, `DONE` to continue.
@@ -99,7 +99,7 @@ def resolution(span: Span) -> float:
 
 
 def choose_step(
-    system: ModelSystem, span: Span, run: Run, outputs: Outputs, t: float
+    system: ModelSystem, span: Span, run: EventRun, outputs: Outputs, t: float
 ) -> tuple[int, float, float, bool, bool, float]:
     """Choose the step from the time `t` [s].
 
@@ -145,7 +145,7 @@ def accept_step(
     system: ModelSystem,
     scheme: Record,
     span: Span,
-    run: Run,
+    run: EventRun,
     outputs: Outputs,
     t: float,
     step: tuple[float, float, bool, float, float],
@@ -203,7 +203,7 @@ def accept_step(
 
 
 def propose_step(
-    span: Span, run: Run, h: float, following: float, crossing: bool, proposal: float, error: float, met: bool
+    span: Span, run: EventRun, h: float, following: float, crossing: bool, proposal: float, error: float, met: bool
 ) -> None:
     """Propose the step after an accepted one, with the names of `accept_step`; `met`: the run ends in an event."""
     clock, control = run.clock, run.control
@@ -256,7 +256,7 @@ def integrate(model: System, scheme: Record, span: Span, state: State, outputs: 
     while t < span.until - resolution(span):
         if EVENTS and search != NOTHING:
             prepare_search(system, run, RECALL)
-            h, between = run.hunt[TRY], False  # type: ignore[attr-defined]  # an `EventRun`
+            h, between = run.hunt[TRY], False
             following = whole_following if h == whole else t + h
         else:
             code, h, following, between, crossing, proposal = choose_step(system, span, run, outputs, t)

@@ -9,7 +9,7 @@ from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.loop_instances import viewing
 from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
-from symgen.run.layout.records import ModelSystem, Outputs, Run, Sizes, Span, State
+from symgen.run.layout.records import EventRun, ModelSystem, Outputs, Run, Sizes, Span, State
 from symgen.run.loops.watch import keep_maxima
 
 #: Positions of the step to try, and of the longest one that ends before the event sought, in the data of events
@@ -43,12 +43,12 @@ LOOK, REMEMBER, RECALL = range(DOUBT + 1, DOUBT + 4)
 
 
 @viewing
-def opened(sizes: Sizes, state: State) -> Run:
+def opened(sizes: Sizes, state: State) -> EventRun:
     """Return the state of a run, its working memory divided into parts."""
     s, width = bare(state), sizes.width
     trial, room = part(s.room, 0, width), part(s.room, width, s.room.shape[0] - width)
     kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.passages, s.memory
-    return Run(*kept, s.share, s.metric, s.scales, room)
+    return Run(*kept, s.share, s.metric, s.scales, room)  # type: ignore[return-value]  # `hunt` is read with `EVENTS` alone
 
 
 def evaluate(system: ModelSystem, run: Run | State, t: float, y: Array, rate: Array) -> None:

@@ -6,7 +6,7 @@ import math
 
 from symgen.compile.native.annotations import Record
 from symgen.run.layout import abi
-from symgen.run.layout.records import ModelSystem, Run, Span
+from symgen.run.layout.records import EventRun, ModelSystem, Span
 from symgen.run.loops.frame_parts import (
     ADAPTIVE,
     DIVIDE,
@@ -39,7 +39,7 @@ def judge_attempt(
     system: ModelSystem,
     scheme: Record,
     span: Span,
-    run: Run,
+    run: EventRun,
     step: tuple[float, float, bool, bool],
     error: float,
     search: int,
@@ -86,7 +86,7 @@ def judge_attempt(
                 search = located(system, scheme, run, following, h, DOUBT if search == NOTHING else search)
                 doubtful = search != NOTHING
                 # an attempt that ends before the switch has its own error
-                if doubtful and run.hunt[LOW] != h:  # type: ignore[attr-defined]  # an `EventRun`
+                if doubtful and run.hunt[LOW] != h:
                     verdict = AGAIN
             if verdict != AGAIN:
                 search = NOTHING
@@ -103,7 +103,7 @@ def judge_attempt(
 
 
 def judge_state(
-    system: ModelSystem, scheme: Record, run: Run, h: float, following: float, bits: int, search: int
+    system: ModelSystem, scheme: Record, run: EventRun, h: float, following: float, bits: int, search: int
 ) -> tuple[int, int]:
     """Judge the state at the end of a good attempt: its correction, and events that its step may pass.
 
@@ -134,7 +134,7 @@ def judge_state(
             verdict = AGAIN
         elif search == DIVIDE:
             verdict = REFUSE
-            run.clock[abi.NEXT] = run.hunt[TRY]  # type: ignore[attr-defined]  # an `EventRun`
+            run.clock[abi.NEXT] = run.hunt[TRY]
         elif search == FAIL:
             run.clock[abi.TIME] = following
             verdict = abi.UNDEFINED

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 
 from symgen.compile.loopcode.bare import part
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers
 from symgen.compile.store.jit import jit
 
@@ -21,7 +20,6 @@ DEPENDENT = 1e-10
 NO_MASS = 1e-14
 #: Part of what accelerations take that efforts may leave.
 LEFT = 1e-9
-_SIGNATURE = types.int64(types.int64[::1], types.float64[::1], types.float64[::1])
 
 
 def room(n: int, m: int, k: int = 0) -> int:

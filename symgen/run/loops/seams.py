@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
 #: Numbers of `Seams.head`: the present row, and 1 where steps are adaptive, and where modes are chosen at each change.
 ROW, VARYING, CHOOSES = range(3)
-_A, _K = types.float64[::1], types.int64[::1]
 
 
 class Seams(Record):
@@ -41,9 +40,9 @@ class Seams(Record):
     rows : Array of int64, shape (rows + 1,)
         First seam of each row.
     times : Array
-        Of seams, in order in each row [s].
+        Times of the seams, in order in each row [s].
     skips : Array of int64, shape (seams,)
-        1 for seams behind which a run goes on at the next one, without a step; 2 where rates of gaps jump
+        1 for seams after which a run goes on at the next one, without a step; 2 where rates of gaps jump
         between the two.
     changes : Array of int64, shape (seams + 1,)
         First change of each seam.

@@ -11,8 +11,7 @@ import math
 from symgen.base.ir.numerics import SKIP
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
-from symgen.compile.native import types
-from symgen.compile.native.annotations import Array, Integers, function_type
+from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout.redundancy import farthest
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
@@ -42,8 +41,6 @@ from symgen.run.modes.choice import (
     write_modes,
 )
 from symgen.run.modes.holding import hold_rows
-
-_F8, _A, _K, _N = types.float64, types.float64[::1], types.int64[::1], types.int64
 
 #: Bounds by reactions agree within this part of them, after so many solutions at most.
 _AGREED, _AGREEMENTS = 1e-14, 2000
@@ -273,7 +270,3 @@ def choose_pressed(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Intege
     for i in range(c.count):
         c.static[i], c.sliding[i] = c.bounds[i], c.bounds[c.count + i]
     return int(write_modes(c, w)) if code == SAME else int(code)
-
-
-#: Types of the functions on the arrays of a run.
-KINDS = {"choose_pressed": function_type(choose_pressed)}

@@ -8,7 +8,6 @@ import numpy as np
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import compiled_form, exact
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout import abi
 from symgen.run.layout.records import Span
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.loops.run_spec import BoundedRows
 
-_F8, _A, _K, _N = types.float64, types.float64[::1], types.int64[::1], types.int64
 
 #: Rates below this part of the largest speed are zero; accelerations below it over those of single forces are.
 STILL, NO_ACCELERATION = 1e-10, 1e-10

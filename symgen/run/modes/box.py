@@ -19,11 +19,8 @@ from typing import Any
 import numpy as np
 
 from symgen.compile.loopcode.exact import exact
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout.scales import larger
-
-_A, _K, _N = types.float64[::1], types.int64[::1], types.int64
 
 #: Pivots below this part of the diagonal are rounding, and so are accelerations below it over those of single forces.
 DEPENDENT, ROUNDING = 1e-11, 1e-13

@@ -16,7 +16,6 @@ import math
 from symgen.base.ir.numerics import SKIP
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import choose_rows, farthest, is_off
@@ -56,8 +55,6 @@ from symgen.run.modes.bounded_rows import (
 )
 from symgen.run.modes.box import INSIDE, solve_box
 from symgen.run.modes.holding import hold_rows
-
-_F8, _A, _K, _N = types.float64, types.float64[::1], types.int64[::1], types.int64
 
 
 @exact(entry=True)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array
 from symgen.run.layout.scales import larger
 from symgen.run.modes.bounded_rows import (
@@ -25,8 +24,6 @@ from symgen.run.modes.bounded_rows import (
     usual_of,
 )
 from symgen.run.modes.box import independent_set, solve_independent
-
-_A, _N = types.float64[::1], types.int64
 
 #: Rows at rest that are put into force: see `take_rows`.
 PUSHING, WITHIN, ALL = range(3)

@@ -15,7 +15,6 @@ import numpy as np
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.effects.accumulation import OF_EVENT, accumulation, add_resets
 from symgen.run.effects.applying import APPLIED, apply_effects
@@ -40,8 +39,6 @@ from symgen.run.modes.bounded_rows import (
 from symgen.run.modes.box import solve_box
 from symgen.run.modes.choice import probe
 
-_F8, _A, _K, _N = types.float64, types.float64[::1], types.int64[::1], types.int64
-
 #: Impulses below this part of the largest are rounding.
 _NOTHING = 1e-12
 #: Flights up to this part of the mechanism's length are low; an importer loses those whose duration errs by this part.
@@ -60,7 +57,7 @@ class Strikes(Record):
     Attributes
     ----------
     effects : OfEffects
-        Those of all events.
+        Effects of all events.
     chosen : Array of int64, shape (events,)
         1 for events that happen.
     events, losses, active : Array of int64, shapes (rows,)
@@ -71,7 +68,7 @@ class Strikes(Record):
     before, asked : Array, shapes (rows,)
         Rates of gaps before the latest impact; those that their events ask for after it.
     series : Array, shape (OF_SERIES rows,)
-        See above.
+        For each row the numbers of its series of flights, at the places of `_COUNT` and following.
     left : Array, shape (rows,)
         Time until the impacts of a gap that comes to rest would have accumulated [s], else nan.
     struck, rested : KeptEffect

@@ -6,11 +6,8 @@ import numpy as np
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.modes.bounded_rows import SIGN, Choice, is_held, stays_shut
-
-_F8, _N, _A, _K = types.float64, types.int64, types.float64[::1], types.int64[::1]
 
 #: What a row with bounds does at a transition: rest ends, rest begins, its rate changes sign, an impact, the row comes
 #: into force, it is off again.

@@ -11,7 +11,6 @@ import math
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.loop_instances import Meanings, called
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers, Record, record_type
 from symgen.run.effects.resets import OfEffects, apply_resets, change_nothing, choose_resets, first_note, forget_resets
 from symgen.run.layout import abi
@@ -53,8 +52,6 @@ from symgen.run.modes.choice import (
 )
 from symgen.run.modes.strikes import Strikes, find_struck, forget_passed, gather, strike
 from symgen.run.modes.transition_log import HIT, Transitions, log_changes, log_transition, remember_modes
-
-_K = types.int64[::1]
 
 
 class OfModes(Record):

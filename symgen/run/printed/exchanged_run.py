@@ -17,9 +17,9 @@ from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Record, record_type
 from symgen.compile.store.jit import RuntimeFunction
 from symgen.run.layout import abi
-from symgen.run.layout.records import CHUNK, SPAN, RowChunk, Span, System
+from symgen.run.layout.records import CHUNK, SPAN, EventRun, RowChunk, Span, System
 from symgen.run.loops import search_records as records
-from symgen.run.loops.event_loop import EVENT_STATE, EventRun, EventState, EventSystem, decided, evaluate_events, opened
+from symgen.run.loops.event_loop import EVENT_STATE, EventState, EventSystem, decided, evaluate_events, opened
 from symgen.run.loops.frame_parts import DOUBT, FAIL, LOOK, TAKE, correct
 from symgen.run.loops.seams import change, due, go_over, has_gap, has_struck, is_defined, same
 from symgen.run.loops.switching import is_sought, taken_for

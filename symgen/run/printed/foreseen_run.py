@@ -18,7 +18,7 @@ from symgen.run.layout.records import STATE, State
 from symgen.run.loops.event_loop import EVENT_STATE
 from symgen.run.loops.seams import SEAMS, Seams
 
-_A, _K, _F, _N = types.float64[::1], types.int64[::1], types.float64, types.int64
+_F, _N = types.float64, types.int64
 
 #: What a passage is, summed: a kink, at which a step ends; a side, beside which two steps end; one over which a run
 #: goes on without a step; one at which rates of gaps jump, too.
@@ -49,7 +49,7 @@ class Foresight(Record):
     end : int
         Place of the end of a run in `ends`, -1 where it is not there.
     slots, straight, kinds : Array of int64, shapes (k,)
-        Of each formula its place in `out`, 1 for a straight line, what it does.
+        For each formula its place in `out`, 1 for a straight line, what it does.
     first : Array of int64, shape (k + 1,)
         First level of each formula.
     levels, periods : Array

@@ -44,7 +44,7 @@ from symgen.run.rows import row_events, rows
 from symgen.run.rows.row_results import follow_rows
 from symgen.run.rows.rows import OBSERVERS, begin_run
 
-_F, _A, _K = types.float64, types.float64[::1], types.int64[::1]
+_A = types.float64[::1]
 
 #: Results of `advance_run`: the time is reached; an event ends the run; no step, or no modes, lead on.
 REACHED, ENDED, FAILED = range(3)
@@ -56,7 +56,7 @@ END_CODE, ENDING, STANDS, CHANGED = range(4)
 
 
 class KeptOutput(Record):
-    """The output of a call: its time, the state, and the status with modes behind it."""
+    """The output of a call: its time, the state, and the status followed by modes."""
 
     times: Array
     states: Array
@@ -72,9 +72,9 @@ class Visible(Record):
     Attributes
     ----------
     y, clock : Array, shapes (ny,), (1,) or (2,)
-        State and times [s], see above.
+        State, and times [s] at the places of `SHOWN_TIME` and following.
     numbers : Array of int64, shape (4,)
-        See above.
+        At the places of `END_CODE` and following.
     ends : Array of int64, shape (events,)
         1 for events that end the run.
     """

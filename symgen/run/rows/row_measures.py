@@ -5,15 +5,11 @@ from __future__ import annotations
 import math
 
 from symgen.compile.loopcode.loop_instances import compiled_loop
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Cube, Integers, Matrix, Record, signature_from
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import Span
 from symgen.run.loops.seams import Seams, parameters_at, select_row
-
-_A, _I, _I8 = types.float64[::1], types.int64[::1], types.int64
-_M, _C = types.float64[:, ::1], types.float64[:, :, ::1]
 
 
 class Left(Record):

@@ -43,8 +43,6 @@ from symgen.run.modes import turn
 from symgen.run.rows import row_events
 from symgen.run.rows.row_results import end_run, follow_rows
 
-_F8, _A, _K = types.float64, types.float64[::1], types.int64[::1]
-
 
 def take(array: Array, first: int, size: int, out: Array) -> None:
     """Set `out` to elements of an array."""

@@ -19,8 +19,6 @@ from symgen.run.layout.records import OUTPUTS, SPAN, STATE, Outputs, Span, State
 from symgen.run.loops.seams import is_defined
 from symgen.run.loops.step_control import part_of
 
-_A, _I = types.float64[::1], types.int64[::1]
-
 
 class Stepped(Record):
     """Rows of a step, and where its results go.
@@ -34,7 +32,7 @@ class Stepped(Record):
     given : Array, shape (rows, inputs), flat
         Values of the inputs.
     places : Array of int64
-        Of the inputs in ``p``.
+        Indices of the inputs in ``p``.
     moving : Array of int64
         1 for rows that go on; others are measured alone.
     codes : Array of int64

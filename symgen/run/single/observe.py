@@ -5,14 +5,10 @@ from __future__ import annotations
 import math
 
 from symgen.compile.loopcode.bare import part
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers
 from symgen.compile.store.jit import jit
 from symgen.run.layout import abi
 from symgen.run.layout.records import Observed, Outputs, Sizes
-
-_A, _I, _I8 = types.float64[::1], types.int64[::1], types.int64
-_M = types.float64[:, ::1]
 
 
 @jit()

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compile.loopcode.exact import copy_numbers, exact
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Integers, Record
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
@@ -23,7 +22,6 @@ if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
 
 Array = NDArray[np.float64]
-_I, _A = types.int64[::1], types.float64[::1]
 
 
 def joint_values(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array) -> Array:

@@ -10,7 +10,6 @@ import math
 
 from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.exact import copy_numbers, exact
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
@@ -34,7 +33,6 @@ from symgen.run.starts.closing import (
 )
 from symgen.run.starts.joint_starts import Further, Joints, fill_further
 
-_A, _I = types.float64[::1], types.int64[::1]
 #: A model, its ``observe``, and the joint coordinates that starts hold.
 Holding = tuple[StartModel, abi.Observe, Joints]
 

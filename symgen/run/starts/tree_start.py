@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.exact import exact, plain_form
-from symgen.compile.native import types
 from symgen.compile.native.annotations import Record
 from symgen.run.layout import abi
 from symgen.run.layout.compiled import CompiledModel
@@ -26,7 +25,6 @@ from symgen.run.starts.joint_starts import Further
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
-_I, _A = types.int64[::1], types.float64[::1]
 
 #: Orientations are more than 120 degrees apart where the product of their Euler parameters is below this.
 TURNED_OVER = 0.5
@@ -40,7 +38,7 @@ class Carrying(Record):
     work, outs : int
         Elements of a tree's state before the work; numbers that ``observe`` writes.
     places : Array of int64, shape (2 work,)
-        Of each of these elements: 0 and its index in the state of bodies, or 1 and its index in the output of
+        For each of these elements: 0 and its index in the state of bodies, or 1 and its index in the output of
         ``observe``.
     windings, gauges, spins : Array of int64
         Indices of angles that count turns, and of squares of lengths, in the scratch of bodies; -1 where that

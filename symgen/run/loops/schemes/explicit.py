@@ -17,7 +17,6 @@ from symgen.run.layout import abi
 from symgen.run.layout.records import ModelSystem, Outputs, Run, Span
 from symgen.run.layout.scales import weights_of, with_work
 from symgen.run.layout.scheme_records import TABLEAU, PartitionedStages, TableauRecord
-from symgen.run.loops.event_loop import EventRun, EventSystem
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import correct, evaluate, store
 from symgen.run.loops.search_records import N_INSIDE
@@ -182,7 +181,7 @@ def interpolate(
 
 @called
 def inside(
-    system: EventSystem, scheme: TableauRecord, run: EventRun, t: float, following: float, h: float, i: int, y: Array
+    system: ModelSystem, scheme: TableauRecord, run: Run, t: float, following: float, h: float, i: int, y: Array
 ) -> float:
     """Set `y` to the state at inner point i of a good attempt by its dense output; return its part of the step."""
     width, lanes = system.sizes.width, scheme.dense.shape[0] // scheme.degree

@@ -11,7 +11,6 @@ from symgen.compile.native.types import NODES
 from symgen.run.layout import abi
 from symgen.run.layout.records import ModelSystem, Outputs, Run, Span
 from symgen.run.layout.scheme_records import Nodes, TableauRecord
-from symgen.run.loops.event_loop import EventRun, EventSystem
 from symgen.run.loops.frame_parts import correct, evaluate, store
 from symgen.run.loops.schemes.explicit import complete_stages, read_stages
 from symgen.run.loops.schemes.picard_memory import (
@@ -118,7 +117,7 @@ def interpolate(
 
 
 def inside(
-    system: EventSystem, scheme: Nodes, run: EventRun, t: float, following: float, h: float, i: int, y: Array
+    system: ModelSystem, scheme: Nodes, run: Run, t: float, following: float, h: float, i: int, y: Array
 ) -> float:
     """Set `y` to the state at a node inside a good attempt, and return its part of the step; 0 without nodes."""
     if run.room[ADRIFT] != 0.0:
