@@ -19,7 +19,7 @@ from typing import Any
 from symgen.compile.loopcode.loop_instances import Meanings
 from symgen.compile.native.pieces import Piece
 from symgen.run.loops import frame
-from symgen.run.printed import exchanged_run, kept_reset, kept_run
+from symgen.run.printed import exchanged_run, foreseen_run, kept_reset, kept_run
 from symgen.run.rows import lanes, row_observers, rows
 from symgen.run.single import turn_of_run
 
@@ -31,6 +31,7 @@ ROOTS = (
     *(frame.integrate, rows.run_rows, lanes.run_lanes, row_observers.observe_left),
     *(turn_of_run.serve_modes, turn_of_run.serve_resets, kept_reset.reset_run),
     *(kept_run.start_run, kept_run.advance_run, exchanged_run.indicate_run, exchanged_run.exchange_run),
+    foreseen_run.foresee_run,
 )
 _COPIED = ("symgen.run.", "symgen.compile.loopcode.")
 _HEAD = """# Names that are bound late

@@ -9,6 +9,7 @@ separately, as elsewhere.
 
 from __future__ import annotations
 
+import functools
 import types as python
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
@@ -51,12 +52,16 @@ class Meanings(dict[str, Any]):
         self.when = when
 
 
-def part(copy: python.FunctionType, original: object) -> Any:
+def part(copy: python.FunctionType, original: object, contracted: bool = True) -> Any:
     """Return a part of a loop, compiled for processors."""
-    return copy if is_interpreted() else RuntimeFunction(copy, inlined=not hasattr(original, "called"))
+    if is_interpreted():
+        return copy
+    return RuntimeFunction(copy, inlined=not hasattr(original, "called"), contracted=contracted)
 
 
-def compiled_loop(module: str, name: str, function: Any, signature: Any, once: bool = False, **meanings: Any) -> Any:
+def compiled_loop(
+    module: str, name: str, function: Any, signature: Any, once: bool = False, contracted: bool = True, **meanings: Any
+) -> Any:
     """Return a compiled loop: an instance of `function` for given types, kept in the cache of machine code.
 
     Parameters
@@ -67,14 +72,14 @@ def compiled_loop(module: str, name: str, function: Any, signature: Any, once: b
         The source.
     signature : Signature
         Its types.
-    once : bool
+    once, contracted : bool
         As for `symgen.compile.store.jit.jit`.
     **meanings
         See `Instances`.
     """
-    copy = Instances(meanings).copy(function)
+    copy = Instances(meanings, functools.partial(part, contracted=contracted)).copy(function)
     copy.__module__, copy.__name__, copy.__qualname__ = module, name, name
-    return jit(signature, once=once)(copy)
+    return jit(signature, once=once, contracted=contracted)(copy)
 
 
 def signature_of(loop: object) -> Any:

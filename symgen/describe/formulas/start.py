@@ -1,8 +1,8 @@
 """The described start of a mechanism: coordinates before closing, and velocities; displacements by closing.
 
 Algorithms are written once, with the operators of Python and the functions of formulas, over the numbers of one run
-(`Scalars`) or arrays with an element for each of many (`symgen.run.breaks.array_formulas`). Euler parameters (e0, e1,
-e2, e3) have length 1; the rotation matrix A that they stand for takes body to ground axes.
+(`Scalars`) or arrays with an element for each of many (`symgen.study.ensemble.array_formulas`). Euler parameters (e0,
+e1, e2, e3) have length 1; the rotation matrix A that they stand for takes body to ground axes.
 """
 
 from __future__ import annotations

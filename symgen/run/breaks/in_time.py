@@ -3,31 +3,201 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property, partial
+from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, call, names_in_expression
+from symgen.compile.loopcode.loop_instances import Meanings, compiled_loop
+from symgen.compile.native.annotations import signature_from
+from symgen.compile.native.compiler import is_interpreted
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.parts.driven_mechanism import Jump
-from symgen.run.breaks.array_formulas import Columns
+from symgen.describe.parts.driven_mechanism import Jump, compared_with_zero
+from symgen.describe.remembered import compute_once
+from symgen.describe.table_functions import Table
+from symgen.run.breaks.coded_formulas import CodedFormula, Formula, coded, coded_at
+from symgen.run.loops.times_of_jumps import (
+    BESIDE_A_SIDE,
+    COUNT,
+    FROM,
+    LEFT_OUT,
+    MOST_PASSAGES,
+    MOST_SAMPLES,
+    NEXT_TO,
+    SAME,
+    SKIP,
+    TO,
+    TOO_MANY,
+    Search,
+    levels_below,
+    note_line,
+    note_passage,
+    search_curve,
+)
 
-Array = NDArray[np.float64]
-Integers = NDArray[np.intp]
-#: Values of a function at many times.
-Over = Callable[[Array], Array]
-
+#: Functions that are constant wherever what they compare does not pass.
+CONDITIONS = ("lt", "le", "gt", "ge", "sign")
 #: Most pieces of a run.
-MOST_PIECES = 100_000
-#: Number of samples of a formula, first and at most, until two samplings count the same passages.
-_FIRST, _MOST = 2048, 2**19
-#: Fewest samples for each passage, or near one: with fewer it cannot be separated from the next.
-_LOOKS = 4
-_GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
+MOST_PIECES = MOST_PASSAGES
+
+
+def new_search(
+    jump: Jump | None,
+    until: float,
+    first: float = 0.0,
+    shortest: float = math.inf,
+    grid: tuple[float, float] | None = (0.0, 0.0),
+    room: int = MOST_PASSAGES + 1,
+) -> Search:
+    """Return a search for passages.
+
+    Parameters
+    ----------
+    jump : Jump, optional
+        The formula; none where times are known.
+    until, first : float
+        End and begin [s].
+    shortest : float
+        Largest distance of samples [s].
+    grid : (float, float), optional
+        First point and distance of the grid of constant steps [s], 0 for steps without a grid. None where steps vary:
+        then no passage at the start counts.
+    room : int
+        Room for passages.
+    """
+    levels, period = ((), 0.0) if jump is None else (jump.levels, jump.period)
+    origin, step = grid or (0.0, 0.0)
+    return Search(
+        *(float(until), shortest, origin, step, SAME, BESIDE_A_SIDE, NEXT_TO, -1 if grid is not None else 0),
+        kinds=np.array([SKIP]),
+        first=np.array([0, len(levels)]),
+        levels=np.sort(np.array(levels, dtype=np.float64)),
+        periods=np.array([float(period)]),
+        ends=np.array([float(until)]),
+        known=np.array([float(until), float(first)]),
+        moments=np.empty(room),
+        samples=np.empty(0 if jump is None else MOST_SAMPLES + 2),
+        flags=np.empty(room, dtype=np.int64),
+        found=np.zeros(4, dtype=np.int64),
+    )
+
+
+def _search(f: Search, state: Formula) -> int:
+    """Search for the passages of a formula that is no straight line; return their number."""
+    search_curve(f, state, 0, f.known[FROM], f.known[TO])
+    return int(f.found[COUNT])
+
+
+def _plain_at(f: Search, state: Callable[[float], float], j: int, t: float) -> float:
+    """Return the value of a formula where nothing is compiled, by a function of the time."""
+    return float(state(t))
+
+
+_CODED = Meanings("searches before a run", formula_at=_plain_at if is_interpreted() else coded_at)
+_search_loop = compiled_loop(__name__, "_search_loop", _search, signature_from(_search), contracted=False, **_CODED)
+
+
+@dataclass(frozen=True)
+class Passing:
+    """A formula and its latest passages: runs whose values agree in what it reads have the same.
+
+    Attributes
+    ----------
+    jump : Jump
+        The formula and its levels.
+    tables : dict of str to Table
+        Tables that it may read.
+    latest : dict
+        The latest times, by what they depend on.
+    """
+
+    jump: Jump
+    tables: Mapping[str, Table]
+    latest: dict[tuple[float, ...], tuple[tuple[float, ...], int]] = field(default_factory=dict)
+
+    @cached_property
+    def reads(self) -> tuple[str, ...]:
+        """Names of the values that the formula reads, apart from the time."""
+        return tuple(sorted({*names_in_expression(self.jump.argument)} - {"t"}))
+
+    @cached_property
+    def line(self) -> tuple[Expr, Expr] | None:
+        """From `line_parts`."""
+        return line_parts(self.jump.argument)
+
+    @cached_property
+    def conditions(self) -> tuple[Jump, ...] | None:
+        """Comparisons of a formula that reads the time nowhere else, so that its value is constant between them."""
+        found = dict[Jump, None]()
+        return tuple(found) if _reads_in_conditions(self.jump.argument, found) else None
+
+    @cached_property
+    def codes(self) -> CodedFormula:
+        """The formula as codes."""
+        return coded(self.jump.argument, self.tables)
+
+    def times(self, formulas: InTime, until: float, first: float) -> tuple[float, ...]:
+        """Return the times from `first` to `until` [s] at which the formula passes its levels.
+
+        Raises
+        ------
+        InputError
+            If it passes them too often, or too often to separate the times.
+        """
+        key = until, first, formulas.shortest, *(formulas.values[name] for name in self.reads)
+        found = self.latest.get(key)
+        if found is None:
+            found = self._found(formulas, until, first)
+            self.latest.clear()  # threads do so, too
+            self.latest[key] = found
+        times, left_out = found
+        if left_out:
+            got = "a formula that changes sides more often" + (
+                "" if left_out == TOO_MANY else " than can be distinguished"
+            )
+            raise InputError("inputs", f"at most {MOST_PIECES} jumps", got)
+        return times
+
+    def _found(self, formulas: InTime, until: float, first: float) -> tuple[tuple[float, ...], int]:
+        f = new_search(self.jump, until, first, formulas.shortest)
+        if not self.jump.levels:
+            return (), 0
+        line = _value_and_slope(self.line, formulas.values)
+        if line is not None:
+            note_line(f, 0, *line, first, until)
+        elif self.conditions is not None:
+            self._note_conditions(f, formulas, until, first)
+        elif is_interpreted():
+            _search_loop(f, partial(formulas.at, self.jump.argument))
+        else:
+            _search_loop(f, self.codes.of(formulas.values))
+        return tuple(f.moments[: f.found[COUNT]].tolist()), int(f.found[LEFT_OUT])
+
+    def _note_conditions(self, f: Search, formulas: InTime, until: float, first: float) -> None:
+        """Note when a formula passes a level that is constant as long as its conditions are."""
+        passed = (t for jump in self.conditions or () for t in formulas.crossings(jump, until, first))
+        times = sorted({first, *passed, until})
+        looks = [first, *(0.5 * (a + b) for a, b in pairwise(times)), until]
+        sides = [levels_below(f, 0, formulas.at(self.jump.argument, t)) for t in looks]
+        for t, (before, after) in zip(times, pairwise(sides), strict=True):
+            if before != after:
+                note_passage(f, t, SKIP)
+
+
+def _reads_in_conditions(e: Expr, found: dict[Jump, None]) -> bool:
+    """Whether a formula reads the time in nothing but comparisons, which are put into `found`."""
+    if not isinstance(e, Call):
+        return not (isinstance(e, Name) and e.name == "t")
+    if e.function in CONDITIONS:
+        if "t" in set(names_in_expression(e)):
+            found[Jump(compared_with_zero(e))] = None
+        return True
+    return all(_reads_in_conditions(a, found) for a in e.arguments)
 
 
 class InTime:
@@ -42,146 +212,44 @@ class InTime:
     """
 
     def __init__(self, mechanism: Mechanism, values: Mapping[str, float]) -> None:
-        self._tables = {table.name: table for table in mechanism.tables}
-        self._values, self._shortest = dict(values), mechanism.defaults.max_step or math.inf
+        self._mechanism, self._tables = mechanism, {table.name: table for table in mechanism.tables}
+        self.values, self.shortest = dict(values), mechanism.defaults.max_step or math.inf
 
     def at(self, e: Expr, t: float) -> float:
         """Return the value of a formula at a time [s], or nan if it is undefined."""
-        self._values["t"] = t
+        self.values["t"] = t
         try:
-            return evaluate(e, self._values, tables=self._tables)
+            return evaluate(e, self.values, tables=self._tables)
         except InputError:  # no comparison with it holds
             return math.nan
 
-    def over(self, e: Expr, times: Array) -> Array:
-        """Return the values of a formula at many times, equal to the values that `at` gives."""
-        return np.broadcast_to(Columns({**self._values, "t": times}, self._tables).value(e), len(times))
+    def crossings(self, jump: Jump, until: float, first: float = 0.0) -> tuple[float, ...]:
+        """Return the times from `first` to `until` [s] at which a jump's argument passes its levels.
 
-    def crossings(self, jump: Jump, until: float, first: float = 0.0) -> list[float]:
-        """Return the times from `first` to `until` at which a jump's argument passes its levels; see `crossings`."""
-        over, line = partial(self.over, jump.argument), line_of(jump, self._values)
-        return crossings(over, line, jump.levels, until, first, self._shortest)
-
-    def range(self, jump: Jump, until: float, first: float = 0.0) -> tuple[float, float]:
-        """Return the least and the largest sampled value of the argument of `jump`; nan if undefined."""
-        line = line_of(jump, self._values)
-        times = np.linspace(first, until, 2 if line is not None else _FIRST)
-        values = self.over(jump.argument, times)
-        finite = values[np.isfinite(values)]
-        return (float(finite.min()), float(finite.max())) if len(finite) else (math.nan, math.nan)
+        Raises
+        ------
+        InputError
+            If it passes them too often, or too often to separate the times.
+        """
+        known = _passings(self._mechanism)
+        passing = known.get(jump)
+        if passing is None:
+            passing = known[jump] = Passing(jump, self._tables)
+        return passing.times(self, until, first)
 
 
-def crossings(
-    over: Over,
-    line: tuple[float, float] | None,
-    levels: Sequence[float],
-    until: float,
-    first: float = 0.0,
-    shortest: float = math.inf,
-) -> list[float]:
-    """Return the times from `first` to `until` at which a function passes one of some levels.
-
-    Parameters
-    ----------
-    over : callable
-        Values of the function at many times [s].
-    line : tuple of float or None
-        Value at 0 and slope if the function is a straight line.
-    levels : sequence of float
-        Levels to pass.
-    until, first : float
-        End and begin [s].
-    shortest : float
-        Largest distance of samples [s], as far as their number allows.
-
-    Raises
-    ------
-    InputError
-        If it passes them too often, or too often to separate the times.
-    """
-    if line is not None or not levels:
-        value, slope = line or (0.0, 0.0)
-        return [t for level in levels if slope and first <= (t := (level - value) / slope) <= until]
-    before, span, sorted_levels = -1, until - first, np.sort(np.asarray(levels, dtype=np.float64))
-    count = max(_FIRST, math.ceil(min(span / shortest, 0.5 * _MOST)))
-    often = "a formula that changes sides more often"
-    while count <= _MOST:
-        # at random in equal parts, to detect changes faster than the sampling at any frequency
-        anywhere = np.random.default_rng(count).random(count)
-        times = np.concatenate([[first], first + span * (np.arange(count) + anywhere) / count, [until]])
-        samples = over(times)
-        below = _below(sorted_levels, samples)
-        passes, of_passes = _counted(below[:-1], below[1:])
-        if len(passes) > MOST_PIECES:
-            raise InputError("inputs", f"at most {MOST_PIECES} jumps", often)
-        turns, sign = _turns(samples, below, len(levels))
-        beyond, finite, passed = sorted_levels[below[turns] - (sign > 0.0)], samples[np.isfinite(samples)], -1
-        near = np.abs(beyond - samples[turns]) < (float(np.ptp(finite)) if len(finite) else 0.0)
-        if _LOOKS * (len(passes) + np.count_nonzero(near)) <= count:
-            # turning points may pass a level twice
-            begin, end = times[np.maximum(turns - 1, 0)], times[np.minimum(turns + 1, len(times) - 1)]
-            middle = _lowest(over, sign, begin, end)
-            twice, of_twice = _counted(below[turns], _below(sorted_levels, over(middle)))
-            low = np.concatenate([times[passes], begin[twice], middle[twice]])
-            high = np.concatenate([times[passes + 1], middle[twice], end[twice]])
-            passed = len(low)
-            if passed == before:
-                at = sorted_levels[np.concatenate([of_passes, of_twice, of_twice])]
-                return [float(x) for x in _bisected(over, low, high, at)]
-        count, before = 2 * count, passed
-    raise InputError("inputs", f"at most {MOST_PIECES} jumps", f"{often} than can be distinguished")
-
-
-def _below(levels: Array, samples: Array) -> Integers:
-    """Return the number of levels below each value, 0 for undefined values."""
-    return np.searchsorted(levels, np.where(np.isnan(samples), -math.inf, samples))
-
-
-def _turns(samples: Array, below: Integers, levels: int) -> tuple[Integers, Array]:
-    """Return samples beyond which a level may be passed for a moment, and the sign that makes them smallest.
-
-    They are local extrema; of a plateau, only its ends.
-    """
-    padded = np.concatenate([[np.nan], samples, [np.nan]])
-    before, after = padded[:-2], padded[2:]
-    lower, higher = np.fmin(before, after), np.fmax(before, after)
-    ends = np.isnan(before) | np.isnan(after)
-    top = (samples >= higher) & (ends | (samples > lower)) & (below < levels)
-    bottom = (samples <= lower) & (ends | (samples < higher)) & (below > 0)
-    return np.flatnonzero(top | bottom), np.where(top, -1.0, 1.0)[top | bottom]
-
-
-def _counted(a: Integers, b: Integers) -> tuple[Integers, Integers]:
-    """Return all numbers from the smaller to the larger of two (exclusive), with the index of the pair of each."""
-    least, count = np.minimum(a, b), np.abs(a - b)
-    pairs = np.repeat(np.arange(len(a)), count)
-    return pairs, np.arange(len(pairs)) - np.repeat(np.cumsum(count) - count - least, count)
-
-
-def _bisected(over: Over, low: Array, high: Array, levels: Array) -> Array:
-    """Return the first times, to rounding, at which a function is on the same side of a level as at `high`."""
-    side, rounding = over(high) > levels, np.finfo(np.float64).eps * np.max(np.abs(high), initial=0.0)
-    while True:
-        middle = 0.5 * (low + high)
-        inside = (low < middle) & (middle < high) & (high - low > rounding)
-        if not inside.any():
-            return high
-        same = (over(middle) > levels) == side
-        low, high = np.where(inside & ~same, middle, low), np.where(inside & same, middle, high)
-
-
-def _lowest(over: Over, sign: Array, low: Array, high: Array) -> Array:
-    """Return the minimiser of a function times a sign, by golden sections."""
-    for _ in range(60 if len(low) else 0):
-        a, b = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-        left = sign * over(a) < sign * over(b)
-        low, high = np.where(left, low, a), np.where(left, b, high)
-    return 0.5 * (low + high)
+@compute_once
+def _passings(mechanism: Mechanism) -> dict[Jump, Passing]:
+    """Return what is known of the jumps of a mechanism, so far nothing."""
+    return {}
 
 
 def line_of(jump: Jump, values: Mapping[str, float]) -> tuple[float, float] | None:
     """Return value at 0 and slope of a jump's argument if it is a straight line over time, else None."""
-    parts = line_parts(jump.argument)
+    return _value_and_slope(line_parts(jump.argument), values)
+
+
+def _value_and_slope(parts: tuple[Expr, Expr] | None, values: Mapping[str, float]) -> tuple[float, float] | None:
     try:
         return None if parts is None else (evaluate(parts[0], values), evaluate(parts[1], values))
     except InputError:

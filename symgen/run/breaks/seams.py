@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -22,17 +22,26 @@ from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.parts.driven_mechanism import DrivenMechanism, Jump
 from symgen.describe.remembered import compute_once
-from symgen.run.breaks.in_time import MOST_PIECES, InTime, line_of
-from symgen.run.layout.abi import SAME_TIME
+from symgen.run.breaks.in_time import MOST_PIECES, InTime, line_of, new_search
 from symgen.run.loops.run_spec import Seam
+from symgen.run.loops.seams import seams_with_room
+from symgen.run.loops.times_of_jumps import (
+    BESIDE,
+    BESIDE_A_SIDE,
+    COUNT,
+    KINK,
+    SAME,
+    SEAMS_OF_PASSAGE,
+    SEAMS_OF_WINDOW,
+    SKIP,
+    STRIKE,
+    Search,
+    lay_seams,
+    note_passage,
+)
 
-#: Jumps closer than this fraction of the run are one.
-SAME = 1e-14
 #: Schemes of a lower order end steps where those of this order do.
 LEAST_ORDER = 3
-#: Distance from a jump at which a step ends and another begins, as a fraction of the run; and where constant steps do,
-#: between which no step lies: more than the rounding of stages, and of the time of the jump.
-BESIDE, NEXT_TO = 1e-12, 4.0 * 2.0**-52
 
 
 def seams_of_motion(
@@ -66,10 +75,7 @@ def seams_of_motion(
     jumps = {t for data in driven.samples.values() for t in data.t}
     for jump in driven.jumps:
         jumps.update(formulas.crossings(jump, until, first))
-    times = [first]
-    for t in sorted(jumps):
-        if t - times[-1] > SAME * until and until - t > SAME * until:
-            times.append(t)
+    times = [first, *_times_in(_passages_of(((t, KINK) for t in jumps), until, first))]
     if len(times) > MOST_PIECES:
         raise InputError("inputs", f"at most {MOST_PIECES} jumps", f"{len(times) - 1}")
     switches = [jump for jump in driven.jumps if jump.switch]
@@ -101,7 +107,7 @@ def merged(seams: tuple[Seam, ...], kinks: tuple[Seam, ...]) -> tuple[Seam, ...]
 
 def seams_beside(seams: tuple[Seam, ...], times: Sequence[float], until: float) -> tuple[Seam, ...]:
     """Return seams on both sides of some times, in place of seams at these without changes of numbers."""
-    apart, result = BESIDE * until, list[Seam]()
+    apart, result = BESIDE_A_SIDE * until, list[Seam]()
     for seam in seams:
         if seam.values or seam.t == 0.0 or not any(abs(seam.t - t) < apart for t in times):
             result.append(seam)
@@ -151,6 +157,14 @@ class Foreseen:
             name for jump in (*self.kinks, *self.sides, *self.gaps) for name in names_in_expression(jump.argument)
         )
 
+    @property
+    def passing(self) -> tuple[tuple[Jump, int], ...]:
+        """The jumps, each with what runs do where it is passed, see `symgen.run.loops.times_of_jumps`."""
+        grid = self.grid is not None
+        side = SKIP if grid or self.mechanism.bounded else BESIDE  # where modes are chosen anew, no stage is between
+        kinds = (self.kinks, KINK + SKIP if grid else KINK), (self.sides, side), (self.gaps, SKIP + STRIKE)
+        return tuple((jump, kind) for jumps, kind in kinds for jump in jumps)
+
     def seams(self, values: Mapping[str, float], until: float) -> tuple[Seam, ...]:
         """Return the seams of a run to `until` [s], at which no number changes; empty for a run in one piece.
 
@@ -170,20 +184,10 @@ class Foreseen:
         key = until, *(values[name] for name in sorted(self.reads & values.keys()))
         result = self.latest.get(key)
         if result is None:  # compared runs, or runs of a sweep, often agree in these values
-            kinks, all_kinks = times_between(self.kinks, self.mechanism, values, until)
-            sides, all_sides = times_between(self.sides, self.mechanism, values, until, self.grid is not None)
-            gaps, all_gaps = times_between(self.gaps, self.mechanism, values, until, self.grid is not None)
-            if self.grid is None:
-                # a short part around each: no stage of its neighbours is at the very time, which belongs to one side
-                skipped = {*gaps, *sides} if self.mechanism.bounded else {*gaps}  # where modes are chosen anew
-                beside = (t + way * BESIDE * until for t in sides if t not in skipped for way in (-1.0, 1.0))
-                times = sorted({*kinks} - skipped | {t for t in beside if 0.0 < t < until})
-                seams = tuple(Seam(t, {}) for t in (0.0, *times)) if times else ()
-                if skipped:
-                    seams = merged(seams, skipping(sorted(skipped), gaps, (0.0, 0.0), until))
-            else:
-                seams = skipping(sorted({*kinks, *sides, *gaps}), gaps, self.grid, until)
-            result = seams, all_kinks and all_sides and all_gaps
+            passages, whole = _passages_in(self.passing, self.mechanism, values, until)
+            search = _passages_of(passages, until, grid=self.grid)
+            count = int(search.found[COUNT])
+            result = _laid_out(search, until) if count <= MOST_PIECES else (), whole and count <= MOST_PIECES
             self.latest.clear()  # threads of a sweep do so, too
             self.latest[key] = result
         return result
@@ -194,38 +198,6 @@ class Foreseen:
             return []
         often = "formulas change, or pass points of tables, more often than can be distinguished"
         return [f"{often}: steps do not end there, and may miss what is short"]
-
-
-def skipping(
-    times: Sequence[float], gaps: Container[float], grid: tuple[float, float], until: float
-) -> tuple[Seam, ...]:
-    """Return the seams of constant steps at discontinuities.
-
-    A step ends just before each, and the next one begins just behind it, so that every stage lies on its side; it ends
-    at the next point of the grid.
-
-    Parameters
-    ----------
-    times : sequence of float
-        Of discontinuities, in their order [s].
-    gaps : container of float
-        Those of gaps.
-    grid : (float, float)
-        As in `Foreseen`.
-    until : float
-        End of the run [s].
-    """
-    (first, step), apart, result = grid, NEXT_TO * until, list[Seam]()
-    for t, following in pairwise((*times, until)):
-        result += [Seam(max(t - apart, 0.0), {}, skips=True, strikes=t in gaps), Seam(t + apart, {})]
-        if step > 0.0:
-            steps = (t - first) / step
-            point = first + math.ceil(steps) * step
-            if abs(steps - round(steps)) > SAME_TIME and point < following - SAME_TIME * step:
-                result.append(Seam(point, {}))
-    if result and result[0].t > 0.0:
-        result.insert(0, Seam(0.0, {}))
-    return tuple(result)
 
 
 def foreseen_by_steps(mechanism: Mechanism, order: int, first: float, step: float | None) -> Foreseen:
@@ -318,33 +290,49 @@ def times_between(
     bool
         Whether nothing was left out.
     """
-    formulas, crossings, apart, whole = InTime(mechanism, values), set[float](), SAME * until, True
-    for jump in jumps:
+    passages, whole = _passages_in(((jump, SKIP if at_start else KINK) for jump in jumps), mechanism, values, until)
+    times = _times_in(_passages_of(passages, until))
+    return (times, whole) if len(times) <= MOST_PIECES else ((), False)
+
+
+def _passages_in(
+    passing: Iterable[tuple[Jump, int]], mechanism: Mechanism, values: Mapping[str, float], until: float
+) -> tuple[list[tuple[float, int]], bool]:
+    """Return times at which formulas pass levels, each with what the passage is, and whether none are left out."""
+    formulas, passages, whole = InTime(mechanism, values), list[tuple[float, int]](), True
+    for jump, kind in passing:
         try:
-            crossings.update(formulas.crossings(_unrolled(jump, formulas, until), until))
+            passages += ((t, kind) for t in formulas.crossings(jump, until))
         except InputError:
             whole = False
-    times = [0.0] if at_start and min(crossings, default=until) <= apart else list[float]()
-    for t in sorted(crossings):
-        if t - (times[-1] if times else 0.0) > apart and until - t > apart:
-            times.append(t)
-    return (tuple(times), whole) if len(times) <= MOST_PIECES else ((), False)
+    return passages, whole
 
 
-def _unrolled(jump: Jump, formulas: InTime, until: float) -> Jump:
-    """Return a jump with all periodic levels in the range of its argument in a run.
+def _passages_of(
+    passages: Iterable[tuple[float, int]],
+    until: float,
+    first: float = 0.0,
+    grid: tuple[float, float] | None = (0.0, 0.0),
+) -> Search:
+    """Return a search that has found passages: those inside a run, those at the same time as one."""
+    inside = sorted((t, kind) for t, kind in passages if until - t > SAME * until)
+    search = new_search(None, until, first, grid=grid, room=len(inside))
+    for t, kind in inside:
+        note_passage(search, t, kind)
+    return search
 
-    Raises
-    ------
-    InputError
-        If the levels are too many.
-    """
-    if jump.period == 0.0:
-        return jump
-    low, high = formulas.range(jump, until)
-    turns = [(x - jump.levels[0]) / jump.period for x in (low, high)]
-    own = jump.levels[:-1]  # the last point is the first one of the next period
-    if not (turns[1] - turns[0] + 1.0) * len(own) <= MOST_PIECES:
-        raise InputError("formulas", f"at most {MOST_PIECES} points of a table", "more periods of it")
-    count = range(math.floor(turns[0]), math.floor(turns[1]) + 1)
-    return replace(jump, levels=tuple(x + k * jump.period for k in count for x in own))
+
+def _times_in(search: Search) -> tuple[float, ...]:
+    """Return the times that a search has found [s]."""
+    return tuple(search.moments[: search.found[COUNT]].tolist())
+
+
+def _laid_out(search: Search, until: float) -> tuple[Seam, ...]:
+    """Return the seams of a run at the passages that a search has found; none without any."""
+    if search.found[COUNT] == 0:
+        return ()
+    most = SEAMS_OF_PASSAGE * int(search.found[COUNT]) + SEAMS_OF_WINDOW
+    seams = seams_with_room(most, search.end >= 0)
+    lay_seams(search, seams, until)
+    times, skips = (x[: seams.rows[1]].tolist() for x in (seams.times, seams.skips))
+    return tuple(Seam(t, {}, how > 0, how == 2) for t, how in zip(times, skips, strict=True) if t < until)

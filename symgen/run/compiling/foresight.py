@@ -6,7 +6,7 @@ Arguments that are straight lines over time are compiled as their values at 0 an
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -15,11 +15,11 @@ import numpy as np
 from symgen.base.vocabulary.expressions import names_in_expression
 from symgen.describe.parts.driven_mechanism import Jump
 from symgen.run.breaks.in_time import line_of, line_parts
-from symgen.run.breaks.seams import BESIDE as BESIDE_A_SIDE
-from symgen.run.breaks.seams import NEXT_TO, SAME, Foreseen
+from symgen.run.breaks.seams import Foreseen
 from symgen.run.compiling.side import Side, compile_side
-from symgen.run.loops.seams import Seams
-from symgen.run.printed.foreseen_run import BESIDE, KINK, SKIP, STRIKE, Foresight
+from symgen.run.loops.seams import seams_with_room
+from symgen.run.loops.times_of_jumps import BESIDE_A_SIDE, NEXT_TO, SAME, SEAMS_OF_PASSAGE, SEAMS_OF_WINDOW
+from symgen.run.printed.foreseen_run import Foresight
 from symgen.run.printed.kept_run import END_TIME
 
 if TYPE_CHECKING:
@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 
 #: Room for the passages of a window: where formulas pass levels again and again, and at most.
 _ROOM, _MOST_ROOM = 64, 256
-#: Seams of a passage at most; and those at the begin and at the end of a window.
-_OF_PASSAGE, _OF_WINDOW = 3, 2
 
 
 @dataclass(frozen=True)
@@ -41,7 +39,7 @@ class Passages:
     lines : Side
         Values of their formulas.
     jumps : sequence of (Jump, int)
-        Each with what its passages are, see `symgen.run.printed.foreseen_run`.
+        Each with what its passages are, see `symgen.run.loops.times_of_jumps`.
     step : float
         Distance of the grid of constant steps [s], 0 without.
     shortest : float
@@ -56,7 +54,7 @@ class Passages:
     @classmethod
     def of(cls, foreseen: Foreseen, compiled: CompiledModel) -> Passages:
         """Return the passages of a run."""
-        mechanism, jumps = foreseen.mechanism, tuple(_kinds(foreseen))
+        mechanism, jumps = foreseen.mechanism, foreseen.passing
         formulas = [
             (f"{name} {i}", e)
             for i, (jump, _) in enumerate(jumps)
@@ -77,42 +75,21 @@ class Passages:
         straight = [line_parts(jump.argument) is not None for jump, _ in self.jumps]
         widths = [1 + is_straight for is_straight in straight]
         levels = [sorted(jump.levels) for jump, _ in self.jumps]
-        integers = (
-            np.cumsum([0, *widths])[:-1],
-            np.array(straight, dtype=np.int64),
-            np.array([kind for _, kind in self.jumps], dtype=np.int64),
-            np.cumsum([0, *map(len, levels)]),
-        )
+        integers = (x.astype(np.int64) for x in (np.cumsum([0, *widths])[:-1], np.array(straight)))
+        own = (np.array([kind for _, kind in self.jumps], dtype=np.int64), np.cumsum([0, *map(len, levels)]))
         ends = END_TIME if spec.adaptive else -1
         return Foresight(
-            *(self.lines.function, float(spec.until), self.shortest, self.step, SAME, BESIDE_A_SIDE, NEXT_TO, ends),
-            *integers,
-            np.array([x for each in levels for x in each]),
-            np.array([jump.period for jump, _ in self.jumps]),
-            *(np.zeros(sum(widths)), shown, np.zeros(2), np.zeros(self.room)),
-            *(np.zeros(self.room, dtype=np.int64), np.zeros(2, dtype=np.int64)),
+            *(float(spec.until), self.shortest, 0.0, self.step, SAME, BESIDE_A_SIDE, NEXT_TO, ends, *own),
+            *(np.array([x for each in levels for x in each]), np.array([jump.period for jump, _ in self.jumps])),
+            *(shown, np.zeros(2), np.zeros(self.room), np.zeros(1)),
+            *(np.zeros(self.room, dtype=np.int64), np.zeros(4, dtype=np.int64)),
+            *(self.lines.function, *integers, np.zeros(sum(widths))),
         )
 
     def seams(self, compiled: CompiledModel, adaptive: bool) -> Any:
         """Return room for the seams of a window as `Seams`."""
-        most = _OF_PASSAGE * self.room + _OF_WINDOW
-        return Seams(
-            head=np.array([0, int(adaptive), int(bool(compiled.info.bounded))]),
-            rows=np.zeros(2, dtype=np.int64),
-            times=np.zeros(most),
-            skips=np.zeros(most, dtype=np.int64),
-            changes=np.zeros(most + 1, dtype=np.int64),
-            places=np.zeros(0, dtype=np.int64),
-            values=np.zeros(0),
-        )
-
-
-def _kinds(foreseen: Foreseen) -> Iterator[tuple[Jump, int]]:
-    """Yield jumps with what runs do where they pass levels, as `Foreseen` has it."""
-    skips = foreseen.grid is not None
-    yield from ((jump, KINK + SKIP if skips else KINK) for jump in foreseen.kinks)
-    yield from ((jump, SKIP if skips or foreseen.mechanism.bounded else BESIDE) for jump in foreseen.sides)
-    yield from ((jump, SKIP + STRIKE) for jump in foreseen.gaps)
+        most = SEAMS_OF_PASSAGE * self.room + SEAMS_OF_WINDOW
+        return seams_with_room(most, adaptive, bool(compiled.info.bounded))
 
 
 def is_laid_out(foreseen: Foreseen, until: float) -> bool:

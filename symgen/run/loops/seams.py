@@ -62,6 +62,21 @@ class Seams(Record):
 SEAMS = record_type(Seams)
 
 
+def seams_with_room(most: int, adaptive: bool, chooses: bool = False) -> Seams:
+    """Return room for the seams of one run, at which no number changes.
+
+    Parameters
+    ----------
+    most : int
+        Number of seams.
+    adaptive, chooses : bool
+        Whether steps are adaptive, and modes are chosen at each change.
+    """
+    head, rows, none = np.array([0, int(adaptive), int(chooses)]), np.zeros(2, dtype=np.int64), np.zeros(0)
+    skips, changes = np.zeros(most, dtype=np.int64), np.zeros(most + 1, dtype=np.int64)
+    return Seams(head, rows, np.zeros(most), skips, changes, none.astype(np.int64), none)
+
+
 def due(seams: Seams, count: int) -> float:
     """Return the time of seam number `count` of the present row [s]; infinity behind the last one."""
     at = seams.rows[seams.head[ROW]] + count

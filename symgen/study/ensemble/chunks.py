@@ -17,7 +17,7 @@ from symgen.base.vocabulary.expressions import Expr
 from symgen.describe.formulas.evaluate import dependent_parameters
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import Mechanism
-from symgen.run.breaks.array_formulas import Columns
+from symgen.study.ensemble.array_formulas import Columns
 
 if TYPE_CHECKING:
     from symgen.base.vocabulary.infos import LawInfo

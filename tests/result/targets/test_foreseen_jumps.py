@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from fmpy import simulate_fmu
 
+from symgen.compile.loopcode.loop_instances import Instances
 from symgen.result.targets import Request
 from symgen.result.targets._c_model import CModel, sources
 from symgen.run.breaks.seams import foreseen_in_run
 from symgen.run.layout import abi
-from symgen.run.printed.foreseen_run import foresee_run
+from symgen.run.printed.foreseen_run import FORESEEN, foresee_run
 from tests.result.targets.test_c_modes import DOOR, loaded, program_of, rows_of, transitions_of
 from tests.result.targets.test_fmu import fmu_of, importer_of
 
@@ -68,13 +69,17 @@ def values_of(count):
     return values
 
 
+#: The search as plain Python.
+PLAIN = Instances(FORESEEN, lambda copy, _: copy).of(foresee_run)
+
+
 def laid_out(run, p, until):
     """Return times of seams, and which are skipped, that a run finds by itself: window after window up to its end."""
     passages, adaptive = run.passages, run.spec.adaptive
     foresight = passages.foresight(run.spec, np.array([0.0, until]))._replace(lines=passages.lines.plain)
     seams, result, t, start = passages.seams(run.compiled, adaptive), [], 0.0, 1
     state = SimpleNamespace(y=np.zeros(9), p=p, w=np.zeros(9), control=np.zeros(abi.N_CONTROL, dtype=np.int64))
-    while t < until and foresee_run(start, t, foresight, seams, state):
+    while t < until and PLAIN(start, t, foresight, seams, state):
         t, start = foresight.known[0], 0
         last = seams.rows[1] - (t < np.inf)  # which is the end of the window
         result += zip(seams.times[:last], seams.skips[:last], strict=True)

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +16,8 @@ from symgen.describe import catalogue
 from symgen.describe.facts.kinks import compares_state, discontinuities_of, jumps_in_time
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.parts.driven_mechanism import Jump
-from symgen.run.breaks.in_time import line_of
-from symgen.run.breaks.seams import merged, times_between
+from symgen.run.breaks.in_time import InTime, line_of
+from symgen.run.breaks.seams import Foreseen, merged, times_between
 from symgen.run.loops.run_spec import Seam
 from symgen.study.ensemble.parameter_sweep import sweep
 
@@ -165,6 +166,28 @@ def test_times_of_kinks() -> None:
         (),
         True,
     )  # nowhere near a level
+
+
+@pytest.mark.parametrize("text", ["sin(w*t) - 0.3", "exp(t)*t - 2", "abs(2*t - 1)**0.5 - 0.1", "1/(t - 3) + 1"])
+def test_times_are_the_first_numbers_on_the_other_side(text: str) -> None:
+    """Whatever the samples were: a search of a part of the run finds the same."""
+    formulas, jump = InTime(symgen.load("pendulum").mechanism, {"w": 11.0}), _jump(text, (0.0,))
+    found = formulas.crossings(jump, 3.5)
+    for t in found:
+        sides = [formulas.at(jump.argument, x) > 0.0 for x in (math.nextafter(t, 0.0), t)]
+        assert sides[0] != sides[1]
+    parts = (*formulas.crossings(jump, 1.7), *formulas.crossings(jump, 3.5, 1.7))
+    assert parts == found and len(found) >= 1
+
+
+def test_a_kink_at_a_jump_ends_constant_steps_once() -> None:
+    """What is compared jumps itself: its time is found in two ways, a rounding apart."""
+    argument = "3*(1 if t > 1/3 else -1)"
+    jumps = _jump(argument, (0.0,)), _jump("t - 1/3", (0.0,))
+    seams = Foreseen(symgen.load("pendulum").mechanism, jumps[:1], jumps[1:], grid=(0.0, 0.1)).seams({}, 1.0)
+    assert [seam.skips for seam in seams] == [False, True, False, False]
+    assert [seam.t for seam in seams] == pytest.approx([0.0, 1.0 / 3.0, 1.0 / 3.0, 0.4], abs=2e-15)
+    assert all(a.t < b.t for a, b in pairwise(seams))
 
 
 def test_kinks_and_jumps_end_pieces_together() -> None:

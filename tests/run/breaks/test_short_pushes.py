@@ -13,10 +13,12 @@ from support.checks import assert_same_motion
 from support.pushed import pushed_point
 
 import symgen
-from symgen.base.vocabulary.expressions import Expr
+from symgen.compile.loopcode.loop_instances import Instances
 from symgen.describe.formulas.parser import FormulaNames, parse
-from symgen.run.breaks.in_time import InTime, crossings
+from symgen.describe.parts.driven_mechanism import Jump
+from symgen.run.breaks.in_time import InTime, new_search
 from symgen.run.breaks.seams import foreseen
+from symgen.run.loops.times_of_jumps import COUNT, search_curve
 from symgen.study.ensemble.parameter_sweep import sweep
 from symgen.study.ensemble.sweep_plan import make_ensemble
 
@@ -117,41 +119,34 @@ def test_devices_refuse_to_go_across(pushed: symgen.Model) -> None:
         make_ensemble(pushed, asked, {"at": [2.0, 3.0]}, {}, None, "cuda")
 
 
-def test_values_over_times_are_those_at_each(pushed: symgen.Model) -> None:
-    """Formulas as arrays, where some are undefined, and one by one: to the last bit."""
-    formulas, times = InTime(pushed.mechanism, {"at": AT}), np.linspace(-1.0, 4.0, 301)
-    for text in (
-        "sqrt(t)",
-        "1/(t*t - t)",
-        "sin(30*t)*exp(-t)",
-        "log(t) if t > 1/2 else at",
-        "t if t > 1 or log(t) > 0 else 0",
-    ):
-        e = parse(text, FormulaNames("a formula", {"t": "t", "at": "at"}, {}, {}), "here")
-        one_by_one = [formulas.at(e, t) for t in times.tolist()]
-        np.testing.assert_array_equal(formulas.over(e, times), one_by_one)
+def called_with(f: Any, formula: Callable[[float], float], j: int, t: float) -> float:
+    """Return the value of a formula that is a function of Python."""
+    return formula(t)
 
 
-def test_plateaus_are_not_searched(pushed: symgen.Model, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_plateaus_are_not_searched(pushed: symgen.Model) -> None:
     """What stays where it is has a least value everywhere: looking for it between all looks would take seconds."""
-    looks, formulas, over = [0], InTime(pushed.mechanism, {"at": AT}), InTime.over
-
-    def counted(self: InTime, e: Expr, times: np.ndarray) -> np.ndarray:
-        looks[0] += len(times)
-        return over(self, e, times)
-
-    monkeypatch.setattr(InTime, "over", counted)
+    formulas = InTime(pushed.mechanism, {"at": AT})
     (jump,) = (jump for jump in foreseen(pushed.mechanism).kinks if abs(formulas.at(jump.argument, 0.0)) > 1e6)
-    assert len(formulas.crossings(jump, 10.0)) == 2
-    assert looks[0] < 2 * (2048 + 4096)
+
+    def counted(t: float) -> float:
+        looks.append(t)
+        return formulas.at(jump.argument, t)
+
+    looks, search = list[float](), new_search(jump, 10.0)
+    Instances({"formula_at": called_with}, lambda copy, _: copy).of(search_curve)(search, counted, 0, 0.0, 10.0)
+    assert search.found[COUNT] == len(formulas.crossings(jump, 10.0)) == 2
+    assert len(looks) < 4 * (2048 + 4096)
 
 
-def test_passages_of_any_frequency_are_found() -> None:
+def test_passages_of_any_frequency_are_found(pushed: symgen.Model) -> None:
     """Peaks that pass a level for a moment, more of them than the first looks, with known times."""
     random = np.random.default_rng(7)
-    for _ in range(25):
+    for _ in range(60):
         w, phase, part = 10.0 ** random.uniform(0.0, 4.0), random.uniform(0.0, 6.0), 10.0 ** random.uniform(-5.0, -0.4)
-        found = crossings(lambda t, w=w, p=phase, d=part: np.sin(w * t + p) - math.cos(d), None, (0.0,), 10.0)
+        argument = parse("sin(w*t + p) - d", FormulaNames("a formula", {x: x for x in "twpd"}, {}, {}), "here")
+        values = {"w": w, "p": phase, "d": math.cos(part)}
+        found = InTime(pushed.mechanism, values).crossings(Jump(argument), 10.0)
         turns = np.arange(math.floor(phase / math.tau) - 1, math.ceil((10.0 * w + phase) / math.tau) + 1)
         peaks = (0.5 * math.pi + math.tau * turns - phase) / w
         expected = np.sort(np.concatenate([peaks - part / w, peaks + part / w]))
