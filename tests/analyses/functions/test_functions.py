@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from support.recursion import Recursion, random_robot, urdf
 
-from symgen.analyses.functions.model_functions import array_function
+from symgen.analyses.functions import array_function
 from symgen.api import Model, load
 from symgen.base.errors import InputError
 from symgen.describe.files.builder import MechanismBuilder
