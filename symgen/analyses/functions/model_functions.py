@@ -365,7 +365,7 @@ class Functions:
         key = name, *actuators
         if key not in self._functions:
             n, m, k = sizes[0], sizes[1], len(actuators)
-            make = (lambda f: f.values(name)) if not k else (lambda f: f.actuated(actuators))
+            make = (lambda f: f.values(name)) if not k else (lambda f: f.balance_of_actuators(actuators))
             inputs = compile_function(
                 *(self.mechanism, lambda: self._derived, name, f"what {name} solves", vectors, make), actuators
             )

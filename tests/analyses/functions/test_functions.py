@@ -15,7 +15,7 @@ from symgen.describe.files.builder import MechanismBuilder
 from symgen.describe.files.validate import validate
 from symgen.describe.formats import read_robot
 
-BOUNDED = Path(__file__).resolve().parents[2] / "benchmarks" / "bounded" / "files"
+BOUNDED = Path(__file__).resolve().parents[3] / "benchmarks" / "bounded" / "files"
 #: Parents and kinds of joints: a chain, slides, forks.
 ROBOTS = {
     "chain": ([-1, 0, 1], "rrr"),
