@@ -99,6 +99,8 @@ N_CLOCK = 6
 #: Times are equal if they differ by less than this part of a constant step or, if steps vary, of the time: shorter
 #: steps are lost in its rounding.
 SAME_TIME, RESOLVED_TIME = 1e-9, 4e-16
+#: The end of a run of varying steps is reached where less than this part of the time is left: ten roundings.
+END_TIME = 2.2e-15
 #: Least step at time 0, which resolves any [s].
 SHORTEST_STEP = 1e-30
 

@@ -79,7 +79,8 @@ def begin_loop(system: ModelSystem, scheme: Record, span: Span, run: EventRun, o
             store(sizes, run.w, outputs, out, run.y)
             out += 1
         control[abi.OUTPUTS] = out
-    if control[abi.BEGUN] != 1:
+    # a scheme that began at the end of a run, after its last event, had no time to choose a step for
+    if control[abi.BEGUN] != 1 or (ADAPTIVE and not clock[abi.NEXT] > shortest_step(clock[abi.TIME])):
         clock[abi.ALLOWED] = 0.0
         control[abi.REFUSED] = control[abi.BARRED] = control[abi.KNOWN] = 0
         if ADAPTIVE:
@@ -96,6 +97,26 @@ def begin_loop(system: ModelSystem, scheme: Record, span: Span, run: EventRun, o
 def resolution(span: Span) -> float:
     """Return the difference below which times of a grid of constant steps are equal [s]."""
     return 0.0 if ADAPTIVE else abi.SAME_TIME * span.step
+
+
+def shortest_step(t: float) -> float:
+    """Return the length that steps from a time have to exceed [s]."""
+    return max(abi.RESOLVED_TIME * abs(t), abi.SHORTEST_STEP)
+
+
+def last_resolution(span: Span) -> float:
+    """Return the rest of a run that is no step [s]: an event may be by some roundings before its end."""
+    return abi.END_TIME * abs(span.until) if ADAPTIVE else resolution(span)
+
+
+def end_run(system: ModelSystem, span: Span, run: EventRun, outputs: Outputs) -> None:
+    """Have a run that has ended by some roundings before its end be there, with the outputs up to it."""
+    out = run.control[abi.OUTPUTS]
+    while out < outputs.times.shape[0] and outputs.times[out] <= span.until:
+        store(system.sizes, run.w, outputs, out, run.y)
+        out += 1
+    run.control[abi.OUTPUTS] = out
+    run.clock[abi.TIME] = max(run.clock[abi.TIME], span.until)
 
 
 def choose_step(
@@ -133,7 +154,7 @@ def choose_step(
         following = t + h
         if t + 1.01 * h >= until:
             h, following = until - t, until
-        if not h > max(abi.RESOLVED_TIME * abs(t), abi.SHORTEST_STEP):
+        if not h > shortest_step(t):
             code = abi.TINY_STEP
     between, out = False, control[abi.OUTPUTS]
     if not DENSE and out < times.shape[0] and times[out] < following - resolution(span):
@@ -253,7 +274,7 @@ def integrate(model: System, scheme: Record, span: Span, state: State, outputs: 
     t, search, crossing, doubtful = run.clock[abi.TIME], NOTHING, False, False
     whole, whole_following, proposal = 0.0, 0.0, 0.0
     phi, drift, energy = run.gauges[abi.MAX_PHI], run.gauges[abi.MAX_DRIFT], run.gauges[abi.MAX_ENERGY]
-    while t < span.until - resolution(span):
+    while t < span.until - last_resolution(span):
         if EVENTS and search != NOTHING:
             prepare_search(system, run, RECALL)
             h, between = run.hunt[TRY], False
@@ -293,6 +314,8 @@ def integrate(model: System, scheme: Record, span: Span, state: State, outputs: 
             return code
         t, search = following, NOTHING
         phi, drift, energy = run.gauges[abi.MAX_PHI], run.gauges[abi.MAX_DRIFT], run.gauges[abi.MAX_ENERGY]
+    if ADAPTIVE and t < span.until:
+        end_run(system, span, run, outputs)
     return abi.DONE
 
 
