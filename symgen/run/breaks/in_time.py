@@ -180,9 +180,8 @@ class Passing:
 
     def _note_conditions(self, f: Search, formulas: InTime, until: float, first: float) -> None:
         """Note when a formula passes a level that is constant as long as its conditions are."""
-        passed = (t for jump in self.conditions or () for t in formulas.crossings(jump, until, first))
-        times = sorted({first, *passed, until})
-        looks = [first, *(0.5 * (a + b) for a, b in pairwise(times)), until]
+        times = sorted({t for jump in self.conditions or () for t in formulas.crossings(jump, until, first)})
+        looks = (0.5 * (a + b) for a, b in pairwise((first, *times, until)))
         sides = [levels_below(f, 0, formulas.at(self.jump.argument, t)) for t in looks]
         for t, (before, after) in zip(times, pairwise(sides), strict=True):
             if before != after:
