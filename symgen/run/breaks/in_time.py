@@ -36,7 +36,6 @@ from symgen.run.loops.times_of_jumps import (
     Search,
     levels_below,
     note_line,
-    note_passage,
     search_curve,
 )
 
@@ -68,7 +67,7 @@ def new_search(
         First point and distance of the grid of constant steps [s], 0 for steps without a grid. None where steps vary:
         then no passage at the start counts.
     room : int
-        Room for passages.
+        Room for passages; a search with room for all of them keeps its samples, too.
     """
     levels, period = ((), 0.0) if jump is None else (jump.levels, jump.period)
     origin, step = grid or (0.0, 0.0)
@@ -81,7 +80,7 @@ def new_search(
         ends=np.array([float(until)]),
         known=np.array([float(until), float(first)]),
         moments=np.empty(room),
-        samples=np.empty(0 if jump is None else MOST_SAMPLES + 2),
+        samples=np.empty(MOST_SAMPLES + 2 if room > MOST_PASSAGES else 0),
         flags=np.empty(room, dtype=np.int64),
         found=np.zeros(4, dtype=np.int64),
     )
@@ -164,29 +163,27 @@ class Passing:
         return times
 
     def _found(self, formulas: InTime, until: float, first: float) -> tuple[tuple[float, ...], int]:
-        f = new_search(self.jump, until, first, formulas.shortest)
+        line = _value_and_slope(self.line, formulas.values)
         if not self.jump.levels:
             return (), 0
-        line = _value_and_slope(self.line, formulas.values)
+        if line is None and self.conditions is not None:
+            return self._between_conditions(formulas, until, first), 0
+        room = len(self.jump.levels) if line is not None and self.jump.period == 0.0 else MOST_PASSAGES + 1
+        f = new_search(self.jump, until, first, formulas.shortest, room=room)
         if line is not None:
             note_line(f, 0, *line, first, until)
-        elif self.conditions is not None:
-            self._note_conditions(f, formulas, until, first)
         elif is_interpreted():
             _search_loop(f, partial(formulas.at, self.jump.argument))
         else:
             _search_loop(f, self.codes.of(formulas.values))
         return tuple(f.moments[: f.found[COUNT]].tolist()), int(f.found[LEFT_OUT])
 
-    def _note_conditions(self, f: Search, formulas: InTime, until: float, first: float) -> None:
-        """Note when a formula passes a level that is constant as long as its conditions are."""
-        passed = (t for jump in self.conditions or () for t in formulas.crossings(jump, until, first))
-        times = sorted({first, *passed, until})
-        looks = [first, *(0.5 * (a + b) for a, b in pairwise(times)), until]
+    def _between_conditions(self, formulas: InTime, until: float, first: float) -> tuple[float, ...]:
+        """Return when a formula passes a level that is constant as long as its conditions are."""
+        times = sorted({t for jump in self.conditions or () for t in formulas.crossings(jump, until, first)})
+        looks, f = (0.5 * (a + b) for a, b in pairwise((first, *times, until))), new_search(self.jump, until, room=0)
         sides = [levels_below(f, 0, formulas.at(self.jump.argument, t)) for t in looks]
-        for t, (before, after) in zip(times, pairwise(sides), strict=True):
-            if before != after:
-                note_passage(f, t, SKIP)
+        return tuple(t for t, (before, after) in zip(times, pairwise(sides), strict=True) if before != after)
 
 
 def _reads_in_conditions(e: Expr, found: dict[Jump, None]) -> bool:
