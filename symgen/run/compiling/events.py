@@ -107,6 +107,7 @@ def bounded_names(mechanism: Mechanism) -> BoundedNames:
         tuple(row.family.noun for row in every),
         len(two_sided_rows(mechanism)),
         tuple(i for i, row in enumerate(every) if row.pressed),
+        tuple(joint.name for joint in mechanism.joints if joint.kind == "driver"),
     )
 
 

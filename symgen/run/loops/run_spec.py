@@ -96,6 +96,8 @@ class BoundedNames:
         Number of those with two bounds.
     pressed : tuple of int
         Coordinates whose bounds depend on the reaction of their joint.
+    drivers : tuple of str
+        Names of the drivers of the mechanism.
     """
 
     names: tuple[str, ...]
@@ -103,6 +105,7 @@ class BoundedNames:
     nouns: tuple[str, ...]
     dry: int
     pressed: tuple[int, ...]
+    drivers: tuple[str, ...]
 
 
 @dataclass(frozen=True, kw_only=True)

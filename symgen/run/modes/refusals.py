@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from symgen.base.errors import InputError
 from symgen.run.modes.bounded_rows import (
     DISAGREED,
+    IMMOVABLE,
     JAMMED,
     NEGATIVE_GAP,
     NO_BOUND_IN_MOTION,
@@ -36,7 +37,7 @@ class Sentence(NamedTuple):
 
     Fields: ``kind``, ``kinds``, ``name`` of the row at fault; ``names`` of several rows; ``hits`` of their impacts;
     ``a_kind``, ``all`` of the first row; ``by_reaction``, ``pressed``, what depends on reactions and where; ``gaps``;
-    ``row`` of the mechanism; ``first`` and ``second``, numbers; ``t``, the time [s].
+    ``drivers``, all of them; ``row`` of the mechanism; ``first`` and ``second``, numbers; ``t``, the time [s].
     """
 
     where: str
@@ -80,6 +81,11 @@ SENTENCES = {
         "{by_reaction} by reactions whose forces at rest are determined, or that rests for good",
         "{names} at rest at one time, beside what changes",
     ),
+    IMMOVABLE: Sentence(
+        "{kind} {name}",
+        "an impact that can change the rate of the gap",
+        "a rate of {first:.6g} at t = {t:.6g} s that joints{drivers} determine",
+    ),
     NO_IMPULSES: Sentence("{gaps}", "impulses that can be found", "none of {names} at t = {t:.6g} s"),
     NOT_APPLIED: Sentence(
         "{hits}: reset", "velocities that the joints and each other allow", "others at t = {t:.6g} s"
@@ -96,6 +102,7 @@ def fixed_words(rows: BoundedNames) -> dict[str, str]:
         "by_reaction": rows.kinds[pressed[0]] if pressed else "",
         "pressed": ", ".join(rows.names[i] for i in pressed),
         "gaps": rows.nouns[rows.dry] if rows.dry < len(rows.names) else "",
+        "drivers": "".join(f" and the driver {name}" for name in rows.drivers),
     }
 
 

@@ -23,6 +23,7 @@ from symgen.run.layout import abi
 from symgen.run.layout.scales import larger
 from symgen.run.layout.start_records import Instant
 from symgen.run.modes.bounded_rows import (
+    IMMOVABLE,
     NO_IMPULSES,
     NOT_APPLIED,
     NOT_FINITE,
@@ -120,7 +121,10 @@ def new_strikes(effects: OfEffects, hits: Sequence[int], losses: Sequence[int], 
 
 @exact(entry=True)
 def find_struck(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
-    """Set the gaps that touch, and G among them, where one strikes: `OTHERS`; else `SAME`, or `NOT_FINITE`."""
+    """Set the gaps that touch, and G among them, where one strikes: `OTHERS`; else `SAME`, or why there is no impact.
+
+    That is `NOT_FINITE`, or `IMMOVABLE` with the gap named: its rate is what joints and drivers make of it.
+    """
     n, strikes = 0, False
     for i in range(c.dry, c.count):
         if is_shut(c, w, i):
@@ -134,7 +138,15 @@ def find_struck(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers,
     for i in range(c.count):
         c.signs[i] = w[c.first + MODE_NUMBERS * i + SIGN] if c.pushes[i] == 0 else 0.0
         c.sliding[i] = 0.0
-    return OTHERS if probe(t, c, y, p, w, iw, control) == SAME else NOT_FINITE
+    if probe(t, c, y, p, w, iw, control) != SAME:
+        return NOT_FINITE
+    for r in range(n):
+        i = c.rest[r]
+        closes = not is_held(c, w, i) and c.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED)
+        if closes and c.matrix[i * c.count + i] == 0.0:
+            c.named[0] = i
+            return IMMOVABLE
+    return OTHERS
 
 
 @exact()

@@ -25,6 +25,7 @@ from symgen.run.loops.watch import remember_rank
 from symgen.run.modes.agreement import choose_pressed
 from symgen.run.modes.bounded_rows import (
     DEEP,
+    IMMOVABLE,
     JAMMED,
     NEGATIVE_GAP,
     NO_BOUNDS,
@@ -133,6 +134,8 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
         first, second = c.static[row], c.sliding[row]
     elif code == NEGATIVE_GAP:
         first = c.value[row]
+    elif code == IMMOVABLE:
+        first = c.speed[row]
     return refuse_fault(code, which, first, second, modes)
 
 
