@@ -19,6 +19,7 @@ from symgen.describe.formulas.readings import TABLES as FORMULAS
 from symgen.result.evaluated import Evaluated
 from symgen.result.labelled import Labelled
 from symgen.result.step_errors import DOUBTFUL, errors_of_steps
+from symgen.result.unmoved import unmoved_sentence
 from symgen.run.compiling.side import compile_side
 from symgen.run.directions.directions import Course, run_with_directions
 from symgen.run.integrators import INTEGRATORS
@@ -154,7 +155,7 @@ class Differentiated:
         notes = *result.notes, *self._notes, *self._start.notes
         reason, status = result.reason, result.status
         still = [name for name, moves in zip(own.names, own.moves, strict=True) if not moves]
-        warnings = (*result.warnings, *(f"{name} changes nothing in this run" for name in still))
+        warnings = (*result.warnings, *(unmoved_sentence([name], "in this run") for name in still))
         if together := self._warning_on_shared_forces(own):
             warnings = (*warnings, together)
         doubt = own.reason_for_doubt(result)

@@ -137,6 +137,12 @@ def test_inputs_are_in_the_unit_of_the_file(found):
     assert of_one[0]["final"] == of_one[1]["final"] == found("--input", "push=1", model="plain.toml")["final"]
 
 
+def test_formulas_of_inputs_give_si_units(found):
+    """The same formula is the same torque, whatever the unit of the input in the file."""
+    own, plain = (found("--input", "push=1 + 0*t", model=f"{name}.toml") for name in ("rod", "plain"))
+    assert own["final"] == plain["final"]
+
+
 def test_every_unit_of_a_file_is_converted(typed, tmp_path):
     """Beside the number, behind it, and typed behind --set: 3 of each unit, in SI units by factors of the test."""
     lines, names = [], {f"p{i}": unit for i, unit in enumerate(UNITS)}

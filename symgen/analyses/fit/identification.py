@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from symgen.analyses.fit.free_numbers import Bounds, FreeNumbers, arrays_of_bounds, names_with_bounds
 from symgen.analyses.fit.measured_data import MeasuredData, measured_columns
+from symgen.analyses.fit.neighbours import notes_on_neighbours
 from symgen.analyses.fit.null_directions import null_directions
 from symgen.base.errors import AnalysisError, AssemblyError, InputError, plural, quote, suggest
 from symgen.describe.facts.lifted import lift_numbers
@@ -137,7 +138,7 @@ class Identification:
         self.start = np.array([*self.free.values(first.directions, first.run, result), *(0.0 for _ in bias)])
         self.units = {d.name: d.unit for d in first.directions}
         self.quantities = self._choose_quantities(result, quantities)
-        self.scales = {name: weights.get(name) or 1.0 / self._standard_deviation(name) for name in self.quantities}
+        self.scales = {name: weights.get(name) or 1.0 / self.standard_deviation(name) for name in self.quantities}
         for name in (*bias, *weights):
             if name not in self.quantities:
                 raise InputError("identify", "a measured quantity", quote(name), suggest(name, self.quantities))
@@ -153,7 +154,7 @@ class Identification:
     @property
     def sizes(self) -> Array:
         """What a change of each number is measured by: its value at the start, or what there is of its kind."""
-        spread = [1.0] * len(self.names) + [self._standard_deviation(name) for name in self.bias]
+        spread = [1.0] * len(self.names) + [self.standard_deviation(name) for name in self.bias]
         return np.where(self.start != 0.0, np.abs(self.start), spread)
 
     def _choose_quantities(self, result: Result, quantities: Sequence[str]) -> tuple[str, ...]:
@@ -170,7 +171,7 @@ class Identification:
             place_of_column(result, name)
         return chosen
 
-    def _standard_deviation(self, name: str) -> float:
+    def standard_deviation(self, name: str) -> float:
         """Return the standard deviation of measured numbers, or their size where they do not change."""
         values = np.concatenate([data.columns[name] for data in self.data if name in data.columns])
         return float(np.std(values)) or float(np.abs(values).max(initial=0.0)) or 1.0
@@ -310,6 +311,7 @@ def _fit_with_statistics(task: Identification, solution: Any) -> Fit:
                 part = residuals[first : first + len(data.t)] / task.scales[name]
                 deviations.setdefault(name, []).append(part)
                 first += len(data.t)
+    notes += notes_on_neighbours(deviations, {name: task.standard_deviation(name) for name in deviations})
     result = task.result_at(x, task.data[0])
     if result.status == "unverified":
         notes.append(f"derivatives are in doubt: {result.reason}")

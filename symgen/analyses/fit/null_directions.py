@@ -8,6 +8,8 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.result.unmoved import unmoved_sentence
+
 Array = NDArray[np.float64]
 
 #: A direction is none below this part of the largest singular value, or beyond a gap of this size.
@@ -33,7 +35,7 @@ def null_directions(slopes: Array, sizes: Array, labels: Sequence[str]) -> tuple
     values[: len(singular)] = singular
     largest = values[0]
     if largest == 0.0:
-        return tuple(f"{name} changes nothing that was measured" for name in labels)
+        return tuple(unmoved_sentence([name], "that was measured") for name in labels)
     none = values < NONE * largest
     gaps = np.flatnonzero(values[1:] < GAP * values[:-1])
     if len(gaps):
@@ -46,7 +48,7 @@ def _direction_in_words(row: Array, labels: Sequence[str]) -> str:
     parts = row / row[int(np.argmax(np.abs(row)))]
     moving = [(name, x) for name, x in zip(labels, parts, strict=True) if abs(x) > _NEAR]
     if len(moving) == 1:
-        return f"{moving[0][0]} changes nothing that was measured"
+        return unmoved_sentence([moving[0][0]], "that was measured")
     powers = [Fraction(x).limit_denominator(_DENOMINATOR) for _, x in moving]
     if any(abs(float(f) - x) > _NEAR for f, (_, x) in zip(powers, moving, strict=True)):
         return (

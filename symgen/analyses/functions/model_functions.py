@@ -153,34 +153,44 @@ class Functions:
             "balance", ("q", "v", "a"), (n, m, self._model.rank, 0, 0), projection.efforts, (n,)
         )
 
-    def actuated(self, *names: str) -> ArrayFunction:
+    def actuated(self, *names: str | Sequence[str]) -> ArrayFunction:
         """Return the function (q, v, a) of the values of named actuators that make `a`, shape (number of names,).
 
         It does not check rows: of an `a` that breaks D a = gamma it returns what M a + h asks of the motions that the
-        rows allow.
+        rows allow. Limits of inputs and of their forces, written with ``min`` and ``max``, do not act: values may be
+        beyond them.
 
         Parameters
         ----------
-        *names : str
-            Inputs of the file, or coordinates of joints such as ``hip.angle``; of more than are needed the values are
-            the shortest.
+        *names : str or sequence of str
+            Inputs of the file in which forces are affine, such as those of servos; coordinates of joints such as
+            ``hip.angle``, or joints that have one. Of more than are needed the values are the shortest.
 
         Raises
         ------
         InputError
             If a name is not valid; from the function, if they cannot make `a`.
         """
-        inputs = [p.name for p in self.mechanism.parameters if p.input]
-        joints = [f"{joint.name}.{label}" for joint in self.mechanism.joints for label, _ in joint.coordinates]
-        for name in arguments.words("actuated", names):
-            if name not in (*inputs, *joints):
-                expected = "an input of the file or a coordinate of a joint"
-                raise InputError("actuated", expected, f"'{name}'", suggest(name, {*inputs, *joints}))
-        if not names or len(set(names)) < len(names):
-            raise InputError("actuated", "names of actuators, each once", ", ".join(names) or "none")
-        n, m, k = len(self.velocities), len(self.rows), len(names)
+        listed = [name for each in names for name in arguments.words("actuated", each)]
+        chosen = tuple(self._actuator_name(name) for name in listed)
+        if not chosen or len(set(chosen)) < len(chosen):
+            raise InputError("actuated", "names of actuators, each once", ", ".join(listed) or "none")
+        n, m, k = len(self.velocities), len(self.rows), len(chosen)
         sizes = (n, m, self._model.rank, k, 1)
-        return self._function_by_kernel("balance", ("q", "v", "a"), sizes, projection.efforts, (k,), names)
+        return self._function_by_kernel("balance", ("q", "v", "a"), sizes, projection.efforts, (k,), chosen)
+
+    def _actuator_name(self, name: str) -> str:
+        """Return the input, or the coordinate of a joint, that a name means."""
+        inputs = [p.name for p in self.mechanism.parameters if p.input]
+        joints = {joint.name: [f"{joint.name}.{x}" for x, _ in joint.coordinates] for joint in self.mechanism.joints}
+        coordinates = [x for each in joints.values() for x in each]
+        if name in (*inputs, *coordinates):
+            return name
+        if len(joints.get(name, ())) == 1:
+            return joints[name][0]
+        expected = "an input of the file or a coordinate of a joint"
+        hint = f"one of {', '.join(joints[name])}" if joints.get(name) else suggest(name, {*inputs, *coordinates})
+        raise InputError("actuated", expected, f"'{name}'", hint)
 
     @property
     def constraint_jacobian(self) -> ArrayFunction:

@@ -165,10 +165,10 @@ class StateFunctions:
         g = self.equations.graph
         return Values(g, tuple(g.neg(n) for n in self.equations.forces), (self.equations.nv,))
 
-    def inverse_dynamics(self) -> Values:
-        """Return M a - f."""
+    def inverse_dynamics(self, forces: Sequence[int] | None = None) -> Values:
+        """Return M a - f, with other nodes for f where they are given."""
         g, accelerations = self.equations.graph, self._input_vector("a")
-        result = [g.neg(n) for n in self.equations.forces]
+        result = [g.neg(n) for n in (self.equations.forces if forces is None else forces)]
         for (i, j), node in sorted(self._mass_by_place().items()):
             result[i] = g.add(result[i], g.mul(node, accelerations[j]))
         return Values(g, tuple(result), (self.equations.nv,))
@@ -238,27 +238,47 @@ class StateFunctions:
     def balance(self, actuators: Sequence[str] = ()) -> Values:
         """Return M a - f, then D, in one line, from which a kernel computes efforts of loops.
 
-        Present values of named actuators follow, and what 1 of each exerts along the velocities.
+        Present values of named actuators follow, and what 1 of each exerts along the velocities. Limits of their inputs
+        and forces, written with `min` and `max`, do not act.
 
         Raises
         ------
         InputError
-            If the force of an input is not proportional to it.
+            If the force of an input is not affine in it.
         """
-        nodes = [*self.inverse_dynamics().nodes, *self._dense_jacobian()]
-        ways = [self._value_and_direction(name) for name in actuators]
+        forces = self._forces_without_limits(actuators)
+        nodes = [*self.inverse_dynamics(forces).nodes, *self._dense_jacobian()]
+        ways = [self._value_and_direction(name, forces) for name in actuators]
         nodes += [value for value, _ in ways] + [n for _, way in ways for n in way]
         return Values(self.equations.graph, tuple(nodes), (len(nodes),))
 
-    def _value_and_direction(self, name: str) -> tuple[int, list[int]]:
+    def _forces_without_limits(self, actuators: Sequence[str]) -> Sequence[int]:
+        """Return f with the varying argument in place of a `min` or `max` of which one argument reads named inputs."""
+        e, g = self.equations, self.equations.graph
+        named = {("p", i) for i, p in enumerate(e.parameters) if p.name in actuators}
+        images, reading = dict[int, int](), set[int]()
+        for node in g.required_nodes(e.forces):
+            op, args, payload = g.nodes[node]
+            varying = [a for a in args if a in reading]
+            if not varying:
+                images[node] = node
+                if op == "input" and g.key(node) in named:
+                    reading.add(node)
+                continue
+            reading.add(node)
+            limited = op in ("min", "max") and len(varying) == 1
+            images[node] = images[varying[0]] if limited else g.apply(op, tuple(images[a] for a in args), payload)
+        return [images[node] for node in e.forces]
+
+    def _value_and_direction(self, name: str, forces: Sequence[int]) -> tuple[int, list[int]]:
         """Return value and way of an actuator: an input of the file, or an effort along a coordinate of a joint."""
         e, g = self.equations, self.equations.graph
         names = [p.name for p in e.parameters]
         if name in names:
             key: Key = ("p", names.index(name))
-            way = [slope.get(key, g.zero) for slope in jacobian(g, e.forces, [key])]
+            way = [slope.get(key, g.zero) for slope in jacobian(g, forces, [key])]
             if key in g.inputs_of(way):
-                raise InputError(f"actuator '{name}'", "an input that forces are proportional to", "another one")
+                raise InputError(f"actuator '{name}'", "an input that forces are affine in", "another one")
             return g.input(*key), way
         rate = next(c.rate for c in e.joint_coordinates if c.name == name)
         (slope,) = jacobian(g, [rate], [("v", i) for i in range(e.nv)])

@@ -217,6 +217,8 @@ class _Description:
             table |= {"stop": limits} if limits else {}
         if c.kind == "screw":
             table["pitch"] = c.pitch
+        if c.closes:
+            table["cut"] = True
         if c.friction and c.kind != "screw":
             table["friction"] = {"sliding": c.friction}
         elif c.friction:

@@ -108,6 +108,8 @@ class Connection:
         Limits of the coordinate.
     pitch : float
         Of a screw, displacement along the axis a turn [m].
+    closes : bool
+        Whether it closes a loop of a file that has a tree of its own, beside which it carries nothing.
     """
 
     name: str
@@ -127,6 +129,7 @@ class Connection:
     lower: float | None = None
     upper: float | None = None
     pitch: float = 0.0
+    closes: bool = False
 
 
 @dataclass(frozen=True)

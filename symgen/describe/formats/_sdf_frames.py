@@ -7,9 +7,9 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 from symgen.base.errors import InputError, quote, suggest
-from symgen.describe.formats._poses import Pose, rotation_from_quaternion, rotation_from_rpy
+from symgen.describe.formats._poses import Pose
 from symgen.describe.formats._robot import GROUND
-from symgen.describe.formats._xml import read_decimals
+from symgen.describe.formats._xml import pose_of_text
 
 MODEL, WORLD = "__model__", "world"
 
@@ -67,18 +67,7 @@ class SdfFrames:
         where = f"{self.source}: pose of {quote(element.get('name', element.tag))}"
         if base == WORLD and pose.get("relative_to", WORLD) != WORLD:
             raise InputError(where, "a pose in the world", quote(pose.get("relative_to", "")))
-        text, factor = pose.text or "", 1.0
-        if not text.strip():
-            return Pose()
-        if pose.get("rotation_format", "euler_rpy") == "quat_xyzw":
-            x, y, z, *e = read_decimals(where, text, 7)
-            if not any(e):
-                raise InputError(where, "a quaternion other than 0 0 0 0", "0 0 0 0")
-            return Pose((x, y, z), rotation_from_quaternion((e[3], *e[:3])))
-        if pose.get("degrees", "false") in ("true", "1"):
-            factor = 0.017453292519943295
-        x, y, z, *angles = read_decimals(where, text, 6)
-        return Pose((x, y, z), rotation_from_rpy([factor * angle for angle in angles]))
+        return pose_of_text(where, pose)
 
     def resolve_name(self, name: str, where: str) -> str:
         """Return the name of a frame; a model is its own frame."""

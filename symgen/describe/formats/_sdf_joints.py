@@ -4,16 +4,26 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from symgen.base.errors import InputError, quote
-from symgen.describe.formats._poses import Vector, matrix_vector, scalar_product, unit_vector
-from symgen.describe.formats._robot import GROUND, Connection, CoupledCoordinate
-from symgen.describe.formats._xml import read_inner_number
+from symgen.base.errors import InputError, quote, suggest
+from symgen.describe.formats._poses import Pose, Vector, matrix_transpose, matrix_vector, scalar_product, unit_vector
+from symgen.describe.formats._robot import GROUND, Connection, CoupledCoordinate, Kind, RobotLink
+from symgen.describe.formats._xml import pose_of_text, read_inner_flag, read_inner_number, read_inner_text, read_triple
 
 #: Types that are no connection alone: two axes with a part without mass between, and wheels of two other joints.
 TWO_AXES, GEARBOX = "revolute2", "gearbox"
+#: Types of one connection -> what it is in symgen.
+KINDS: dict[str, Kind] = {
+    "fixed": "fixed",
+    "revolute": "revolute",
+    "continuous": "revolute",
+    "prismatic": "translational",
+    "ball": "spherical",
+    "universal": "universal",
+    "screw": "screw",
+}
 #: The axis of a joint that names none.
 UP: Vector = (0.0, 0.0, 1.0)
 #: Cosine of axes that are one.
@@ -51,6 +61,62 @@ def screw_pitch(element: ET.Element, where: str) -> float:
     if turns == 0.0:
         raise InputError(f"{where}, thread_pitch", "a number of rad/m other than 0", "0")
     return -2.0 * math.pi / turns
+
+
+def joint_between_links(element: ET.Element, name: str, where: str, links: Mapping[str, RobotLink]) -> Connection:
+    """Return a joint between links that have their places already: one that closes a loop.
+
+    Its pose is in the frame of the child, or of the link that ``relative_to`` names.
+
+    Raises
+    ------
+    InputError
+        If it has another type, an end that is no link, or a frame that is none of a link.
+    """
+    sort = element.get("type", "")
+    if sort not in KINDS:
+        raise InputError(f"{where}, type", f"one of {', '.join(KINDS)}", quote(sort), suggest(sort, KINDS))
+    ends = [read_inner_text(element, tag) for tag in ("parent", "child")]
+    pose = element.find("pose")
+    frame = ends[1] if pose is None else pose.get("relative_to", "") or ends[1]
+    for end in (*ends, frame):
+        if end not in links and end != "world":
+            raise InputError(where, "the name of a link", quote(end), suggest(end, links))
+    first, second = (_axis_of_joint(element, tag, where) for tag in ("axis", "axis2"))
+    if sort == "universal" and (first is None or second is None):
+        raise InputError(where, "two axes of a universal joint", "less")
+    outer = links[frame].place if frame in links else Pose()
+    at = outer @ (Pose() if pose is None else pose_of_text(f"{where}, pose", pose))
+    kind: Kind = "rigid" if sort == "fixed" else KINDS[sort]
+    parent, child = (end if end in links else GROUND for end in ends)
+    joint = Connection(name, kind, parent, child, at, axis=first or UP, second=second, closes=True)
+    if (axis := element.find("axis")) is not None and _is_along_model(axis):
+        joint.axis = matrix_vector(matrix_transpose(at.rotation), joint.axis)
+    if sort == "screw":
+        joint.pitch = screw_pitch(element, where)
+    if kind in ("revolute", "translational", "screw"):
+        read_axis(joint, element.find("axis"), where, sort)
+    return joint
+
+
+def _axis_of_joint(element: ET.Element, tag: str, where: str) -> Vector | None:
+    """Return the direction of an axis as it is written."""
+    axis = element.find(tag)
+    if axis is None:
+        return None
+    direction = read_triple(f"{where}, {tag}", read_inner_text(axis, "xyz") or "0 0 1")
+    if not any(direction):
+        raise InputError(f"{where}, {tag}", "an axis other than 0 0 0", "0 0 0")
+    xyz = axis.find("xyz")
+    if (frame := "" if xyz is None else xyz.get("expressed_in", "")) not in ("", "__model__"):
+        raise InputError(f"{where}, {tag}", "an axis in the frame of the joint or of the model", quote(frame))
+    return direction
+
+
+def _is_along_model(axis: ET.Element) -> bool:
+    """Whether an axis is written along the model's frame, which is the ground's where motions start."""
+    xyz = axis.find("xyz")
+    return read_inner_flag(axis, "use_parent_model_frame") or (xyz is not None and bool(xyz.get("expressed_in")))
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from pathlib import Path
 from xml.parsers import expat
 
 from symgen.base.errors import InputError, quote
-from symgen.describe.formats._poses import Pose, Vector, rotation_from_rpy
+from symgen.describe.formats._poses import Pose, Vector, rotation_from_quaternion, rotation_from_rpy
 
 #: Bounds of a file: bytes, elements, and depth.
 LARGEST, MOST_ELEMENTS, DEEPEST = 50_000_000, 500_000, 200
@@ -121,6 +121,22 @@ def frame_of_origin(where: str, element: ET.Element | None) -> Pose:
         return Pose()
     xyz = read_triple(f"{where}, xyz", element.get("xyz", "0 0 0"))
     return Pose(xyz, rotation_from_rpy(read_triple(f"{where}, rpy", element.get("rpy", "0 0 0"))))
+
+
+def pose_of_text(where: str, element: ET.Element) -> Pose:
+    """Return the pose that the text of an element of SDF says, by angles or a quaternion; none without a text."""
+    text, factor = element.text or "", 1.0
+    if not text.strip():
+        return Pose()
+    if element.get("rotation_format", "euler_rpy") == "quat_xyzw":
+        x, y, z, *e = read_decimals(where, text, 7)
+        if not any(e):
+            raise InputError(where, "a quaternion other than 0 0 0 0", "0 0 0 0")
+        return Pose((x, y, z), rotation_from_quaternion((e[3], *e[:3])))
+    if element.get("degrees", "false") in ("true", "1"):
+        factor = 0.017453292519943295
+    x, y, z, *angles = read_decimals(where, text, 6)
+    return Pose((x, y, z), rotation_from_rpy([factor * angle for angle in angles]))
 
 
 def read_inner_text(element: ET.Element, path: str) -> str:

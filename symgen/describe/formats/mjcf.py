@@ -218,7 +218,7 @@ class _Reader:
         frames = [self._frame_of_body(body) @ frame for body, frame in zip(ends, local, strict=True)]
         names = [GROUND if body == 0 else self._name_of_object("body", body) for body in ends]
         kind: Kind = "rigid" if weld else "spherical"
-        self.connections.append(Connection(name, kind, names[0], names[1], frames[0], frames[1]))
+        self.connections.append(Connection(name, kind, names[0], names[1], frames[0], frames[1], closes=True))
 
     def _read_polynomial(self, k: int, name: str) -> CoupledCoordinate:
         """Return y - y0 = p(x - x0) as a polynomial of x."""

@@ -14,7 +14,6 @@ from symgen.describe.formats._robot import (
     GROUND,
     Connection,
     CoupledCoordinate,
-    Kind,
     LeftOut,
     Robot,
     RobotLink,
@@ -22,7 +21,16 @@ from symgen.describe.formats._robot import (
     rotate_inertia,
 )
 from symgen.describe.formats._sdf_frames import MODEL, WORLD, PlacedFrame, SdfFrames
-from symgen.describe.formats._sdf_joints import GEARBOX, TWO_AXES, UP, Gearbox, gearbox_coupling, read_axis, screw_pitch
+from symgen.describe.formats._sdf_joints import (
+    GEARBOX,
+    KINDS,
+    TWO_AXES,
+    UP,
+    Gearbox,
+    gearbox_coupling,
+    read_axis,
+    screw_pitch,
+)
 from symgen.describe.formats._solids import (
     SolidMass,
     solid_box,
@@ -41,15 +49,6 @@ from symgen.describe.formats._xml import (
     read_triple,
 )
 
-_KINDS: dict[str, Kind] = {
-    "fixed": "fixed",
-    "revolute": "revolute",
-    "continuous": "revolute",
-    "prismatic": "translational",
-    "ball": "spherical",
-    "universal": "universal",
-    "screw": "screw",
-}
 #: Density of collisions without one [kg/m^3].
 _DENSITY = 1000.0
 #: Elements of models and links that are left out, with the reason.
@@ -239,7 +238,7 @@ class _Reader(RobotReader):
         name = prefix + self.name(element)
         where = f"{self.source}: joint {quote(name)}"
         sort = element.get("type", "")
-        if sort not in (known := (*_KINDS, TWO_AXES, GEARBOX)):
+        if sort not in (known := (*KINDS, TWO_AXES, GEARBOX)):
             raise InputError(f"{where}, type", f"one of {', '.join(known)}", quote(sort), suggest(sort, known))
         parent, child = self._read_joint_ends(element, prefix, where)
         axes = [self._read_axis(element, tag, name, prefix, where) for tag in ("axis", "axis2")]
@@ -256,7 +255,7 @@ class _Reader(RobotReader):
             for connection, tag in zip(pair, ("axis", "axis2"), strict=True):
                 read_axis(connection, element.find(tag), where, "revolute")
             return pair
-        connection = Connection(name, _KINDS[sort], parent, child, at, axis=axes[0] or UP, second=axes[1])
+        connection = Connection(name, KINDS[sort], parent, child, at, axis=axes[0] or UP, second=axes[1])
         if sort == "screw":
             connection.pitch = screw_pitch(element, where)
         if connection.kind in ("revolute", "translational", "screw"):
@@ -307,7 +306,7 @@ class _Reader(RobotReader):
 
     def _read_mimic(self, element: ET.Element, prefix: str, names: list[str]) -> Iterator[CoupledCoordinate]:
         mimic = element.find("axis/mimic")
-        if mimic is None or _KINDS.get(element.get("type", "")) not in ("revolute", "translational"):
+        if mimic is None or KINDS.get(element.get("type", "")) not in ("revolute", "translational"):
             return
         name = prefix + self.name(element)
         where = f"{self.source}: joint {quote(name)}, mimic"

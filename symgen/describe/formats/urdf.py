@@ -1,8 +1,9 @@
-"""URDF: the Unified Robot Description Format of ROS, with two dialects of closed loops."""
+"""URDF: the Unified Robot Description Format of ROS, with three dialects of closed loops."""
 
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
 from pathlib import Path
 from typing import ClassVar
 
@@ -21,6 +22,7 @@ from symgen.describe.formats._robot import (
     rotate_inertia,
     set_follower_starts,
 )
+from symgen.describe.formats._sdf_joints import joint_between_links
 from symgen.describe.formats._xml import frame_of_origin, read_colour, read_decimal, read_triple
 
 _KINDS: dict[str, Kind] = {
@@ -43,7 +45,7 @@ _SILENT = {
 
 
 class Urdf:
-    """Reads links, joints, limits, `mimic`, `dynamics`, and the elements ``loop_joint`` and ``loop``."""
+    """Reads links, joints, limits, `mimic`, `dynamics`, and loops: ``loop_joint``, ``loop``, joints of ``gazebo``."""
 
     SUFFIXES: ClassVar[tuple[str, ...]] = (".urdf", ".xml")
     ROOT: ClassVar[str] = "robot"
@@ -100,11 +102,12 @@ class _Reader(RobotReader):
         for root in roots:
             if not self.floating:
                 connections.insert(0, Connection(f"base of {root}", "fixed", GROUND, root))
+        closing = [*self._read_loop_joints(links), *self._read_joints_of_gazebo(links, names)]
         self._list_left_out(joints)
         return Robot(
             self.tree.get("name", "robot"),
             links,
-            connections + self._read_loop_joints(links),
+            connections + closing,
             followers,
             inputs_for_joints(connections, followers),
             left_out=self.left_out,
@@ -228,11 +231,26 @@ class _Reader(RobotReader):
                     self._read_joint_end(where, end, key, links) for end, key in zip(ends, (first, second), strict=True)
                 )
                 frames = [links[x].place @ self._read_loop_frame(where, e) for x, e in zip((a, b), ends, strict=True)]
-                connection = Connection(name, kind, a, b, frames[0], frames[1])
+                connection = Connection(name, kind, a, b, frames[0], frames[1], closes=True)
                 if (axis := element.find("axis")) is not None:
                     connection.axis = read_triple(f"{where}, axis", axis.get("xyz", "0 0 1"))
                 closing.append(connection)
         return closing
+
+    def _read_joints_of_gazebo(self, links: dict[str, RobotLink], taken: list[str]) -> Iterator[Connection]:
+        """Yield the joints of SDF that ``<gazebo>`` elements add; others are listed, as the motion lacks them."""
+        for element in self.tree.iterfind("gazebo/joint"):
+            name = self.name(element)
+            try:
+                connection = joint_between_links(element, name, f"{self.source}: gazebo joint {quote(name)}", links)
+                if name in taken:
+                    raise InputError(f"{self.source}: gazebo joint", "a name used once", f"{quote(name)} twice")
+            except InputError as error:
+                why = f"it is not read: expected {error.expected}, got {error.got}"
+                self.left_out.append(LeftOut("a joint of <gazebo>", name, why, True))
+                continue
+            taken.append(name)
+            yield connection
 
     @staticmethod
     def _read_loop_frame(where: str, end: ET.Element | None) -> Pose:

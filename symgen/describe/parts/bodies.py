@@ -15,7 +15,7 @@ from symgen.describe.formulas.start import Scalars, euler_parameters
 from symgen.describe.mechanism import Body, Shape, SpatialBody, Vec
 from symgen.describe.parts.fields import read_table, value_in_words
 from symgen.describe.parts.mesh_files import SUFFIXES, is_inner_path
-from symgen.describe.parts.scope import CENTRE
+from symgen.describe.parts.scope import CENTRE, ORIGIN
 from symgen.describe.parts.sections import BodySection, OrientationSection, ShapeSection, SpatialBodySection
 
 if TYPE_CHECKING:
@@ -183,8 +183,10 @@ def _tensor_entries(scope: Scope, entries: tuple[float | str | tuple[float | str
 def _read_point(scope: Scope, point: str | tuple[float | str, ...], points: dict[str, Vec], centre: Vec) -> Vec:
     if not isinstance(point, str):
         return scope.vector("inertia_at", point)
+    if point == ORIGIN and point not in points:
+        return (ZERO,) * scope.dimension
     if point != CENTRE and point not in points:
-        hint = suggest(point, [*points, CENTRE])
+        hint = suggest(point, [*points, CENTRE, ORIGIN])
         raise scope.error("inertia_at", "the name of a point", f"{quote(point)}, which is none", hint)
     return centre if point == CENTRE else points[point]
 

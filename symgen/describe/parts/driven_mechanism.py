@@ -143,8 +143,7 @@ def apply_inputs(mechanism: Mechanism, sources: Mapping[str, Any]) -> DrivenMech
         elif data is None:
             number = _number_in_si(value, where, declared[name])
             if number is None:
-                formula, words[name] = parse(value, _names_for_inputs(mechanism), where), value
-                formulas[name] = formula if own.is_si else call("mul", Number(float(own.factor)), formula)
+                formulas[name], words[name] = parse(value, _names_for_inputs(mechanism), where), value
             else:
                 numbers[name] = words[name] = arguments.number(where, number)
         else:

@@ -29,6 +29,8 @@ from symgen.describe.parts.key_units import unit_of_number
 
 #: The name by which a file means a body's centre of mass.
 CENTRE = "centre"
+#: The name of the origin of a body's frame, unless the body has a point of that name.
+ORIGIN = "origin"
 #: Entries of a symmetric matrix that differ by less than this part of the largest of theirs and their diagonal are one.
 ROUNDING = 1e-12
 
@@ -115,7 +117,7 @@ class Scope:
         return a, b
 
     def marker(self, key: str, body: str, point: str | tuple[float | str, ...]) -> Marker:
-        """Return a point of `body` from its name, ``"centre"`` or its coordinates."""
+        """Return a point of `body` from its name, ``"centre"``, ``"origin"`` or its coordinates."""
         if not isinstance(point, str):
             return self._free_marker(key, body, self.vector(key, point))
         if body == GROUND:
@@ -124,9 +126,11 @@ class Scope:
         points = self.context.points[body]
         if point == CENTRE:
             return Marker(body, self.context.bodies[body].centre_of_mass)
+        if point == ORIGIN and point not in points:
+            return Marker(body, (ZERO,) * self.dimension)
         if point not in points:
             got = f"{quote(point)}, which is no point of '{body}'"
-            raise self.error(key, "the name of a point", got, suggest(point, [*points, CENTRE]))
+            raise self.error(key, "the name of a point", got, suggest(point, [*points, CENTRE, ORIGIN]))
         return Marker(body, points[point])
 
     def _free_marker(self, key: str, body: str, point: Vec) -> Marker:

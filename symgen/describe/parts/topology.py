@@ -6,7 +6,7 @@ of the tree hold by construction and have no rows; those that are cut keep their
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import msgspec
 
@@ -48,7 +48,7 @@ def possible_edges(mechanism: Mechanism) -> dict[str, Articulation]:
 
 
 def spanning_tree(mechanism: Mechanism, cut: Sequence[str] = ()) -> Topology:
-    """Return a tree of shortest paths from the ground.
+    """Return a tree of shortest paths from the ground whose mass matrix is regular where there is one.
 
     Parameters
     ----------
@@ -59,8 +59,53 @@ def spanning_tree(mechanism: Mechanism, cut: Sequence[str] = ()) -> Topology:
 
     Notes
     -----
-    Bodies that no joint of the tree reaches are free; of several choices the first in the file is taken.
+    Bodies that no joint of the tree reaches are free; of several choices the first in the file is taken. A body without
+    mass at the end of a branch that moves has no inertia, so that M is singular. Where it is in a loop, it carries its
+    neighbour, whose own joint is cut then.
     """
+    tree = _shortest_tree(mechanism, cut)
+    if not (empty := count_empty_ends(mechanism, tree)):
+        return tree
+    edges = {name: a for name, a in possible_edges(mechanism).items() if name not in cut}
+    free = sum(not link.joint for link in tree.links)
+    for joint in _joints_beside_empty_ends(mechanism, tree, edges):
+        other = _shortest_tree(mechanism, (*cut, joint))
+        left = count_empty_ends(mechanism, other)
+        if left < empty and sum(not link.joint for link in other.links) <= free:
+            return spanning_tree(mechanism, (*cut, joint))
+    return tree
+
+
+def count_empty_ends(mechanism: Mechanism, tree: Topology) -> int:
+    """Return the number of links of a tree that move bodies without mass alone; with any, M is singular everywhere."""
+    return len(_empty_ends(mechanism, tree))
+
+
+def _empty_ends(mechanism: Mechanism, tree: Topology) -> list[Link]:
+    """Return the links that move bodies without mass alone."""
+    rotors = {rotor.joint for rotor in mechanism.rotors}
+    given = {x.body for x in tree.prescribed}
+    heavy = {body.name for body in mechanism.bodies if not body.weightless}
+    for link in reversed(tree.links):
+        if link.body in heavy:
+            heavy.add(link.parent)
+    moving = [
+        x for x in tree.links if x.articulation is None or x.articulation.slides or x.articulation.turn != "fixed"
+    ]
+    return [x for x in moving if x.body not in heavy and x.body not in given and x.joint not in rotors]
+
+
+def _joints_beside_empty_ends(mechanism: Mechanism, tree: Topology, edges: Mapping[str, Articulation]) -> Iterator[str]:
+    """Yield joints whose cut lets a body without mass carry a neighbour, by an edge that the tree does not use."""
+    carrying = {link.body: link.joint for link in tree.links}
+    for end in _empty_ends(mechanism, tree):
+        for name in tree.cut:
+            if name in edges and end.body in (bodies := [edges[name].a.body, edges[name].b.body]):
+                yield from (carrying[body] for body in bodies if body != end.body and carrying.get(body))
+
+
+def _shortest_tree(mechanism: Mechanism, cut: Sequence[str]) -> Topology:
+    """Return a tree of shortest paths from the ground."""
     edges = {name: a for name, a in possible_edges(mechanism).items() if name not in cut}
     points = {body.name for body in mechanism.bodies if body.is_point}
     links, reached = list[Link](), {GROUND}

@@ -24,6 +24,7 @@ import msgspec
 from symgen.base.errors import InputError, plural
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import (
+    count_empty_ends,
     joints_of_loops,
     possible_edges,
     spanning_tree,
@@ -246,7 +247,7 @@ def with_tree_of(mechanism: Mechanism, whole: Mechanism) -> Mechanism:
 def _cheapest(mechanism: Mechanism, first: Topology) -> tuple[str, ...]:
     """Return the joints to cut, besides those that follow, for the fewest operations counted."""
     best, least = mechanism.cuts, operations(with_joint_coordinates(mechanism, first))
-    counted = least
+    counted, empty = least, count_empty_ends(mechanism, first)
     if least > LARGE:
         return best
     for loop in joints_of_loops(mechanism, first):
@@ -256,7 +257,7 @@ def _cheapest(mechanism: Mechanism, first: Topology) -> tuple[str, ...]:
                 return best
             trial = (*cuts, joint)
             tree = spanning_tree(mechanism, trial)
-            if _free(tree) > _free(first):
+            if _free(tree) > _free(first) or count_empty_ends(mechanism, tree) > empty:
                 continue
             count = operations(with_joint_coordinates(mechanism, tree))
             counted += count

@@ -31,6 +31,7 @@ from symgen.study.ensemble.axes import Grid
 from symgen.study.ensemble.lines import table_lines
 from symgen.study.ensemble.row_quantities import NUMBERS, event_columns
 from symgen.study.ensemble.samples import contributions
+from symgen.study.ensemble.unmoved_axes import unmoved_axes
 from symgen.study.ensemble.varied_names import Names
 from symgen.study.ensemble.verdicts import NOT_RUN, EventNames, judge_runs, summary_column, warnings_of_runs
 
@@ -142,13 +143,17 @@ class Sweep:
         return kinds.most_common(most)
 
     def common_warnings(self) -> list[tuple[str, int]]:
-        """Return the first warning of each kind and the number of runs that have it."""
+        """Return the first warning of each kind and the number of runs that have it.
+
+        What varies and changes nothing that was kept is named as well, as a warning of all runs.
+        """
         first, count = dict[str, str](), Counter[str]()
         for sentences, runs in Counter(self.warnings).items():  # most have none, or the same
             for kind, sentence in {_FIGURES.sub("", sentence): sentence for sentence in sentences}.items():
                 first.setdefault(kind, sentence)
                 count[kind] += runs
-        return [(first[kind], runs) for kind, runs in count.most_common()]
+        common = [(first[kind], runs) for kind, runs in count.most_common()]
+        return common + [(sentence, len(self)) for sentence in unmoved_axes(self)]
 
     def __getitem__(self, name: str) -> Array:
         """Return a quantity over the grid and time, shape (*grid, times), or a number of every run, shape grid.

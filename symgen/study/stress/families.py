@@ -11,12 +11,14 @@ from typing import Any
 
 import numpy as np
 
+from symgen.base.vocabulary.expressions import ZERO
 from symgen.derive.methods import METHODS
 from symgen.describe.files.builder import MechanismBuilder
 from symgen.describe.files.builder_keys import BodyKeys
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.joints import JOINTS
 from symgen.describe.mechanism import Mechanism
+from symgen.describe.parts.scope import CENTRE, ORIGIN
 from symgen.study.stress.bench import DAMPING, GRAVITY, MASS, STIFFNESS, Base, Level, NotApplicable
 
 
@@ -178,7 +180,8 @@ def _bar_tables(base: Base) -> list[dict[str, Any]]:
 def _point_table(base: Base, body: str, at: Any) -> tuple[float, ...]:
     described = base.mechanism.body(body)
     if isinstance(at, str):
-        point = described.centre_of_mass if at == "centre" else dict(described.points)[at]
+        origin = {ORIGIN: (ZERO,) * len(described.centre_of_mass)}
+        point = {**origin, **dict(described.points), CENTRE: described.centre_of_mass}[at]
         return tuple(evaluate(x, base.values, body) for x in point)
     return tuple(float(x) for x in at)
 

@@ -370,6 +370,37 @@ def test_an_input_of_the_file_is_an_actuator():
     assert close(f.actuated("motor")(q, v, a, driven), np.array([3.0]), 1e-11)
 
 
+def servo():
+    """Return a cart whose servo and whose input have limits, as imports of MJCF write them."""
+    builder = MechanismBuilder("servo").input("wanted", 0.0, unit="m").body("cart", mass=2.0, inertia=1.0)
+    builder.joint("rail", "translational", between=("ground", "cart"), at=((0.0, 0.0), "centre"), axis=(1.0, 0.0))
+    spring = "50*min(max(wanted, -0.1), 0.1) - 50*rail.displacement - 3*rail.displacement.rate"
+    builder.force("drive", "spring-damper", joint="rail", actuator=f"min(max({spring}, -2), 2)")
+    return Model(builder.build())
+
+
+@pytest.mark.parametrize("names", [("wanted",), (["wanted"],)])
+def test_an_input_may_be_a_servo_with_limits(names):
+    """m a = 50 (u - x) - 3 v by hand, also where u, or the force at present, is beyond its limits."""
+    f = servo().functions("joint")
+    for x, v, a in ((0.01, 0.2, 0.5), (1.0, -2.0, 0.5), (0.0, 0.0, 20.0)):
+        by_hand = x + (2.0 * a + 3.0 * v) / 50.0
+        for present in (0.0, 5.0):
+            found = f.actuated(*names)([x], [v], [a], f.values(wanted=present))
+            assert close(found, np.array([by_hand]), 1e-11)
+
+
+def test_a_joint_with_one_coordinate_is_an_actuator_by_its_name():
+    f = servo().functions("joint")
+    assert f.actuated("rail") is f.actuated("rail.displacement")
+    drawn = MechanismBuilder("drawn").body("cart", mass=2.0, inertia=1.0)
+    drawn.joint("slot", "pin-in-slot", between=("ground", "cart"), at=((0.0, 0.0), "centre"), axis=(1.0, 0.0))
+    with pytest.raises(InputError, match=r"got 'slot'; one of slot\.displacement, slot\.angle"):
+        Model(drawn.build()).functions("absolute").actuated("slot")
+    with pytest.raises(InputError, match=r"expected names of actuators, each once, got rail, rail\.displacement"):
+        f.actuated(["rail", "rail.displacement"])
+
+
 def test_actuators_have_values_for_accelerations_that_break_rows():
     f = parallelogram().functions("joint")
     q, v = f.start
@@ -389,7 +420,7 @@ def test_accelerations_that_no_actuator_makes_are_refused():
         f.actuated("motor")(still, still, [1.0, 0.0, 4.0])
     squared = MechanismBuilder("disc").input("motor", 0.0, unit="N m").body("disc", mass=1.0, inertia=0.5)
     f = Model(squared.force("drive", "torque", body="disc", torque="motor**2").build()).functions("absolute")
-    with pytest.raises(InputError, match="actuator 'motor': expected an input that forces are proportional to"):
+    with pytest.raises(InputError, match="actuator 'motor': expected an input that forces are affine in"):
         f.actuated("motor")
 
 

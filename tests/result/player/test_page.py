@@ -333,6 +333,19 @@ def test_sixteen_bits_show_0_where_it_is_0() -> None:
     assert found[1] == 0.0 and found == pytest.approx([-0.13, 0.0, 0.1437], abs=1e-7)
 
 
+def test_frames_of_a_page_are_ends_of_steps() -> None:
+    script = (Path(live.__file__).parent / "web" / "player.js").read_text(encoding="utf-8")
+    function = script[script.index("function frameSpacing") : script.index("// Begin again with the sliders")]
+    assert "spacing = frameSpacing(end, data.live.step)" in script
+    motions = [(1.0, 1e-3), (0.5, 0.01), (10.0, 2e-3), (2000.0, 0.05), (0.01, 0.1), (3.0, 1.0 / 60.0)]
+    node = shutil.which("node")
+    assert node, "this test needs Node: apt-get install nodejs"
+    read = f"console.log(JSON.stringify({json.dumps(motions)}.map(([end, h]) => frameSpacing(end, h) / h)))"
+    done = subprocess.run([node, "-e", f"{function}\n{read}"], capture_output=True, text=True, check=True)
+    found = json.loads(done.stdout)
+    assert found == pytest.approx([17.0, 1.0, 8.0, 67.0, 1.0, 1.0], abs=1e-12)
+
+
 @pytest.mark.slow
 def test_points_that_no_joint_ties_are_marked() -> None:
     for name, expected in (("jansen-leg", ["leg.foot"]), ("wiper", ["arm.tip"]), ("four-bar", [])):

@@ -135,3 +135,22 @@ def test_outputs_that_a_device_does_not_integrate_do_not_count(monkeypatch):
     )  # there is no device
     with pytest.raises(AttributeError, match="first"):
         symgen.sweep(model, {"m": [1.0]}, quantities=("b.x",), target="cuda", **ADAPTIVE)
+
+
+def test_what_changes_nothing_is_named():
+    model = pushed("0 * idle", idle=1.0, mass_of_nothing=1.0)
+    axes = {"idle": [1.0, 2.0, 3.0], "b.vx": [1.0, 2.0]}
+    found = symgen.sweep(model, axes, quantities=("b.x", "b.vx"), **CONSTANT)
+    sentence = "idle changes nothing that this sweep keeps"
+    assert found.common_warnings() == [(sentence, 6)]
+    assert found.to_json()["warnings"] == [{"warning": sentence, "runs": 6}]
+    moving = symgen.sweep(model, {"b.vx": [1.0, 2.0]}, quantities=("b.x",), **CONSTANT)
+    assert moving.common_warnings() == []
+    together = symgen.sweep(
+        model, runs={"idle": [1.0, 2.0], "mass_of_nothing": [1.0, 3.0]}, quantities=("b.x",), **CONSTANT
+    )
+    assert together.common_warnings() == [("idle and mass_of_nothing change nothing that this sweep keeps", 2)]
+    beside = symgen.sweep(model, runs={"idle": [1.0, 2.0], "b.vx": [1.0, 2.0]}, quantities=("b.x",), **CONSTANT)
+    assert beside.common_warnings() == []
+    one = symgen.sweep(model, {"idle": [1.0]}, quantities=("b.x",), **CONSTANT)
+    assert one.common_warnings() == []

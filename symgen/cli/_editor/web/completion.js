@@ -52,7 +52,7 @@ function offered(c) {
   if (c.key === "unit") return named(units);
   if (c.key === "at" && !/\[\s*\[?[^\]]*,?[^\]]*"[^"]*[-+*/][^"]*$/.test(c.line)) {
     const bodies = /between\s*=\s*\[([^\]]*)\]/.exec(c.block)?.[1].split(",").map(unquoted) || [/body\s*=\s*"([^"]*)"/.exec(c.block)?.[1]];
-    return named(["centre", ...bodies.flatMap((body) => (body ? pointsOf(c.text, body) : []))]);
+    return named(["centre", "origin", ...bodies.flatMap((body) => (body ? pointsOf(c.text, body) : []))]);
   }
   return named([...keysOf(c.text, "parameters"), ...keysOf(c.text, "inputs"), ...entriesOf(c.text, "bodies")]);
 }

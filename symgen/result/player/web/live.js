@@ -84,29 +84,39 @@ function makeLive(spec, code) {
 
   // The loop of runs: no step of it is shortened for the end of this one.
   function stepInModes(t, y, h) {
-    const { run_shown, run_times } = memory;
+    const { run_shown, run_times, run_clock } = memory, near = 1e-9 * spec.step;
+    const to = Math.abs(t + h - run_clock[0]) < near ? run_clock[0] : t + h; // the end of a step but for rounding
     w.set(own.w);
     iw.set(own.iw);
+    const changed = y.subarray(0, ny).some((x, i) => x !== memory.y[i]);
     memory.y.set(y.subarray(0, ny));
-    run_shown[0] = Math.abs(t - run_times[0]) < 1e-9 * h ? run_times[0] : t;
+    run_shown[0] = Math.abs(t - run_times[0]) < near ? run_times[0] : t;
+    if (changed || to < run_clock[0] || run_shown[0] !== run_times[0]) forgetAfter(run_shown[0]);
     result = 0;
-    while (code.foresee_run && result === 0 && t + h > memory.seam_known[0]) { // formulas jump at times known up to there
+    while (code.foresee_run && result === 0 && to > memory.seam_known[0]) { // formulas jump at times known up to there
       result = code.advance_run(memory, 0, spec.step, memory.seam_known[0]);
       if (result === 0 && !code.foresee_run(memory, 0, run_shown[0])) break;
     }
-    if (result === 0) result = code.advance_run(memory, 1, spec.step, t + h);
+    if (result === 0) result = code.advance_run(memory, 1, spec.step, to);
     stand();
     y.set(memory.y);
     return result === 0;
   }
 
-  // Transitions since the last call: times and names.
+  // A run that goes on from what is shown makes its later transitions again.
+  function forgetAfter(t) {
+    const { transitions_count, transitions_times } = memory;
+    while (transitions_count[0] > 0 && transitions_times[(transitions_count[0] - 1) % modes.kept] > t) transitions_count[0] -= 1;
+  }
+
+  // Transitions since the last call up to what is shown: times and names. The run may stand at later ones.
   let told = 0;
   function transitions() {
     if (!modes) return [];
-    const count = memory.transitions_count[0], found = [];
+    const count = memory.transitions_count[0], found = [], latest = memory.run_shown[0] + 1e-9 * spec.step;
     for (told = Math.max(told, count - modes.kept); told < count; told++) {
       const at = told % modes.kept, row = modes.rows[memory.transitions_rows[at]];
+      if (memory.transitions_times[at] > latest) break;
       found.push({ t: memory.transitions_times[at], name: `${row}.${modes.words[memory.transitions_words[at]]}` });
     }
     return found;

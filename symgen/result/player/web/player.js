@@ -306,6 +306,12 @@ function record(t, begin = false) {
   if (columns) follow.values.push(columns.values(t, state, begin));
 }
 
+// Time between frames: a number of steps of length h, so that these are the steps of a motion without frames.
+function frameSpacing(end, h) {
+  const about = end / Math.max(60, Math.min(600, Math.round(end * 60)));
+  return h * Math.max(1, Math.round(about / h));
+}
+
 // Begin again with the sliders' parameters; steps are taken while the page is drawn.
 function restart(row) {
   const begun = live.start(), failed = !begun || !begun.every(Number.isFinite);
@@ -320,7 +326,7 @@ function restart(row) {
   if (failed) return false;
   state = begun;
   clock = 0;
-  const end = motions[0].end, spacing = end / Math.max(60, Math.min(600, Math.round(end * 60)));
+  const end = motions[0].end, spacing = frameSpacing(end, data.live.step);
   follow = { t: [], rows: [], values: [], groups: [], moments: [], facts: [], status: "ok", end, spacing, whole: false };
   record(0, true);
   show(follow);

@@ -1,0 +1,20 @@
+"""Numbers that change nothing of what a run reports, in words: of sweeps, of fits and of derivatives alike."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+
+def unmoved_sentence(names: Sequence[str], among: str) -> str:
+    """Return the sentence on numbers that change nothing.
+
+    Parameters
+    ----------
+    names : sequence of str
+        A number, or numbers that change together.
+    among : str
+        Of what they change nothing, such as ``"that was measured"``.
+    """
+    if len(names) == 1:
+        return f"{names[0]} changes nothing {among}"
+    return f"{', '.join(names[:-1])} and {names[-1]} change nothing {among}"
