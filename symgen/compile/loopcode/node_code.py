@@ -184,7 +184,7 @@ def refine(
 
 
 def _numbers(builder: ir.IRBuilder, data: ir.Value, first: ir.Value, start: int, stop: int) -> list[ir.Value]:
-    """Return elements of an array behind its index `first`, as vectors of equal numbers."""
+    """Return elements of an array after its index `first`, as vectors of equal numbers."""
     return [spread(builder, _at(builder, data, builder.add(first, I64(k)))) for k in range(start, stop)]
 
 

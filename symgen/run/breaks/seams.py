@@ -1,6 +1,6 @@
-"""Seams of a run: foreseen times at which inputs and formulas jump or have kinks, and the values of inputs behind them.
+"""Seams of a run: foreseen times at which inputs and formulas jump or have kinks, and the values of inputs after them.
 
-A run ends a step at each of these times and takes the values behind it before the next step, so that no step or stage
+A run ends a step at each of these times and takes the values after it before the next step, so that no step or stage
 sees both sides of a jump. An error estimate notices a jump only where stages of a step lie on both sides of it: a push
 shorter than a step may lie between two stages.
 """
@@ -58,7 +58,7 @@ def seams_of_motion(
     until, first : float
         End of the run, and its beginning [s].
     behind : float
-        Range behind the end, as a fraction of it, that is searched for jumps as well: data need not reach there.
+        Range after the end, as a fraction of it, that is searched for jumps as well: data need not reach there.
 
     Raises
     ------

@@ -169,7 +169,7 @@ def rate_of_rotor(mechanism: Mechanism, rotor: Rotor) -> Expr:
 def switch_of(passed: Discontinuity, rtol: float) -> Switch:
     """Return a discontinuity in the form for loops.
 
-    If a fraction x of a step lies behind a jump of the k-th derivative, its stages err by x^k, which may be `rtol`.
+    If a fraction x of a step lies after a jump of the k-th derivative, its stages err by x^k, which may be `rtol`.
     Points of a table that matter less than `rtol` are left out: many of them together are a smooth curve, which the
     error estimate sees.
     """

@@ -105,7 +105,7 @@ class PrintedRun:
     seams : tuple of Seam
         Times at which formulas jump or have kinks.
     passages : Passages, optional
-        What a run finds these times with, where they depend on parameters or lie behind its end.
+        What a run finds these times with, where they depend on parameters or lie after its end.
     """
 
     compiled: CompiledModel
@@ -238,7 +238,7 @@ class PrintedRun:
     def _hunt(self, watched: Watched, hunt: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the data of events with room for few notes, as all are taken before the next step."""
         width = self.compiled.info.ny
-        if watched.switches:  # whose points stand behind the notes
+        if watched.switches:  # whose points stand after the notes
             return hunt
         first = notes_at(len(watched.names), width, len(self.compiled.scratch()))
         return hunt[: first + (_NOTES + 2 * len(watched.names)) * (2 + width)].copy()
@@ -263,7 +263,7 @@ class PrintedRun:
 
     @cached_property
     def _arguments(self) -> tuple[Any, ...]:
-        """Arguments of `advance_run` behind its first one, then `Exchange`; a step and its end are None: passed."""
+        """Arguments of `advance_run` after its first one, then `Exchange`; a step and its end are None: passed."""
         compiled, info, watched = self.compiled, self.compiled.info, self.watched
         setup, sizes = self.integrator.setup(compiled, self.spec, compiled.scratch()), model_sizes(compiled)
         sizes, span, memory = sizes._replace(width=info.ny), span_of(self.spec, setup), setup.memory
@@ -306,7 +306,7 @@ class PrintedRun:
         )
 
     def _further(self, span: Span, nw: int) -> tuple[Any, ...]:
-        """Return what stands behind the functions of a model: rows with bounds, or effects of events."""
+        """Return what stands after the functions of a model: rows with bounds, or effects of events."""
         compiled, watched, rows, width = self.compiled, self.watched, self._rows, self.compiled.info.ny
         if watched is not None and rows is not None:
             return (modes_of_runs(compiled, watched, rows, span, width, nw),)

@@ -1,6 +1,6 @@
-"""Code with directions: a compiled model whose arrays have room for derivatives behind them.
+"""Code with directions: a compiled model whose arrays have room for derivatives after them.
 
-The state is longer: behind y lie L directions of each element, and those of parameters and scratch behind ``p`` and
+The state is longer: after y lie L directions of each element, and those of parameters and scratch after ``p`` and
 ``w``. Emitted functions have a form with directions (`symgen.compile.native.tangents`).
 """
 
@@ -131,7 +131,7 @@ class DirectedModel:
         return room
 
     def shadow(self, array: Array, name: str) -> Array:
-        """Return the directions behind an array, or behind those in rows, shape (..., n, L)."""
+        """Return the directions after an array, or after those in rows, shape (..., n, L)."""
         size = self.sizes[name]
         return array[..., size : size * (1 + self.lanes)].reshape(*array.shape[:-1], size, self.lanes)
 

@@ -1,6 +1,6 @@
 """Runs with directions: derivatives of the state by numbers beside it, through the same steps.
 
-The state is longer: behind y lie L directions of each element; directions of parameters and scratch lie behind p and
+The state is longer: after y lie L directions of each element; directions of parameters and scratch lie after p and
 w. Emitted functions have a form with directions (`symgen.compile.native.tangents`); loops and explicit schemes, which
 are linear in the state, stay as they are. Error control leaves directions out, so a run without them takes the same
 steps.
@@ -47,7 +47,7 @@ class DirectedPart:
     outcome : Outcome
         Outcome of the longer state.
     doubts : sequence of str
-        Why directions behind events are in doubt.
+        Why directions after events are in doubt.
     modes : sequence of (float, Array)
         Directions of the numbers of modes, each with the last time at which they hold.
     """
@@ -88,7 +88,7 @@ class Course:
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Why directions behind events are in doubt."""
+        """Why directions after events are in doubt."""
         return tuple(doubt for part in self.parts for doubt in part.doubts)
 
     def gathered(self, of: Callable[[DirectedPart], Array]) -> Array:

@@ -34,7 +34,7 @@ class Free:
     now : Moment
         The state.
     by : Directions
-        All directions, and behind them that of the motion.
+        All directions, and after them that of the motion.
     """
 
     def __init__(self, moments: Moments, now: Moment, by: Directions) -> None:

@@ -51,7 +51,7 @@ class Recorder:
         return getattr(self.integrator, name)
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
-        """Return the arguments of the loop, which keeps steps behind the memory of the scheme."""
+        """Return the arguments of the loop, which keeps steps after the memory of the scheme."""
         from symgen.run.loops.schemes import adjoint
 
         plain = self.integrator.setup(compiled, spec, w)
@@ -77,7 +77,7 @@ class KeptRun(PassingSimulation):
     first : Array
         Record of the start, whose state was corrected.
     course : list of (Array or Passage)
-        Records of `symgen.run.loops.schemes.adjoint`, each part of them behind a record of where it begins, and the
+        Records of `symgen.run.loops.schemes.adjoint`, each part of them after a record of where it begins, and the
         passages between them.
     corrected : int
         Number of passages before the state at the start was corrected.
@@ -126,7 +126,7 @@ class KeptRun(PassingSimulation):
                 return code
 
     def passed(self, passage: RunPassage) -> None:
-        """Keep a passage; the steps behind it begin anew."""
+        """Keep a passage; the steps after it begin anew."""
         self._close()
         self.course.append(passage)
         self._keep(passage.before.y, passage.before.w, passage.after.y, passage.after.w)
@@ -192,7 +192,7 @@ class KeptRun(PassingSimulation):
             self._begins = self._count - 1
 
     def _turn_page(self, first: Array) -> None:
-        """Let the loop write its next steps to another page, behind a record of where they begin."""
+        """Let the loop write its next steps to another page, after a record of where they begin."""
         from symgen.run.loops.schemes.adjoint import HEAD
 
         head = self._head

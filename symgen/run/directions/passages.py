@@ -98,7 +98,7 @@ class PassingSimulation(Simulation):
         return Moment(self._time, state.y.copy(), state.p.copy(), state.w.copy())
 
     def passed(self, passage: RunPassage) -> None:
-        """Take a passage; the run goes on behind it. What is done with it is up to subclasses."""
+        """Take a passage; the run goes on after it. What is done with it is up to subclasses."""
         raise NotImplementedError
 
     def _pass(

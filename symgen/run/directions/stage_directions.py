@@ -80,14 +80,14 @@ class StageDirections(ABC):
 
     @abstractmethod
     def through(self, step: DifferentiatedStep, state: State) -> Array:
-        """Return the directions of the state behind a step, shape (ny, k).
+        """Return the directions of the state after a step, shape (ny, k).
 
         Parameters
         ----------
         step : DifferentiatedStep
             The step.
         state : State
-            Of the run behind it: in its working memory, stages of the step or some near them.
+            Of the run after it: in its working memory, stages of the step or some near them.
         """
 
     @cached_property
@@ -95,7 +95,7 @@ class StageDirections(ABC):
         return self.moments.model.function(self.law.accept, timed=True).caller(abi.ACCEPT.signature.arguments)
 
     def _corrected(self, step: DifferentiatedStep, end: Array, y: Array) -> Array:
-        """Return the directions of a state behind its correction."""
+        """Return the directions of a state after its correction."""
         columns, model = list[Array](), self.moments.model
         now, by = step.at(1.0, end), Directions(y, step.time(1.0), step.by.modes)
         for _, own, p, w in self.moments.chunks(now, by):
@@ -130,7 +130,7 @@ class ExplicitStages(StageDirections):
         return rates, confirm
 
     def through(self, step: DifferentiatedStep, state: State) -> Array:
-        """Return the directions of the state behind a step, shape (ny, k)."""
+        """Return the directions of the state after a step, shape (ny, k)."""
         stages, columns, count = list[Array](), list[Array](), len(self._a) - 1
         end = step.before.y[: self.moments.model.sizes["y"]]
         y = step.by.y
@@ -188,7 +188,7 @@ class ImplicitStages(StageDirections):
         return function.caller(abi.STAGE.signature.arguments)
 
     def through(self, step: DifferentiatedStep, state: State) -> Array:
-        """Return the directions of the state behind a step, shape (ny, k)."""
+        """Return the directions of the state after a step, shape (ny, k)."""
         pattern, n, s, y = Pattern.of(self.moments.compiled, step.before.w), self._n, self._s, step.by.y
         k, matrix = self._converged(step, pattern, state.room[2 * len(state.y) :][: s * n].reshape(s, n).copy())
         rest = np.zeros((s, n, y.shape[1]))

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Ends of loops behind which a run goes on.
+#: Ends of loops after which a run goes on.
 _ENDS = (abi.DONE, abi.MET, abi.PAUSED)
 
 
@@ -46,7 +46,7 @@ class StepsAgain(PassingSimulation):
     Attributes
     ----------
     slopes : Array, shape (ny, k)
-        Directions behind the steps.
+        Directions after the steps.
     transfer : Transfer
         Takes directions through passages.
     """

@@ -97,7 +97,7 @@ class StepsAhead:
     steps : int
         Number of steps.
     end : Array, optional
-        The state behind the one step, which has to be the same; nothing is written to `before` then.
+        The state after the one step, which has to be the same; nothing is written to `before` then.
     same : float
         Part of the state by which it may differ.
 

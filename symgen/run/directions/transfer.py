@@ -1,4 +1,4 @@
-"""Directions through passages: how the state behind an event depends on all numbers, the time of the event among them.
+"""Directions through passages: how the state after an event depends on all numbers, the time of the event among them.
 
 At an event g = 0 its time changes by ``dt = -dg / g'``, and the state there by ``dy + y' dt``. What the event changes
 is differentiated there: velocities by the equations of the smallest impulse
@@ -81,7 +81,7 @@ class Transfer:
         return self.moments.compiled
 
     def through(self, passage: RunPassage, y: Array, modes: Array) -> tuple[Array, Array]:
-        """Return the directions of state and modes behind a passage from those before it.
+        """Return the directions of state and modes after a passage from those before it.
 
         Parameters
         ----------
@@ -97,7 +97,7 @@ class Transfer:
         return y, modes
 
     def at_event(self, passage: RunPassage, y: Array, modes: Array, rate: Array) -> tuple[Array, Array, Array]:
-        """Return the directions of state, modes and time of a passage behind it, at its own time.
+        """Return the directions of state, modes and time of a passage after it, at its own time.
 
         Parameters
         ----------
@@ -119,7 +119,7 @@ class Transfer:
         return y, self._modes(passage, before, after, here, free), later
 
     def _plain(self, x: Moment) -> Moment:
-        """Return a state without the directions behind its arrays."""
+        """Return a state without the directions after its arrays."""
         sizes = self.moments.model.sizes
         return Moment(x.t, x.y[: sizes["y"]], x.p[: sizes["p"]], x.w[: sizes["w"]])
 
@@ -197,7 +197,7 @@ class Transfer:
     # -- what events change --------------------------------------------------------------------------------------------
 
     def _through_effects(self, numbers: tuple[int, ...], now: Moment, y: Array, later: Array) -> Array:
-        """Return the directions of the state behind the effects of events."""
+        """Return the directions of the state after the effects of events."""
         watched = self.watched
         assert watched is not None, "the run has events"
         effects = watched.effects
@@ -230,7 +230,7 @@ class Transfer:
     # -- modes ---------------------------------------------------------------------------------------------------------
 
     def _modes(self, passage: RunPassage, before: Moment, after: Moment, by: Directions, free: Free) -> Array:
-        """Return the directions of the numbers of modes behind a passage."""
+        """Return the directions of the numbers of modes after a passage."""
         rows = None if self.watched is None else self.watched.bounded
         kept = by.modes[:, :-1]
         if rows is None:

@@ -248,12 +248,12 @@ def row_weight(layout: Layout, w: Array, i: int) -> float:
 def settle_scales(sizes: Sizes, span: Span, run: Run) -> None:
     """Set the scales of a run's states at its beginning, from the lengths computed at its start.
 
-    `run.metric` converts coordinates and velocities to lengths and speeds (0 for angles, and for all behind the
+    `run.metric` converts coordinates and velocities to lengths and speeds (0 for angles, and for all after the
     velocities); `run.scales` converts them to numbers of order 1. A motion that begins at rest is taken to cross the
     mechanism in the time `span.duration`. The energy in motion is at least that of speeds within the tolerances: a
     motion that begins at rest, without a force, has no other energy to which errors could be compared.
 
-    Behind the factors of both are the places that coordinates are measured from, as in `run.share`.
+    After the factors of both are the places that coordinates are measured from, as in `run.share`.
     """
     w, nq, width = run.w, sizes.nq, sizes.width
     for i in range(nq):

@@ -1,6 +1,6 @@
 """Steps ahead with directions, in one call: the loop of a run with directions, entered step by step.
 
-Before each step the directions behind the state are seeds again, so that what stands there behind it are the
+Before each step the directions after the state are seeds again, so that what stands there after it are the
 derivatives of this step alone. States, derivatives and those of outputs are written for each step. More directions than
 the code has lanes are further passes over the same step.
 """
@@ -109,7 +109,7 @@ def begin_pass(a: Ahead, state: State, k: int, which: int, prepare: e.Prepare, p
 
 
 def keep_pass(a: Ahead, state: State, k: int, which: int) -> None:
-    """Keep the derivatives of the states behind step `k`."""
+    """Keep the derivatives of the states after step `k`."""
     lanes, n, ny = a.head[LANES], a.places.shape[0], a.y.shape[0]
     row = a.head[PASSES] * lanes
     for i in range(n):
@@ -119,7 +119,7 @@ def keep_pass(a: Ahead, state: State, k: int, which: int) -> None:
 
 
 def keep_outputs(a: Ahead, state: State, k: int, observe: abi.Observe) -> None:
-    """Keep the derivatives of outputs at the state behind step `k`, by that state."""
+    """Keep the derivatives of outputs at the state after step `k`, by that state."""
     lanes, count = a.head[LANES], a.head[OUTPUTS]
     ny, np, nw = a.y.shape[0], state.p.shape[0] // (1 + lanes), a.w.shape[0]
     y, p = part(a.still, 0, state.y.shape[0]), part(a.still, state.y.shape[0], state.p.shape[0])
@@ -140,7 +140,7 @@ def keep_outputs(a: Ahead, state: State, k: int, observe: abi.Observe) -> None:
 
 
 def ends_elsewhere(a: Ahead, y: Array) -> bool:
-    """Whether a state differs from the state of the run behind its step."""
+    """Whether a state differs from the state of the run after its step."""
     largest, off = 1.0, 0.0
     for i in range(a.end.shape[0]):
         largest, off = max(largest, abs(a.end[i])), max(off, abs(a.end[i] - y[i]))

@@ -81,7 +81,7 @@ def store(sizes: Sizes, w: Array, outputs: Outputs, k: int, y: Array) -> None:
 
 
 def store_behind(outputs: Outputs, count: int, now: float, near: float, y: Array, w: Array) -> None:
-    """Have outputs at the time of a reset hold the state behind it, from which the motion goes on.
+    """Have outputs at the time of a reset hold the state after it, from which the motion goes on.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def store_behind(outputs: Outputs, count: int, now: float, near: float, y: Array
     now, near : float
         The time, and the difference up to which times count as the same [s].
     y, w : Array
-        State and scratch behind the reset.
+        State and scratch after the reset.
     """
     out = count
     while out > 0 and abs(outputs.times[out - 1] - now) <= near:

@@ -78,7 +78,7 @@ def seams_with_room(most: int, adaptive: bool, chooses: bool = False) -> Seams:
 
 
 def due(seams: Seams, count: int) -> float:
-    """Return the time of seam number `count` of the present row [s]; infinity behind the last one."""
+    """Return the time of seam number `count` of the present row [s]; infinity after the last one."""
     at = seams.rows[seams.head[ROW]] + count
     return float(seams.times[at]) if at < seams.rows[seams.head[ROW] + 1] else math.inf
 
@@ -93,7 +93,7 @@ def change(seams: Seams, count: int, p: Array) -> bool:
 
 
 def has_gap(seams: Seams, count: int) -> bool:
-    """Whether a run goes on at the next seam, without a step, behind seam number `count` of the present row."""
+    """Whether a run goes on at the next seam, without a step, after seam number `count` of the present row."""
     at = seams.rows[seams.head[ROW]] + count
     return bool(at < seams.rows[seams.head[ROW] + 1] and seams.skips[at] != 0)
 
@@ -105,9 +105,9 @@ def has_struck(seams: Seams, count: int) -> bool:
 
 
 def part_before(seams: Seams, count: int, span: Span, clock: Array, control: Integers) -> tuple[float, float]:
-    """Return end and steps [s] of a part of a run: towards seam number `count`, behind which the run skips.
+    """Return end and steps [s] of a part of a run: towards seam number `count`, after which the run skips.
 
-    A grid of constant steps may have a point there to rounding. No stage may lie behind the seam: the last step is
+    A grid of constant steps may have a point there to rounding. No stage may lie after the seam: the last step is
     shorter by that much, and the grid is moved for it.
     """
     to, step, origin = due(seams, count), float(span.step), float(clock[abi.ORIGIN])
@@ -124,7 +124,7 @@ def part_before(seams: Seams, count: int, span: Span, clock: Array, control: Int
 
 
 def go_over(seams: Seams, count: int, clock: Array) -> None:
-    """Set the time to the next seam behind seam number `count`."""
+    """Set the time to the next seam after seam number `count`."""
     clock[abi.TIME] = max(clock[abi.TIME], due(seams, count + 1))
 
 
@@ -136,7 +136,7 @@ def select_row(seams: Seams, r: int) -> None:
 def parameters_at(
     seams: Seams, span: Span, prepare: e.Prepare, prepare_law: e.Prepare, t: float, passed: int, p: Array
 ) -> int:
-    """Set `p` to the parameters at an output, from those behind `passed` seams; at a seam, to those before it.
+    """Set `p` to the parameters at an output, from those after `passed` seams; at a seam, to those before it.
 
     Returns
     -------
@@ -266,7 +266,7 @@ def with_table(
     system, loop : tuple, compiled loop
         First argument of the enclosed loop, and this loop.
     alone : bool
-        Whether it is a single run: modes are chosen behind the loop, and parameters prepared there.
+        Whether it is a single run: modes are chosen after the loop, and parameters prepared there.
     """
     # in looped code nothing is prepared in the loop
     left = compiled.shape == "looped" or (alone and compiled.info.bounded)

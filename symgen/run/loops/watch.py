@@ -166,7 +166,7 @@ def watch(sizes: Sizes, run: Run, y: Array, t: float) -> int:
             gauges[abi.MAX_ENERGY_JUMP] = max(gauges[abi.MAX_ENERGY_JUMP], abs(error - gauges[abi.ENERGY_ENTRY]))
         gauges[abi.ENERGY_ENTRY] = error
     gauges[abi.FALL] = (gauges[abi.LAST_SINE] - sine) / elapsed if elapsed > 0.0 else 0.0
-    # so does the length of a gradient that vanishes; behind it the row is undefined
+    # so does the length of a gradient that vanishes; after it the row is undefined
     short, fell = math.sqrt(max(w[abi.SHORTEST_ROW], 0.0)), gauges[abi.SHORT_FALL]
     vanished = short < VANISHING or (fell > 0.0 and gauges[abi.LAST_SHORT] - fell * elapsed < VANISHING)
     gauges[abi.SHORT_FALL] = (gauges[abi.LAST_SHORT] - short) / elapsed if elapsed > 0.0 else 0.0

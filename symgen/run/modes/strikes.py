@@ -46,7 +46,7 @@ _LOW, _LOST = 1e-6, 0.1
 #: Changes of a gap below this part of the mechanism's length are rounding.
 _RESOLVED = 2e-15
 #: Numbers of the series of flights to and fro of a row: their number, the end that followed at the last impact, that of
-#: the last two, the least change of the latter, and the end behind it.
+#: the last two, the least change of the latter, and the end after it.
 _COUNT, _LAST, _BETTER, _LEAST, _BEST = range(5)
 OF_SERIES = 5
 
@@ -186,7 +186,7 @@ def ask_rates(t: float, c: Choice, s: Strikes, now: Instant) -> None:
 
 @exact()
 def lose(c: Choice, s: Strikes, first: bool, y: Array) -> None:
-    """Add what an impact takes to the losses of its rows, by the sums of their rates before and behind it."""
+    """Add what an impact takes to the losses of its rows, by the sums of their rates before and after it."""
     place = c.layout.m
     for i in range(c.dry, c.count):
         if s.active[i] != 0:
@@ -257,7 +257,7 @@ def come_to_rest(t: float, c: Choice, s: Strikes, end: float, now: Instant) -> i
 
 @exact(entry=True)
 def strike(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -> int:
-    """Change the velocities by the impact of `find_struck`; all rows with bounds are off behind it.
+    """Change the velocities by the impact of `find_struck`; all rows with bounds are off after it.
 
     Returns `SAME`, `NO_IMPULSES` where none are found, or `NOT_APPLIED` where joints do not allow the impact.
     """
@@ -283,7 +283,7 @@ def strike(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -> int
 
 @exact(entry=True)
 def gather(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, iw: Integers, hunt: Array) -> int:
-    """Bring the gaps of the latest impact to rest where impacts accumulate in the modes chosen behind it.
+    """Bring the gaps of the latest impact to rest where impacts accumulate in the modes chosen after it.
 
     Returns `OTHERS` where velocities have changed, with all rows with bounds off; else `SAME`, or `NOT_APPLIED`.
     """

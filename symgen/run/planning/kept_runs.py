@@ -31,7 +31,7 @@ def run_with_modes(
     compiled, datum
         As for a `PrintedRun`.
     foresees : bool
-        Whether the run finds jumps whose times depend on parameters, or lie behind its end, by itself.
+        Whether the run finds jumps whose times depend on parameters, or lie after its end, by itself.
     """
     return whole_run(mechanism, run, compiled, datum, foresees) if mechanism.bounded else None
 

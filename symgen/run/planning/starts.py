@@ -287,7 +287,7 @@ def held_of(
 
 
 def compiled_for(mechanism: Mechanism, choice: MethodChoice) -> CompiledModel:
-    """Return the compiled model of a run: with integrals behind the work, where outputs have some."""
+    """Return the compiled model of a run: with integrals after the work, where outputs have some."""
     return with_integrals(mechanism, compile_model(mechanism, choice))
 
 

@@ -47,7 +47,7 @@ _F, _A, _K = types.float64, types.float64[::1], types.int64
 COMPLETE, HANDLE, GO_ON, ASK = range(4)
 #: Answers: nothing has happened; something has; an event ends the run; the motion cannot go on.
 QUIET, HAPPENED, OVER, STUCK = range(4)
-#: Places of times: that of the next jump or kink of formulas, or of a rest; the one behind a jump, from which formulas
+#: Places of times: that of the next jump or kink of formulas, or of a rest; the one after a jump, from which formulas
 #: are evaluated; then, for each row, that at which the flights end of a gap that has come to rest before.
 NEXT, BEHIND, RESTS = range(3)
 
@@ -76,7 +76,7 @@ def next_seam(model: System, state: EventState) -> float:
 
 @called
 def pass_due_seams(model: ModelWithModes, span: Span, state: EventState) -> int:
-    """Pass the seams that are due; return `HAPPENED` where modes have to be chosen behind them, or `STUCK`."""
+    """Pass the seams that are due; return `HAPPENED` where modes have to be chosen after them, or `STUCK`."""
     system, _, modes = model
     _, seams, _, prepare, prepare_law = system
     control, clock, p, changed, skipped = state.control, state.clock, state.p, False, False
@@ -125,7 +125,7 @@ def note_rests_of_gaps(t: float, modes: OfModes, times: Array) -> None:
 
 
 def next_rest_of_gaps(t: float, modes: OfModes, times: Array) -> float:
-    """Return the first time behind `t` at which flights end that have been left out; else infinity."""
+    """Return the first time after `t` at which flights end that have been left out; else infinity."""
     first = math.inf
     for i in range(modes.strikes.left.shape[0]):
         if t < times[RESTS + i] < first:

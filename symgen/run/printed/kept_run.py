@@ -2,7 +2,7 @@
 
 The loop is the frame of all runs (`symgen.run.loops.frame`), so that steps, events and modes are those of single runs.
 An output between two steps shortens none of them: what is shown is the state at the time asked for, and the run itself
-may stand at the end of the step behind it. Where a caller changes what is shown, the run goes on from there.
+may stand at the end of the step after it. Where a caller changes what is shown, the run goes on from there.
 
 Outputs inside an adaptive step are read from that step, which is kept (`symgen.run.loops.schemes.readable`).
 """
@@ -104,7 +104,7 @@ def show(sizes: Sizes, w: Array, outputs: KeptOutput, k: int, y: Array) -> None:
 def return_to_shown(
     until: float, scheme: TableauRecord, visible: Visible, state: EventState, outputs: KeptOutput
 ) -> int:
-    """Have the run go on from what is shown, where the caller has changed it, or the run stands behind a time [s].
+    """Have the run go on from what is shown, where the caller has changed it, or the run stands after a time [s].
 
     Returns 1 where the caller has changed the state, else 0.
     """
@@ -144,7 +144,7 @@ def system_between_seams(system: System) -> Any:
 
 
 def forget_later_seams(system: System, state: State) -> None:
-    """Forget that seams behind the present time have been passed."""
+    """Forget that seams after the present time have been passed."""
     _, seams, _, _, _ = system
     while state.control[abi.PASSED] > 0 and due(seams, state.control[abi.PASSED] - 1) > state.clock[abi.TIME]:
         state.control[abi.PASSED] -= 1
@@ -247,7 +247,7 @@ def go_on(
         elif code == abi.MET and control[abi.OUTPUTS] > 0 and until < clock[abi.TIME] - near:
             visible.numbers[STANDS] = 1
         elif code == abi.MET:
-            control[abi.OUTPUTS] = 0  # what is shown is the state behind events
+            control[abi.OUTPUTS] = 0  # what is shown is the state after events
             code = meet(model, chunk, state, visible)
         if code < abi.DONE and clock[abi.TIME] >= until - near:
             code = abi.DONE
@@ -271,9 +271,9 @@ def advance_run(
     Parameters
     ----------
     through : int
-        1 where the run may go on to the end of a step behind that time, as runs with outputs do; 0 where a step ends.
+        1 where the run may go on to the end of a step after that time, as runs with outputs do; 0 where a step ends.
     model : tuple
-        First argument of the loop, sizes and functions of the model, and behind these `OfModes` where rows have
+        First argument of the loop, sizes and functions of the model, and after these `OfModes` where rows have
         bounds, else `OfEffects` where events change a run.
     scheme : record
         The scheme.
@@ -305,7 +305,7 @@ def advance_run(
     if not ADAPTIVE or read_step(system_of_steps(model[0]), scheme, state, outputs) == 0:
         code = go_on(model, scheme, endless, chunk, state, outputs, visible)
     if not ADAPTIVE and code > abi.DONE and control[abi.OUTPUTS] > 0 and through != 0:
-        # the step behind the output fails: the run goes on up to the output
+        # the step after the output fails: the run goes on up to the output
         control[abi.OUTPUTS] = 0
         code = go_on(model, scheme, steps_until(span, until, math.inf, duration), chunk, state, outputs, visible)
     numbers[END_CODE] = code
@@ -373,7 +373,7 @@ class Traits(NamedTuple):
 
     @property
     def further(self) -> tuple[types.RecordType, ...]:
-        """Types of what stands behind the functions of a model."""
+        """Types of what stands after the functions of a model."""
         return (turn.FURTHER["modes" if self.modes else "effects"],) if self.modes or self.effects else ()
 
 

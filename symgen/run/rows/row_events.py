@@ -173,7 +173,7 @@ def choose_after_change(model: ModelWithModes, span: Span, state: EventState) ->
 
 
 def store_after_effects(code: int, span: Span, state: EventState, outputs: Outputs) -> None:
-    """Have outputs at the present time hold the state behind the effects of events."""
+    """Have outputs at the present time hold the state after the effects of events."""
     if code == abi.MET:
         now = state.clock[abi.TIME]
         adaptive = state.hunt[records.REACH] < math.inf

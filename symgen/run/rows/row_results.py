@@ -131,7 +131,7 @@ def observe_outputs(
     values = part(chunk.values, r * length, length)
     pick(sizes, chunk.picks, series, count, state.gauges[abi.ENERGY_START], values)
     if chunk.rates == 1 or chunk.joints == 1:
-        # loops take the padding behind a state for zeros; observed values may even be nan
+        # loops take the padding after a state for zeros; observed values may even be nan
         for i in range(2 * sizes.ny + series.observed.rows.shape[1]):
             state.room[i] = 0.0
 

@@ -76,7 +76,7 @@ def run_rows(
     ----------
     model : tuple
         First argument of the loop over one run; then, for observed values at outputs, sizes and functions
-        (`symgen.run.layout.abi`): ``rates`` or ``rhs``, its confirmation, ``accept`` and ``observe``; behind these,
+        (`symgen.run.layout.abi`): ``rates`` or ``rhs``, its confirmation, ``accept`` and ``observe``; after these,
         where bounded rows have modes, `OfModes`, else where events change a run, what they change: `OfEffects`.
     scheme, span
         As for a single run.

@@ -58,7 +58,7 @@ def model_sizes(compiled: CompiledModel) -> Sizes:
 def share_of(sizes: Sizes, datum: Sequence[float] = ()) -> Array:
     """Return 1 for elements of a state under error control, else 0: the work is controlled separately.
 
-    Behind them are the places that coordinates are measured from (`symgen.describe.facts.lengths.origin_of_sizes`).
+    After them are the places that coordinates are measured from (`symgen.describe.facts.lengths.origin_of_sizes`).
     """
     share = np.zeros(2 * sizes.width)
     share[sizes.width : sizes.width + len(datum)] = datum

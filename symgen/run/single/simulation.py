@@ -171,7 +171,7 @@ class Simulation:
         self.before, self.iterations_before = state.control.copy(), iterations_in(state)
 
     def store_first(self, outputs: Outputs) -> None:
-        """Write the outputs up to the time of a continued run: the loop writes those behind it."""
+        """Write the outputs up to the time of a continued run: the loop writes those after it."""
         tiny = 0.0 if self.spec.adaptive else abi.SAME_TIME * self.setup.step
         control, out = self.state.control, 0
         while out < len(outputs.times) and outputs.times[out] <= self.state.clock[abi.TIME] + tiny:
@@ -243,7 +243,7 @@ class Simulation:
         self.spec, now, control = spec, self._clock[abi.TIME], self.state.control
         behind = [seam for seam in spec.seams if not self.is_ahead(seam.t)]
         control[abi.PASSED] = len(behind)
-        if len(behind) > 1 and behind[-2].skips:  # the run stands at a jump: it goes on behind it
+        if len(behind) > 1 and behind[-2].skips:  # the run stands at a jump: it goes on after it
             self.state.clock[abi.TIME] = max(now, behind[-1].t)
         self.changes.give({name: value for seam in behind for name, value in seam.values.items()})
         # a kink changes no number, but the history of multistep schemes ends there as well

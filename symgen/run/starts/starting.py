@@ -72,7 +72,7 @@ def close_row(model: Holding, now: Instant, conditions: StartConditions, work: W
     ----------
     model : tuple
         First a `Layout`, then ``geometry``, ``measure``, ``move``, ``spread``, `solve`, `turns` and ``rhs``: emitted
-        ones (`symgen.run.layout.abi`) and two of `symgen.run.starts.start_solvers`. Behind
+        ones (`symgen.run.layout.abi`) and two of `symgen.run.starts.start_solvers`. After
         these ``observe``, and `symgen.run.starts.joint_starts.Joints`.
     now, conditions, work : Instant, StartConditions, Work
         See `symgen.run.layout.start_records`. The state holds the described coordinates and velocities of 0; parameters

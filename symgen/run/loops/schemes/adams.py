@@ -171,7 +171,7 @@ def renew(system: ModelSystem, scheme: Multistep, span: Span, run: Run, t: float
 
 
 def memory(width: int) -> tuple[int, int]:
-    """Return the lengths of a history, and of the working memory of a step behind the trial state."""
+    """Return the lengths of a history, and of the working memory of a step after the trial state."""
     return DEPTH * (width + 1), 3 * width + 3 * DEPTH + 1
 
 

@@ -1,6 +1,6 @@
 """Explicit Runge-Kutta runs that keep their stages, and the adjoint of such a run, step by step backwards.
 
-Behind the scheme's own memory lies the number of records, then the records: of each step its end, its length, the
+After the scheme's own memory lies the number of records, then the records: of each step its end, its length, the
 corrections of its state, the accepted state, and the rates of all stages. The first record of a part of a run is where
 it begins: it has no stages. With these the states at stages are sums, so the adjoint evaluates nothing but adjoints.
 """
@@ -29,7 +29,7 @@ from symgen.run.loops.schemes.explicit import renew as set_first_stage
 #: Positions in the head of the memory: number of records, rounds of corrections before a step, steps that are kept,
 #: number of angles that count turns; then its length.
 RECORDS, ROUNDS, KEPT_STEPS, TURNING, HEAD = 0, 1, 2, 3, 8
-#: Positions in a record: time [s], step [s], rounds of corrections, angles that count turns; the state stands behind a
+#: Positions in a record: time [s], step [s], rounds of corrections, angles that count turns; the state stands after a
 #: multiple of so many numbers, which vectors are.
 TIME, STEP, CORRECTIONS, ANGLES, _ALIGNED = 0, 1, 2, 3, 8
 #: Adjoint of ``rhs``: adjoints of y, p, w and ydot follow its arguments.
@@ -54,7 +54,7 @@ class Transposed(Record):
     Attributes
     ----------
     start, column, value : Array
-        Row s has the coefficients of the rate at stage s in all later stages, and in the end of the step behind them;
+        Row s has the coefficients of the rate at stage s in all later stages, and in the end of the step after them;
         then a row of ones for all stages.
     """
 
@@ -237,7 +237,7 @@ def backward(
     p, w, iw : Array
         As of the run; the scratch is changed.
     bars : Array
-        Adjoints of the state, the parameters and the scratch one behind the other; changed.
+        Adjoints of the state, the parameters and the scratch one after the other; changed.
     room : Array
         Working memory of (stages + 4) states.
     """

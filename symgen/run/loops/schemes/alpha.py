@@ -48,7 +48,7 @@ ADAPTIVE = False
 
 
 def in_state(sizes: Sizes, i: int) -> int:
-    """Return the index in the state of the element with rate i: velocities, then the states behind the work."""
+    """Return the index in the state of the element with rate i: velocities, then the states after the work."""
     return sizes.nq + i if i < sizes.nv else sizes.nq + i + 1
 
 
@@ -272,7 +272,7 @@ def renew(system: ModelSystem, scheme: Alpha, span: Span, run: Run, t: float, ch
 
 
 def memory(width: int, count: int, unknowns: int) -> tuple[int, int]:
-    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state.
+    """Return the lengths of the memory of a run, and of the working memory of a step after the trial state.
 
     `count` is the number of velocities and states of the file.
     """

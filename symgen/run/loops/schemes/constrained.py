@@ -68,7 +68,7 @@ def step_parts(sizes: Sizes, room: Array) -> Any:
     sizes : Sizes
         Sizes of the model.
     room : Array
-        Working memory behind the trial state, see `memory`.
+        Working memory after the trial state, see `memory`.
 
     Returns
     -------
@@ -91,6 +91,6 @@ def step_parts(sizes: Sizes, room: Array) -> Any:
 
 
 def memory(width: int, nv: int, m: int, unknowns: int, stages: int) -> tuple[int, int]:
-    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state."""
+    """Return the lengths of the memory of a run, and of the working memory of a step after the trial state."""
     n = nv + m
     return n, 2 + 3 * n + 2 * unknowns + m + (stages + 2) * (nv + width)

@@ -230,7 +230,7 @@ def read_stages(
 
 
 def room(width: int, scheme: TableauRecord, windings: int) -> int:
-    """Return the working memory of a step behind the trial state; `windings` angles count turns."""
+    """Return the working memory of a step after the trial state; `windings` angles count turns."""
     if not scheme.degree:
         return int(scheme.stages) * width
     return 3 * width + 2 * len(scheme.dense) // int(scheme.degree) + windings

@@ -1,7 +1,7 @@
 """Half-explicit Runge-Kutta schemes: forces of stage i are those at its beginning, its multipliers close the next one.
 
 ``V_(i+1) = v + h sum_j a_ij V'_j`` with ``M V'_i = f_i - D_i^T lambda_i`` and ``D_(i+1) V_(i+1) = nu_(i+1)``, the state
-behind the last stage being the end of the step. Positions come first, as they need velocities of earlier stages only;
+after the last stage being the end of the step. Positions come first, as they need velocities of earlier stages only;
 bodies in space turn by exponentials (`symgen.run.loops.schemes.lie`), so that Euler parameters keep their length and
 stages meet the constraints of the state.
 """

@@ -104,7 +104,7 @@ def is_rounding(
 ) -> bool:
     """Return whether the residuals `right` of some stages are rounding of their terms, as with stiff forces."""
     n, count = system.sizes.unknowns, scheme.entries.shape[0] // 2
-    # columns behind those of q and v are the file's own states, which stand behind the work in a state
+    # columns after those of q and v are the file's own states, which stand after the work in a state
     first, tail = system.sizes.nq + system.sizes.nv, n - system.sizes.states
     for s in range(low, high):
         stage_state(system, scheme, run, h, s, k, rates)
@@ -333,7 +333,7 @@ def renew(system: ModelSystem, scheme: Stages, span: Span, run: Run, t: float, c
 
 
 def memory(width: int, unknowns: int, more: int, stages: int, together: bool) -> tuple[int, int]:
-    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state.
+    """Return the lengths of the memory of a run, and of the working memory of a step after the trial state.
 
     The memory holds the unknowns at the beginning of a step, and rates of `more` auxiliary states.
     """

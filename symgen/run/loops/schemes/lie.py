@@ -68,7 +68,7 @@ def stage_width(nq: int, nv: int, ny: int) -> int:
 
 
 def room(width: int, stage: int, stages: int) -> int:
-    """Return the working memory of a step behind the trial state."""
+    """Return the working memory of a step after the trial state."""
     return width + (1 + stages) * stage
 
 

@@ -170,7 +170,7 @@ def attempt(
 
 
 def memory(width: int, nv: int, m: int, unknowns: int, stages: int) -> tuple[int, int]:
-    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state."""
+    """Return the lengths of the memory of a run, and of the working memory of a step after the trial state."""
     return (stages + 1) * width, 2 + 2 * (nv + m) + 2 * unknowns + m + width + (stages + 2) * nv
 
 

@@ -33,5 +33,5 @@ def memory(width: int) -> int:
 
 
 def room(width: int, windings: int) -> int:
-    """Return the working memory of a step behind the trial state; `windings` angles count turns."""
+    """Return the working memory of a step after the trial state; `windings` angles count turns."""
     return WIDE + ENDS * width + abi.N_STATUS + windings

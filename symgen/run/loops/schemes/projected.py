@@ -220,7 +220,7 @@ def renew(system: ModelSystem, scheme: Projection, span: Span, run: Run, t: floa
 
 
 def memory(width: int, count: int, m: int, unknowns: int) -> tuple[int, int]:
-    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state.
+    """Return the lengths of the memory of a run, and of the working memory of a step after the trial state.
 
     `count` is the number of velocities and states of the file.
     """

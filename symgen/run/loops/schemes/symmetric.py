@@ -152,7 +152,7 @@ def renew(system: ModelSystem, scheme: Symmetric, span: Span, run: Run, t: float
 
 
 def memory(width: int, nv: int, m: int) -> tuple[int, int]:
-    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state."""
+    """Return the lengths of the memory of a run, and of the working memory of a step after the trial state."""
     length = 1 + 2 * width + 2 * m + 2 * nv
     return length, length + 3 * width
 
