@@ -16,9 +16,9 @@ from symgen.compile.loopcode.vector_code import (
     added,
     each_of,
     folded,
-    load,
+    load_vector,
     spread,
-    store,
+    store_vector,
     variable,
 )
 from symgen.compile.native.types import NODES
@@ -35,7 +35,7 @@ def _eight(builder: ir.IRBuilder, index: ir.Value) -> ir.Value:
 
 def _vectors(builder: ir.IRBuilder, data: ir.Value, begin: int) -> list[ir.Value]:
     """Return rows of a table, kept in registers."""
-    return [load(builder, data, I64(begin + NODES * p)) for p in range(POINTS)]
+    return [load_vector(builder, data, I64(begin + NODES * p)) for p in range(POINTS)]
 
 
 def _sum(builder: ir.IRBuilder, factors: list[ir.Value], vectors: list[ir.Value]) -> ir.Value:
@@ -71,18 +71,18 @@ def place(
 ) -> None:
     """Write `symgen.compile.loopcode.nodes.place`."""
     h_all, h_square = spread(builder, h), spread(builder, builder.fmul(h, h))
-    places = load(builder, table, I64(PLACES))
+    places = load_vector(builder, table, I64(PLACES))
     once, twice = _vectors(builder, table, INTEGRALS), _vectors(builder, table, DOUBLED)
     with _each_row(builder, rows) as c:
         i = _at(builder, rows, c)
         numbers, begin = _rates(builder, i, first, rates), _at(builder, y, i)
         moved = added(builder, h_all, _sum(builder, numbers, once), spread(builder, begin))
-        store(builder, moved, out, _eight(builder, i))
+        store_vector(builder, moved, out, _eight(builder, i))
         q, is_velocity = _coordinate(builder, rows, c)
         with builder.if_then(is_velocity):
             way = added(builder, places, spread(builder, builder.fmul(h, begin)), spread(builder, _at(builder, y, q)))
             moved = added(builder, h_square, _sum(builder, numbers, twice), way)
-            store(builder, moved, out, _eight(builder, q))
+            store_vector(builder, moved, out, _eight(builder, q))
 
 
 def _each_row(builder: ir.IRBuilder, rows: ir.Value) -> ir.Value:
@@ -102,7 +102,7 @@ def extrapolate(
     """Write `symgen.compile.loopcode.nodes.extrapolate`."""
     one = ir.Constant(VECTOR, [1.0] * NODES)
     twice = spread(builder, builder.fmul(ratio, ir.Constant(ir.DoubleType(), 2.0)))
-    x = added(builder, twice, load(builder, places, I64(0)), one)
+    x = added(builder, twice, load_vector(builder, places, I64(0)), one)
     polynomials = [one, x]
     for p in range(2, POINTS):
         up, down = (ir.Constant(VECTOR, [f] * NODES) for f in ((2 * p - 1) / p, -(p - 1) / p))
@@ -115,7 +115,7 @@ def extrapolate(
         i = _at(builder, rows, c)
         first = builder.mul(i, I64(2 * NODES))
         factors = [spread(builder, _at(builder, coefficients, builder.add(first, I64(p)))) for p in range(POINTS)]
-        store(builder, _sum(builder, factors, polynomials), out, _eight(builder, i))
+        store_vector(builder, _sum(builder, factors, polynomials), out, _eight(builder, i))
 
 
 def distance(
@@ -126,10 +126,10 @@ def distance(
     with _each_row(builder, rows) as c:
         i = _at(builder, rows, c)
         at = _eight(builder, i)
-        difference = builder.fsub(load(builder, rates, at), load(builder, before, at))
+        difference = builder.fsub(load_vector(builder, rates, at), load_vector(builder, before, at))
         weighted = builder.fmul(difference, spread(builder, _at(builder, weights, i)))
         builder.store(added(builder, weighted, difference, builder.load(total)), total)
-    return folded(builder, builder.fmul(builder.load(total), load(builder, share, I64(0))), builder.fadd)
+    return folded(builder, builder.fmul(builder.load(total), load_vector(builder, share, I64(0))), builder.fadd)
 
 
 def expand(
@@ -145,18 +145,19 @@ def expand(
     """Write `symgen.compile.loopcode.nodes.expand`."""
     sums = [variable(builder, ZERO) for _ in range(2)]
     halves = [
-        [load(builder, table, I64(2 * NODES * p + half * NODES)) for p in range(POINTS)] for half in range(len(sums))
+        [load_vector(builder, table, I64(2 * NODES * p + half * NODES)) for p in range(POINTS)]
+        for half in range(len(sums))
     ]
     with _each_row(builder, rows) as c:
         i = _at(builder, rows, c)
         numbers, weight = _rates(builder, i, first, rates), spread(builder, _at(builder, weights, i))
         for half, (sum_of_squares, vectors) in enumerate(zip(sums, halves, strict=True)):
             total = _sum(builder, numbers, vectors)
-            store(builder, total, out, builder.add(builder.mul(i, I64(2 * NODES)), I64(half * NODES)))
+            store_vector(builder, total, out, builder.add(builder.mul(i, I64(2 * NODES)), I64(half * NODES)))
             weighted = builder.fmul(total, weight)
             builder.store(added(builder, weighted, total, builder.load(sum_of_squares)), sum_of_squares)
     for half, sum_of_squares in enumerate(sums):
-        store(builder, builder.load(sum_of_squares), squares, I64(half * NODES))
+        store_vector(builder, builder.load(sum_of_squares), squares, I64(half * NODES))
 
 
 def refine(
@@ -165,22 +166,26 @@ def refine(
     """Write `symgen.compile.loopcode.nodes.refine`."""
     polynomials, minus = _vectors(builder, table, 0), ir.Constant(VECTOR, [-1.0] * NODES)
     undefined = ir.Constant(VECTOR, ir.Undefined)
-    halves = [[load(builder, table, I64(CORRECTIONS + p * TERMS + half)) for p in range(NODES)] for half in (0, NODES)]
+    halves = [
+        [load_vector(builder, table, I64(CORRECTIONS + p * TERMS + half)) for p in range(NODES)] for half in (0, NODES)
+    ]
     with _each_row(builder, rows) as c:
         i = _at(builder, rows, c)
         first = builder.mul(i, I64(TERMS))
         numbers = _numbers(builder, coefficients, first, 0, POINTS)
-        left = added(builder, minus, _sum(builder, numbers, polynomials), load(builder, more, _eight(builder, i)))
+        left = added(
+            builder, minus, _sum(builder, numbers, polynomials), load_vector(builder, more, _eight(builder, i))
+        )
         each = [
             builder.shuffle_vector(left, undefined, ir.Constant(ir.VectorType(I32, NODES), [p] * NODES))
             for p in range(NODES)
         ]
         for half, vectors in zip((0, NODES), halves, strict=True):
             at = builder.add(first, I64(half))
-            total = load(builder, coefficients, at)
+            total = load_vector(builder, coefficients, at)
             for number, vector in zip(each, vectors, strict=True):
                 total = added(builder, vector, number, total)
-            store(builder, total, out, at)
+            store_vector(builder, total, out, at)
 
 
 def _numbers(builder: ir.IRBuilder, data: ir.Value, first: ir.Value, start: int, stop: int) -> list[ir.Value]:
@@ -190,11 +195,11 @@ def _numbers(builder: ir.IRBuilder, data: ir.Value, first: ir.Value, start: int,
 
 def integrate_legendre(builder: ir.IRBuilder, terms: ir.Value, x: ir.Value, once: ir.Value, twice: ir.Value) -> None:
     """Write `symgen.compile.loopcode.nodes.integrate_legendre`: for the polynomials of a step, and for more."""
-    place = load(builder, x, I64(0))
+    place = load_vector(builder, x, I64(0))
     z = added(builder, _all(2.0), place, _all(-1.0))
     values, integrals = [_all(1.0), z], [place]
-    store(builder, place, once, I64(0))
-    store(builder, builder.fmul(builder.fmul(_all(0.5), place), place), twice, I64(0))
+    store_vector(builder, place, once, I64(0))
+    store_vector(builder, builder.fmul(builder.fmul(_all(0.5), place), place), twice, I64(0))
 
     def up_to(last: int) -> None:
         for k in range(len(integrals), last + 1):
@@ -203,10 +208,10 @@ def integrate_legendre(builder: ir.IRBuilder, terms: ir.Value, x: ir.Value, once
             values.append(added(builder, builder.fmul(_all((2 * k + 1) / (k + 1)), z), here, falling))
             integrals.append(builder.fmul(builder.fsub(values[-1], lower), _all(1 / (4 * k + 2))))
             if k < TERMS:
-                store(builder, integrals[k], once, I64(k * NODES))
+                store_vector(builder, integrals[k], once, I64(k * NODES))
             if k > 1:
                 doubled = builder.fmul(builder.fsub(integrals[k], integrals[k - 2]), _all(1 / (4 * k - 2)))
-                store(builder, doubled, twice, I64((k - 1) * NODES))
+                store_vector(builder, doubled, twice, I64((k - 1) * NODES))
 
     up_to(POINTS)
     with builder.if_then(builder.icmp_signed(">", terms, I64(POINTS))):
@@ -231,22 +236,22 @@ def sum_up(
 ) -> None:
     """Write `symgen.compile.loopcode.nodes.sum_up`."""
     h_all, h_square = spread(builder, h), spread(builder, builder.fmul(h, h))
-    way = builder.fmul(h_all, load(builder, x, I64(0)))
-    tables = [[load(builder, table, I64(k * NODES)) for k in range(POINTS)] for table in (once, twice)]
+    way = builder.fmul(h_all, load_vector(builder, x, I64(0)))
+    tables = [[load_vector(builder, table, I64(k * NODES)) for k in range(POINTS)] for table in (once, twice)]
 
     def series(which: int, first: ir.Value) -> ir.Value:
         total = variable(builder, _sum(builder, _numbers(builder, coefficients, first, 0, POINTS), tables[which]))
         with each_of(builder, I64(POINTS), terms, 1) as k:
             number = spread(builder, _at(builder, coefficients, builder.add(first, k)))
-            vector = load(builder, (once, twice)[which], _eight(builder, k))
+            vector = load_vector(builder, (once, twice)[which], _eight(builder, k))
             builder.store(added(builder, vector, number, builder.load(total)), total)
         return builder.load(total)
 
     with _each_row(builder, rows) as c:
         i = _at(builder, rows, c)
         first, begin = builder.mul(i, I64(TERMS)), spread(builder, _at(builder, y, i))
-        store(builder, added(builder, h_all, series(0, first), begin), out, _eight(builder, i))
+        store_vector(builder, added(builder, h_all, series(0, first), begin), out, _eight(builder, i))
         q, is_velocity = _coordinate(builder, rows, c)
         with builder.if_then(is_velocity):
             moved = added(builder, way, begin, spread(builder, _at(builder, y, q)))
-            store(builder, added(builder, h_square, series(1, first), moved), out, _eight(builder, q))
+            store_vector(builder, added(builder, h_square, series(1, first), moved), out, _eight(builder, q))

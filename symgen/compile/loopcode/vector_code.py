@@ -23,12 +23,12 @@ _SMALL = 4 * BLOCK
 _FLAGS = ("contract",)
 
 
-def load(builder: ir.IRBuilder, data: ir.Value, at: ir.Value) -> ir.Value:
+def load_vector(builder: ir.IRBuilder, data: ir.Value, at: ir.Value) -> ir.Value:
     """Return eight numbers of an array."""
     return builder.load(builder.bitcast(builder.gep(data, [at]), VECTOR.as_pointer()), align=8)
 
 
-def store(builder: ir.IRBuilder, vector: ir.Value, data: ir.Value, at: ir.Value) -> None:
+def store_vector(builder: ir.IRBuilder, vector: ir.Value, data: ir.Value, at: ir.Value) -> None:
     """Write eight numbers of an array."""
     builder.store(vector, builder.bitcast(builder.gep(data, [at]), VECTOR.as_pointer()), align=8)
 
@@ -153,18 +153,18 @@ def _combined(
             row = builder.mul(builder.load(builder.gep(column, [end])), width)
             factor = spread(builder, builder.fmul(h, builder.load(builder.gep(value, [end])), flags=_FLAGS))
             for i, sum_of_rows in _sums(builder, (width, h, first, end, column, value, rows)):
-                before = added(builder, spread(builder, h), sum_of_rows, load(builder, base, i))
+                before = added(builder, spread(builder, h), sum_of_rows, load_vector(builder, base, i))
                 rate, to = builder.gep(rows, [builder.add(row, i)]), builder.gep(out, [i])
                 last_row(builder, width, before, factor, rate, to)
         with none, _each_block(builder, width) as i:
-            store(builder, load(builder, base, i), out, i)
+            store_vector(builder, load_vector(builder, base, i), out, i)
 
 
 def _last_whole(
     builder: ir.IRBuilder, width: ir.Value, before: ir.Value, factor: ir.Value, rate: ir.Value, out: ir.Value
 ) -> None:
     """Write a block of a state: its part without the last row, plus the block of that row."""
-    store(builder, added(builder, factor, load(builder, rate, I64(0)), before), out, I64(0))
+    store_vector(builder, added(builder, factor, load_vector(builder, rate, I64(0)), before), out, I64(0))
 
 
 def _last_as_written(
@@ -226,7 +226,7 @@ def total(
     """Write `symgen.compile.loopcode.vectors.total`."""
     factor = spread(builder, h)
     for i, sum_of_rows in _sums(builder, (width, h, first, last, column, value, rows)):
-        store(builder, builder.fmul(factor, sum_of_rows), out, i)
+        store_vector(builder, builder.fmul(factor, sum_of_rows), out, i)
 
 
 def _sums(builder: ir.IRBuilder, table: tuple[ir.Value, ...]) -> Iterator[tuple[Any, Any]]:
@@ -237,7 +237,7 @@ def _sums(builder: ir.IRBuilder, table: tuple[ir.Value, ...]) -> Iterator[tuple[
         with each_of(builder, first, last, 1) as k:
             row = builder.mul(builder.load(builder.gep(column, [k])), width)
             weight = spread(builder, builder.load(builder.gep(value, [k])))
-            rate = load(builder, rows, builder.add(row, i))
+            rate = load_vector(builder, rows, builder.add(row, i))
             builder.store(added(builder, weight, rate, builder.load(total)), total)
         yield i, builder.load(total)
 
@@ -245,7 +245,7 @@ def _sums(builder: ir.IRBuilder, table: tuple[ir.Value, ...]) -> Iterator[tuple[
 def copied(builder: ir.IRBuilder, width: ir.Value, array: ir.Value, out: ir.Value) -> None:
     """Write `symgen.compile.loopcode.vectors.copied`."""
     with _each_block(builder, width) as i:
-        store(builder, load(builder, array, i), out, i)
+        store_vector(builder, load_vector(builder, array, i), out, i)
 
 
 def received(builder: ir.IRBuilder, width: ir.Value, array: ir.Value, out: ir.Value) -> None:
@@ -256,7 +256,7 @@ def received(builder: ir.IRBuilder, width: ir.Value, array: ir.Value, out: ir.Va
             builder.store(pair, _pair_at(builder, out, builder.add(i, I64(k))), align=8)
 
     def large(i: ir.Value) -> None:
-        store(builder, load(builder, array, i), out, i)
+        store_vector(builder, load_vector(builder, array, i), out, i)
 
     with _each_block(builder, width) as i:
         _as_written(builder, width, partial(small, i), partial(large, i))
@@ -276,13 +276,13 @@ def weigh(
     relative, absolute = spread(builder, rtol), spread(builder, atol)
 
     def block(i: ir.Value, total: ir.Value) -> ir.Value:
-        place = load(builder, share, builder.add(width, i))
-        sizes = (_magnitude(builder, builder.fsub(load(builder, x, i), place)) for x in (y, new))
+        place = load_vector(builder, share, builder.add(width, i))
+        sizes = (_magnitude(builder, builder.fsub(load_vector(builder, x, i), place)) for x in (y, new))
         larger = _greater(builder, *sizes)
-        weight = load(builder, share, i)
+        weight = load_vector(builder, share, i)
         larger = builder.fmul(weight, larger)
         scale = builder.fadd(absolute, builder.fmul(relative, larger, flags=_FLAGS), flags=_FLAGS)
-        error_here = builder.fmul(weight, load(builder, error, i))
+        error_here = builder.fmul(weight, load_vector(builder, error, i))
         none = builder.fcmp_ordered("==", error_here, ZERO)
         part = builder.select(none, ZERO, builder.fdiv(error_here, scale))
         return builder.fadd(total, builder.fmul(part, part, flags=_FLAGS), flags=_FLAGS)
@@ -299,8 +299,8 @@ def largest(
     def block(i: ir.Value, largest: ir.Value) -> ir.Value:
         index = builder.add(spread(builder, i, _INDICES), ir.Constant(_INDICES, list(range(BLOCK))))
         inside = builder.and_(builder.icmp_signed(">=", index, low), builder.icmp_signed("<", index, high))
-        away = builder.fsub(load(builder, array, i), load(builder, weights, builder.add(width, i)))
-        size = builder.fmul(_magnitude(builder, away), load(builder, weights, i))
+        away = builder.fsub(load_vector(builder, array, i), load_vector(builder, weights, builder.add(width, i)))
+        size = builder.fmul(_magnitude(builder, away), load_vector(builder, weights, i))
         size = builder.select(inside, size, ZERO)
         return _greater(builder, size, largest)
 
@@ -311,7 +311,7 @@ def finite(builder: ir.IRBuilder, width: ir.Value, array: ir.Value) -> ir.Value:
     """Write `symgen.compile.loopcode.vectors.finite`."""
 
     def block(i: ir.Value, total: ir.Value) -> ir.Value:
-        vector = load(builder, array, i)
+        vector = load_vector(builder, array, i)
         return builder.fadd(total, builder.fsub(vector, vector))
 
     total = _blocks(builder, width, ZERO, block)

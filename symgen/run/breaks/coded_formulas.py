@@ -205,11 +205,11 @@ def joined_conditions(deciding: float, a: float, b: float) -> float:
 
 def coded_at(f: Record, state: Formula, j: int, t: float) -> float:
     """Return the value of a coded formula: `formula_at` of `symgen.run.loops.times_of_jumps`."""
-    return value_at(state, t)
+    return coded_value_at(state, t)
 
 
 @called
-def value_at(formula: Formula, t: float) -> float:
+def coded_value_at(formula: Formula, t: float) -> float:
     """Return the value of a formula at a time, nan where it is undefined."""
     codes, values = formula.codes, formula.values
     values[0] = t

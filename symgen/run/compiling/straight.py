@@ -25,7 +25,7 @@ from symgen.describe.facts.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.folders import folder_of
 from symgen.run.compiling.method_choice import MethodChoice
-from symgen.run.compiling.stages import Generated, Stages
+from symgen.run.compiling.stages import Generated, PipelineStages
 from symgen.run.layout.compiled import Array, CompiledModel, ModelInfo, RowInfo
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ def _with_finite_numbers(stage: Stage) -> Stage:
 
 
 @final
-class StraightStages(Stages[Derivation, Programs]):
+class StraightStages(PipelineStages[Derivation, Programs]):
     """The stages of straight code; parameters as of `symgen.run.compiling.pipeline.generate`."""
 
     def __init__(

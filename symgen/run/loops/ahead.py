@@ -18,7 +18,7 @@ from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import ModelSystem, Outputs, Span, State, System
 from symgen.run.loops.frame_parts import evaluate
-from symgen.run.loops.step_control import part_of
+from symgen.run.loops.step_control import part_of_step
 
 #: Code of an end beside those of loops: the step ends elsewhere than that of the run.
 ELSEWHERE = 200
@@ -172,7 +172,7 @@ def step_ahead(model: System, scheme: Record, span: Span, state: State, outputs:
             if a.head[ADAPTIVE] != 0 and run.control[abi.BEGUN] == 1:
                 # what the scheme keeps of the last rates has directions as well
                 evaluate(ModelSystem(*system), run, run.clock[abi.TIME], run.y, run.memory)
-            code = loop(system, scheme, part_of(span, until, span.step), state, outputs)
+            code = loop(system, scheme, part_of_step(span, until, span.step), state, outputs)
             if code != abi.DONE:
                 return int(code)
             keep_pass(a, run, k, which)
@@ -194,7 +194,7 @@ def step_ahead(model: System, scheme: Record, span: Span, state: State, outputs:
 
 
 @jit(entry=True)
-def unobserved(t: float, y: Array, p: Array, w: Array, ydot: Array, out: Array) -> int:
+def observe_nothing_ahead(t: float, y: Array, p: Array, w: Array, ydot: Array, out: Array) -> int:
     """Stand for the outputs of a file without any; it is never called."""
     return 0
 
@@ -202,7 +202,7 @@ def unobserved(t: float, y: Array, p: Array, w: Array, ydot: Array, out: Array) 
 _loops: dict[Any, Any] = {}
 
 
-def ahead_of(loop: RuntimeFunction) -> Any:
+def loop_ahead_of(loop: RuntimeFunction) -> Any:
     """Return the loop that enters another one step by step, made at the first use.
 
     Parameters

@@ -50,7 +50,7 @@ _RESOLVED = abi.RESOLVED_TIME
 
 
 @plain
-def move_on(hunt: A, n: int) -> int:
+def move_bracket(hunt: A, n: int) -> int:
     """Move the bracket to the rest of the step."""
     at = N_HEAD
     for k in range(n):
@@ -100,7 +100,7 @@ def settle_bracket(hunt: A, n: int, ends: int) -> int:
 
 
 @plain
-def crossed(hunt: A, n: int, column: int, least: int) -> int:
+def action_of_passages(hunt: A, n: int, column: int, least: int) -> int:
     """Return the highest action, at least `least`, of passages from the bracket's beginning to a column; -1: none."""
     at, highest = N_HEAD, -1
     for k in range(n):
@@ -113,7 +113,7 @@ def crossed(hunt: A, n: int, column: int, least: int) -> int:
 
 
 @plain
-def take_in(hunt: A, n: int, h: float, following: float, search: int) -> int:
+def take_values(hunt: A, n: int, h: float, following: float, search: int) -> int:
     """Copy the values at the trial state, which stand after the columns, into the bracket."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     if search == NOTHING or search == DOUBT:

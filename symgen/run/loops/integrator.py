@@ -142,10 +142,10 @@ def law_functions(compiled: CompiledModel, *names: str) -> tuple[Any, ...]:
     *names : str
         Functions called besides ``rhs``, ``confirm`` and ``accept``: ``turn``, ``residual``, ``tangent``.
     """
-    from symgen.run.layout.manifold import stay
+    from symgen.run.layout.manifold import turn_nothing
 
     law = compiled.law_module
     # a law without pivots of S has nothing to confirm; coordinates whose rates are velocities are not turned
     common = law.rhs, getattr(law, "confirm", law.rhs), law.accept
-    turn = getattr(compiled.model, "turn", stay) if "turn" in names else 0
+    turn = getattr(compiled.model, "turn", turn_nothing) if "turn" in names else 0
     return *common, turn, *(getattr(law, name) if name in names else 0 for name in ("residual", "tangent"))

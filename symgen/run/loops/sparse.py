@@ -118,8 +118,8 @@ def assemble_matrix(plan: Integers, sources: Array, coefficients: Array, numbers
 
 
 @jit()
-def prepare(plan: Integers, sources: Array, coefficients: Array, numbers: Array) -> int:
-    """Assemble and factorise a matrix; return the number of skipped pivots, -1 where `enlarged` has to be called."""
+def prepare_pattern(plan: Integers, sources: Array, coefficients: Array, numbers: Array) -> int:
+    """Assemble and factorise a matrix; return the count of skipped pivots, -1 where `enlarge_pattern` is needed."""
     assemble_matrix(plan, sources, coefficients, numbers)
     skipped = factorise(plan, numbers)
     if skipped < 0:
@@ -127,8 +127,10 @@ def prepare(plan: Integers, sources: Array, coefficients: Array, numbers: Array)
     return int(skipped)
 
 
-def enlarged(plan: NDArray[np.int64], numbers: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Return a plan and its numbers with twice the room for factors, where `prepare` had too little."""
+def enlarge_pattern(
+    plan: NDArray[np.int64], numbers: NDArray[np.float64]
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Return a plan and its numbers with twice the room for factors, where `prepare_pattern` had too little."""
     if plan[FACTORISED] != _TOO_SMALL:
         return plan, numbers
     more = int(plan[ROOM])  # factors stand at the end of both

@@ -14,7 +14,7 @@ from symgen.run.layout.records import Span
 from symgen.run.layout.redundancy import room_of_choice
 from symgen.run.layout.start_records import Layout
 from symgen.run.modes.box import Box, new_box
-from symgen.run.starts.assembler import layout_of
+from symgen.run.starts.assembler import layout_of_starts
 from symgen.run.starts.starting import observe_nothing
 
 if TYPE_CHECKING:
@@ -223,7 +223,7 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
 
     numbers = np.zeros
     return Choice(
-        layout=layout_of(compiled),
+        layout=layout_of_starts(compiled),
         rates=compiled_form(rates[0]),
         confirm=compiled_form(rates[1]),
         geometry=compiled_form(compiled.model.geometry),
@@ -311,7 +311,7 @@ def is_held(c: Choice, w: Array, i: int) -> bool:
 
 
 @exact()
-def stays_shut(c: Choice, w: Array, i: int) -> bool:
+def is_kept_shut(c: Choice, w: Array, i: int) -> bool:
     """Return whether a gap is closed by its mode, or was before a reset or an impact, whatever its gap is."""
     return bool(is_held(c, w, i) or c.shut[i] != 0)
 
@@ -324,11 +324,11 @@ def open_rows(c: Choice, w: Array) -> None:
 
 
 @exact(entry=True)
-def put_off(c: Choice, w: Array) -> int:
+def switch_off(c: Choice, w: Array) -> int:
     """Take all rows out of force before a reset or an impact, and keep which gaps are closed; return their number."""
     closed = 0
     for i in range(c.count):
-        c.shut[i] = 1 if c.pushes[i] != 0 and stays_shut(c, w, i) else 0
+        c.shut[i] = 1 if c.pushes[i] != 0 and is_kept_shut(c, w, i) else 0
         closed += c.shut[i]
     open_rows(c, w)
     return int(closed)
@@ -337,10 +337,10 @@ def put_off(c: Choice, w: Array) -> int:
 @exact()
 def is_shut(c: Choice, w: Array, i: int) -> bool:
     """Return whether a gap is closed: by its mode, or as it is 0 within the resolution of positions."""
-    return bool(stays_shut(c, w, i) or c.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH))
+    return bool(is_kept_shut(c, w, i) or c.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH))
 
 
 @exact()
-def sign_of(x: float) -> float:
+def sign_of_number(x: float) -> float:
     """Return the sign of a number."""
     return 1.0 if x > 0.0 else (-1.0 if x < 0.0 else 0.0)

@@ -20,7 +20,7 @@ from symgen.run.effects.accumulation import OF_EVENT, accumulation, add_resets
 from symgen.run.effects.applying import APPLIED, apply_effects
 from symgen.run.effects.resets import KeptEffect, OfEffects, new_kept_effect
 from symgen.run.layout import abi
-from symgen.run.layout.scales import larger
+from symgen.run.layout.scales import larger_number
 from symgen.run.layout.start_records import Instant
 from symgen.run.modes.bounded_rows import (
     NO_IMPULSES,
@@ -33,8 +33,8 @@ from symgen.run.modes.bounded_rows import (
     Choice,
     is_held,
     is_shut,
-    put_off,
     row_scale,
+    switch_off,
 )
 from symgen.run.modes.box import solve_box
 from symgen.run.modes.choice import probe
@@ -150,7 +150,7 @@ def find_active(c: Choice, s: Strikes) -> int:
     if solve_box(n, box) != 0:
         return -1
     for r in range(n):
-        most = larger(most, abs(box.forces[r]))
+        most = larger_number(most, abs(box.forces[r]))
     for i in range(k):
         s.active[i] = 0
     for r in range(n):
@@ -247,7 +247,7 @@ def come_to_rest(t: float, c: Choice, s: Strikes, end: float, now: Instant) -> i
     for i in range(c.dry, c.count):
         if s.active[i] != 0:
             now.w[c.first + MODE_NUMBERS * i + SIGN] = 0.0
-            s.left[i] = larger(end - t, 0.0)
+            s.left[i] = larger_number(end - t, 0.0)
             if s.before[i] < 0.0:
                 s.effects.past.counts[s.events[i]] = 0
     for number in range(OF_SERIES * c.count):
@@ -264,7 +264,7 @@ def strike(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -> int
     now = Instant(y, p, w)
     for r in range(c.at_rest[0]):
         c.shut[c.rest[r]] = 1
-    put_off(c, w)
+    switch_off(c, w)
     for i in range(c.count):
         s.left[i], s.before[i] = math.nan, c.speed[i]
     ask_rates(t, c, s, now)
@@ -298,7 +298,7 @@ def gather(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, iw: In
     series = follow_series(c, s, t, count)
     if not end == end:
         return SAME
-    put_off(c, w)
+    switch_off(c, w)
     return OTHERS if come_to_rest(t, c, s, series if series == series else end, now) == SAME else NOT_APPLIED
 
 
@@ -321,7 +321,7 @@ def end_flights(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -
             lost = lost or (low and flight > 0.0 and abs(flight * pull - 2.0 * rate) > _LOST * 2.0 * rate)
     if not lost:
         return SAME
-    put_off(c, w)
+    switch_off(c, w)
     end = end_of_flights(t, c, s)
     return OTHERS if come_to_rest(t, c, s, end, Instant(y, p, w)) == SAME else NOT_APPLIED
 
@@ -357,7 +357,7 @@ def end_lost_flights(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arr
     if not find_lost(t, c, s, w):
         return SAME
     end = end_of_flights(t, c, s)
-    put_off(c, w)
+    switch_off(c, w)
     return OTHERS if come_to_rest(t, c, s, end, now) == SAME else NOT_APPLIED
 
 

@@ -24,11 +24,11 @@ from symgen.run.loops import frame
 from symgen.run.loops.event_loop import EVENT_STATE, MEANINGS, EventState
 from symgen.run.loops.frame_parts import ADAPTIVE
 from symgen.run.loops.schemes.readable import forget_step
-from symgen.run.loops.seams import SEAMS, between_seams, due
+from symgen.run.loops.seams import SEAMS, between_seams, due_time
 from symgen.run.loops.unbound import (
     assume_step,
     begin_choice,
-    forget,
+    forget_run,
     integrate,
     let_go,
     read_step,
@@ -91,7 +91,7 @@ VISIBLE = record_type(Visible)
 # -- outputs -----------------------------------------------------------------------------------------------------------
 
 
-def show(sizes: Sizes, w: Array, outputs: KeptOutput, k: int, y: Array) -> None:
+def show_state(sizes: Sizes, w: Array, outputs: KeptOutput, k: int, y: Array) -> None:
     """Write the only output: the state, the measures of ``accept``, angles with counted turns and modes of rows."""
     for i in range(sizes.ny):
         outputs.states[i] = y[i]
@@ -146,7 +146,7 @@ def system_between_seams(system: System) -> Any:
 def forget_later_seams(system: System, state: State) -> None:
     """Forget that seams after the present time have been passed."""
     _, seams, _, _, _ = system
-    while state.control[abi.PASSED] > 0 and due(seams, state.control[abi.PASSED] - 1) > state.clock[abi.TIME]:
+    while state.control[abi.PASSED] > 0 and due_time(seams, state.control[abi.PASSED] - 1) > state.clock[abi.TIME]:
         state.control[abi.PASSED] -= 1
 
 
@@ -174,7 +174,7 @@ def start_run(model: System, limits: Array, chunk: RowChunk, state: EventState, 
         As in a `RowChunk`.
     """
     begin_run(state, limits)
-    forget(model, state)
+    forget_run(model, state)
     for i in range(chunk.events.shape[0]):
         counts = i >= e.HEAD_OF_EVENTS and (i - e.HEAD_OF_EVENTS) % e.OF_EVENT == 0
         chunk.events[i] = 0.0 if counts else math.nan
@@ -201,7 +201,7 @@ def ending_event(chunk: RowChunk, visible: Visible, t: float) -> int:
     return -1
 
 
-def meet(model: System, chunk: RowChunk, state: EventState, visible: Visible) -> int:
+def meet_event(model: System, chunk: RowChunk, state: EventState, visible: Visible) -> int:
     """Take the events at which a step has ended; return `MET` to go on, `DONE` where one ends the run."""
     code = int(take_notes(abi.MET, 0, model, chunk, state))
     visible.numbers[STANDS] = 0
@@ -210,7 +210,7 @@ def meet(model: System, chunk: RowChunk, state: EventState, visible: Visible) ->
     return code
 
 
-def go_on(
+def advance_to_output(
     model: System,
     scheme: TableauRecord,
     span: Span,
@@ -224,7 +224,7 @@ def go_on(
     control, clock, until = state.control, state.clock, outputs.times[0]
     code, near = abi.MET, abi.RESOLVED_TIME * abs(until) if ADAPTIVE else abi.SAME_TIME * span.step
     if visible.numbers[STANDS] != 0:
-        code = meet(model, chunk, state, visible)
+        code = meet_event(model, chunk, state, visible)
     if code == abi.MET and visible.numbers[CHANGED] != 0:
         return_before_seams(system, state)
         code = begin_at_seams(model, span, state) if control[abi.BEGUN] == 0 else begin_choice(model, span, state)
@@ -248,11 +248,11 @@ def go_on(
             visible.numbers[STANDS] = 1
         elif code == abi.MET:
             control[abi.OUTPUTS] = 0  # what is shown is the state after events
-            code = meet(model, chunk, state, visible)
+            code = meet_event(model, chunk, state, visible)
         if code < abi.DONE and clock[abi.TIME] >= until - near:
             code = abi.DONE
     if code == abi.DONE and control[abi.OUTPUTS] == 0:
-        show(observers[0], state.w, outputs, 0, state.y)
+        show_state(observers[0], state.w, outputs, 0, state.y)
     return int(code)
 
 
@@ -303,17 +303,19 @@ def advance_run(
     outputs.times[0], control[abi.OUTPUTS], numbers[ENDING] = until, 0, -1
     code = abi.DONE
     if not ADAPTIVE or read_step(system_of_steps(model[0]), scheme, state, outputs) == 0:
-        code = go_on(model, scheme, endless, chunk, state, outputs, visible)
+        code = advance_to_output(model, scheme, endless, chunk, state, outputs, visible)
     if not ADAPTIVE and code > abi.DONE and control[abi.OUTPUTS] > 0 and through != 0:
         # the step after the output fails: the run goes on up to the output
         control[abi.OUTPUTS] = 0
-        code = go_on(model, scheme, steps_until(span, until, math.inf, duration), chunk, state, outputs, visible)
+        code = advance_to_output(
+            model, scheme, steps_until(span, until, math.inf, duration), chunk, state, outputs, visible
+        )
     numbers[END_CODE] = code
     if code > abi.DONE:
         take_notes(code, 0, model, chunk, state)
     ended = code != abi.DONE or numbers[ENDING] >= 0
     if ended:
-        show(observers[0], state.w, outputs, 0, state.y)
+        show_state(observers[0], state.w, outputs, 0, state.y)
         outputs.times[0] = clock[abi.TIME]
     for i in range(visible.y.shape[0]):
         visible.y[i] = outputs.states[i]
@@ -322,7 +324,7 @@ def advance_run(
 
 
 _loops: dict[Any, KeptLoops] = {}
-_KEPT = Meanings("printed runs", store=show, _MAX_PASSAGES=1, integrate=frame.integrate)
+_KEPT = Meanings("printed runs", store_output=show_state, _MAX_PASSAGES=1, integrate=frame.integrate)
 _OF_ROWS = Meanings("printed runs with bounded rows", assume_step=assume_first_step, let_go=let_rows_go)
 _OF_ROWS_BETWEEN_SEAMS = Meanings(
     "printed runs with bounded rows and seams",

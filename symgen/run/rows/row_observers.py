@@ -24,8 +24,8 @@ def observe_left(model: System, span: Span, chunk: RowChunk, state: State, serie
     Parameters
     ----------
     model : tuple
-        What changes parameters, in the places of `symgen.run.loops.seams.with_table`, or 0; sizes and functions of
-        the observer.
+        What changes parameters, in the places of `symgen.run.loops.seams.arguments_with_table`, or 0; sizes and
+        functions of the observer.
     span, chunk, state, series
         As for `symgen.run.rows.rows.run_rows`, of the model that observes.
     left : Array, shape (rows, ny + status, times)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import AssemblyError, InputError, fit_lines
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.model_arrays import joints_of
+from symgen.run.layout.model_arrays import joints_of_rows
 from symgen.run.layout.probe import Ready
 from symgen.run.starts import decisions
 from symgen.run.starts.held import Held
@@ -101,7 +101,7 @@ def notes_of(held: Held, summary: Array, changes: Sequence[StartChange], info: M
     return tuple(notes)
 
 
-def opposite(joint: str) -> str:
+def opposite_sentence(joint: str) -> str:
     """Return the sentence about a joint whose axes are one line, but not one direction."""
     return f"the axes of joint '{joint}' point opposite ways at the start: they are taken for one line"
 
@@ -153,7 +153,7 @@ def start_refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> 
             "closed; choose a value that bodies can reach from where they are described"
         )
     if code == e.OPEN:
-        return _stays_open(info, held or Held(), joints_of(info)[where], size)
+        return _stays_open(info, held or Held(), joints_of_rows(info)[where], size)
     if code == e.CONTRADICTION:
         speeds = held.speeds(info) if held else ""
         beside = f" together with {speeds}, which the start holds" if speeds else ""
@@ -161,9 +161,9 @@ def start_refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> 
             f"{info.name}: no velocities satisfy the constraints{beside}; drivers or conditions contradict each other"
         )
     if code == e.HALF_TURN:
-        return half_turn(info, joints_of(info)[where])
+        return half_turn(info, joints_of_rows(info)[where])
     if code == e.TURNED_OVER:
-        return turned_over(info, where)
+        return turned_over_error(info, where)
     reason = "given velocities contradicted by the constraints"
     if code == e.MOVED:
         reason = f"positions that closing moves by up to {float(summary[e.START_MOVED]):.3g}"
@@ -173,7 +173,7 @@ def start_refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> 
 def _stays_open(info: ModelInfo, held: Held, joint: str, size: float) -> AssemblyError:
     """Return the error where a joint stays open by a size, in the units of its rows."""
     units = " or ".join(dict.fromkeys(row.unit for row in info.rows if row.joint == joint))
-    described = held.described(info)
+    described = held.described_words(info)
     holds = [words for words in (held.positions(info), f"{described} as described" if described else "") if words]
     what = f" with {' and '.join(holds)} held" if holds else ""
     # joints and drivers may leave nothing free, so that a coordinate has one of a few values
@@ -195,7 +195,7 @@ def half_turn(info: ModelInfo, joint: str) -> AssemblyError:
     )
 
 
-def turned_over(info: ModelInfo, spin: int) -> AssemblyError:
+def turned_over_error(info: ModelInfo, spin: int) -> AssemblyError:
     """Return the error where joint coordinates turn over a body, one of those in `info.spins`."""
     body = info.coordinates[info.spins[spin][0]].name.rpartition(".")[0]
     return AssemblyError(

@@ -15,7 +15,7 @@ from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.compiled import CompiledModel
-from symgen.run.layout.model_arrays import joints_of
+from symgen.run.layout.model_arrays import joints_of_rows
 from symgen.run.layout.start_records import Instant, StartConditions
 from symgen.run.loops.integrator import Integrator
 from symgen.run.planning.tree import places_of_turns
@@ -163,7 +163,7 @@ class RowKernel:
         if not self.recipe.sides:
             return
         closed = selected[summary[selected, e.START] == e.ASSEMBLED]
-        q, joints = ys[closed, : info.nq].T, joints_of(info)
+        q, joints = ys[closed, : info.nq].T, joints_of_rows(info)
         for side in reversed(self.recipe.sides):  # the first one is told
             rows = closed[side.cosine(q) < 0.0]
             summary[rows, e.START], summary[rows, e.START_WHERE] = e.HALF_TURN, joints.index(side.joint)

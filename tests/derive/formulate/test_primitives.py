@@ -10,7 +10,7 @@ import symgen
 from symgen.api import Model
 from symgen.base.errors import InputError
 from symgen.describe.files.validate import validate
-from symgen.run.compiling.choices import on_tree, operations
+from symgen.run.compiling.choices import mechanism_on_tree, operations
 
 TIGHT = {"integrator": "dop853", "rtol": 1e-12, "atol": 1e-13, "until": 1.0}
 AT = [[0.0, 0.0], [0.0, 0.0]]
@@ -107,7 +107,7 @@ def test_operations_of_a_rotor():
     for where, (arm, _) in ARMS.items():
         mechanisms = [validate(arm(rotor), "file") for rotor in ("", "keys", "body")]
         counts[where, "absolute"] = [operations(m) for m in mechanisms]
-        counts[where, "joint"] = [operations(on_tree(m)) for m in mechanisms]
+        counts[where, "joint"] = [operations(mechanism_on_tree(m)) for m in mechanisms]
     for none, keys, body in counts.values():
         # in the plane a body that its pin carries costs no more, as its rows are fixed: but for one sum with constants
         assert none <= keys <= body + 1

@@ -15,12 +15,12 @@ from symgen.compile.native.annotations import Array, signature_from
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.table_functions import Table
-from symgen.run.breaks.coded_formulas import Formula, coded, value_at
+from symgen.run.breaks.coded_formulas import Formula, coded, coded_value_at
 
 
 def _over(formula: Formula, times: Array, out: Array) -> int:
     for i in range(times.shape[0]):
-        out[i] = value_at(formula, times[i])
+        out[i] = coded_value_at(formula, times[i])
     return 0
 
 

@@ -20,7 +20,7 @@ from symgen.compile.loopcode.vectors import combine, copied, weigh
 from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
 from symgen.run.layout.records import ModelSystem, Run, Span
-from symgen.run.layout.scales import weights_of, with_work
+from symgen.run.layout.scales import error_with_work, weights_of
 from symgen.run.layout.scheme_records import MULTISTEP, Multistep
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import evaluate
@@ -148,7 +148,7 @@ def attempt(
         predicted[i] -= run.trial[i]
     total = weigh(width, predicted, weights_of(span, run), run.y, run.trial, span.rtol, span.atol)
     work = system.sizes.nq + system.sizes.nv
-    return 0.1 * with_work(system.sizes, span, run, predicted[work], math.sqrt(total / system.sizes.controlled))
+    return 0.1 * error_with_work(system.sizes, span, run, predicted[work], math.sqrt(total / system.sizes.controlled))
 
 
 def refuse(run: Run) -> None:

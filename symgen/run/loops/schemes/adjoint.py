@@ -63,7 +63,7 @@ class Transposed(Record):
     value: Array
 
 
-def transposed(scheme: TableauRecord) -> Transposed:
+def transpose_tableau(scheme: TableauRecord) -> Transposed:
     """Return the coefficients of a tableau by columns."""
     stages, start, column, value = int(scheme.stages), [0], list[int](), list[float]()
     first, columns, values = (x.tolist() for x in (scheme.start, scheme.column, scheme.value))
@@ -106,7 +106,7 @@ def keep_forward(system: ModelSystem, scheme: TableauRecord, run: Run, t: float,
     run.memory[memory + KEPT_STEPS] = run.control[abi.STEPS]
 
 
-def attempt_constant(
+def attempt_recorded(
     system: ModelSystem,
     scheme: TableauRecord,
     span: Span,
@@ -156,7 +156,7 @@ def prepare_adaptive(system: ModelSystem, scheme: TableauRecord, span: Span, run
 
 
 constant = loop(
-    __name__, "constant", TABLEAU, **CONSTANT_PARTS | {"attempt": attempt_constant, "renew": renew_constant}
+    __name__, "constant", TABLEAU, **CONSTANT_PARTS | {"attempt": attempt_recorded, "renew": renew_constant}
 )
 adaptive = loop(
     __name__,
@@ -204,7 +204,7 @@ def undo_rounds(
         corrections.three(t, y, p, w, iw, y_bar, p_bar, w_bar)
 
 
-def backward(
+def carry_adjoint_back(
     rates: Rates,
     corrections: Corrections,
     scheme: TableauRecord,
@@ -303,8 +303,10 @@ def backward(
     return 0
 
 
-_SIGNATURE = signature_from(backward)
+_SIGNATURE = signature_from(carry_adjoint_back)
 #: Without corrections their place is that of an unused number.
 _UNCORRECTED = types.int64(RATES, types.int64, *_SIGNATURE.arguments[2:])
-back_through = compiled_loop(__name__, "back_through", backward, _UNCORRECTED)
-back_through_corrected = compiled_loop(__name__, "back_through_corrected", backward, _SIGNATURE, undo=undo_rounds)
+back_through = compiled_loop(__name__, "back_through", carry_adjoint_back, _UNCORRECTED)
+back_through_corrected = compiled_loop(
+    __name__, "back_through_corrected", carry_adjoint_back, _SIGNATURE, undo=undo_rounds
+)

@@ -33,13 +33,13 @@ def carry_slopes(scheme: ConstrainedStages | PartitionedStages) -> None:
         scheme.slopes[i] = scheme.slopes[count + i]
 
 
-def factorised(scheme: ConstrainedStages | PartitionedStages, factors: Array) -> bool:
+def factorise_stage(scheme: ConstrainedStages | PartitionedStages, factors: Array) -> bool:
     """Factorise ``[M D^T; E 0]``; return whether its factors had room."""
     factors[0] = 1.0
-    return sparse.prepare(scheme.plan, scheme.slopes, factors, scheme.numbers) >= 0
+    return sparse.prepare_pattern(scheme.plan, scheme.slopes, factors, scheme.numbers) >= 0
 
 
-def solved(
+def solve_stage(
     system: ModelSystem, scheme: ConstrainedStages | PartitionedStages, run: Run, right: Array, x: Array
 ) -> None:
     """Solve for accelerations and multipliers x; multipliers of redundant rows are 0."""

@@ -16,7 +16,7 @@ from symgen.run.layout.records import ModelSystem, Outputs, Run, Span, State, Sy
 from symgen.run.layout.scheme_records import TABLEAU, TableauRecord
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import correct as correct_plainly
-from symgen.run.loops.frame_parts import store
+from symgen.run.loops.frame_parts import store_output
 from symgen.run.loops.schemes.explicit import ADAPTIVE_PARTS, complete_stages, read_stages
 from symgen.run.loops.schemes.explicit import attempt as try_step
 from symgen.run.loops.schemes.explicit import prepare as begin_scheme
@@ -106,7 +106,7 @@ def read_within_step(model: System, scheme: TableauRecord, state: State, outputs
         state.control[abi.KNOWN], memory[stages + COMPLETE] = known, 1.0
     read_stages(width, scheme, (t - begin) / h, h, before, of_step, tables, new)
     correct_plainly(system, run, t, new, True)
-    store(sizes, w, outputs, 0, new)
+    store_output(sizes, w, outputs, 0, new)
     return 1
 
 
