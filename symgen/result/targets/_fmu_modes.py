@@ -48,7 +48,7 @@ def values_of_exchange(model: CModel) -> dict[str, Any]:
         values |= {
             "now": "evaluation_time(f)",
             "next": exchanged_run.NEXT,
-            "behind": exchanged_run.BEHIND,
+            "behind": exchanged_run.AFTER,
             "rests": exchanged_run.RESTS,
             "mode_outputs": _numbers(outputs.index(f"{row}.mode") for row in rows),
         }

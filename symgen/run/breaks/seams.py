@@ -45,7 +45,7 @@ LEAST_ORDER = 3
 
 
 def seams_of_motion(
-    driven: DrivenMechanism, values: Mapping[str, float], until: float, first: float = 0.0, behind: float = 0.0
+    driven: DrivenMechanism, values: Mapping[str, float], until: float, first: float = 0.0, beyond: float = 0.0
 ) -> tuple[Seam, ...]:
     """Return the seams of a motion from `first` to `until`, empty without jumps.
 
@@ -57,8 +57,8 @@ def seams_of_motion(
         Of all parameters.
     until, first : float
         End of the run, and its beginning [s].
-    behind : float
-        Range after the end, as a fraction of it, that is searched for jumps as well: data need not reach there.
+    beyond : float
+        Fraction of the end time by which the search for jumps goes beyond it: data need not reach there.
 
     Raises
     ------
@@ -71,7 +71,7 @@ def seams_of_motion(
             got = f"those from {data.t[0]:g} to {data.t[-1]:g} s"
             raise InputError(f"input '{name}'", f"data from {first:g} to {until:g} s, as curves end where they do", got)
 
-    until *= 1.0 + behind
+    until *= 1.0 + beyond
     jumps = {t for data in driven.samples.values() for t in data.t}
     for jump in driven.jumps:
         jumps.update(formulas.crossings(jump, until, first))

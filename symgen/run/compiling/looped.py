@@ -103,7 +103,7 @@ class Needs:
 
     @property
     def shifted(self) -> bool:
-        """Whether equations of states of the file stand between the others and rows for projections."""
+        """Whether equations of the file's states are between the others and rows for projections."""
         choice = self.choice
         return bool(self.mechanism.states) and record_form(choice.method, choice.options).form in BEHIND
 

@@ -241,7 +241,7 @@ class PrintedRun:
     def _search_record(self, watched: Watched, hunt: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the data of events with room for few notes, as all are taken before the next step."""
         width = self.compiled.info.ny
-        if watched.switches:  # whose points stand after the notes
+        if watched.switches:  # whose points follow the notes
             return hunt
         first = notes_at(len(watched.names), width, len(self.compiled.scratch()))
         return hunt[: first + (_NOTES + 2 * len(watched.names)) * (2 + width)].copy()
@@ -309,7 +309,7 @@ class PrintedRun:
         )
 
     def _further_arguments(self, span: Span, nw: int) -> tuple[Any, ...]:
-        """Return what stands after the functions of a model: rows with bounds, or effects of events."""
+        """Return what follows the functions of a model: rows with bounds, or effects of events."""
         compiled, watched, rows, width = self.compiled, self.watched, self._rows, self.compiled.info.ny
         if watched is not None and rows is not None:
             return (modes_of_runs(compiled, watched, rows, span, width, nw),)

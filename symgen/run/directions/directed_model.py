@@ -1,7 +1,7 @@
 """Code with directions: a compiled model whose arrays have room for derivatives after them.
 
-The state is longer: after y lie L directions of each element, and those of parameters and scratch after ``p`` and
-``w``. Emitted functions have a form with directions (`symgen.compile.native.tangents`).
+The arrays are longer: ``y`` is followed by L directions of each of its elements, and so are the parameters ``p`` and
+the scratch ``w``. Emitted functions have a form with directions (`symgen.compile.native.tangents`).
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Runs with directions: derivatives of the state by numbers beside it, through the same steps.
 
-The state is longer: after y lie L directions of each element; directions of parameters and scratch lie after p and
-w. Emitted functions have a form with directions (`symgen.compile.native.tangents`); loops and explicit schemes, which
-are linear in the state, stay as they are. Error control leaves directions out, so a run without them takes the same
-steps.
+The arrays are longer: ``y`` is followed by L directions of each of its elements, and so are the parameters ``p`` and
+the scratch ``w``. Emitted functions have a form with directions (`symgen.compile.native.tangents`); loops and explicit
+schemes, which are linear in the state, stay as they are. Error control ignores directions, so a run without them takes
+the same steps.
 """
 
 from __future__ import annotations

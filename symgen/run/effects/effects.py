@@ -168,7 +168,7 @@ class Effects:
         return self.impact(numbers, y[info.nq : info.work], work.impulse.impulses, float(work.energy[0]))
 
     def impact(self, numbers: Sequence[int], v: Array, impulses: Array, energy: float) -> Impact:
-        """Return what some events have changed: velocities after it, impulses (and memory after these), energy."""
+        """Return what some events have changed: velocities, impulses (followed by their memory) and energy."""
         labels = self._labels(numbers)
         return Impact(v.copy(), impulses[: self.compiled.info.m + len(labels)].copy(), labels, energy)
 

@@ -9,7 +9,7 @@ from symgen.run.layout.records import ModelSystem, Run
 
 @jit(entry=True)
 def turn_nothing(y: Array, w: Array) -> int:
-    """Stand for the emitted ``turn`` of models whose coordinates have velocities as rates; it is never called."""
+    """Replace the emitted ``turn`` of models whose coordinates have velocities as rates; it is never called."""
     return 0
 
 

@@ -1,8 +1,8 @@
 """Steps ahead with directions, in one call: the loop of a run with directions, entered step by step.
 
-Before each step the directions after the state are seeds again, so that what stands there after it are the
-derivatives of this step alone. States, derivatives and those of outputs are written for each step. More directions than
-the code has lanes are further passes over the same step.
+Before each step the directions in the state are set to seeds, so that after the step they are the derivatives of this
+step alone. The loop writes states, derivatives of states and derivatives of outputs for each step. If there are more
+directions than the code has lanes, the loop takes the same step again for the others.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ class Ahead(Record):
     head, numbers : Array of int64, Array
         At the places of `STEPS` and following, and of `END` and following.
     y, p, w, iw, clock, gauges, control : Array, Array of int64
-        The state before, without directions; overwritten. Numbers that are computed of parameters stand at the
-        end of p, more or fewer than in the run with directions, which computes its own.
+        The state before, without directions; overwritten. Numbers computed from parameters are the last elements of
+        p; the run with directions computes its own, which may be more or fewer.
     end : Array
         The state after the one step, where it is compared.
     places : Array of int64
@@ -195,7 +195,7 @@ def step_ahead(model: System, scheme: Record, span: Span, state: State, outputs:
 
 @jit(entry=True)
 def observe_nothing_ahead(t: float, y: Array, p: Array, w: Array, ydot: Array, out: Array) -> int:
-    """Stand for the outputs of a file without any; it is never called."""
+    """Replace the outputs of a file that has none; it is never called."""
     return 0
 
 

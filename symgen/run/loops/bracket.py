@@ -114,7 +114,7 @@ def action_of_passages(hunt: A, n: int, column: int, least: int) -> int:
 
 @plain
 def take_values(hunt: A, n: int, h: float, following: float, search: int) -> int:
-    """Copy the values at the trial state, which stand after the columns, into the bracket."""
+    """Copy the values at the trial state, which follow the columns, into the bracket."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     if search == NOTHING or search == DOUBT:
         hunt[DOING], hunt[LOW], hunt[HIGH], hunt[WHOLE] = LOOKING, 0.0, h, h

@@ -2,7 +2,7 @@
 
 A function that is on the same side at both ends of a step may have been on the other one in between. Slopes tell most
 steps in which none can reach zero (`stays_away`). In the others functions are known at inner points of the motion,
-and a cubic stands between two neighbours, with its error from the fourth derivative that its neighbours show. A point
+and a cubic joins two neighbours; the fourth derivative that other points show gives its error. A point
 at which a function may be on another side than at the ends is handed to the search, which tries a step up to there.
 """
 

@@ -275,7 +275,8 @@ def newton_plan(
     products : Products, optional
         Sources computed first.
     motion : (int, int, int)
-        Begin and end of the equations of motion and their accelerations in a stage, and number of multipliers after.
+        Begin and end of the equations of motion and their accelerations in a stage, and number of multipliers that
+        follow.
 
     Notes
     -----

@@ -107,7 +107,7 @@ def assemble_matrix(plan: Integers, sources: Array, coefficients: Array, numbers
     coefficients : Array
         Factors of the loop: 1, multiples of the step.
     numbers : Array
-        The plan's numbers; entries stand first.
+        The plan's numbers; entries are the first.
     """
     slots, factors = part(plan, plan[SLOTS], plan[TERMS]), part(plan, plan[FACTORS], plan[TERMS])
     origin = part(plan, plan[SOURCES], plan[TERMS])
@@ -133,7 +133,7 @@ def enlarge_pattern(
     """Return a plan and its numbers with twice the room for factors, where `prepare_pattern` had too little."""
     if plan[FACTORISED] != _TOO_SMALL:
         return plan, numbers
-    more = int(plan[ROOM])  # factors stand at the end of both
+    more = int(plan[ROOM])  # factors are at the end of both
     plan, numbers = np.append(plan, np.zeros(more, dtype=np.int64)), np.append(numbers, np.zeros(more))
     plan[FACTORISED], plan[ROOM] = 0, 2 * more
     return plan, numbers
@@ -301,7 +301,7 @@ def factorise_anew(plan: Integers, numbers: Array) -> int:
         for f in range(top, n):
             x[reached[f]] = 0.0
     free = 0
-    for i in range(n):  # rows that no column has taken stand where the pivots were skipped
+    for i in range(n):  # rows that no column has taken go to the places of skipped pivots
         if place[i] < 0:
             while pivot_row[free] >= 0:
                 free += 1

@@ -1,6 +1,6 @@
 """Functions that are bound late: what names of loops and of turns mean where nothing else is bound to them.
 
-Each does nothing, or returns what stands for nothing. Schemes, the search for events, modes and targets bind other
+Each does nothing, or returns a value that means nothing. Schemes, the search for events, modes and targets bind other
 functions to these names, see `symgen.compile.loopcode.loop_instances`; ``docs/late-names.md`` says who means each when.
 Of the parts of a scheme,
 

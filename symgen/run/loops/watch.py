@@ -113,8 +113,8 @@ def force_of_step(sizes: Sizes, run: Run, y: Array, before: float) -> float:
     way = 0.0
     for i in range(sizes.nq):
         way = max(way, abs(y[i] - run.y[i]) * run.metric[i])
-    behind = sizes.nq + sizes.nv
-    change = max(abs(run.w[abi.POTENTIAL] - y[behind] - before), abs(y[behind] - run.y[behind]))
+    after = sizes.nq + sizes.nv
+    change = max(abs(run.w[abi.POTENTIAL] - y[after] - before), abs(y[after] - run.y[after]))
     return change / way if way > 0.0 else 0.0
 
 
@@ -134,11 +134,11 @@ def watch(sizes: Sizes, run: Run, y: Array, t: float) -> int:
     """
     w, gauges, control, passages = run.w, run.gauges, run.control, run.passages
     run.clock[abi.TIME] = t
-    moving, behind = sizes.nq, sizes.nq + sizes.nv
-    work = y[behind]
+    moving, after = sizes.nq, sizes.nq + sizes.nv
+    work = y[after]
     # the scale of corrections stays that of the start
     length = max(w[abi.LENGTH], largest(sizes.width, y, run.metric, 0, moving))
-    fastest = largest(sizes.width, y, run.metric, moving, behind)
+    fastest = largest(sizes.width, y, run.metric, moving, after)
     speed = w[abi.SPEED] = max(w[abi.SPEED], fastest)
     error = keep_maxima(sizes, run, y)
     scale = max(w[abi.KINETIC], abs(w[abi.POTENTIAL] - gauges[abi.POTENTIAL_START]), abs(work))

@@ -28,7 +28,8 @@ STILL, NO_ACCELERATION = 1e-10, 1e-10
 TOUCHING = 1e-9
 #: A coordinate that has moved by less than this part of the mechanism's length has just broken loose.
 UNMOVED = 1e-9
-#: A gap that a change of parameters or inputs leaves is closed from this part of the mechanism's length after it on.
+#: A change of parameters or inputs closes a gap that it leaves penetrated by more than this part of the mechanism's
+#: length.
 DEEP = 1e-6
 #: A formula for a bound in motion may be this part above that for the bound at rest, by rounding; a bound that falls
 #: may be below an effort that several rows share by this part of forces.

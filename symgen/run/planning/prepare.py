@@ -274,7 +274,7 @@ def first_rate(mechanism: Mechanism, settings: Settings) -> tuple[float | None, 
 def _gains_of_method(mechanism: Mechanism, settings: Settings) -> tuple[Settings, tuple[str, ...]]:
     """Return the settings with the gains of ``rule=motion``, and a note; others as they are.
 
-    The motion is that of a short run by another method, whose gains can be no part of it.
+    A short run by another method gives the motion, so that the gains of this method have no part in it.
     """
     method = None if settings.method == AUTO else METHODS.get(settings.method, "method")
     rules = [] if method is None else [o for o in method.options if o.name == "rule" and MOTION in o.values]

@@ -55,8 +55,8 @@ COMPLETE, HANDLE, GO_ON, ASK = range(4)
 #: Answers: nothing has happened; something has; an event ends the run; the motion cannot go on.
 QUIET, HAPPENED, OVER, STUCK = range(4)
 #: Places of times: that of the next jump or kink of formulas, or of a rest; the one after a jump, from which formulas
-#: are evaluated; then, for each row, that at which the flights end of a gap that has come to rest before.
-NEXT, BEHIND, RESTS = range(3)
+#: are evaluated; then, for each row, the time at which the flights of its gap end, which has come to rest before.
+NEXT, AFTER, RESTS = range(3)
 
 #: Values of functions below this part of their size are 0 for an importer that has located that; a margin that sleeps
 #: has fallen to 0 at this part of what lifts it; and the least value.
@@ -162,7 +162,7 @@ def indicate_run(t: float, y: Array, model: ModelWithModes, state: EventState, v
 def reach(hunt: Array, n: int) -> None:
     """Have functions that are about to pass 0, and are 0 up to rounding, pass it here.
 
-    An importer that has located an event stands on it up to rounding, on either side. A margin that sleeps passes where
+    An importer that has located an event is on either side of it, up to rounding. A margin that sleeps passes 0 where
     it has lost what lifts it.
     """
     at, out = records.N_HEAD, records.N_HEAD + records.N_COLUMNS * n
@@ -218,7 +218,7 @@ def handle_event(
     state: EventState,
     visible: Visible,
 ) -> int:
-    """Handle the event at which an importer stands: modes, impacts, resets, seams; return as `exchange_run`."""
+    """Handle the event at which an importer has stopped: modes, impacts, resets, seams; return as `exchange_run`."""
     _, _, modes = model
     control, numbers, code = state.control, visible.numbers, QUIET
     known = run.clock[abi.TIME] == t and run.hunt[records.NOTED] > 0.0
@@ -284,7 +284,7 @@ def exchange_run(
     if doing != ASK:
         for i in range(visible.y.shape[0]):
             state.y[i] = visible.y[i]
-    now = min(t, next_time(model[0], state))  # where an importer stands at a jump, it comes from before it
+    now = min(t, next_time(model[0], state))  # an importer at a jump comes from before it
     if doing == COMPLETE:
         code = look_at_events(system, run, now)
     elif doing == HANDLE:
@@ -302,7 +302,7 @@ def exchange_run(
         forget_rests(modes, exchange.times, False)
     following, rest = next_time(model[0], state), next_rest(t, modes, exchange.times)
     exchange.times[NEXT] = following if following < rest else rest
-    exchange.times[BEHIND] = run.clock[abi.TIME] if run.clock[abi.TIME] > t else 0.0
+    exchange.times[AFTER] = run.clock[abi.TIME] if run.clock[abi.TIME] > t else 0.0
     return int(code)
 
 

@@ -1,10 +1,10 @@
 """One run that is kept between calls, with its modes, impacts and events, for programs without Python.
 
 The loop is the frame of all runs (`symgen.run.loops.frame`), so that steps, events and modes are those of single runs.
-An output between two steps shortens none of them: what is shown is the state at the time asked for, and the run itself
-may stand at the end of the step after it. Where a caller changes what is shown, the run goes on from there.
+An output between two steps shortens neither: the run shows the state at the requested time, and may itself already be
+at the end of the step that contains it. If a caller changes the state shown, the run goes on from there.
 
-Outputs inside an adaptive step are read from that step, which is kept (`symgen.run.loops.schemes.readable`).
+Outputs inside an adaptive step are read from that step, which the run keeps (`symgen.run.loops.schemes.readable`).
 """
 
 from __future__ import annotations
@@ -49,10 +49,10 @@ _A = types.float64[::1]
 #: Results of `advance_run`: the time is reached; an event ends the run; no step, or no modes, lead on.
 REACHED, ENDED, FAILED = range(3)
 #: Places of the time that is shown, and of the time at which a run with adaptive steps is to end [s]; then those of the
-#: code of the end of the run, of the number of the event that ends it, -1 for none, of 1 where the events at which the
-#: run stands have not been met yet, and of 1 where the caller has changed something.
+#: code of the end of the run, of the number of the event that ends it, -1 for none, of 1 where the run has stopped at
+#: events that it has not met yet, and of 1 where the caller has changed something.
 SHOWN_TIME, END_TIME = range(2)
-END_CODE, ENDING, STANDS, CHANGED = range(4)
+END_CODE, ENDING, UNMET, CHANGED = range(4)
 
 
 class KeptOutput(Record):
@@ -104,7 +104,7 @@ def show_state(sizes: Sizes, w: Array, outputs: KeptOutput, k: int, y: Array) ->
 def return_to_shown(
     until: float, scheme: TableauRecord, visible: Visible, state: EventState, outputs: KeptOutput
 ) -> int:
-    """Have the run go on from what is shown, where the caller has changed it, or the run stands after a time [s].
+    """Have the run go on from the state shown, if the caller has changed it or the run is past a time [s].
 
     Returns 1 where the caller has changed the state, else 0.
     """
@@ -124,7 +124,7 @@ def return_to_shown(
             state.w[abi.WINDING - abi.N_STATUS + i] = outputs.status[i]
         clock[abi.TIME] = clock[abi.ORIGIN] = state.gauges[abi.LAST_TIME] = visible.clock[SHOWN_TIME]
         control[abi.INDEX] = 0
-    visible.numbers[STANDS], visible.numbers[CHANGED] = 0, 1
+    visible.numbers[UNMET], visible.numbers[CHANGED] = 0, 1
     control[abi.BEGUN] = abi.AFRESH if control[abi.BEGUN] != 0 else 0
     return 0 if unchanged or control[abi.BEGUN] == 0 else 1
 
@@ -179,7 +179,7 @@ def start_run(model: System, limits: Array, chunk: RowChunk, state: EventState, 
         counts = i >= e.HEAD_OF_EVENTS and (i - e.HEAD_OF_EVENTS) % e.OF_EVENT == 0
         chunk.events[i] = 0.0 if counts else math.nan
     visible.clock[SHOWN_TIME] = 0.0
-    visible.numbers[END_CODE], visible.numbers[ENDING], visible.numbers[STANDS] = abi.DONE, -1, 0
+    visible.numbers[END_CODE], visible.numbers[ENDING], visible.numbers[UNMET] = abi.DONE, -1, 0
     visible.numbers[CHANGED] = 1
     return 0
 
@@ -204,7 +204,7 @@ def ending_event(chunk: RowChunk, visible: Visible, t: float) -> int:
 def meet_event(model: System, chunk: RowChunk, state: EventState, visible: Visible) -> int:
     """Take the events at which a step has ended; return `MET` to go on, `DONE` where one ends the run."""
     code = int(take_notes(abi.MET, 0, model, chunk, state))
-    visible.numbers[STANDS] = 0
+    visible.numbers[UNMET] = 0
     if code == abi.DONE:
         visible.numbers[ENDING] = ending_event(chunk, visible, state.clock[abi.TIME])
     return code
@@ -223,7 +223,7 @@ def advance_to_output(
     system, observers = model[0], model[1]
     control, clock, until = state.control, state.clock, outputs.times[0]
     code, near = abi.MET, abi.RESOLVED_TIME * abs(until) if ADAPTIVE else abi.SAME_TIME * span.step
-    if visible.numbers[STANDS] != 0:
+    if visible.numbers[UNMET] != 0:
         code = meet_event(model, chunk, state, visible)
     if code == abi.MET and visible.numbers[CHANGED] != 0:
         return_before_seams(system, state)
@@ -245,9 +245,9 @@ def advance_to_output(
         elif code == abi.NOTED:
             take_notes(code, 0, model, chunk, state)
         elif code == abi.MET and control[abi.OUTPUTS] > 0 and until < clock[abi.TIME] - near:
-            visible.numbers[STANDS] = 1
+            visible.numbers[UNMET] = 1
         elif code == abi.MET:
-            control[abi.OUTPUTS] = 0  # what is shown is the state after events
+            control[abi.OUTPUTS] = 0  # the state shown is that after events
             code = meet_event(model, chunk, state, visible)
         if code < abi.DONE and clock[abi.TIME] >= until - near:
             code = abi.DONE
@@ -294,8 +294,8 @@ def advance_run(
     observers = model[1]
     control, clock, numbers, until = state.control, state.clock, visible.numbers, span.until
     duration = visible.clock[END_TIME] if ADAPTIVE else span.duration
-    behind = max(until, visible.clock[END_TIME]) if ADAPTIVE else math.inf
-    endless = steps_until(span, behind if through != 0 else until, math.inf, duration)
+    last = max(until, visible.clock[END_TIME]) if ADAPTIVE else math.inf
+    endless = steps_until(span, last if through != 0 else until, math.inf, duration)
     if control[abi.BEGUN] == 0:
         assume_step(model, endless)
     if return_to_shown(until, scheme, visible, state, outputs) == 1:
@@ -305,7 +305,7 @@ def advance_run(
     if not ADAPTIVE or read_step(system_of_steps(model[0]), scheme, state, outputs) == 0:
         code = advance_to_output(model, scheme, endless, chunk, state, outputs, visible)
     if not ADAPTIVE and code > abi.DONE and control[abi.OUTPUTS] > 0 and through != 0:
-        # the step after the output fails: the run goes on up to the output
+        # the step past the output fails: the run goes on up to the output
         control[abi.OUTPUTS] = 0
         code = advance_to_output(
             model, scheme, steps_until(span, until, math.inf, duration), chunk, state, outputs, visible
@@ -375,7 +375,7 @@ class Traits(NamedTuple):
 
     @property
     def further(self) -> tuple[types.RecordType, ...]:
-        """Types of what stands after the functions of a model."""
+        """Types of what follows the functions of a model."""
         return (turn.FURTHER["modes" if self.modes else "effects"],) if self.modes or self.effects else ()
 
 

@@ -121,7 +121,7 @@ def watch_passages(sizes: Sizes, run: Run, y: Array, t: float) -> int:
 
 
 def watch_states(sizes: Sizes, run: Run, y: Array, t: float) -> int:
-    """Stand for `symgen.run.loops.watch.watch` with a table of one event."""
+    """Replace `symgen.run.loops.watch.watch` by one with a table of one event."""
     return 0
 
 

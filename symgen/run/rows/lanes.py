@@ -161,7 +161,7 @@ def keep_lane_maxima(sizes: Sizes, run: Run, y: Array) -> float:
 
 def watch_lanes(sizes: Sizes, run: Run, y: Array, t: float) -> int:
     """Judge accepted states as `symgen.run.loops.watch.watch` does; mark lanes that cannot continue."""
-    w, counters, gauges, behind = run.w, run.iw, run.gauges, sizes.nq + sizes.nv
+    w, counters, gauges, after = run.w, run.iw, run.gauges, sizes.nq + sizes.nv
     run.clock[abi.TIME] = t
     keep_lane_maxima(sizes, run, y)
     for lane in range(_L):
@@ -172,11 +172,11 @@ def watch_lanes(sizes: Sizes, run: Run, y: Array, t: float) -> int:
             gauges[_ODD + lane] = gauges[_ODD + lane] if angle <= _LARGEST_ANGLE else 1.0
             size = abs(y[i * _L + lane] - run.share[sizes.width + i]) * run.metric[i]
             gauges[_LARGEST + lane] = size if size > gauges[_LARGEST + lane] else gauges[_LARGEST + lane]
-    for i in range(sizes.nq, behind):
+    for i in range(sizes.nq, after):
         for lane in range(_L):
             size = abs(y[i * _L + lane]) * gauges[(_N_LANE_GAUGES + i - sizes.nq) * _L + lane]
             w[_SPEED + lane] = size if size > w[_SPEED + lane] else w[_SPEED + lane]
-    work, going = behind * _L, 0.0
+    work, going = after * _L, 0.0
     for lane in range(_L):
         largest = gauges[_LARGEST + lane]
         length = largest if largest > w[_LENGTH + lane] else w[_LENGTH + lane]

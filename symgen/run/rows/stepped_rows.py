@@ -96,7 +96,7 @@ def evaluate_stepped_rows(model: System, table: Stepped, r: int, state: State) -
 
 
 def step_each(model: System, scheme: Record, span: Span, table: Stepped, state: State, outputs: Outputs) -> int:
-    """Take rows on by a time, and evaluate formulas where they stand then.
+    """Advance rows by a time, and evaluate formulas at their states then.
 
     A row that fails stays where it was. One whose loop has a request (a negative code) is left as it is there.
 

@@ -298,7 +298,7 @@ def record_of(info: ModelInfo, event: Happening) -> EventRecord:
     if impact is None:
         return EventRecord(event.t, event.name, event.action, q, v)
     after = {c.name: float(x) for c, x in zip(info.velocities, impact.v, strict=True)}
-    signs = [-1.0] * info.m + [1.0] * len(impact.imposed)  # D^T lambda stands on the left of the equations of motion
+    signs = [-1.0] * info.m + [1.0] * len(impact.imposed)  # D^T lambda is on the left of the equations of motion
     names = [*(row.name for row in info.rows), *impact.imposed]
     bounded = (info.rows[i].name for i in info.bounded)
     closed, impulses = {f"{row.rpartition('.')[0]}.rate": row for row in bounded}, dict[str, float]()

@@ -241,13 +241,13 @@ class Simulation:
         if spec.seams is not self._seams:
             self._seam_at(spec.seams)
         self.spec, now, control = spec, self._clock[abi.TIME], self.state.control
-        behind = [seam for seam in spec.seams if not self.is_ahead(seam.t)]
-        control[abi.PASSED] = len(behind)
-        if len(behind) > 1 and behind[-2].skips:  # the run stands at a jump: it goes on after it
-            self.state.clock[abi.TIME] = max(now, behind[-1].t)
-        self.changes.give_values({name: value for seam in behind for name, value in seam.values.items()})
+        passed = [seam for seam in spec.seams if not self.is_ahead(seam.t)]
+        control[abi.PASSED] = len(passed)
+        if len(passed) > 1 and passed[-2].skips:  # the run is at a jump: it goes on after it
+            self.state.clock[abi.TIME] = max(now, passed[-1].t)
+        self.changes.give_values({name: value for seam in passed for name, value in seam.values.items()})
         # a kink changes no number, but the history of multistep schemes ends there as well
-        if behind and now - behind[-1].t <= self.same(now) and control[abi.BEGUN] == 1:
+        if passed and now - passed[-1].t <= self.same(now) and control[abi.BEGUN] == 1:
             control[abi.BEGUN] = abi.AFRESH
 
     def _seam_at(self, seams: tuple[Seam, ...]) -> None:

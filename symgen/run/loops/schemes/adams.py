@@ -53,7 +53,7 @@ def lagrange_integrals(
 def classical(system: ModelSystem, run: Run, t: float, h: float, stage: Array, rate: Array) -> int:
     """Set ``run.trial`` by one step of the classical Runge-Kutta scheme; return its evaluations."""
     width, y, out = system.sizes.width, run.y, run.trial
-    for i in range(width):  # the newest derivative stands first
+    for i in range(width):  # the newest derivative is the first
         out[i] = y[i] + h / 6.0 * run.memory[i]
         rate[i] = run.memory[i]
     for s in range(3):

@@ -1,6 +1,6 @@
 """Explicit Runge-Kutta runs that keep their stages, and the adjoint of such a run, step by step backwards.
 
-After the scheme's own memory lies the number of records, then the records: of each step its end, its length, the
+The scheme's own memory is followed by the number of records and the records: of each step its end, its length, the
 corrections of its state, the accepted state, and the rates of all stages. The first record of a part of a run is where
 it begins: it has no stages. With these the states at stages are sums, so the adjoint evaluates nothing but adjoints.
 """
@@ -29,8 +29,8 @@ from symgen.run.loops.schemes.explicit import renew as set_first_stage
 #: Positions in the head of the memory: number of records, rounds of corrections before a step, steps that are kept,
 #: number of angles that count turns; then its length.
 RECORDS, ROUNDS, KEPT_STEPS, TURNING, HEAD = 0, 1, 2, 3, 8
-#: Positions in a record: time [s], step [s], rounds of corrections, angles that count turns; the state stands after a
-#: multiple of so many numbers, which vectors are.
+#: Positions in a record: time [s], step [s], rounds of corrections, angles that count turns; the state begins at a
+#: multiple of so many numbers, the length of vectors.
 TIME, STEP, CORRECTIONS, ANGLES, _ALIGNED = 0, 1, 2, 3, 8
 #: Adjoint of ``rhs``: adjoints of y, p, w and ydot follow its arguments.
 Rates = Callable[[float, Array, Array, Array, Integers, Array, Array, Array, Array, Array], int]

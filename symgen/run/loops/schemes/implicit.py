@@ -104,7 +104,7 @@ def is_rounding(
 ) -> bool:
     """Return whether the residuals `right` of some stages are rounding of their terms, as with stiff forces."""
     n, count = system.sizes.unknowns, scheme.entries.shape[0] // 2
-    # columns after those of q and v are the file's own states, which stand after the work in a state
+    # columns after those of q and v are the file's own states, which follow the work in a state
     first, tail = system.sizes.nq + system.sizes.nv, n - system.sizes.states
     for s in range(low, high):
         stage_state(system, scheme, run, h, s, k, rates)

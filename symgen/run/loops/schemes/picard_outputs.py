@@ -74,8 +74,8 @@ def interpolate_wide_step(
     states, new = part(run.room, WIDE + STATES * width, size), part(run.room, WIDE + STATE * width, width)
     places, once = part(run.room, PARTS_OF_STEP, NODES), part(run.room, ONCE, TERMS * NODES)
     twice, terms, coefficients = part(run.room, TWICE, TERMS * NODES), POINTS, WIDE + COEFFICIENTS * width
-    windings, behind = outputs.status.shape[1] - abi.N_STATUS, WIDE + ENDS * width
-    before, angles = part(run.room, behind, abi.N_STATUS), part(run.room, behind + abi.N_STATUS, windings)
+    windings, place = outputs.status.shape[1] - abi.N_STATUS, WIDE + ENDS * width
+    before, angles = part(run.room, place, abi.N_STATUS), part(run.room, place + abi.N_STATUS, windings)
     for i in range(abi.N_STATUS):
         before[i] = run.w[i]
     for i in range(windings):

@@ -1,8 +1,8 @@
 """Explicit Runge-Kutta runs with adaptive steps whose last step can be read when it is over.
 
-Programs that ask for one output after the other have several in one step. After the scheme's own memory lies what
-reading needs: the state before the step, its stages, its end, parameters and the scratch of emitted functions. These
-are copies, as the run may have changed its modes or inputs since, and no reading leaves a trace in it.
+Programs that ask for one output after the other have several in one step. The scheme's own memory is
+followed by what reading needs: the state before the step, its stages, its end, parameters and the scratch of emitted
+functions. These are copies: the run may have changed its modes or inputs since, and reading must not change the run.
 """
 
 from __future__ import annotations
