@@ -9,7 +9,7 @@ import numpy as np
 
 from symgen.base.errors import InputError, suggest
 from symgen.base.ir.numerics import SKIP
-from symgen.compile.loopcode.entry import direct
+from symgen.compile.loopcode.entry import bind_arguments
 from symgen.compile.loopcode.exact import compiled_form
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import choose_rows, farthest_row, room_of_choice
@@ -72,7 +72,7 @@ def begin_in_modes(simulation: Simulation) -> None:
 
 def _follow(compiled: CompiledModel, state: Any, now: float) -> bool:
     """Evaluate the geometry in new modes; return whether other redundant rows are left out."""
-    geometry = direct(compiled.model.geometry, abi.MEASURE, now, state.y, state.p, state.w)
+    geometry = bind_arguments(compiled.model.geometry, abi.MEASURE, now, state.y, state.p, state.w)
     geometry(now)
     changed = _choose(compiled, state.w)
     if changed:

@@ -20,7 +20,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.driven_mechanism import Jump, compared_with_zero
 from symgen.describe.remembered import compute_once
 from symgen.describe.table_functions import Table
-from symgen.run.breaks.coded_formulas import CodedFormula, Formula, coded, coded_at
+from symgen.run.breaks.coded_formulas import CodedFormula, Formula, code_formula, coded_at
 from symgen.run.loops.times_of_jumps import (
     BESIDE_A_SIDE,
     COUNT,
@@ -139,7 +139,7 @@ class Passing:
     @cached_property
     def codes(self) -> CodedFormula:
         """The formula as codes."""
-        return coded(self.jump.argument, self.tables)
+        return code_formula(self.jump.argument, self.tables)
 
     def times(self, formulas: InTime, until: float, first: float) -> tuple[float, ...]:
         """Return the times from `first` to `until` [s] at which the formula passes its levels.

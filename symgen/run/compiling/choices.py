@@ -245,7 +245,7 @@ def take_tree_of(mechanism: Mechanism, whole: Mechanism) -> Mechanism:
 
 def _cheapest_choice(mechanism: Mechanism, first: Topology) -> tuple[str, ...]:
     """Return the joints to cut, besides those that follow, for the fewest operations counted."""
-    best, least = mechanism.cuts, operations(with_joint_coordinates(mechanism, first))
+    best, least = mechanism.cuts, count_rhs_operations(with_joint_coordinates(mechanism, first))
     counted = least
     if least > LARGE:
         return best
@@ -258,7 +258,7 @@ def _cheapest_choice(mechanism: Mechanism, first: Topology) -> tuple[str, ...]:
             tree = spanning_tree(mechanism, trial)
             if _has_free_choice(tree) > _has_free_choice(first):
                 continue
-            count = operations(with_joint_coordinates(mechanism, tree))
+            count = count_rhs_operations(with_joint_coordinates(mechanism, tree))
             counted += count
             if count < (1.0 - GAIN) * least:
                 best, least = trial, count
@@ -270,7 +270,7 @@ def _has_free_choice(topology: Topology) -> int:
     return sum(not link.joint for link in topology.links)
 
 
-def operations(mechanism: Mechanism) -> int:
+def count_rhs_operations(mechanism: Mechanism) -> int:
     """Return the operations of the right-hand side of `lagrange`, after sharing, without those on parameters alone."""
     from symgen.derive.formulate.formulate import formulate
     from symgen.derive.lower.plans import cheapest_plan, cost_of_plan

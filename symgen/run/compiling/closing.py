@@ -57,7 +57,7 @@ def choice_at_start(mechanism: Mechanism, choice: MethodChoice) -> MethodChoice:
     closed = replace(choice, free=free_velocities(mechanism))
     if not closed.free or _is_stored(mechanism, closed):
         return closed
-    return closed if _eliminates(choice.method, tuple(choice.options.items())) else choice
+    return closed if _eliminates_multipliers(choice.method, tuple(choice.options.items())) else choice
 
 
 def _is_stored(mechanism: Mechanism, choice: MethodChoice) -> bool:
@@ -66,7 +66,7 @@ def _is_stored(mechanism: Mechanism, choice: MethodChoice) -> bool:
 
 
 @lru_cache(maxsize=64)
-def _eliminates(method: Method, options: tuple[tuple[str, str], ...]) -> bool:
+def _eliminates_multipliers(method: Method, options: tuple[tuple[str, str], ...]) -> bool:
     """Whether a method solves M v' + D^T lambda = f, D v' = gamma in its right-hand side."""
     from symgen.derive.lower.record import record_law
 

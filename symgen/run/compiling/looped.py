@@ -304,7 +304,7 @@ class LoopedStages(PipelineStages[Mapping[str, "Element"], LoopedPrograms]):
                 "sections": dict(built.sections),
             }
         modules["mechanism"] = "", tables
-        named = _readable(modules) if self.whole else modules
+        named = _readable_modules(modules) if self.whole else modules
         return Generated(self.folder, named, 0.0, time.perf_counter() - self.began)
 
 
@@ -326,7 +326,7 @@ _STEM = re.compile(
 )
 
 
-def _readable(modules: Modules) -> Modules:
+def _readable_modules(modules: Modules) -> Modules:
     """Return modules under readable names, which import each other from one folder."""
     from symgen.derive.emit.whole import import_siblings_by_name
 

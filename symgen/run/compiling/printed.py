@@ -196,7 +196,7 @@ def _room_of_exchange(name: str) -> str | None:
     return _ALONE_IN_EXCHANGE[name] if name in _ALONE_IN_EXCHANGE else _room_of_steps(name)
 
 
-def _partitioned(compiled: CompiledModel, tables: Any) -> tuple[Any, ...]:
+def _partition_model(compiled: CompiledModel, tables: Any) -> tuple[Any, ...]:
     """Return a `symgen.run.printed.partition_tables.PartitionModel`."""
     return layout_of_starts(compiled), compiled_form(compiled.model.geometry), tables
 
@@ -293,7 +293,7 @@ class Printed:
         tables : PartitionTables
             What is partitioned.
         """
-        model = _partitioned(compiled, tables)
+        model = _partition_model(compiled, tables)
         part, y, w = new_partition(model[0], tables), np.zeros(compiled.info.ny), compiled.scratch()
         p, emitted = np.zeros(1), {id(model[1]): self.emitted["geometry"]}
         state = model, None, y, p, w, part
@@ -318,7 +318,7 @@ class Printed:
         """
         (steps, effects, ends), (now, iw, work, impact) = events.steps(compiled)
         emitted = self._of_steps(compiled, events)
-        model = _partitioned(compiled, tables), steps, effects, ends
+        model = _partition_model(compiled, tables), steps, effects, ends
         memory = now, iw, np.zeros(len(ends), dtype=np.int64), work, impact, new_partition(steps[0], tables)
         meanings = meanings_of_names(exchange_steps, (model, None, None, *memory), emitted, _room_of_exchange)
         self.entries["exchange_run"] = source_of_piece(exchange_steps), meanings

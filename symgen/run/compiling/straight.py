@@ -267,7 +267,7 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
         spins=equations.spins,
         operations={b.name: b.operations for b in program.blocks},
         inputs=equations.inputs,
-        alone=_alone(program, len(equations.rows)),
+        alone=_constant_pivots(program, len(equations.rows)),
         states=equations.states,
         switchable=tuple(i for i, row in enumerate(equations.rows) if row.held is not None),
         bounded=tuple(i for i, row in enumerate(equations.rows) if row.bounded),
@@ -276,7 +276,7 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
     )
 
 
-def _alone(program: ModelProgram, rows: int) -> tuple[int, ...]:
+def _constant_pivots(program: ModelProgram, rows: int) -> tuple[int, ...]:
     """Return the rows whose pivot is the same everywhere, which ``geometry`` need not report."""
     pivots = {
         target.index

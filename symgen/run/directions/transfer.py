@@ -203,7 +203,7 @@ class Transfer:
         effects = watched.effects
         work = effects.memory(len(now.y), len(now.w))
         state, scratch = now.y.copy(), now.w.copy()
-        impact = effects.applied(numbers, now.t, state, now.p.copy(), scratch, work)
+        impact = effects.apply_to_state(numbers, now.t, state, now.p.copy(), scratch, work)
         by = Directions(self._with(y), self._with(later), self._with(np.zeros((self._count, y.shape[1]))))
         chosen, columns = effects.chosen(numbers), list[Array]()
         for _, own, p, w in self.moments.chunks_of_states(now, by):

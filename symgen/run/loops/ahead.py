@@ -79,7 +79,7 @@ class Ahead(Record):
 AHEAD = record_type(Ahead)
 
 
-def put(source: Array | Integers, target: Array | Integers) -> None:
+def copy_to_beginning(source: Array | Integers, target: Array | Integers) -> None:
     """Copy an array to the beginning of another one."""
     for i in range(source.shape[0]):
         target[i] = source[i]
@@ -89,17 +89,17 @@ def begin_pass(a: Ahead, state: State, k: int, which: int, prepare: e.Prepare, p
     """Give a run with directions the state before step `k`, with the seeds of a pass."""
     lanes = a.head[LANES]
     ny, np, nw = a.y.shape[0], state.p.shape[0] // (1 + lanes), a.w.shape[0]
-    put(a.y, state.y)
-    put(part(a.seeds, which * ny * lanes, ny * lanes), part(state.y, ny, ny * lanes))
-    put(a.p, state.p)
-    put(part(a.numbers_by, which * np * lanes, np * lanes), part(state.p, np, np * lanes))
-    put(a.w, state.w)
+    copy_to_beginning(a.y, state.y)
+    copy_to_beginning(part(a.seeds, which * ny * lanes, ny * lanes), part(state.y, ny, ny * lanes))
+    copy_to_beginning(a.p, state.p)
+    copy_to_beginning(part(a.numbers_by, which * np * lanes, np * lanes), part(state.p, np, np * lanes))
+    copy_to_beginning(a.w, state.w)
     for i in range(nw, nw * (1 + lanes)):
         state.w[i] = 0.0
-    put(a.iw, state.iw)
-    put(a.clock, state.clock)
-    put(a.gauges, state.gauges)
-    put(a.control, state.control)
+    copy_to_beginning(a.iw, state.iw)
+    copy_to_beginning(a.clock, state.clock)
+    copy_to_beginning(a.gauges, state.gauges)
+    copy_to_beginning(a.control, state.control)
     count = a.inputs.shape[0]
     if a.values.shape[0] > 0:
         for i in range(count):
@@ -126,10 +126,10 @@ def keep_outputs(a: Ahead, state: State, k: int, observe: abi.Observe) -> None:
     w = part(a.still, state.y.shape[0] + state.p.shape[0], state.w.shape[0])
     row = a.head[PASSES] * lanes
     for which in range(a.head[PASSES]):
-        put(part(state.y, 0, ny), y)
-        put(part(a.seeds, which * ny * lanes, ny * lanes), part(y, ny, ny * lanes))
-        put(part(state.p, 0, np), p)
-        put(part(state.w, 0, nw), w)
+        copy_to_beginning(part(state.y, 0, ny), y)
+        copy_to_beginning(part(a.seeds, which * ny * lanes, ny * lanes), part(y, ny, ny * lanes))
+        copy_to_beginning(part(state.p, 0, np), p)
+        copy_to_beginning(part(state.w, 0, nw), w)
         for i in range(nw, w.shape[0]):
             w[i] = 0.0
         rates, out = part(a.room, 0, y.shape[0]), part(a.room, y.shape[0], count * (1 + lanes))
@@ -183,13 +183,13 @@ def step_ahead(model: System, scheme: Record, span: Span, state: State, outputs:
         if a.head[OUTPUTS] > 0:
             keep_outputs(a, run, k, observe)
         if k + 1 < a.head[STEPS]:
-            put(part(run.y, 0, a.y.shape[0]), a.y)
-            put(part(run.p, 0, a.p.shape[0]), a.p)
-            put(part(run.w, 0, a.w.shape[0]), a.w)
-            put(run.iw, a.iw)
-            put(run.clock, a.clock)
-            put(run.gauges, a.gauges)
-            put(run.control, a.control)
+            copy_to_beginning(part(run.y, 0, a.y.shape[0]), a.y)
+            copy_to_beginning(part(run.p, 0, a.p.shape[0]), a.p)
+            copy_to_beginning(part(run.w, 0, a.w.shape[0]), a.w)
+            copy_to_beginning(run.iw, a.iw)
+            copy_to_beginning(run.clock, a.clock)
+            copy_to_beginning(run.gauges, a.gauges)
+            copy_to_beginning(run.control, a.control)
     return abi.DONE
 
 

@@ -64,7 +64,7 @@ def move_bracket(hunt: A, n: int) -> int:
 
 
 @plain
-def note(hunt: A, n: int, notes: int, t: float, width: int, y: A) -> int:
+def note_events(hunt: A, n: int, notes: int, t: float, width: int, y: A) -> int:
     """Note the time and the state of all events that happen at the end of the bracket."""
     at = N_HEAD
     for k in range(n):

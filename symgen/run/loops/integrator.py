@@ -120,14 +120,14 @@ class Integrator(Protocol):
         """
 
 
-def adapts(integrator: Integrator, options: Mapping[str, str | float]) -> bool:
+def chooses_steps(integrator: Integrator, options: Mapping[str, str | float]) -> bool:
     """Whether an integrator chooses its steps, by default or by the option ``adaptive``."""
     keys = (f"{owner}.adaptive" for owner in ("integrator", integrator.name))
     chosen = next((str(options[key]).lower() for key in keys if key in options), "")
-    return chosen != "false" if integrator.adaptive else estimates(integrator) and chosen == "true"
+    return chosen != "false" if integrator.adaptive else can_choose_steps(integrator) and chosen == "true"
 
 
-def estimates(integrator: Integrator) -> bool:
+def can_choose_steps(integrator: Integrator) -> bool:
     """Whether an integrator can choose its steps, by default or by its option ``adaptive``."""
     return bool(getattr(integrator, "estimates", integrator.adaptive))
 

@@ -123,7 +123,7 @@ def span_of_part(seams: Seams, count: int, span: Span, clock: Array, control: In
     return to, step
 
 
-def go_over(seams: Seams, count: int, clock: Array) -> None:
+def skip_to_seam(seams: Seams, count: int, clock: Array) -> None:
     """Set the time to the next seam after seam number `count`."""
     clock[abi.TIME] = max(clock[abi.TIME], due_time(seams, count + 1))
 
@@ -211,7 +211,7 @@ def between_seams(model: System, scheme: Record, span: Span, state: State, outpu
         changed = write_seam(seams, control[abi.PASSED] - 1, state.p)
         skipped = has_gap(seams, control[abi.PASSED] - 1)
         if skipped:
-            go_over(seams, control[abi.PASSED] - 1, clock)
+            skip_to_seam(seams, control[abi.PASSED] - 1, clock)
             control[abi.PASSED] += 1
             changed = write_seam(seams, control[abi.PASSED] - 1, state.p) or changed
         if changed:

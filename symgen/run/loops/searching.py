@@ -18,7 +18,7 @@ from typing import Any
 
 from symgen.compile.store.emitted import plain
 from symgen.run.layout import abi
-from symgen.run.loops.bracket import action_of_passages, move_bracket, note, settle_bracket, take_values
+from symgen.run.loops.bracket import action_of_passages, move_bracket, note_events, settle_bracket, take_values
 from symgen.run.loops.frame_parts import (
     CROWD,
     DIVIDE,
@@ -202,7 +202,7 @@ def give_back(hunt: A, first: int, nw: int, w: A, iw: A) -> int:
 def ended(hunt: A, n: int, notes: int, following: float, width: int, y: A) -> int:
     """Return the action at the end of a step that ends at a passage."""
     action = action_of_passages(hunt, n, G_HIGH, NOTE)
-    note(hunt, n, notes, following, width, y)
+    note_events(hunt, n, notes, following, width, y)
     if action >= ANEW:
         if following - hunt[SINCE] > _HEAP * following:
             hunt[SINCE], hunt[PASSED] = following, 0.0
@@ -299,7 +299,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
             if h != high:
                 hunt[TRY] = high
                 return SEEK
-            note(hunt, n, notes, following, width, y)
+            note_events(hunt, n, notes, following, width, y)
             hunt[PROBES] = 0.0
             move_bracket(hunt, n)
             if hunt[LOW] >= hunt[WHOLE]:

@@ -25,7 +25,7 @@ from symgen.run.breaks.motions import refuse_jumps
 from symgen.run.breaks.seams import foresee_in_run, merge_seams
 from symgen.run.compiling.method_choice import MethodChoice
 from symgen.run.integrators import INTEGRATORS
-from symgen.run.loops.integrator import adapts
+from symgen.run.loops.integrator import chooses_steps
 from symgen.run.loops.run_spec import MAX_ATTEMPTS, RunSpec, Seam
 from symgen.run.planning.automatic import usual_integrator
 from symgen.run.planning.options import split_options
@@ -192,7 +192,7 @@ def resolve_settings(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple
     choice, method_parameters, integrator_options = split_options(s, integrator)
     zero: complex | None = getattr(integrator, "zero", None)
     method_parameters = method.placed(choice.options, zero, integrator.name) | method_parameters
-    adaptive = adapts(integrator, s.options)
+    adaptive = chooses_steps(integrator, s.options)
     step = s.step
     if step is None:  # the first one may be longer than the run, whose end cuts it
         step = own_run.first_step if adaptive else own_run.step

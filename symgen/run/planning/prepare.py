@@ -34,7 +34,7 @@ from symgen.run.planning.inputs import put_inputs
 from symgen.run.planning.plan import Plan, Purpose, resolve_settings
 from symgen.run.planning.starts import Code, begin_start, compiled_for, open_start
 from symgen.run.planning.tree import TreeRun
-from symgen.run.planning.tree_starts import on_tree_of, tree_taken_up
+from symgen.run.planning.tree_starts import run_on_tree, tree_taken_up
 from symgen.run.single.run import integrate
 from symgen.run.single.simulation import Simulation
 
@@ -323,7 +323,7 @@ def code_and_start(plan: Plan, near: Array | None = None, code: Code = compiled_
                 return Assembled(*open_start(plan), closed=False)
         if not joint:
             return Assembled(*bodies)
-        tree = on_tree_of(plan, *bodies)
+        tree = run_on_tree(plan, *bodies)
     return Assembled(tree.compiled, tree.start, tree)
 
 

@@ -12,7 +12,7 @@ from symgen.describe.parts.holds import canonical_hold_name, read_holds
 from symgen.run.layout.start_records import Instant
 from symgen.run.planning.prepare import Assembled, add_notes
 from symgen.run.planning.starts import Again, DescribedStart
-from symgen.run.planning.tree_starts import begin_on_tree, carried_of, first_turned_over
+from symgen.run.planning.tree_starts import begin_on_tree, first_turned_over, map_to_tree
 from symgen.run.starts.kept import KeptTree
 from symgen.run.starts.start_words import turned_over_error
 
@@ -107,4 +107,4 @@ class Restarts:
     def _carried(self) -> Carried:
         tree = self._run.tree
         assert tree is not None, "the state is that of joints"
-        return carried_of(tree.whole, tree.mechanism, tree.bodies, tree.compiled)
+        return map_to_tree(tree.whole, tree.mechanism, tree.bodies, tree.compiled)

@@ -23,7 +23,7 @@ from symgen.describe.formulas.start import described_start
 from symgen.run.directions.directed_model import DirectedModel, Seeds, lanes_for_directions
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
-from symgen.run.planning.shortest_changes import NONE, shortest, shortest_slope
+from symgen.run.planning.shortest_changes import NONE, shortest_slope, shortest_solution
 from symgen.run.planning.starts import held_quantities
 
 if TYPE_CHECKING:
@@ -248,7 +248,9 @@ class StartDirections:
             violated = np.vstack([violated, at[list(held)] - np.array(list(held.values()))])
         names = [info.rows[i].name for i in holonomic] + [info.joint_coordinates[k].name for k in held]
         scales = np.sqrt(self.compiled.section(self.start.w, "gauge"))
-        change = shortest(rows, -violated, fixed, names, np.zeros((info.nv, self.count)), scales, self.directions)
+        change = shortest_solution(
+            rows, -violated, fixed, names, np.zeros((info.nv, self.count)), scales, self.directions
+        )
         free = [j for j in range(info.nv) if j not in fixed]
         moved = np.abs(change[free]).max(axis=0, initial=0.0) > _KEPT * np.abs(along + change).max(axis=0, initial=0.0)
         loose = rows.shape[1] > 0 and np.linalg.matrix_rank(rows[:, free]) < len(free)
@@ -299,7 +301,7 @@ class StartDirections:
         if fits:
             more = shortest_slope(rows, slopes, v, free, scales, np.zeros((info.nv, n)), bool(rates))
             try:
-                return shortest(rows, right, fixed, names, more, scales, self.directions)
+                return shortest_solution(rows, right, fixed, names, more, scales, self.directions)
             except InputError:
                 if np.any(np.abs(v[free]) > _KEPT * np.abs(v).max(initial=0.0)):
                     raise
@@ -312,7 +314,7 @@ class StartDirections:
         for j, target in fixed.items():
             given[j] = target
         still = {j: np.zeros(n) for j in held}
-        return given + shortest(rows, right - rows @ given, still, names, more, scales, self.directions)
+        return given + shortest_solution(rows, right - rows @ given, still, names, more, scales, self.directions)
 
     def _masses(self, p: Array) -> Array:
         """Return the directions of the masses of velocities, shape (nv, n)."""

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-def on_tree_of(plan: Plan, bodies: CompiledModel, start: Start) -> TreeRun:
+def run_on_tree(plan: Plan, bodies: CompiledModel, start: Start) -> TreeRun:
     """Return the run in joint coordinates that begins where a run in coordinates of bodies begins.
 
     Parameters
@@ -47,7 +47,7 @@ def on_tree_of(plan: Plan, bodies: CompiledModel, start: Start) -> TreeRun:
         If a body of the tree would start turned over.
     """
     mechanism, compiled = tree_code(plan.mechanism, plan.choice, bodies)
-    carried = carried_of(plan.mechanism, mechanism, bodies, compiled, start.t)
+    carried = map_to_tree(plan.mechanism, mechanism, bodies, compiled, start.t)
     return turn_bodies_upright(
         begin_on_tree(plan.mechanism, mechanism, carried, start, plan.method_parameters, plan.events)
     )
@@ -83,7 +83,7 @@ def tree_code(mechanism: Mechanism, choice: MethodChoice, bodies: CompiledModel)
     return carried, compiled_for(carried, replace(choice, options={**bodies.law.options, **weight}, shape="straight"))
 
 
-def carried_of(
+def map_to_tree(
     whole: Mechanism, mechanism: Mechanism, bodies: CompiledModel, compiled: CompiledModel, t: float = 0.0
 ) -> Carried:
     """Return the map from starts of bodies at a time to starts of a tree.
@@ -116,7 +116,7 @@ def begin_on_tree(
     whole, mechanism : Mechanism
         As described, and with its tree.
     carried : Carried
-        From `carried_of`.
+        From `map_to_tree`.
     start : Start
         In the bodies' own coordinates.
     method_parameters : mapping
@@ -142,7 +142,7 @@ def settle_on_tree(carried: Carried, of_bodies: Instant, now: Instant) -> int:
     Parameters
     ----------
     carried : Carried
-        From `carried_of`.
+        From `map_to_tree`.
     of_bodies, now : Instant
         The start of bodies, and the tree's, whose parameters are not yet prepared.
     """

@@ -28,7 +28,7 @@ from symgen.run.loops.event_loop import (
     open_event_run,
 )
 from symgen.run.loops.frame_parts import DOUBT, FAIL, LOOK, TAKE, correct
-from symgen.run.loops.seams import due_time, go_over, has_gap, has_struck, is_defined, time_tolerance, write_seam
+from symgen.run.loops.seams import due_time, has_gap, has_struck, is_defined, skip_to_seam, time_tolerance, write_seam
 from symgen.run.loops.switching import is_sought, taken_for
 from symgen.run.loops.unbound import (
     forget_rests,
@@ -90,7 +90,7 @@ def pass_due_seams(model: ModelWithModes, span: Span, state: EventState) -> int:
     while due_time(seams, control[abi.PASSED]) - clock[abi.TIME] <= time_tolerance(seams, span, clock[abi.TIME]):
         changed = write_seam(seams, control[abi.PASSED], p) or changed
         if has_gap(seams, control[abi.PASSED]):
-            go_over(seams, control[abi.PASSED], clock)
+            skip_to_seam(seams, control[abi.PASSED], clock)
             skipped = True
             if has_struck(seams, control[abi.PASSED] + 1):
                 switch_off(modes.choice, state.w)
@@ -159,7 +159,7 @@ def indicate_run(t: float, y: Array, model: ModelWithModes, state: EventState, v
     return n
 
 
-def reach(hunt: Array, n: int) -> None:
+def pass_rounding(hunt: Array, n: int) -> None:
     """Have functions that are about to pass 0, and are 0 up to rounding, pass it here.
 
     An importer that has located an event is on either side of it, up to rounding. A margin that sleeps passes 0 where
@@ -198,7 +198,7 @@ def look_at_events(system: EventSystem, run: EventRun, t: float) -> int:
     code = decide_event(system, run, t, h, DOUBT, run.y)
     for j in range(m):
         out[j] = kept[j]
-    reach(hunt, n)
+    pass_rounding(hunt, n)
     hunt[records.NOTED], hunt[records.DOING] = 0.0, float(records.TO_EVENT)
     code = decide_event(system, run, t, h, TAKE, run.y)
     run.clock[abi.TIME] = t

@@ -35,7 +35,7 @@ def look_at_step(steps: StepModel, t: float, now: Instant, happened: Integers, w
 
 
 @exact()
-def handle(
+def apply_events(
     model: ExchangedModel, t: float, now: Instant, happened: Integers, work: StepWork, impact: EffectWork
 ) -> int:
     """Apply the events that have happened; return as `exchange_run` does."""
@@ -91,7 +91,7 @@ def exchange_steps(
     partition, steps, _, _ = model
     layout, _, _, accept, happens, directions = steps
     if doing == HANDLE:
-        return int(handle(model, t, now, happened, work, impact))
+        return int(apply_events(model, t, now, happened, work, impact))
     if doing == COMPLETE:
         if layout.windings > 0:  # counts turns; the correction is rounding and is left
             copy_numbers(now.y, work.y, layout.ny)

@@ -38,7 +38,7 @@ from symgen.run.loops import watch as watching
 from symgen.run.loops.frame import integrate
 from symgen.run.loops.schemes import explicit
 from symgen.run.rows.row_results import end_run
-from symgen.run.rows.rows import begin_run, take
+from symgen.run.rows.rows import begin_run, select_elements
 
 #: rhs(t, z) and accept(t, z).
 LaneFunction = Callable[[float, Array], int]
@@ -339,7 +339,7 @@ def run_lanes(model: LaneModel, scheme: TableauRecord, span: Span, chunk: RowChu
                 chunk.summary[r * e.N_SUMMARY + e.CODE] = abi.LEFT
                 continue
             unload_row(lane, sizes, lanes, state, outputs, kept)
-            take(chunk.ps, r * n_p, n_p, state.p)
+            select_elements(chunk.ps, r * n_p, n_p, state.p)
             clock[abi.TIME] = span.until
             control[abi.STEPS], control[abi.OUTPUTS], control[abi.EVALUATIONS] = steps, times.shape[0], evaluations
             end_run(abi.DONE, r, 0, span, (sizes, rates, confirm, accept, observe), chunk, state, kept)

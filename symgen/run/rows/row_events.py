@@ -14,7 +14,7 @@ from symgen.run.layout.records import Observers, Outputs, RowChunk, Span, System
 from symgen.run.loops import search_records as records
 from symgen.run.loops.event_loop import EventState
 from symgen.run.loops.frame_parts import store_after_reset
-from symgen.run.loops.seams import due_time, go_over, has_gap, has_struck, is_defined, time_tolerance, write_seam
+from symgen.run.loops.seams import due_time, has_gap, has_struck, is_defined, skip_to_seam, time_tolerance, write_seam
 from symgen.run.loops.unbound import keep_ends
 from symgen.run.modes.turn import OfModes, begin_modes, forget_modes, open_rows_of, take_resets, take_turn
 
@@ -152,7 +152,7 @@ def begin_row_between_seams(model: ModelWithModes, span: Span, state: EventState
     ):
         changed = write_seam(seams, control[abi.PASSED], p) or changed
         if has_gap(seams, control[abi.PASSED]):
-            go_over(seams, control[abi.PASSED], state.clock)
+            skip_to_seam(seams, control[abi.PASSED], state.clock)
         control[abi.PASSED] += 1
     if changed:
         prepare(p)

@@ -44,7 +44,7 @@ from symgen.run.rows import row_events
 from symgen.run.rows.row_results import end_run, follow_rows
 
 
-def take(array: Array, first: int, size: int, out: Array) -> None:
+def select_elements(array: Array, first: int, size: int, out: Array) -> None:
     """Set `out` to elements of an array."""
     for i in range(size):
         out[i] = array[first + i]
@@ -104,9 +104,9 @@ def run_rows(
         if code == abi.DONE:
             begin_run(state, chunk.limits)
             take_row(system, r)
-            take(chunk.ys, r * ny, ny, state.y)
-            take(chunk.ps, r * n_p, n_p, state.p)
-            take(chunk.ws, r * nw, nw, state.w)
+            select_elements(chunk.ys, r * ny, ny, state.y)
+            select_elements(chunk.ps, r * n_p, n_p, state.p)
+            select_elements(chunk.ws, r * nw, nw, state.w)
             forget_run(model, state)
             code = begin_choice(model, span, state)
             if code == abi.DONE:
@@ -153,7 +153,7 @@ def hold_between_seams(system: System, span: Span, chunk: RowChunk, r: int, stat
     control, n_p = state.control, state.p.shape[0]
     if k == 0:
         control[abi.PASSED] = 0
-        take(chunk.ps, r * n_p, n_p, state.p)
+        select_elements(chunk.ps, r * n_p, n_p, state.p)
     passed = parameters_at(seams, span, prepare, prepare_law, times[k], control[abi.PASSED], state.p)
     control[abi.PASSED] = passed
 

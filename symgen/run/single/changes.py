@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
-from symgen.compile.loopcode.entry import direct
+from symgen.compile.loopcode.entry import bind_arguments
 from symgen.compile.loopcode.exact import plain_form
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
@@ -260,10 +260,10 @@ class Changes:
     def _preparing(self) -> tuple[Callable[..., Any], ...]:
         """``prepare`` of model and law, on the parameters of the run."""
         modules = self.simulation.compiled.model, self.simulation.compiled.law_module
-        return tuple(direct(module.prepare, e.PREPARE, self.simulation.state.p) for module in modules)
+        return tuple(bind_arguments(module.prepare, e.PREPARE, self.simulation.state.p) for module in modules)
 
     @cached_property
     def _functions(self) -> tuple[Callable[..., Any], Callable[..., Any]]:
         """``masses`` and ``geometry`` on the arrays of the run; the latter takes the time."""
         (y, p, w), model = self.simulation.state[:3], self.simulation.compiled.model
-        return direct(model.masses, abi.MOVE, p, w), direct(model.geometry, abi.MEASURE, 0.0, y, p, w)
+        return bind_arguments(model.masses, abi.MOVE, p, w), bind_arguments(model.geometry, abi.MEASURE, 0.0, y, p, w)

@@ -70,7 +70,7 @@ def warnings_of(
     names = {quantity.name for quantity in info.coordinates}
     limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED, "1": 0.5 * decisions.FAR_TURNED}
     far = [c for c in changes if c.name in names and abs(c.after - c.before) > limits[c.unit]]
-    moves, bodies = ([_listed(far)] if far else []), {c.name.rpartition(".")[0] for c in far}
+    moves, bodies = ([_list_changes(far)] if far else []), {c.name.rpartition(".")[0] for c in far}
     for name, size, unit in moved:  # of each body the coordinates, or else the first of its points
         if size > limits[unit] and name.partition(".")[0] not in bodies:
             bodies.add(name.partition(".")[0])
@@ -87,10 +87,10 @@ def notes_of(held: Held, summary: Array, changes: Sequence[StartChange], info: M
     positions = [change for change in changes if change.name in names]
     if held.coordinates or held.joints:
         own = {info.coordinates[i].name for i in held.coordinates}
-        follow = _listed([change for change in positions if change.name not in own])
+        follow = _list_changes([change for change in positions if change.name not in own])
         notes.append(f"the start holds {held.positions(info)}" + (f"; {follow}" if follow else ""))
     elif positions:
-        notes.append(f"initial positions were closed by the shortest changes: {_listed(positions)}")
+        notes.append(f"initial positions were closed by the shortest changes: {_list_changes(positions)}")
     if summary[e.START_VELOCITIES]:
         speeds = (change for change in changes if change.name not in names)
         largest = max(speeds, key=lambda change: abs(change.after - change.before), default=None)
@@ -106,7 +106,7 @@ def opposite_sentence(joint: str) -> str:
     return f"the axes of joint '{joint}' point opposite ways at the start: they are taken for one line"
 
 
-def _listed(changes: Sequence[StartChange]) -> str:
+def _list_changes(changes: Sequence[StartChange]) -> str:
     """Return the first changes one by one, and the number of others."""
     first = fit_lines(len(changes), _LISTED)
     words = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:first])

@@ -19,7 +19,7 @@ from symgen.run.layout.model_arrays import joints_of_rows
 from symgen.run.layout.start_records import Instant, StartConditions
 from symgen.run.loops.integrator import Integrator
 from symgen.run.planning.tree import places_of_turns
-from symgen.run.planning.tree_starts import carried_of
+from symgen.run.planning.tree_starts import map_to_tree
 from symgen.run.single.new_state import span_of
 from symgen.run.starts.assembler import Assembly
 from symgen.study.ensemble.chunks import Chunk, Results, Rows
@@ -184,7 +184,7 @@ class RowKernel:
         other, tree = (None if module is None else module.load() for module in (code.other, code.tree))
         own, on_tree = tree or compiled, None
         if watch is not None and recipe.tree is not None:
-            on_tree = recipe.tree, carried_of(watch.mechanism, recipe.tree, compiled, own)
+            on_tree = recipe.tree, map_to_tree(watch.mechanism, recipe.tree, compiled, own)
         setup = integrator.setup(own, spec, own.scratch())
         if other is not None and recipe.target == "cuda":
             need, span = kernel_sizes(other, setup, spec.adaptive, recipe.sources), span_of(spec, setup)

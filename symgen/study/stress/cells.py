@@ -28,7 +28,7 @@ from symgen.run.compiling.method_choice import choice_for_coordinates
 from symgen.run.compiling.pipeline import straight_alone
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
-from symgen.run.loops.integrator import adapts
+from symgen.run.loops.integrator import chooses_steps
 from symgen.run.planning.automatic import AUTO
 from symgen.run.planning.options import split_options
 from symgen.run.planning.prepare import find_preparation
@@ -191,7 +191,7 @@ def _is_adaptive(integrator: str, options: Mapping[str, str | float]) -> bool:
     """Whether a run chooses its own first step."""
     if integrator == AUTO:
         return True
-    return adapts(INTEGRATORS.get(integrator, "integrator"), options)
+    return chooses_steps(INTEGRATORS.get(integrator, "integrator"), options)
 
 
 def _choose_shape(mechanism: Mechanism, settings: Settings) -> Settings:

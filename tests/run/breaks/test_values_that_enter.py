@@ -78,7 +78,7 @@ def searched(monkeypatch: pytest.MonkeyPatch) -> Iterator[Counter[str]]:
         return at(self, e, t)
 
     monkeypatch.setattr(Passing, "_found", counted)
-    monkeypatch.setattr(InTime, "at", looked)
+    monkeypatch.setattr(InTime, "value_at", looked)
     yield count
 
 

@@ -16,7 +16,7 @@ from symgen.compile.loopcode.exact import plain_form
 from symgen.describe import MechanismBuilder
 from symgen.run.layout.redundancy import choose_rows, farthest_row
 from symgen.run.planning.prepare import prepare
-from symgen.run.planning.tree_starts import carried_of
+from symgen.run.planning.tree_starts import map_to_tree
 from symgen.run.starts.assembler import ALONE, as_one_row
 from tests.verification.running import DEFECTS, off, raw, reference
 
@@ -117,7 +117,7 @@ def test_rows_of_which_rounding_is_left_stand_for_none() -> None:
     model = symgen.load(DEFECTS / "flat_loop.toml")
     run = prepare(model.mechanism, settings).tree
     compiled, start = run.compiled, run.start
-    carried, bodies = carried_of(run.whole, run.mechanism, run.bodies, compiled), run.body_start
+    carried, bodies = map_to_tree(run.whole, run.mechanism, run.bodies, compiled), run.body_start
     rng = np.random.default_rng(5)
     for _ in range(100):  # as other processors may round
         y, nq, w = bodies.y.copy(), run.bodies.info.nq, compiled.scratch()

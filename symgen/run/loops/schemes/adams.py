@@ -50,7 +50,7 @@ def lagrange_integrals(
 
 
 @called
-def classical(system: ModelSystem, run: Run, t: float, h: float, stage: Array, rate: Array) -> int:
+def classical_step(system: ModelSystem, run: Run, t: float, h: float, stage: Array, rate: Array) -> int:
     """Set ``run.trial`` by one step of the classical Runge-Kutta scheme; return its evaluations."""
     width, y, out = system.sizes.width, run.y, run.trial
     for i in range(width):  # the newest derivative is the first
@@ -124,7 +124,7 @@ def attempt(
             spare = part(run.room, 2 * width, width)
             run.control[abi.EVALUATIONS] += extrapolated_step(system, run, t, h, predicted, rate, spare)
         else:
-            run.control[abi.EVALUATIONS] += classical(system, run, t, h, predicted, rate)
+            run.control[abi.EVALUATIONS] += classical_step(system, run, t, h, predicted, rate)
         return 0.0
     coefficients = part(run.room, 3 * width, 2 * DEPTH)
     times = part(run.room, 3 * width + 2 * DEPTH, DEPTH + 1)
