@@ -26,7 +26,7 @@ from symgen.api import load
 from symgen.compile.native import types
 from symgen.compile.native.c99 import c_functions
 from symgen.compile.store.jit import jit
-from symgen.run.compiling.checked import checked
+from symgen.run.compiling.checked import check_kernels
 from symgen.run.layout import abi
 
 #: As the README of the C target has it, and with the liberty that emitted code has.
@@ -71,7 +71,7 @@ def compare(model: str, flags: tuple[str, ...]) -> tuple[float, float, list[floa
     mechanism = load(model)
     compiled = mechanism.compile("lagrange")
     start = mechanism.assemble(compiled)
-    function = checked(compiled, ("rhs",))["rhs"]
+    function = check_kernels(compiled, ("rhs",))["rhs"]
     y, p, w = start.y.copy(), start.p.copy(), start.w.copy()
     iw, ydot = np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros_like(y)
     with tempfile.TemporaryDirectory() as folder:

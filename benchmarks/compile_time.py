@@ -23,7 +23,7 @@ from benchmarks.against_gcc import _repeat_emitted
 from benchmarks.trees import Limb, limb_of, mechanism
 from symgen.api import Model
 from symgen.compile.native import machine
-from symgen.run.compiling.choices import on_tree, operations
+from symgen.run.compiling.choices import count_rhs_operations, mechanism_on_tree
 from symgen.run.compiling.method_choice import choose_method
 from symgen.run.compiling.pipeline import compile_model
 from symgen.run.layout import abi
@@ -56,7 +56,7 @@ def measured(links: int, longest: int, turns: int) -> tuple[int, float, list[flo
 def one(links: int, longest: int, turns: int) -> None:
     """Print what `measured` returns."""
     machine.LARGEST_BLOCK = longest or machine.LARGEST_BLOCK
-    carried = on_tree(mechanism(f"chain-{links}", chain(links)))
+    carried = mechanism_on_tree(mechanism(f"chain-{links}", chain(links)))
     model = compile_model(carried, choose_method("lagrange"))
     p = model.parameter_array(Model(carried).parameters(), {})
     y = np.linspace(0.1, 0.9, model.info.ny)
@@ -65,7 +65,7 @@ def one(links: int, longest: int, turns: int) -> None:
     repeat: Any = _repeat_emitted
     began = time.process_time()
     Ready(model.law_module.rhs, abi.RHS)(0.0, *arrays)
-    seconds, count, seconds_of_parts = time.process_time() - began, operations(carried), list[float]()
+    seconds, count, seconds_of_parts = time.process_time() - began, count_rhs_operations(carried), list[float]()
     calls = max(200, int(4e6 / count))
     for _ in range(turns):
         start = time.perf_counter()

@@ -28,7 +28,7 @@ from symgen.derive.lower.plans import cheapest_plan, closing_plan
 from symgen.derive.methods import METHODS
 from symgen.describe.mechanism import Mechanism
 from symgen.result.points import Points
-from symgen.run.compiling.choices import on_tree
+from symgen.run.compiling.choices import mechanism_on_tree
 from symgen.run.compiling.closing import free_velocities
 
 MODELS = (
@@ -106,7 +106,7 @@ def table(times: bool = False) -> PageTable:
 
     def cells(name: str) -> Iterator[str]:
         model = symgen.load(name)
-        counts = operations(model.mechanism), operations(on_tree(model.mechanism))
+        counts = operations(model.mechanism), operations(mechanism_on_tree(model.mechanism))
         yield f"{counts[0][0]} / {counts[1][0]}"
         yield f"{counts[0][1]} / {counts[1][1]}"
         if not times:

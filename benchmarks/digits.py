@@ -28,7 +28,7 @@ from symgen import Settings
 from symgen.base.ir.numerics import SKIP
 from symgen.base.ir.program import COUNTERS
 from symgen.describe.catalogue import all_names
-from symgen.run.compiling.choices import on_tree
+from symgen.run.compiling.choices import mechanism_on_tree
 from symgen.run.compiling.method_choice import choose_method
 from symgen.run.compiling.pipeline import compile_model
 from symgen.run.layout import abi
@@ -88,7 +88,7 @@ class Equations:
         law, self.info = self.compiled.law_module, self.compiled.info
         self.rates, self.confirm = (Ready(function, abi.RHS) for function in rate_functions(law))
         self.accept = Ready(law.accept, abi.ACCEPT)
-        described = on_tree(mechanism) if coordinates == "joint" else mechanism
+        described = mechanism_on_tree(mechanism) if coordinates == "joint" else mechanism
         self.form = form = compile_model(described, choose_method("lagrange", {}, True))
         self.residual, self.tangent = as_plain(form.law_module.residual), as_plain(form.law_module.tangent)
         self.p = form.parameter_array({x.name: run.start.p[i] for i, x in enumerate(self.info.parameters)}, {})

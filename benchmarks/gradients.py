@@ -117,7 +117,7 @@ def adjoint(name: str, coordinates: str, method: str, pairs: int) -> list[str]:
         pairs,
         run.integrate,
         lambda: run_for_adjoint(*arguments, pages=pages),
-        lambda: last.back(end, seeds),
+        lambda: last.derivatives_by_start(end, seeds),
         lambda: objective(objective.x0 * (1.0 + 1e-15 * next(following))),
         lambda: whole.simulate(ending),
     )

@@ -25,7 +25,7 @@ from symgen.derive.lower.law import lower_law
 from symgen.derive.lower.model import lower_model
 from symgen.derive.lower.plans import cheapest_plan, closing_plan
 from symgen.derive.methods import METHODS
-from symgen.run.compiling.choices import on_tree
+from symgen.run.compiling.choices import mechanism_on_tree
 from symgen.run.compiling.closing import free_velocities
 
 MODELS = (
@@ -54,7 +54,7 @@ def rows(names: tuple[str, ...], casadi: bool) -> Iterator[list[str]]:
         from benchmarks.peers.casadi_graph import shared_by_casadi
     for name in names:
         mechanism = symgen.load(name).mechanism
-        for coordinates, described in (("bodies", mechanism), ("joints", on_tree(mechanism))):
+        for coordinates, described in (("bodies", mechanism), ("joints", mechanism_on_tree(mechanism))):
             equations = formulate(described)
             plan = cheapest_plan(equations)
             old, new = blocks(equations, EliminationPlan()), blocks(equations, plan, free_velocities(described))

@@ -32,7 +32,7 @@ from symgen.derive.lower.law import lower_law
 from symgen.derive.lower.model import lower_model
 from symgen.derive.methods import METHODS
 from symgen.describe.mechanism import Mechanism
-from symgen.run.compiling.choices import on_tree
+from symgen.run.compiling.choices import mechanism_on_tree
 from symgen.run.layout import abi
 from symgen.run.planning.prepare import prepare
 from symgen.run.planning.tree import TreeRun
@@ -371,7 +371,7 @@ def main() -> None:
             if built is not None:
                 others = [of_pinocchio(built, limbs, state) for state in states]
                 line += f", Pinocchio {max(worst(a, b) for a, b in zip(ours, others, strict=True)):.1e}"
-            operations, timings = times(on_tree(described), run, built, Path(folder))
+            operations, timings = times(mechanism_on_tree(described), run, built, Path(folder))
         print(f"{line} (relative, {count} states); {operations} operations")
         print("   " + ", ".join(f"{key} {min(x) * 1e9:.0f} ns" for key, x in timings.items() if x))
         if built is not None:

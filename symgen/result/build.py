@@ -18,11 +18,11 @@ from symgen.result.reactions import Forces, seats_of_reactions
 from symgen.result.result import FAILED, UNVERIFIED, Rank, Result, Seconds
 from symgen.run.layout import abi
 from symgen.run.planning.automatic import stiff_by_steps
-from symgen.run.planning.continuation import made_of
+from symgen.run.planning.continuation import settings_as_json
 from symgen.run.planning.dead_centre import dead_centre_at_end
 from symgen.run.planning.tree import CarriedOutcome
 from symgen.run.planning.undefined import undefined_at_end
-from symgen.run.single.events import brought_to_rest, record_of, stopped, struck_at_once
+from symgen.run.single.events import impact_notes, record_of, rest_notes, stop_notes
 from symgen.run.single.last_state import LastState
 from symgen.run.single.simulation import SHOWN
 
@@ -75,7 +75,7 @@ def build_result(
         *_warnings_of_dense_factorisation(compiled, outcome),
         *stiff,
     )
-    notes = (*notes, *verdict.notes, *brought_to_rest(outcome), *struck_at_once(outcome), *stopped(outcome))
+    notes = (*notes, *verdict.notes, *rest_notes(outcome), *impact_notes(outcome), *stop_notes(outcome))
     states, status = outcome.states, outcome.status_columns
     q, v = info.parts(states)
     kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], states[:, info.work]
@@ -176,7 +176,7 @@ def _last_state(run: Prepared, outcome: Outcome) -> LastState:
         work_before=start.work,
         windings=tuple(w[abi.WINDING : abi.WINDING + info.windings].tolist()),
         rank=start.rank,
-        made=made_of(run.compiled, run.plan, run.spec),
+        made=settings_as_json(run.compiled, run.plan, run.spec),
         failed="" if whole else outcome.reason,
         arrays=arrays,
         states=dict(zip((x.name for x in info.states), own, strict=True)) or None,

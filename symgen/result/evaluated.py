@@ -15,7 +15,7 @@ from symgen.describe.parts.event_sections import STOP
 from symgen.result.step_errors import rounding_sizes
 from symgen.run.directions.directed_model import DirectedModel
 from symgen.run.directions.directed_observer import Observer
-from symgen.run.directions.directions import Course, DirectedPart
+from symgen.run.directions.directions import DirectedCourse, DirectedPart
 from symgen.run.layout import abi
 from symgen.run.modes.bounded_rows import CONSTANT, HELD, SIGN
 from symgen.run.planning.prepare import Prepared
@@ -55,7 +55,7 @@ class Evaluated:
 
     run: Prepared
     start: SeedsOfParameters
-    course: Course
+    course: DirectedCourse
 
     @cached_property
     def observers(self) -> tuple[Observer, ...]:
@@ -76,7 +76,9 @@ class Evaluated:
         tree = self.run.tree
         assert tree is not None, "the state is that of joints"
         info, own, lanes = tree.bodies.info, part.model.plain.info, part.model.lanes
-        values, slopes = self._motion_of_part(part).observed(tree.compiled.model.bodies, info.nq + 2 * info.nv)
+        values, slopes = self._motion_of_part(part).observe_directions(
+            tree.compiled.model.bodies, info.nq + 2 * info.nv
+        )
         model, k = DirectedModel(tree.bodies, lanes), len(values)
         states, directions = np.zeros((k, info.ny)), np.zeros((k, info.ny, lanes))
         states[:, : info.work], directions[:, : info.work] = values[:, : info.work], slopes[:, : info.work]
@@ -99,7 +101,7 @@ class Evaluated:
     def _motion(self) -> Outcome:
         """The outcome as the motion of bodies that joints carry."""
         assert self.run.tree is not None, "the state is that of joints"
-        return self.run.tree.carried(self.course.outcome)
+        return self.run.tree.carry_outcome(self.course.outcome)
 
     @cached_property
     def _parameters(self) -> Array:
@@ -113,15 +115,15 @@ class Evaluated:
 
     def states(self) -> Array:
         """Return the directions of the states of bodies at the outputs, shape (k, ny, n)."""
-        return self.directions_side_by_side(lambda x: x.model.shadow(x.states, "y"))
+        return self.directions_side_by_side(lambda x: x.model.directions_after(x.states, "y"))
 
     def rates(self) -> Array:
         """Return the directions of the rates of these states."""
-        return self.directions_side_by_side(lambda x: x.model.shadow(x.rates[0], "y"))
+        return self.directions_side_by_side(lambda x: x.model.directions_after(x.rates[0], "y"))
 
     def function(self, function: object, length: int) -> Array:
         """Return the directions of a function of the motion of bodies, shape (k, length, n)."""
-        return self.directions_side_by_side(lambda x: x.observed(function, length)[1])
+        return self.directions_side_by_side(lambda x: x.observe_directions(function, length)[1])
 
     def directions_of_end(self) -> Array | None:
         """Return the directions of the time at which an event ended the run, shape (n,); None where none did."""
@@ -136,7 +138,7 @@ class Evaluated:
             windings = state.w[np.newaxis, abi.WINDING : abi.WINDING + info.kept]
             here = np.array([outcome.end]), state.y[np.newaxis, : info.ny], windings
             observer = Observer(part.model, *here, ((np.inf, state.p),), state.w)
-            values, slopes = observer.observed(watched.function, 3 * count)
+            values, slopes = observer.observe_directions(watched.function, 3 * count)
             # at an event that grazes, its time has no derivative
             with np.errstate(divide="ignore", invalid="ignore"):
                 parts.append(-slopes[0, at] / values[0, count + at])
@@ -162,8 +164,10 @@ class Evaluated:
         parts = [(part.model, self._motion_of_part(part)) for part in self.course.parts]
         gaps, first, least = list[Array](), 0, rounding_sizes(self)[:, 0]
         for model, observer in parts:
-            sizes = np.abs(model.shadow(observer.states, "y")[:, : model.plain.info.nq]).max(axis=(0, 1), initial=0.0)
-            largest = observer.violations().max(axis=0, initial=0.0)
+            sizes = np.abs(model.directions_after(observer.states, "y")[:, : model.plain.info.nq]).max(
+                axis=(0, 1), initial=0.0
+            )
+            largest = observer.violations_of_directions().max(axis=0, initial=0.0)
             own = np.zeros_like(largest)
             own[: len(least) - first] = least[first : first + model.lanes]
             gaps.append(np.where(largest > own, largest / np.where(sizes > 0.0, sizes, 1.0), 0.0))

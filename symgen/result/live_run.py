@@ -81,7 +81,7 @@ def _live_part_on_tree(run: Prepared, tree: TreeRun, step: float, initial: Array
     from symgen.run.planning.plan import Purpose
     from symgen.run.planning.prepare import prepare
     from symgen.run.planning.start_lines import exported_start
-    from symgen.run.planning.tree_starts import begin_on_tree, carried_of
+    from symgen.run.planning.tree_starts import begin_on_tree, map_to_tree
 
     mechanism, settings, start = run.plan.mechanism, run.plan.settings, run.start
     values, moving, info = parameter_values(mechanism, run.plan.parameters), list[str](), run.compiled.info
@@ -102,7 +102,7 @@ def _live_part_on_tree(run: Prepared, tree: TreeRun, step: float, initial: Array
     if initial is not None:
         y = np.concatenate([initial, tree.body_start.y[len(initial) :]])
         of_bodies = replace(tree.body_start, y=y)
-        carried = carried_of(mechanism, tree.mechanism, tree.bodies, tree.compiled)
+        carried = map_to_tree(mechanism, tree.mechanism, tree.bodies, tree.compiled)
         start = begin_on_tree(mechanism, tree.mechanism, carried, of_bodies, run.plan.method_parameters).start
     live, note = live_part(mechanism, run.compiled, start, step, still=moving, acting=run.mechanism, run=run)
     if live is not None and moving:

@@ -70,7 +70,7 @@ class Measured:
         formulas = [(column.name, column.formula) for column in columns]
         compiled = self.outcome.compiled
         side = compile_side(self.mechanism, compiled, table, f"the table {table} of results", formulas)
-        return label_columns(self.outcome.observed(side.function, len(columns), self.multipliers()), columns)
+        return label_columns(self.outcome.observe_motion(side.function, len(columns), self.multipliers()), columns)
 
 
 class Tables(ABC):

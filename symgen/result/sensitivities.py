@@ -21,11 +21,11 @@ from symgen.result.labelled import Labelled
 from symgen.result.step_errors import DOUBTFUL, errors_of_steps
 from symgen.result.unmoved import unmoved_sentence
 from symgen.run.compiling.side import compile_side
-from symgen.run.directions.directions import Course, run_with_directions
+from symgen.run.directions.directions import DirectedCourse, run_with_directions
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.planning.directions import named_directions
 from symgen.run.planning.moving_breaks import with_moving_kinks
-from symgen.run.planning.prepare import Preparation, Prepared, preparation
+from symgen.run.planning.prepare import Preparation, Prepared, find_preparation
 from symgen.run.planning.start_directions import StartDirections
 
 if TYPE_CHECKING:
@@ -67,10 +67,10 @@ def prepare_for_directions(mechanism: Mechanism, settings: Settings) -> tuple[Pr
     elif settings.shape == "looped":
         raise InputError("sensitivities", "code of the shape 'straight'", "shape 'looped'")
     usual = settings.integrator or mechanism.defaults.integrator
-    ready = preparation(mechanism, settings)
+    ready = find_preparation(mechanism, settings)
     name, forms = ready.plan.integrator.name, ready.plan.choice.method.forms
     if name not in SCHEMES and usual in (None, "auto") and "ode" in forms:
-        ready = preparation(mechanism, replace(settings, integrator=SCHEMES[0]))
+        ready = find_preparation(mechanism, replace(settings, integrator=SCHEMES[0]))
         notes.append(f"{SCHEMES[0]} in place of {name}, which has no sensitivities")
         name = SCHEMES[0]
     if name not in SCHEMES:
@@ -118,7 +118,7 @@ class Differentiated:
         self.directions = named_directions(run, names)
         self._start = StartDirections(run, self.directions)
         self.run = with_moving_kinks(run, self._start)
-        self._course: Course | None = None
+        self._course: DirectedCourse | None = None
 
     def integrate(self, progress: Callable[[float], None] | None = None) -> Outcome:
         """Integrate with directions, and return the outcome as of a run without them."""

@@ -155,7 +155,7 @@ def test_what_no_start_closes_settles_alike_in_all_units(monkeypatch):
         pull = [0.0, -rods.GRAVITY * length]
         return rods.model({"link": link}, {"pin": pin}, gravity=pull, forces=forces).equilibrium()
 
-    monkeypatch.setattr("symgen.run.planning.prepare.begun", no_start)
+    monkeypatch.setattr("symgen.run.planning.prepare.begin_start", no_start)
     usual = found(1.0)
     for power in (-20, -10, 12):
         other = found(2.0**power)

@@ -156,7 +156,7 @@ def test_why_there_is_no_reference_is_kept_for_those_who_go_on(cli, tmp_path, mo
         code, out, err = cli(*arguments)
         assert code == 1 and words in err and json.loads(out)["reference"]["note"] == words
         assert "Start changed" in report.read_text() and "bob.vy = 0.5" in report.read_text()
-        monkeypatch.setattr(module, "timed", none)  # nothing is run again
+        monkeypatch.setattr(module, "time_runs", none)  # nothing is run again
 
 
 def test_the_sketch_at_the_head_of_a_report_is_where_runs_begin():

@@ -263,7 +263,7 @@ def test_auto_takes_large_mechanisms_without_their_eigenvalues(monkeypatch):
     def refused(*_):
         raise AssertionError("eigenvalues of a large mechanism were asked for")
 
-    monkeypatch.setattr(automatic, "linearised", refused)
+    monkeypatch.setattr(automatic, "linearise_start", refused)
     plan = make_plan(load("n-four-bar:60").mechanism, Settings(method="auto", integrator="auto"))
     assert (plan.settings.method, plan.settings.integrator) == ("direct-correction", "dop853")
     assert "with 1088 unknowns a stage, stiffness was not tested" in plan.notes[-1]

@@ -135,7 +135,7 @@ def test_what_is_wrong_is_refused_before_anything_runs(arguments, sentence, monk
     def never(*_, **__):
         raise AssertionError("something was run")
 
-    monkeypatch.setattr(module, "timed", never)
+    monkeypatch.setattr(module, "time_runs", never)
     monkeypatch.setattr(module, "reference_motion", never)
     with pytest.raises(InputError) as caught:
         symgen.compare("four-bar", **arguments)
@@ -318,10 +318,10 @@ def test_curves_go_with_their_rows(study):
 def test_a_journal_gives_rows_back_and_computes_only_what_is_missing(tmp_path, monkeypatch):
     arguments = {"methods": ["lagrange", "direct-correction"], "integrators": ["rk4"], "steps": [2e-2, 1e-2]}
     path = tmp_path / "rows.journal"
-    real, calls = module.timed, []
+    real, calls = module.time_runs, []
     with Journal(path) as journal:
         first = symgen.compare("pendulum", **arguments, until=0.5, repeat=1, journal=journal)
-    monkeypatch.setattr(module, "timed", lambda *a: calls.append(1) or real(*a))
+    monkeypatch.setattr(module, "time_runs", lambda *a: calls.append(1) or real(*a))
     monkeypatch.setattr(module, "reference_motion", None)  # it is in the journal as well
     arguments["steps"] = [2e-2, 1e-2, 5e-3]
     with Journal(path) as journal:
@@ -378,7 +378,7 @@ def test_without_a_reference_rows_stay_and_the_study_says_why(monkeypatch):
 
 
 def test_several_models_are_checked_before_anything_runs(monkeypatch):
-    monkeypatch.setattr(module, "timed", None)
+    monkeypatch.setattr(module, "time_runs", None)
     with pytest.raises(InputError, match="did you mean 'four-bar'"):
         whole.compare_all(["pendulum", "four-bra"], symgen.Settings(until=0.1), Combinations())
 

@@ -17,7 +17,7 @@ from symgen.compile.store.emitted import CodeOrigin, EmittedFunction, import_lib
 from symgen.compile.store.identity import combined_digest
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
-from symgen.run.compiling.method_choice import choose_method, for_coordinates
+from symgen.run.compiling.method_choice import choice_for_coordinates, choose_method
 from symgen.run.compiling.pipeline import generate
 from symgen.run.layout.compiled import ModelInfo
 
@@ -85,7 +85,7 @@ class Emitted:
     """
 
     def __init__(self, mechanism: Mechanism, method: str = "lagrange", options=None, compiled: bool = False) -> None:
-        choice = for_coordinates(mechanism, choose_method(method, options))
+        choice = choice_for_coordinates(mechanism, choose_method(method, options))
         self.generated, self.compiled = generate(mechanism, (choice,)), compiled
         package = types.ModuleType(f"emitted_{next(_counter)}")
         package.__path__ = []

@@ -10,8 +10,8 @@ from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS
 from symgen.describe.files.load import load_mechanism
 from symgen.describe.mechanism import Mechanism
-from symgen.run.compiling.choices import on_tree
-from symgen.run.compiling.closing import at_start
+from symgen.run.compiling.choices import mechanism_on_tree
+from symgen.run.compiling.closing import choice_at_start
 from symgen.run.compiling.looped import LoopedStages
 from symgen.run.compiling.method_choice import MethodChoice, choose_method
 from symgen.run.compiling.pipeline import generate, generate_in_stages
@@ -38,7 +38,7 @@ def folder(model: str) -> str:
 def described(model: str) -> Mechanism:
     """Return a mechanism, on its tree where its name says so."""
     name, _, coordinates = model.partition(" ")
-    return on_tree(load_mechanism(name)) if coordinates == "joint" else load_mechanism(name)
+    return mechanism_on_tree(load_mechanism(name)) if coordinates == "joint" else load_mechanism(name)
 
 
 def choices(model: str) -> tuple[MethodChoice, ...]:
@@ -84,12 +84,14 @@ def looped_choices(model: str) -> list[MethodChoice]:
 def emitted(model: str, whole: bool = True) -> dict[str, str]:
     """Return stem -> source of straight code for all targets."""
     mechanism = described(model)
-    made = dict(generate(mechanism, tuple(at_start(mechanism, each) for each in choices(model)), whole=whole).modules)
+    made = dict(
+        generate(mechanism, tuple(choice_at_start(mechanism, each) for each in choices(model)), whole=whole).modules
+    )
     if model in OTHER_TARGETS:
         core = tuple(choose_method(name) for name in CORE)
         for target in ("cuda", "lanes"):
             mechanism = load_mechanism(model)
-            closed = tuple(at_start(mechanism, choice) for choice in core)
+            closed = tuple(choice_at_start(mechanism, choice) for choice in core)
             made |= generate(mechanism, closed, target=target, whole=whole).modules
     # the free velocities of closed loops are named in the cache alone
     return {re.sub(r"(_f\d+)+(?=_lanes|_cuda|$)", "", stem): source for stem, (source, _) in made.items()}

@@ -9,13 +9,13 @@ import numpy as np
 
 from symgen.base.errors import InputError, suggest
 from symgen.base.ir.numerics import SKIP
-from symgen.compile.loopcode.entry import direct
+from symgen.compile.loopcode.entry import bind_arguments
 from symgen.compile.loopcode.exact import compiled_form
 from symgen.run.layout import abi
-from symgen.run.layout.redundancy import choose_rows, farthest, room_of_choice
+from symgen.run.layout.redundancy import choose_rows, farthest_row, room_of_choice
 from symgen.run.loops.watch import remember_rank
 from symgen.run.modes.choice import look_anew
-from symgen.run.starts.assembler import layout_of
+from symgen.run.starts.assembler import layout_of_starts
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import Array, CompiledModel
@@ -72,7 +72,7 @@ def begin_in_modes(simulation: Simulation) -> None:
 
 def _follow(compiled: CompiledModel, state: Any, now: float) -> bool:
     """Evaluate the geometry in new modes; return whether other redundant rows are left out."""
-    geometry = direct(compiled.model.geometry, abi.MEASURE, now, state.y, state.p, state.w)
+    geometry = bind_arguments(compiled.model.geometry, abi.MEASURE, now, state.y, state.p, state.w)
     geometry(now)
     changed = _choose(compiled, state.w)
     if changed:
@@ -85,11 +85,11 @@ def _choose(compiled: CompiledModel, w: Array) -> bool:
 
     Rows of too large mechanisms stay the same.
     """
-    info, layout, mask = compiled.info, layout_of(compiled), compiled.section(w, "mask")
+    info, layout, mask = compiled.info, layout_of_starts(compiled), compiled.section(w, "mask")
     room, before = np.zeros(room_of_choice(info.m, info.nv)), mask.copy()
     if not len(room):
         return False
-    rank = int(compiled_form(farthest)(layout, info.nv, info.m, SKIP, 1, w, room))
+    rank = int(compiled_form(farthest_row)(layout, info.nv, info.m, SKIP, 1, w, room))
     redundant = info.m - len(compiled.off(w)) - rank
     mask[:] = 0.0
     if redundant > 0:

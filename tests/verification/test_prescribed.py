@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from symgen.base.settings import Settings
-from symgen.run.compiling.choices import on_tree
+from symgen.run.compiling.choices import mechanism_on_tree
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare
 from verification.running import model_of, of_bodies, rates
@@ -174,7 +174,7 @@ def test_a_state_keeps_one_coordinate(tmp_path):
     raw["joints"] = {name: joint for name, joint in raw["joints"].items() if name in keep}
     raw["joints"]["shoulder_motor"] = driver("shoulder", "0.3 + 0.8*t")
     del raw["forces"]["spring"]
-    carried = on_tree(model_of(raw, tmp_path).mechanism)
+    carried = mechanism_on_tree(model_of(raw, tmp_path).mechanism)
     assert carried.topology is not None
     assert [x.driver for x in carried.topology.prescribed] == ["elbow_motor"]
     assert carried.topology.cut == ("shoulder_motor",)
@@ -185,7 +185,7 @@ def test_a_second_driver_of_a_coordinate_keeps_its_row(tmp_path):
     raw = planar(False)
     raw["joints"]["again"] = driver("elbow", "0.5 + 0.7*t + 0.3*t**2")
     model = model_of(raw, tmp_path)
-    carried = on_tree(model.mechanism)
+    carried = mechanism_on_tree(model.mechanism)
     assert carried.topology is not None
     assert "again" in carried.topology.cut
     result = model.simulate(method="direct-correction", coordinates="joint", until=0.05, step=1e-3)

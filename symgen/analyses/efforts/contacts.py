@@ -91,7 +91,7 @@ class Contacts:
         for stop in self.stops:
             formulas += [stop.place, (f"rate of {stop.name}", measure_derivative(stop))]
         side = compile_side(mechanism, motion.compiled, "bounds", "places of rows with bounds", formulas)
-        columns = iter(motion.observed(side.function, len(formulas)).T)
+        columns = iter(motion.observe_motion(side.function, len(formulas)).T)
         names, reactions = [row.name for row in motion.compiled.info.rows], list[Reaction]()
         for row in self.sliding:
             factor, rows = next(columns), [names.index(name) for name in row.pressed]

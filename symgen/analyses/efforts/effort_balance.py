@@ -27,7 +27,7 @@ from symgen.run.compiling.side import compile_side
 from symgen.run.layout import abi
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import make_plan
-from symgen.run.planning.starts import closed_by, compiled_for
+from symgen.run.planning.starts import close_with_light_bodies, compiled_for
 from symgen.run.single.outcome import PrescribedMotion
 from symgen.run.starts.assembly import assemble
 
@@ -119,7 +119,7 @@ def balance_efforts(
     rates = np.zeros((len(motion.times), 0))
     if formulas:
         side = compile_side(mechanism, motion.compiled, "rates", "rates of what actuators work along", formulas)
-        rates = motion.observed(side.function, len(formulas))
+        rates = motion.observe_motion(side.function, len(formulas))
     notes, rank = found, int(ranks.max(initial=0))
     if rank < count:
         how = "weighted as asked" if weights else "torques over the mechanism's length"
@@ -198,7 +198,7 @@ def _motions_with_unit_efforts(
         p = compiled.parameter_array(values, plan.method_parameters)
         return assemble(compiled, q[0].copy(), list(v[0]), p, False, None, ask_light, None, instant, datum)
 
-    compiled, start = closed_by(plan, code, close_start)
+    compiled, start = close_with_light_bodies(plan, code, close_start)
     states = np.zeros((len(record.t), info.ny))
     states[:, : info.nq], states[:, info.nq : info.work] = q, v
     states[:, info.own_states] = record.table([x.name for x in info.states])
@@ -217,7 +217,7 @@ def _motions_with_unit_efforts(
         w=start.w,
         prescribed_accelerations=a,
     )
-    still = replace(still, status_columns=still.measured())
+    still = replace(still, status_columns=still.measure_motion())
     places = {parameter.name: i for i, parameter in enumerate(info.parameters)}
 
     def parameters_with_effort(parameter: str, value: float) -> PrescribedMotion:

@@ -19,8 +19,8 @@ from symgen.result.build import build_result
 from symgen.result.evaluated import Evaluated
 from symgen.result.sensitivities import Sensitivities, doubt_of_motion, place_of_column, prepare_for_directions
 from symgen.run.directions.adjoint import Adjoint, run_for_adjoint
-from symgen.run.directions.directed_model import DirectedModel, Seeds, lanes_of
-from symgen.run.directions.directions import Course, DirectedPart, run_with_directions
+from symgen.run.directions.directed_model import DirectedModel, Seeds, lanes_for_directions
+from symgen.run.directions.directions import DirectedCourse, DirectedPart, run_with_directions
 from symgen.run.directions.kept_run import Uncovered
 from symgen.run.layout import abi
 from symgen.run.planning.directions import RunDirection, named_directions
@@ -46,7 +46,7 @@ MIXES = 4
 
 def is_cheaper(count: int) -> bool:
     """Whether the adjoint costs less than forward directions for a number of derivatives."""
-    lanes = lanes_of(count)
+    lanes = lanes_for_directions(count)
     return -(-count // lanes) * (1.0 + COST_OF_DIRECTION * lanes) > COST
 
 
@@ -76,19 +76,19 @@ class EndDirections:
         own = self.start.parameters(compiled)
         return np.hstack([own, np.zeros((len(own), self.compiled.info.ny))])
 
-    def course_of_run(self, adjoint: Adjoint) -> Course:
+    def course_of_run(self, adjoint: Adjoint) -> DirectedCourse:
         """Return the end of a run with these directions."""
         outcome, ny, n = adjoint.outcome, self.compiled.info.ny, self.start.count
         seeds = Seeds(np.hstack([np.zeros((ny, n)), np.eye(ny)]), self.parameters(self.compiled))
-        model, parts = DirectedModel(self.compiled, lanes_of(n + ny)), list[DirectedPart]()
+        model, parts = DirectedModel(self.compiled, lanes_for_directions(n + ny)), list[DirectedPart]()
         for first in range(0, seeds.count, model.lanes):
-            own = seeds.part(first, model.lanes)
+            own = seeds.seeds_of_part(first, model.lanes)
             p = model.parameters(outcome.p, own.p)
-            state = model.longer(outcome.states[-1], "y", own.y)
+            state = model.room_with_directions(outcome.states[-1], "y", own.y)
             parts.append(
                 DirectedPart(model, replace(outcome, states=state[np.newaxis], p=p, w=model.scratch(p, outcome.w)))
             )
-        return Course(outcome, tuple(parts), seeds.count)
+        return DirectedCourse(outcome, tuple(parts), seeds.count)
 
 
 @dataclass(frozen=True)
@@ -220,7 +220,7 @@ def adjoint_gradient(
     by, n = own.table(table)[-1, place], start.count
     began = time.perf_counter()
     seeds = start.seeds()
-    back, doubts = adjoint.back(by[n:], seeds)
+    back, doubts = adjoint.derivatives_by_start(by[n:], seeds)
     slopes = by[:n] + back
     seconds = adjoint.outcome.run_seconds + time.perf_counter() - began
     if not np.all(np.isfinite(slopes)):

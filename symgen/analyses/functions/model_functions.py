@@ -132,7 +132,7 @@ class Functions:
             return self._quantity_function("forward_dynamics", "accelerations")
         n, m = len(self.velocities), len(self.rows)
         return self._function_by_kernel(
-            "system", ("q", "v", "e"), (n, m, self._model.rank), projection.accelerations, (n,)
+            "system", ("q", "v", "e"), (n, m, self._model.rank), projection.project_accelerations, (n,)
         )
 
     @property
@@ -150,7 +150,7 @@ class Functions:
             return self._quantity_function("inverse_dynamics", "efforts")
         n, m = len(self.velocities), len(self.rows)
         return self._function_by_kernel(
-            "balance", ("q", "v", "a"), (n, m, self._model.rank, 0, 0), projection.efforts, (n,)
+            "balance", ("q", "v", "a"), (n, m, self._model.rank, 0, 0), projection.project_efforts, (n,)
         )
 
     def actuated(self, *names: str | Sequence[str]) -> ArrayFunction:
@@ -177,7 +177,7 @@ class Functions:
             raise InputError("actuated", "names of actuators, each once", ", ".join(listed) or "none")
         n, m, k = len(self.velocities), len(self.rows), len(chosen)
         sizes = (n, m, self._model.rank, k, 1)
-        return self._function_by_kernel("balance", ("q", "v", "a"), sizes, projection.efforts, (k,), chosen)
+        return self._function_by_kernel("balance", ("q", "v", "a"), sizes, projection.project_efforts, (k,), chosen)
 
     def _actuator_name(self, name: str) -> str:
         """Return the input, or the coordinate of a joint, that a name means."""
@@ -380,7 +380,7 @@ class Functions:
                 *(self.mechanism, lambda: self._derived, name, f"what {name} solves", vectors, make), actuators
             )
             function = inputs.with_kernel(
-                _NAMES[name], kernel, np.array(sizes, dtype=np.int64), projection.room(n, m, k), shape
+                _NAMES[name], kernel, np.array(sizes, dtype=np.int64), projection.projection_room(n, m, k), shape
             )
             self._functions[key] = ArrayFunction(function, self.p, self.values)
         return self._functions[key]

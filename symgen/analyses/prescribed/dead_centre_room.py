@@ -69,7 +69,7 @@ def room_to_dead_centre(
     if len(drivers) != 1 or not isinstance(row := drivers[0].rows[0], Holonomic):
         return ()
     in_time = InTime(mechanism, dict(parameters))
-    travel = np.array([in_time.at(row.value, float(t)) for t in times])
+    travel = np.array([in_time.value_at(row.value, float(t)) for t in times])
     low, high = float(travel.min()), float(travel.max())
     looked = high - low if row.unit != "rad" else 2.0 * math.pi - (high - low)
     if high <= low or looked <= _ROUNDING * (high - low):

@@ -266,7 +266,7 @@ def driven_motion(
         prescribed_accelerations=traced.accelerations,
     )
     if run.mechanism.states:
-        motion = replace(motion, status_columns=motion.measured())
+        motion = replace(motion, status_columns=motion.measure_motion())
     forces = Forces(motion, seats_of_reactions(run.mechanism, numbers))
     parameters = {name: x for name, x in numbers.items() if name not in run.mechanism.inputs}
     q, v = info.parts(traced.states)

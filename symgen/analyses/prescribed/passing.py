@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import KroghInterpolator
 
-from symgen.run.layout.model_arrays import velocity_of
+from symgen.run.layout.model_arrays import velocity_of_coordinate
 from symgen.run.planning.dead_centre import dead_centre
 
 if TYPE_CHECKING:
@@ -88,7 +88,7 @@ def coordinate_rates(info: ModelInfo, q: Array, v: Array) -> Array:
     rates = np.zeros(info.nq)
     spun = {first + k for first, _ in info.spins for k in range(4)}
     places = [i for i in range(info.nq) if i not in spun]
-    rates[places] = v[[velocity_of(i, info) for i in places]]
+    rates[places] = v[[velocity_of_coordinate(i, info) for i in places]]
     for first, at in info.spins:
         scalar, vector, w = q[first], q[first + 1 : first + 4], 0.5 * v[at : at + 3]
         rates[first], rates[first + 1 : first + 4] = -vector @ w, scalar * w + np.cross(vector, w)

@@ -24,7 +24,7 @@ from symgen.run.layout.probe import Ready
 from symgen.run.planning.dead_centre import DRIVER, jacobian_at
 from symgen.run.planning.inputs import put_inputs
 from symgen.run.planning.plan import Plan, Purpose
-from symgen.run.planning.prepare import preparation
+from symgen.run.planning.prepare import find_preparation
 from symgen.run.planning.starts import compiled_for, start_of
 
 if TYPE_CHECKING:
@@ -136,7 +136,7 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
     settings = replace(settings, method="lagrange", integrator=None, output_step=None, coordinates="absolute")
     placed = put_inputs(mechanism, settings)
     driven = without_history(placed.mechanism)
-    ready = preparation(driven, placed.settings, Purpose.STATE)
+    ready = find_preparation(driven, placed.settings, Purpose.STATE)
     near, words = nearest_branch(ready.plan, branch) if branch else (None, ())
     run = replace(ready, near=near).run()
     compiled, start = run.compiled, run.start

@@ -12,8 +12,8 @@ from symgen.analyses.prescribed.passing import Curve, Passage, coordinate_rates,
 from symgen.analyses.prescribed.prescribed import PrescribedRun
 from symgen.compile.loopcode.exact import compiled_form
 from symgen.run.layout import abi
-from symgen.run.layout.manifold import stay
-from symgen.run.layout.model_arrays import entries_of, lengths_of, velocity_of
+from symgen.run.layout.manifold import turn_nothing
+from symgen.run.layout.model_arrays import entries_of, marks_of_lengths, velocity_of_coordinate
 from symgen.run.layout.probe import Ready
 from symgen.run.loops import following as f
 from symgen.run.planning.dead_centre import free_and_held, jacobian_at
@@ -128,11 +128,15 @@ class Tracer:
         numbers = (info.nq, info.nv, info.m, info.ny, info.windings, *sections, len(start.redundant_rows), info.nv)
         scale = np.array([1.0 if v.unit == "rad/s" else 1.0 / length for v in info.velocities])
         self.spun = {i for first, _ in info.spins for i in range(first, first + 4)}
-        self.sizes = [1.0 / length if i in self.spun else scale[velocity_of(i, info)] for i in range(info.nq)]
-        coarse = float(np.abs(start.y[: info.nq] * lengths_of(info)).max(initial=0.0))  # what positions can resolve
+        self.sizes = [
+            1.0 / length if i in self.spun else scale[velocity_of_coordinate(i, info)] for i in range(info.nq)
+        ]
+        coarse = float(
+            np.abs(start.y[: info.nq] * marks_of_lengths(info)).max(initial=0.0)
+        )  # what positions can resolve
         tolerance = decisions.ROUNDING * max(length, coarse) * max(info.m, 1)
         self.course = f.Course._make((*numbers, tolerance, LEAST * self.span, *entries_of(info), scale))
-        move = model.move if info.nq != info.nv else compiled_form(stay)
+        move = model.move if info.nq != info.nv else compiled_form(turn_nothing)
         self.functions = model.geometry, model.measure, move, model.spread, model.observe
         self.control = np.zeros(abi.N_CONTROL, dtype=np.int64)
         rows = info.observed

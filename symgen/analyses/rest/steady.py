@@ -19,7 +19,7 @@ from symgen.analyses.state.reduced import StateQuantity, StateTangent, places_of
 from symgen.analyses.state.subject import RATE, Subject
 from symgen.base.errors import AnalysisError, InputError
 from symgen.base.ir.program import COUNTERS
-from symgen.run.layout.model_arrays import velocity_of
+from symgen.run.layout.model_arrays import velocity_of_coordinate
 from symgen.run.layout.probe import rate_function
 
 Array = NDArray[np.float64]
@@ -139,7 +139,7 @@ def _name_of_rate(subject: Subject, name: str) -> str | None:
     info = subject.compiled.info
     names = [q.name for q in info.coordinates]
     if name in names and names.index(name) not in subject.spun:
-        return info.velocities[velocity_of(names.index(name), info)].name
+        return info.velocities[velocity_of_coordinate(names.index(name), info)].name
     return name + RATE if _of_second_order(subject, name) else None
 
 

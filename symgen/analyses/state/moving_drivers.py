@@ -56,8 +56,8 @@ def _driver_formulas(mechanism: Mechanism) -> Iterator[tuple[str, Expr]]:
 def _has_rate(in_time: InTime, e: Expr, t: float, until: float) -> bool:
     """Return whether the rate of a formula is not 0; False where it is undefined."""
     h = _NEAR * until
-    rate = (in_time.at(e, t + h) - in_time.at(e, t - h)) / (2.0 * h)
-    samples = [in_time.at(e, t + until * k / (_SAMPLES - 1)) for k in range(_SAMPLES)]
+    rate = (in_time.value_at(e, t + h) - in_time.value_at(e, t - h)) / (2.0 * h)
+    samples = [in_time.value_at(e, t + until * k / (_SAMPLES - 1)) for k in range(_SAMPLES)]
     return abs(rate) > _SLOW * (max(samples) - min(samples)) / until
 
 

@@ -375,5 +375,5 @@ def put_inputs_at_start(mechanism: Mechanism, settings: Settings) -> Inputs:
     if isinstance(settings.start, Mapping) or (begin := settings.start.last_state.t) <= 0.0:
         return put_inputs(mechanism, settings)
     # a run from here on begins after what jumps here; smooth data may end here
-    inputs = put_inputs(mechanism, replace(settings, until=begin), behind=BEYOND)
+    inputs = put_inputs(mechanism, replace(settings, until=begin), beyond=BEYOND)
     return replace(inputs, settings=replace(inputs.settings, until=2.0 * begin))  # nothing is run

@@ -47,7 +47,7 @@ class ArgumentBlock:
 
     def __init__(self, function: MachineFunction, signature: types.Signature, arguments: tuple[Any, ...]) -> None:
         self._function, self._arguments, self._kinds = function, list(arguments), signature.arguments
-        self._call, self._places = _layout(signature)
+        self._call, self._places = _trampoline_of(signature)
         block: Any = np.zeros(self._places[-1], dtype=np.int64)
         self._block, self._address = block, block.ctypes.data
         self._ints: Any = memoryview(block)  # read and written faster than arrays are
@@ -137,7 +137,7 @@ def loop_entry(loop: object, arguments: tuple[Any, ...]) -> LoopEntry | None:
     return LoopEntry.of(loop, getattr(loop, "signature", None), arguments)
 
 
-def direct(function: Any, kind: types.FunctionType, *arguments: Any) -> Callable[..., Any]:
+def bind_arguments(function: Any, kind: types.FunctionType, *arguments: Any) -> Callable[..., Any]:
     """Return a function bound to arguments; the numbers it is called with replace the first ones.
 
     Parameters
@@ -162,7 +162,7 @@ def direct(function: Any, kind: types.FunctionType, *arguments: Any) -> Callable
 
 
 @functools.cache
-def _layout(signature: types.Signature) -> tuple[Callable[[int], Any], list[int]]:
+def _trampoline_of(signature: types.Signature) -> tuple[Callable[[int], Any], list[int]]:
     """Return the trampoline of functions of a signature, and the first slots of their arguments."""
     sizes = (sum(1 for _ in slot_types(kind)) for kind in signature.arguments)
     return trampoline(signature, object_file), list(itertools.accumulate(sizes, initial=FIRST))

@@ -23,17 +23,17 @@ _SMALL = 4 * BLOCK
 _FLAGS = ("contract",)
 
 
-def load(builder: ir.IRBuilder, data: ir.Value, at: ir.Value) -> ir.Value:
+def load_vector(builder: ir.IRBuilder, data: ir.Value, at: ir.Value) -> ir.Value:
     """Return eight numbers of an array."""
     return builder.load(builder.bitcast(builder.gep(data, [at]), VECTOR.as_pointer()), align=8)
 
 
-def store(builder: ir.IRBuilder, vector: ir.Value, data: ir.Value, at: ir.Value) -> None:
+def store_vector(builder: ir.IRBuilder, vector: ir.Value, data: ir.Value, at: ir.Value) -> None:
     """Write eight numbers of an array."""
     builder.store(vector, builder.bitcast(builder.gep(data, [at]), VECTOR.as_pointer()), align=8)
 
 
-def spread(builder: ir.IRBuilder, number: ir.Value, kind: ir.Type = VECTOR) -> ir.Value:
+def spread_number(builder: ir.IRBuilder, number: ir.Value, kind: ir.Type = VECTOR) -> ir.Value:
     """Return a vector of equal numbers."""
     undefined = ir.Constant(kind, ir.Undefined)
     one = builder.insert_element(undefined, number, ir.Constant(ir.IntType(32), 0))
@@ -42,14 +42,14 @@ def spread(builder: ir.IRBuilder, number: ir.Value, kind: ir.Type = VECTOR) -> i
 
 def _magnitude(builder: ir.IRBuilder, vector: ir.Value) -> ir.Value:
     kind, name = ir.FunctionType(VECTOR, [VECTOR]), f"llvm.fabs.v{BLOCK}f64"
-    return builder.call(_declared(builder, kind, name), [vector])
+    return builder.call(_declare_function(builder, kind, name), [vector])
 
 
-def added(builder: ir.IRBuilder, a: ir.Value, b: ir.Value, c: ir.Value) -> ir.Value:
+def add_product(builder: ir.IRBuilder, a: ir.Value, b: ir.Value, c: ir.Value) -> ir.Value:
     """Return a b + c, contracted wherever the processor can: results do not depend on optimisation to the bit."""
     kind = ir.FunctionType(a.type, [a.type] * 3)
     name = f"llvm.fmuladd.v{a.type.count}f64"
-    return builder.call(_declared(builder, kind, name), [a, b, c])
+    return builder.call(_declare_function(builder, kind, name), [a, b, c])
 
 
 def _greater(builder: ir.IRBuilder, a: ir.Value, b: ir.Value) -> ir.Value:
@@ -57,7 +57,7 @@ def _greater(builder: ir.IRBuilder, a: ir.Value, b: ir.Value) -> ir.Value:
     return builder.select(builder.fcmp_ordered(">", a, b), a, b)
 
 
-def folded(builder: ir.IRBuilder, vector: ir.Value, join: Callable[[ir.Value, ir.Value], ir.Value]) -> ir.Value:
+def fold_vector(builder: ir.IRBuilder, vector: ir.Value, join: Callable[[ir.Value, ir.Value], ir.Value]) -> ir.Value:
     """Return one number from the elements of a vector, joined in halves."""
     numbers = [builder.extract_element(vector, ir.Constant(ir.IntType(32), i)) for i in range(BLOCK)]
     while len(numbers) > 1:
@@ -66,12 +66,12 @@ def folded(builder: ir.IRBuilder, vector: ir.Value, join: Callable[[ir.Value, ir
     return numbers[0]
 
 
-def _declared(builder: ir.IRBuilder, kind: ir.Type, name: str) -> ir.Value:
+def _declare_function(builder: ir.IRBuilder, kind: ir.Type, name: str) -> ir.Value:
     """Return the declaration of an LLVM function."""
     return builder.module.globals.get(name) or ir.Function(builder.module, kind, name)
 
 
-def variable(builder: ir.IRBuilder, begin: ir.Value) -> ir.Value:
+def make_variable(builder: ir.IRBuilder, begin: ir.Value) -> ir.Value:
     """Return memory for a value, set to an initial one."""
     with builder.goto_entry_block():
         place = builder.alloca(begin.type)
@@ -80,9 +80,9 @@ def variable(builder: ir.IRBuilder, begin: ir.Value) -> ir.Value:
 
 
 @contextmanager
-def each_of(builder: ir.IRBuilder, start: ir.Value, stop: ir.Value, step: int) -> Iterator[ir.Value]:
+def repeat_over(builder: ir.IRBuilder, start: ir.Value, stop: ir.Value, step: int) -> Iterator[ir.Value]:
     """Repeat the instructions written inside for each index of a range."""
-    counter = variable(builder, start)
+    counter = make_variable(builder, start)
     test, body, end = (builder.append_basic_block(name) for name in ("test", "body", "end"))
     builder.branch(test)
     builder.position_at_end(test)
@@ -97,14 +97,14 @@ def each_of(builder: ir.IRBuilder, start: ir.Value, stop: ir.Value, step: int) -
 
 def _each_block(builder: ir.IRBuilder, width: ir.Value) -> ir.Value:
     """Return a loop over blocks, whose variable is the index of a block."""
-    return each_of(builder, I64(0), width, BLOCK)
+    return repeat_over(builder, I64(0), width, BLOCK)
 
 
 def _blocks(
     builder: ir.IRBuilder, width: ir.Value, begin: ir.Value, block: Callable[[ir.Value, ir.Value], ir.Value]
 ) -> ir.Value:
     """Return a vector that is carried from block to block: ``carried = block(index, carried)``, from `begin` on."""
-    carried = variable(builder, begin)
+    carried = make_variable(builder, begin)
     with _each_block(builder, width) as i:
         builder.store(block(i, builder.load(carried)), carried)
     return builder.load(carried)
@@ -123,7 +123,7 @@ def combine(
     out: ir.Value,
 ) -> None:
     """Write `symgen.compile.loopcode.vectors.combine`."""
-    _combined(builder, (width, h, first, last, column, value, rows), base, out, _last_whole)
+    _write_combine(builder, (width, h, first, last, column, value, rows), base, out, _last_whole)
 
 
 def follow(
@@ -139,10 +139,10 @@ def follow(
     out: ir.Value,
 ) -> None:
     """Write `symgen.compile.loopcode.vectors.follow`."""
-    _combined(builder, (width, h, first, last, column, value, rows), base, out, _last_as_written)
+    _write_combine(builder, (width, h, first, last, column, value, rows), base, out, _last_as_written)
 
 
-def _combined(
+def _write_combine(
     builder: ir.IRBuilder, table: tuple[ir.Value, ...], base: ir.Value, out: ir.Value, last_row: Callable[..., None]
 ) -> None:
     """Write `combine` with one of two functions that add the last row."""
@@ -151,20 +151,20 @@ def _combined(
         with some:
             end = builder.sub(last, I64(1))
             row = builder.mul(builder.load(builder.gep(column, [end])), width)
-            factor = spread(builder, builder.fmul(h, builder.load(builder.gep(value, [end])), flags=_FLAGS))
+            factor = spread_number(builder, builder.fmul(h, builder.load(builder.gep(value, [end])), flags=_FLAGS))
             for i, sum_of_rows in _sums(builder, (width, h, first, end, column, value, rows)):
-                before = added(builder, spread(builder, h), sum_of_rows, load(builder, base, i))
+                before = add_product(builder, spread_number(builder, h), sum_of_rows, load_vector(builder, base, i))
                 rate, to = builder.gep(rows, [builder.add(row, i)]), builder.gep(out, [i])
                 last_row(builder, width, before, factor, rate, to)
         with none, _each_block(builder, width) as i:
-            store(builder, load(builder, base, i), out, i)
+            store_vector(builder, load_vector(builder, base, i), out, i)
 
 
 def _last_whole(
     builder: ir.IRBuilder, width: ir.Value, before: ir.Value, factor: ir.Value, rate: ir.Value, out: ir.Value
 ) -> None:
     """Write a block of a state: its part without the last row, plus the block of that row."""
-    store(builder, added(builder, factor, load(builder, rate, I64(0)), before), out, I64(0))
+    store_vector(builder, add_product(builder, factor, load_vector(builder, rate, I64(0)), before), out, I64(0))
 
 
 def _last_as_written(
@@ -177,7 +177,7 @@ def _last_as_written(
         for k, pair in _pairs(builder, rate):
             places = ir.Constant(ir.VectorType(I32, 2), [k, k + 1])
             mine, weight = (builder.shuffle_vector(vector, undefined, places) for vector in (before, factor))
-            builder.store(added(builder, weight, pair, mine), _pair_at(builder, out, I64(k)), align=8)
+            builder.store(add_product(builder, weight, pair, mine), _pair_at(builder, out, I64(k)), align=8)
 
     _as_written(builder, width, small, partial(_last_whole, builder, width, before, factor, rate, out))
 
@@ -224,28 +224,28 @@ def total(
     out: ir.Value,
 ) -> None:
     """Write `symgen.compile.loopcode.vectors.total`."""
-    factor = spread(builder, h)
+    factor = spread_number(builder, h)
     for i, sum_of_rows in _sums(builder, (width, h, first, last, column, value, rows)):
-        store(builder, builder.fmul(factor, sum_of_rows), out, i)
+        store_vector(builder, builder.fmul(factor, sum_of_rows), out, i)
 
 
 def _sums(builder: ir.IRBuilder, table: tuple[ir.Value, ...]) -> Iterator[tuple[Any, Any]]:
     """Yield each block's index and its sum of values times rows, inside the loop over blocks."""
     width, _, first, last, column, value, rows = table
     with _each_block(builder, width) as i:
-        total = variable(builder, ZERO)
-        with each_of(builder, first, last, 1) as k:
+        total = make_variable(builder, ZERO)
+        with repeat_over(builder, first, last, 1) as k:
             row = builder.mul(builder.load(builder.gep(column, [k])), width)
-            weight = spread(builder, builder.load(builder.gep(value, [k])))
-            rate = load(builder, rows, builder.add(row, i))
-            builder.store(added(builder, weight, rate, builder.load(total)), total)
+            weight = spread_number(builder, builder.load(builder.gep(value, [k])))
+            rate = load_vector(builder, rows, builder.add(row, i))
+            builder.store(add_product(builder, weight, rate, builder.load(total)), total)
         yield i, builder.load(total)
 
 
 def copied(builder: ir.IRBuilder, width: ir.Value, array: ir.Value, out: ir.Value) -> None:
     """Write `symgen.compile.loopcode.vectors.copied`."""
     with _each_block(builder, width) as i:
-        store(builder, load(builder, array, i), out, i)
+        store_vector(builder, load_vector(builder, array, i), out, i)
 
 
 def received(builder: ir.IRBuilder, width: ir.Value, array: ir.Value, out: ir.Value) -> None:
@@ -256,7 +256,7 @@ def received(builder: ir.IRBuilder, width: ir.Value, array: ir.Value, out: ir.Va
             builder.store(pair, _pair_at(builder, out, builder.add(i, I64(k))), align=8)
 
     def large(i: ir.Value) -> None:
-        store(builder, load(builder, array, i), out, i)
+        store_vector(builder, load_vector(builder, array, i), out, i)
 
     with _each_block(builder, width) as i:
         _as_written(builder, width, partial(small, i), partial(large, i))
@@ -273,46 +273,46 @@ def weigh(
     atol: ir.Value,
 ) -> ir.Value:
     """Write `symgen.compile.loopcode.vectors.weigh`."""
-    relative, absolute = spread(builder, rtol), spread(builder, atol)
+    relative, absolute = spread_number(builder, rtol), spread_number(builder, atol)
 
     def block(i: ir.Value, total: ir.Value) -> ir.Value:
-        place = load(builder, share, builder.add(width, i))
-        sizes = (_magnitude(builder, builder.fsub(load(builder, x, i), place)) for x in (y, new))
+        place = load_vector(builder, share, builder.add(width, i))
+        sizes = (_magnitude(builder, builder.fsub(load_vector(builder, x, i), place)) for x in (y, new))
         larger = _greater(builder, *sizes)
-        weight = load(builder, share, i)
+        weight = load_vector(builder, share, i)
         larger = builder.fmul(weight, larger)
         scale = builder.fadd(absolute, builder.fmul(relative, larger, flags=_FLAGS), flags=_FLAGS)
-        error_here = builder.fmul(weight, load(builder, error, i))
+        error_here = builder.fmul(weight, load_vector(builder, error, i))
         none = builder.fcmp_ordered("==", error_here, ZERO)
         part = builder.select(none, ZERO, builder.fdiv(error_here, scale))
         return builder.fadd(total, builder.fmul(part, part, flags=_FLAGS), flags=_FLAGS)
 
-    return folded(builder, _blocks(builder, width, ZERO, block), builder.fadd)
+    return fold_vector(builder, _blocks(builder, width, ZERO, block), builder.fadd)
 
 
 def largest(
     builder: ir.IRBuilder, width: ir.Value, array: ir.Value, weights: ir.Value, first: ir.Value, last: ir.Value
 ) -> ir.Value:
     """Write `symgen.compile.loopcode.vectors.largest`."""
-    low, high = spread(builder, first, _INDICES), spread(builder, last, _INDICES)
+    low, high = spread_number(builder, first, _INDICES), spread_number(builder, last, _INDICES)
 
     def block(i: ir.Value, largest: ir.Value) -> ir.Value:
-        index = builder.add(spread(builder, i, _INDICES), ir.Constant(_INDICES, list(range(BLOCK))))
+        index = builder.add(spread_number(builder, i, _INDICES), ir.Constant(_INDICES, list(range(BLOCK))))
         inside = builder.and_(builder.icmp_signed(">=", index, low), builder.icmp_signed("<", index, high))
-        away = builder.fsub(load(builder, array, i), load(builder, weights, builder.add(width, i)))
-        size = builder.fmul(_magnitude(builder, away), load(builder, weights, i))
+        away = builder.fsub(load_vector(builder, array, i), load_vector(builder, weights, builder.add(width, i)))
+        size = builder.fmul(_magnitude(builder, away), load_vector(builder, weights, i))
         size = builder.select(inside, size, ZERO)
         return _greater(builder, size, largest)
 
-    return folded(builder, _blocks(builder, width, ZERO, block), partial(_greater, builder))
+    return fold_vector(builder, _blocks(builder, width, ZERO, block), partial(_greater, builder))
 
 
 def finite(builder: ir.IRBuilder, width: ir.Value, array: ir.Value) -> ir.Value:
     """Write `symgen.compile.loopcode.vectors.finite`."""
 
     def block(i: ir.Value, total: ir.Value) -> ir.Value:
-        vector = load(builder, array, i)
+        vector = load_vector(builder, array, i)
         return builder.fadd(total, builder.fsub(vector, vector))
 
     total = _blocks(builder, width, ZERO, block)
-    return builder.fcmp_ordered("==", folded(builder, total, builder.fadd), ir.Constant(F64, 0.0))
+    return builder.fcmp_ordered("==", fold_vector(builder, total, builder.fadd), ir.Constant(F64, 0.0))

@@ -70,7 +70,7 @@ def _copied(width: int, array: Array, out: Array) -> None:
 def _weigh(width: int, error: Array, share: Array, y: Array, new: Array, rtol: float, atol: float) -> float:
     """Return the sum of the squares of share times error over ``atol + rtol share max(|y|, |new|)``; 0 / 0 counts 0.
 
-    Behind the shares are the places that `y` and `new` are measured from.
+    After the shares are the places that `y` and `new` are measured from.
     """
     total = 0.0
     for i in range(width):
@@ -83,7 +83,7 @@ def _weigh(width: int, error: Array, share: Array, y: Array, new: Array, rtol: f
 def _largest(width: int, array: Array, weights: Array, first: int, last: int) -> float:
     """Return the largest weighted magnitude of the elements from `first` to `last`, at least 0; nan is ignored.
 
-    Behind the weights are the places that the elements are measured from.
+    After the weights are the places that the elements are measured from.
     """
     largest = 0.0
     for i in range(first, last):

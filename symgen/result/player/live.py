@@ -14,11 +14,11 @@ from symgen.compile.native.javascript_code import HELPERS, LOOP_HELPERS, javascr
 from symgen.compile.native.read import Foreign
 from symgen.describe.drawing.scene import Array
 from symgen.describe.mechanism import Parameter
-from symgen.run.compiling.checked import checked
+from symgen.run.compiling.checked import check_kernels
 from symgen.run.compiling.printed import Printed, PrintedEvents
 from symgen.run.compiling.printed_run import FINDER
 from symgen.run.layout import abi
-from symgen.run.layout.model_arrays import lengths_of
+from symgen.run.layout.model_arrays import marks_of_lengths
 from symgen.run.modes.transition_log import OF_LOG
 from symgen.run.planning.dead_centre import DRIVER, moving_names
 from symgen.run.planning.kept_runs import run_with_modes
@@ -157,7 +157,7 @@ def _page_functions(
         Characters of the emitted functions.
     """
     events = PrintedEvents.of(mechanism, compiled) if run is None else None
-    functions = checked(compiled)
+    functions = check_kernels(compiled)
     if run is not None:
         functions |= run.functions
     elif events is not None:
@@ -178,7 +178,9 @@ def _page_functions(
 def _text_of_functions(printed: Printed) -> tuple[str, int]:
     """Return the text of all functions, and the characters of the emitted ones."""
     own = {name: function for name, function in printed.emitted.items() if name != FINDER}
-    return f"{LOOP_HELPERS}{javascript_functions(printed.emitted, printed.bound())}", len(javascript_functions(own))
+    return f"{LOOP_HELPERS}{javascript_functions(printed.emitted, printed.bind_functions())}", len(
+        javascript_functions(own)
+    )
 
 
 def modes_data(mechanism: Mechanism, run: PrintedRun) -> dict[str, Any]:
@@ -207,7 +209,7 @@ def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]
     if not hasattr(compiled.law_module, "rhs"):
         return None, "the method has none"
     try:
-        code = HELPERS + javascript_functions(checked(compiled, ("rhs", "confirm", "masses")))
+        code = HELPERS + javascript_functions(check_kernels(compiled, ("rhs", "confirm", "masses")))
     except Foreign as error:
         return None, f"its code has {error}"
     return Live(code, _rates_spec(compiled, start)), ""
@@ -278,7 +280,7 @@ def _page_data(
         "nbv": sum(len(b.speeds) for b in mechanism.bodies),
         "y0": [float(x) for x in start.y],
         "datum": list(start.datum) or [0.0] * info.nq,
-        "lengths": [int(x) for x in lengths_of(info)],
+        "lengths": [int(x) for x in marks_of_lengths(info)],
         "angular": [int(x.unit != "m/s") for x in info.velocities],
         "rows": [int(row.unit == "m") for row in info.rows],
         "drivers": [row.joint if row.joint in drivers else "" for row in info.rows],

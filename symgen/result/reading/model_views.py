@@ -65,10 +65,10 @@ class Shown:
             If there are no such coordinates.
         """
         from symgen.result.reading.symbolic_equations import SymbolicEquations
-        from symgen.run.compiling.choices import on_tree
+        from symgen.run.compiling.choices import mechanism_on_tree
 
         kind = arguments.one_word_of("coordinates", coordinates, ("absolute", "joint"))
-        return SymbolicEquations(on_tree(self.mechanism) if kind == "joint" else self.mechanism)
+        return SymbolicEquations(mechanism_on_tree(self.mechanism) if kind == "joint" else self.mechanism)
 
     def draw(
         self,

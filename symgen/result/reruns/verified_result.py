@@ -11,7 +11,7 @@ from symgen.result.build import build_result
 from symgen.result.judge import is_long, reason_without_check
 from symgen.result.reruns.verification import verify_first_part, verify_run
 from symgen.run.planning.prepare import prepare
-from symgen.run.single.timing import timed
+from symgen.run.single.timing import time_runs
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
@@ -44,7 +44,7 @@ def run_and_verify(
     else:
         run = prepare(mechanism, settings)
         integrate = run.integrate
-    runs = timed(lambda: integrate(progress), settings.repeat)
+    runs = time_runs(lambda: integrate(progress), settings.repeat)
     outcome, verification = runs.outcome, None
     if reason_without_check(run, outcome) is None:
         free = bool(run.plan.notes) and settings.rtol is None and settings.atol is None and not by

@@ -86,7 +86,7 @@ class Advance:
             while True:
                 self._until = until
                 self.unsure = True
-                code = loop.go(until, control[_STEPS] + self._steps_at_once, self._most, further)
+                code = loop.go_until(until, control[_STEPS] + self._steps_at_once, self._most, further)
                 if code == _DONE:
                     self.unsure = False
                     return None
@@ -126,7 +126,7 @@ class Advance:
             if self._control[abi.BEGUN] == 0:
                 break
             try:
-                if loop.go(self._until, accepted, self._most) in (abi.DONE, abi.PAUSED, abi.MET):
+                if loop.go_until(self._until, accepted, self._most) in (abi.DONE, abi.PAUSED, abi.MET):
                     break
             except InputError:  # the last step ends in an event that asks for what cannot be
                 continue

@@ -19,7 +19,7 @@ from symgen.describe.facts.kinks import discontinuities_of
 from symgen.result.sensitivities import SCHEMES
 from symgen.result.stepping.horizon import Horizon
 from symgen.run.compiling.side import compile_side
-from symgen.run.directions.directed_model import DirectedModel, Seeds, few_passes
+from symgen.run.directions.directed_model import DirectedModel, Seeds, lanes_of_few_passes
 from symgen.run.directions.step_directions import StepsAgain
 from symgen.run.directions.steps_ahead import DirectedRun, StepsAhead
 from symgen.run.layout import abi
@@ -110,7 +110,7 @@ class StepDirections:
         self.input_places = [names.index(name) for name in self.inputs]
         self._n, count = len(self._places), len(self._places) + len(self.inputs)
         self._model = DirectedModel(
-            _settings_for_slopes(prepared) if self.is_straight else prepared.compiled, few_passes(count)
+            _settings_for_slopes(prepared) if self.is_straight else prepared.compiled, lanes_of_few_passes(count)
         )
         y, p = (np.zeros((self._model.sizes[name], count)) for name in "yp")
         y[self._places, range(self._n)] = 1.0
@@ -160,7 +160,7 @@ class StepDirections:
         else:
             again = self._again
             again.span = loop.span
-            self._compare(again.made_again(self._before if first is None else before, until), again.state.y)
+            self._compare(again.repeat_steps(self._before if first is None else before, until), again.state.y)
             after, n = again.slopes[self._places], self._n
             a, b, c = after[:, :n], after[:, n:], self._outputs_at_state()[taken, :n]
             doubts = tuple(dict.fromkeys(again.transfer.doubts))
@@ -220,7 +220,7 @@ class StepDirections:
         loop = self._loop
         if loop.spec.adaptive:
             self._directed.rescale(self._before)
-        code = self._one.made(loop.span, until) if first is None else self._piece_from(first, until)
+        code = self._one.make_steps(loop.span, until) if first is None else self._piece_from(first, until)
         if code != _DONE:
             raise InputError(WHERE, "a step that is the same once more", "another one")
         (a, b, c), (_, left_out, taken) = self._results, self.outputs
@@ -231,7 +231,7 @@ class StepDirections:
         """Make the last piece of the step from a first copy; return the code of its end."""
         copy = self._loop.snapshot.copy
         latest, copy[:] = copy.copy(), first
-        code = self._one.made(self._loop.span, until)
+        code = self._one.make_steps(self._loop.span, until)
         copy[:] = latest
         return code
 
@@ -260,7 +260,7 @@ class StepDirections:
             self._ahead = {steps: StepsAhead(directed, own, steps)}
         ahead = self._ahead[steps]
         ahead.values[:] = values
-        if ahead.made(span, now + dt, dt) != abi.DONE:
+        if ahead.make_steps(span, now + dt, dt) != abi.DONE:
             return None
         n, (outputs, _, taken) = self._n, self.outputs
         a, b = ahead.slopes[:, :, :n].copy(), ahead.slopes[:, :, n : n + len(self.inputs)].copy()
@@ -300,8 +300,12 @@ class StepDirections:
         call = model.function(self._side.function, count).caller(abi.OBSERVE.signature.arguments)
         parts = list[Array]()
         for first in range(0, self._seeds.count, model.lanes):
-            seeds = self._seeds.part(first, model.lanes)
-            y, p, w = model.longer(now.y, "y", seeds.y), model.longer(now.p, "p"), model.longer(now.w, "w")
+            seeds = self._seeds.seeds_of_part(first, model.lanes)
+            y, p, w = (
+                model.room_with_directions(now.y, "y", seeds.y),
+                model.room_with_directions(now.p, "p"),
+                model.room_with_directions(now.w, "w"),
+            )
             out = np.zeros(count * (1 + model.lanes))
             call(float(now.clock[abi.TIME]), y, p, w, np.zeros_like(y), out)
             parts.append(out[count:].reshape(count, model.lanes))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError, quote
 from symgen.base.vocabulary.expressions import readings_in
 from symgen.base.vocabulary.measures import Integral
-from symgen.compile.loopcode.entry import direct
+from symgen.compile.loopcode.entry import bind_arguments
 from symgen.describe.parts.context import Context
 from symgen.describe.parts.driven_mechanism import put_formulas
 from symgen.describe.parts.scope import Scope
@@ -73,7 +73,9 @@ class Meter:
         self._state, self._w, self._iw = state, state.w.copy(), np.zeros_like(state.iw)
         self._rates, self._out = np.zeros(compiled.info.ny), np.zeros(max(1, len(formulas)))
         self._count, self._rate = len(formulas), rate_function(compiled) if rated else None
-        self._evaluate = direct(side.function, abi.OBSERVE, 0.0, state.y, state.p, self._w, self._rates, self._out)
+        self._evaluate = bind_arguments(
+            side.function, abi.OBSERVE, 0.0, state.y, state.p, self._w, self._rates, self._out
+        )
 
     def __call__(self) -> Array:
         """Return the values, in the order of the formulas."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from symgen.run.breaks.seams import foreseen_in_run, merged, seams_of_motion
+from symgen.run.breaks.seams import foresee_in_run, merge_seams, seams_of_motion
 from symgen.run.layout import abi
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class SeamsAhead:
         self.jumps, self._driven = plan.inputs.seams, plan.inputs.driven
         step = None if free else plan.spec.step
         order, adaptive = plan.integrator.order, plan.spec.adaptive
-        self.foreseen = foreseen_in_run(
+        self.foreseen = foresee_in_run(
             plan.mechanism, plan.events, adaptive, order, (float(loop.state.clock[abi.TIME]), step)
         )
         self.horizon = plan.spec.until
@@ -53,4 +53,4 @@ class SeamsAhead:
         spec, driven = self._loop.spec, self._driven
         if driven is not None and driven.jumps:
             self.jumps = seams_of_motion(driven, values, spec.until)
-        return replace(spec, seams=merged(self.jumps, self.foreseen.seams(values, self.horizon)))
+        return replace(spec, seams=merge_seams(self.jumps, self.foreseen.seams(values, self.horizon)))

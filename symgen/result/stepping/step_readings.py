@@ -166,7 +166,7 @@ class StepReadings:
     def _prepared(self) -> Prepared:
         """The run from where it began last, prepared when something of it is read."""
         if isinstance(self._origin, Mapping):
-            self._origin = self._restarts.at(self._origin)
+            self._origin = self._restarts.start_at(self._origin)
         self._loop.start, self._tree = self._origin.start, self._origin.tree
         return self._origin
 

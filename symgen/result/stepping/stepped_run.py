@@ -280,7 +280,7 @@ class SteppedRun(StepReadings):
         loop = self._loop
         if self._adaptive:
             self._advance.begin()
-        if loop.changes.give(numbers) and self._adaptive and (code := begin_with_step(loop)) != _DONE:
+        if loop.changes.give_values(numbers) and self._adaptive and (code := begin_with_step(loop)) != _DONE:
             self._advance.fail(code)
         self._changed |= numbers
 

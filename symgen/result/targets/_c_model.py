@@ -18,7 +18,7 @@ from symgen.compile.native.read import Foreign
 from symgen.derive.emit.module import render_template
 from symgen.result.targets._c_names import defined_names, prefix_of
 from symgen.result.targets._c_runs import cells_of, check_integrator, places_of_scales, values_of_run
-from symgen.run.compiling.checked import checked, checked_function
+from symgen.run.compiling.checked import check_kernels, checked_function
 from symgen.run.compiling.printed import Printed, PrintedEvents
 from symgen.run.compiling.printed_run import PrintedRun
 from symgen.run.compiling.side import compile_side
@@ -227,7 +227,7 @@ class CModel:
     def functions(self) -> dict[str, Function]:
         """Checked functions by their names in C."""
         try:
-            functions = checked(self.compiled, _NAMES)
+            functions = check_kernels(self.compiled, _NAMES)
         except Foreign as error:
             raise InputError(f"--target {self.target}", "code that C has", f"{self.mechanism.name}: {error}") from None
         functions["prepare_model"] = functions.pop("prepareModel")
@@ -301,7 +301,7 @@ class CModel:
             printed.add_partition(self.compiled, self.partition)
             if self.printed_run is None:
                 printed.add_exchanged_steps(self.compiled, self.events, self.partition)
-        return printed.bound()
+        return printed.bind_functions()
 
     @property
     def drivers(self) -> set[str]:

@@ -100,7 +100,7 @@ def _reasons(run: PrintedRun) -> Iterator[tuple[int, str, str]]:
 
 
 def _faults(rows: BoundedRows) -> Iterator[tuple[int, str, str]]:
-    """Yield the faults of modes with the sentences of runs; their codes are negative, as codes of ends are positive."""
+    """Yield the faults of modes with the sentences of runs; their codes are negative, codes of ends positive."""
     fixed, of_row = (
         fixed_words(rows),
         {"kind": "kinds[at]", "kinds": "all[at]", "name": "bounded[at]", "row": "rows[at]"},

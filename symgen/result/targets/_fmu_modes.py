@@ -8,7 +8,7 @@ from symgen.compile.native.c99_words import break_line
 from symgen.run.printed import exchanged_run
 from symgen.run.printed.partition import POOR
 from symgen.run.printed.partition_tables import count_states
-from symgen.run.starts.assembler import layout_of
+from symgen.run.starts.assembler import layout_of_starts
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -36,7 +36,7 @@ def values_of_exchange(model: CModel) -> dict[str, Any]:
     values = {
         **flags,
         **{name: int(getattr(model.partition, name)) for name in ("rank_q", "rank_v", "rest")},
-        "states": count_states(layout_of(model.compiled), model.partition),
+        "states": count_states(layout_of_starts(model.compiled), model.partition),
         "poor": POOR,
         "asked": {name.lower(): getattr(exchanged_run, name) for name in ("COMPLETE", "HANDLE", "GO_ON", "ASK")},
         "answers": {name.lower(): getattr(exchanged_run, name) for name in ("QUIET", "HAPPENED", "OVER", "STUCK")},
@@ -48,7 +48,7 @@ def values_of_exchange(model: CModel) -> dict[str, Any]:
         values |= {
             "now": "evaluation_time(f)",
             "next": exchanged_run.NEXT,
-            "behind": exchanged_run.BEHIND,
+            "behind": exchanged_run.AFTER,
             "rests": exchanged_run.RESTS,
             "mode_outputs": _numbers(outputs.index(f"{row}.mode") for row in rows),
         }

@@ -93,7 +93,7 @@ class CodedFormula:
             return math.nan
 
 
-def coded(e: Expr, tables: Mapping[str, Table]) -> CodedFormula:
+def code_formula(e: Expr, tables: Mapping[str, Table]) -> CodedFormula:
     """Return a formula of t and parameters as codes.
 
     Parameters
@@ -135,7 +135,7 @@ def coded(e: Expr, tables: Mapping[str, Table]) -> CodedFormula:
 
 
 @called
-def applied(code: int, a: float, b: float) -> float:
+def apply_function(code: int, a: float, b: float) -> float:
     """Return a function of one operand or two."""
     if code <= _MUL:
         return a + b if code == _ADD else a - b if code == _SUB else a * b
@@ -205,11 +205,11 @@ def joined_conditions(deciding: float, a: float, b: float) -> float:
 
 def coded_at(f: Record, state: Formula, j: int, t: float) -> float:
     """Return the value of a coded formula: `formula_at` of `symgen.run.loops.times_of_jumps`."""
-    return value_at(state, t)
+    return coded_value_at(state, t)
 
 
 @called
-def value_at(formula: Formula, t: float) -> float:
+def coded_value_at(formula: Formula, t: float) -> float:
     """Return the value of a formula at a time, nan where it is undefined."""
     codes, values = formula.codes, formula.values
     values[0] = t
@@ -225,6 +225,6 @@ def value_at(formula: Formula, t: float) -> float:
             head = 2 * codes[i + 2]
             x = table_at(formula.points, formula.tables[head], formula.tables[head + 1], a)
         else:
-            x = applied(code, a, b)
+            x = apply_function(code, a, b)
         values[codes[i + 4]] = x if math.isfinite(x) else math.nan
     return float(values[formula.result])

@@ -20,7 +20,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.driven_mechanism import Jump, compared_with_zero
 from symgen.describe.remembered import compute_once
 from symgen.describe.table_functions import Table
-from symgen.run.breaks.coded_formulas import CodedFormula, Formula, coded, coded_at
+from symgen.run.breaks.coded_formulas import CodedFormula, Formula, code_formula, coded_at
 from symgen.run.loops.times_of_jumps import (
     BESIDE_A_SIDE,
     COUNT,
@@ -126,8 +126,8 @@ class Passing:
 
     @cached_property
     def line(self) -> tuple[Expr, Expr] | None:
-        """From `line_parts`."""
-        return line_parts(self.jump.argument)
+        """From `slope_and_offset`."""
+        return slope_and_offset(self.jump.argument)
 
     @cached_property
     def conditions(self) -> tuple[Jump, ...] | None:
@@ -138,7 +138,7 @@ class Passing:
     @cached_property
     def codes(self) -> CodedFormula:
         """The formula as codes."""
-        return coded(self.jump.argument, self.tables)
+        return code_formula(self.jump.argument, self.tables)
 
     def times(self, formulas: InTime, until: float, first: float) -> tuple[float, ...]:
         """Return the times from `first` to `until` [s] at which the formula passes its levels.
@@ -173,7 +173,7 @@ class Passing:
         if line is not None:
             note_line(f, 0, *line, first, until)
         elif is_interpreted():
-            _search_loop(f, partial(formulas.at, self.jump.argument))
+            _search_loop(f, partial(formulas.value_at, self.jump.argument))
         else:
             _search_loop(f, self.codes.of(formulas.values))
         return tuple(f.moments[: f.found[COUNT]].tolist()), int(f.found[LEFT_OUT])
@@ -182,7 +182,7 @@ class Passing:
         """Return when a formula passes a level that is constant as long as its conditions are."""
         times = sorted({t for jump in self.conditions or () for t in formulas.crossings(jump, until, first)})
         looks, f = (0.5 * (a + b) for a, b in pairwise((first, *times, until))), new_search(self.jump, until, room=0)
-        sides = [levels_below(f, 0, formulas.at(self.jump.argument, t)) for t in looks]
+        sides = [levels_below(f, 0, formulas.value_at(self.jump.argument, t)) for t in looks]
         return tuple(t for t, (before, after) in zip(times, pairwise(sides), strict=True) if before != after)
 
 
@@ -212,7 +212,7 @@ class InTime:
         self._mechanism, self._tables = mechanism, {table.name: table for table in mechanism.tables}
         self.values, self.shortest = dict(values), mechanism.defaults.max_step or math.inf
 
-    def at(self, e: Expr, t: float) -> float:
+    def value_at(self, e: Expr, t: float) -> float:
         """Return the value of a formula at a time [s], or nan if it is undefined."""
         self.values["t"] = t
         try:
@@ -241,9 +241,9 @@ def _passings(mechanism: Mechanism) -> dict[Jump, Passing]:
     return {}
 
 
-def line_of(jump: Jump, values: Mapping[str, float]) -> tuple[float, float] | None:
+def line_of_formula(jump: Jump, values: Mapping[str, float]) -> tuple[float, float] | None:
     """Return value at 0 and slope of a jump's argument if it is a straight line over time, else None."""
-    return _value_and_slope(line_parts(jump.argument), values)
+    return _value_and_slope(slope_and_offset(jump.argument), values)
 
 
 def _value_and_slope(parts: tuple[Expr, Expr] | None, values: Mapping[str, float]) -> tuple[float, float] | None:
@@ -253,14 +253,14 @@ def _value_and_slope(parts: tuple[Expr, Expr] | None, values: Mapping[str, float
         return None
 
 
-def line_parts(e: Expr) -> tuple[Expr, Expr] | None:
+def slope_and_offset(e: Expr) -> tuple[Expr, Expr] | None:
     """Return the formulas of the value at 0 and of the slope of a straight line over time; None for another formula."""
     if isinstance(e, Name) and e.name == "t":
         return ZERO, ONE
     if "t" not in set(names_in_expression(e)):
         return e, ZERO
     assert isinstance(e, Call), "a name or a number has no other names in it"
-    parts = [line_parts(a) for a in e.arguments]
+    parts = [slope_and_offset(a) for a in e.arguments]
     if any(part is None for part in parts) or e.function not in ("add", "sub", "neg", "mul", "div"):
         return None
     (a, m), *others = [part for part in parts if part is not None]
@@ -268,7 +268,7 @@ def line_parts(e: Expr) -> tuple[Expr, Expr] | None:
         return call("neg", a), call("neg", m)
     ((b, n),) = others
     if e.function in ("add", "sub"):
-        return _sum(e.function, a, b), _sum(e.function, m, n)
+        return _sum_of_lines(e.function, a, b), _sum_of_lines(e.function, m, n)
     if e.function == "div":
         return (call("div", a, b), call("div", m, b)) if n == ZERO else None
     if ZERO not in (m, n):
@@ -276,7 +276,7 @@ def line_parts(e: Expr) -> tuple[Expr, Expr] | None:
     return call("mul", a, b), call("mul", a, n) if m == ZERO else call("mul", m, b)
 
 
-def _sum(function: str, a: Expr, b: Expr) -> Expr:
+def _sum_of_lines(function: str, a: Expr, b: Expr) -> Expr:
     if b == ZERO:
         return a
     return call(function, a, b) if a != ZERO else b if function == "add" else call("neg", b)

@@ -50,18 +50,18 @@ def refuse_jumps(mechanism: Mechanism, parameters: Mapping[str, float], until: f
         With the formula, and time and size of the jump of its value or rate.
     """
     if (
-        _moved(mechanism)
-        and (refusal := jump_of(mechanism, parameter_values(mechanism, parameters), until)) is not None
+        _rows_that_jump(mechanism)
+        and (refusal := jump_of_motion(mechanism, parameter_values(mechanism, parameters), until)) is not None
     ):
         raise refusal
 
 
-def names_of_motions(mechanism: Mechanism) -> frozenset[str]:
+def motion_names(mechanism: Mechanism) -> frozenset[str]:
     """Return the names in the terms of time that may jump."""
-    return frozenset(name for row, _ in _moved(mechanism) for name in names_in_expression(row.motion))
+    return frozenset(name for row, _ in _rows_that_jump(mechanism) for name in names_in_expression(row.motion))
 
 
-def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> InputError | None:
+def jump_of_motion(mechanism: Mechanism, values: Mapping[str, float], until: float) -> InputError | None:
     """Return the error for the first jump of a term of time within a run, with its time and size, or None.
 
     Parameters
@@ -74,7 +74,7 @@ def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> 
         End of the run [s].
     """
     formulas = InTime(mechanism, values)
-    for row, changes in _moved(mechanism):
+    for row, changes in _rows_that_jump(mechanism):
         crossings = set[float]()
         for change in changes:
             try:
@@ -84,7 +84,7 @@ def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> 
         times = [0.0, *sorted(t for t in crossings if 1e-9 * until < t < (1.0 - 1e-9) * until), until]
         for (before, t), (_, after) in zip(pairwise(times), pairwise(times[1:]), strict=False):
             h = min(NEAR * until, _APART * (t - before), _APART * (after - t))
-            kind, size = jump_at(partial(formulas.at, row.motion), t, h, (0.0, until), row.is_speed)
+            kind, size = jump_at_time(partial(formulas.value_at, row.motion), t, h, (0.0, until), row.is_speed)
             if kind:
                 return InputError(
                     f"{mechanism.name}: {row.key}",
@@ -96,7 +96,7 @@ def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> 
     return None
 
 
-def jump_at(
+def jump_at_time(
     f: Callable[[float], float],
     t: float,
     h: float,
@@ -120,7 +120,10 @@ def jump_at(
         Further values and slopes of which negligible jumps are a part.
     """
     h /= _NEARER
-    (value, slope, speed), (far_value, far_slope, _) = _sides(f, t, h), _sides(f, t, _NEARER * h)
+    (value, slope, speed), (far_value, far_slope, _) = (
+        _differences_of_sides(f, t, h),
+        _differences_of_sides(f, t, _NEARER * h),
+    )
     for kind, near, far in (("value", value, far_value), ("rate", slope, far_slope))[: 1 if value_alone else 2]:
         if near != 0.0 and abs(near - far) <= _STAYS * abs(near):
             begin, end = extent
@@ -133,7 +136,7 @@ def jump_at(
     return "", 0.0
 
 
-def _sides(f: Callable[[float], float], t: float, h: float) -> tuple[float, float, float]:
+def _differences_of_sides(f: Callable[[float], float], t: float, h: float) -> tuple[float, float, float]:
     """Return the differences of value and slope between both sides of a time, by parabolas, and the larger slope."""
     ends = list[tuple[float, float]]()
     for way in (-h, h):
@@ -144,7 +147,7 @@ def _sides(f: Callable[[float], float], t: float, h: float) -> tuple[float, floa
 
 
 @compute_once
-def _moved(mechanism: Mechanism) -> tuple[tuple[ChangingRow, tuple[Jump, ...]], ...]:
+def _rows_that_jump(mechanism: Mechanism) -> tuple[tuple[ChangingRow, tuple[Jump, ...]], ...]:
     """Return rows whose terms of time may jump, with the changes of these."""
     rows = (
         (row, [e for e in kink_expressions(row.motion) if "t" in set(names_in_expression(e))])

@@ -1,6 +1,6 @@
-"""Seams of a run: foreseen times at which inputs and formulas jump or have kinks, and the values of inputs behind them.
+"""Seams of a run: foreseen times at which inputs and formulas jump or have kinks, and the values of inputs after them.
 
-A run ends a step at each of these times and takes the values behind it before the next step, so that no step or stage
+A run ends a step at each of these times and takes the values after it before the next step, so that no step or stage
 sees both sides of a jump. An error estimate notices a jump only where stages of a step lie on both sides of it: a push
 shorter than a step may lie between two stages.
 """
@@ -22,7 +22,7 @@ from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.parts.driven_mechanism import DrivenMechanism, Jump
 from symgen.describe.remembered import compute_once
-from symgen.run.breaks.in_time import MOST_PIECES, InTime, line_of, new_search
+from symgen.run.breaks.in_time import MOST_PIECES, InTime, line_of_formula, new_search
 from symgen.run.loops.run_spec import Seam
 from symgen.run.loops.seams import seams_with_room
 from symgen.run.loops.times_of_jumps import (
@@ -45,7 +45,7 @@ LEAST_ORDER = 3
 
 
 def seams_of_motion(
-    driven: DrivenMechanism, values: Mapping[str, float], until: float, first: float = 0.0, behind: float = 0.0
+    driven: DrivenMechanism, values: Mapping[str, float], until: float, first: float = 0.0, beyond: float = 0.0
 ) -> tuple[Seam, ...]:
     """Return the seams of a motion from `first` to `until`, empty without jumps.
 
@@ -57,8 +57,8 @@ def seams_of_motion(
         Of all parameters.
     until, first : float
         End of the run, and its beginning [s].
-    behind : float
-        Range behind the end, as a fraction of it, that is searched for jumps as well: data need not reach there.
+    beyond : float
+        Fraction of the end time by which the search for jumps goes beyond it: data need not reach there.
 
     Raises
     ------
@@ -71,7 +71,7 @@ def seams_of_motion(
             got = f"those from {data.t[0]:g} to {data.t[-1]:g} s"
             raise InputError(f"input '{name}'", f"data from {first:g} to {until:g} s, as curves end where they do", got)
 
-    until *= 1.0 + behind
+    until *= 1.0 + beyond
     jumps = {t for data in driven.samples.values() for t in data.t}
     for jump in driven.jumps:
         jumps.update(formulas.crossings(jump, until, first))
@@ -85,13 +85,13 @@ def seams_of_motion(
     for begin, end in pairwise([*times, until]):
         middle = 0.5 * (begin + end)
         now = {name: data.at(middle) for name, data in driven.samples.items()}
-        now |= {jump.switch: 0.0 if math.isnan(x := formulas.at(jump.value, middle)) else x for jump in switches}
+        now |= {jump.switch: 0.0 if math.isnan(x := formulas.value_at(jump.value, middle)) else x for jump in switches}
         result.append(Seam(begin, {name: x for name, x in now.items() if before.get(name) != x}))
         before = now
     return tuple(result)
 
 
-def merged(seams: tuple[Seam, ...], kinks: tuple[Seam, ...]) -> tuple[Seam, ...]:
+def merge_seams(seams: tuple[Seam, ...], kinks: tuple[Seam, ...]) -> tuple[Seam, ...]:
     """Return seams with changes of numbers and seams without in one sequence, one of each two at the same time."""
     if not (seams and kinks):
         return seams or kinks
@@ -105,7 +105,7 @@ def merged(seams: tuple[Seam, ...], kinks: tuple[Seam, ...]) -> tuple[Seam, ...]
     return tuple(sorted(result, key=lambda seam: seam.t))
 
 
-def seams_beside(seams: tuple[Seam, ...], times: Sequence[float], until: float) -> tuple[Seam, ...]:
+def with_further_seams(seams: tuple[Seam, ...], times: Sequence[float], until: float) -> tuple[Seam, ...]:
     """Return seams on both sides of some times, in place of seams at these without changes of numbers."""
     apart, result = BESIDE_A_SIDE * until, list[Seam]()
     for seam in seams:
@@ -175,9 +175,9 @@ class Foreseen:
         until : float
             End of the run [s].
         """
-        return self._seams(values, until)[0]
+        return self._seams_of_numbers(values, until)[0]
 
-    def _seams(self, values: Mapping[str, float], until: float) -> tuple[tuple[Seam, ...], bool]:
+    def _seams_of_numbers(self, values: Mapping[str, float], until: float) -> tuple[tuple[Seam, ...], bool]:
         """Return the seams, and whether they are complete: too many are left out."""
         if not self:
             return (), True
@@ -192,15 +192,15 @@ class Foreseen:
             self.latest[key] = result
         return result
 
-    def missed(self, values: Mapping[str, float], until: float) -> list[str]:
+    def sentence_on_missed_changes(self, values: Mapping[str, float], until: float) -> list[str]:
         """Return the sentence about discontinuities that steps of a run may miss; parameters as for `seams`."""
-        if self._seams(values, until)[1]:
+        if self._seams_of_numbers(values, until)[1]:
             return []
         often = "formulas change, or pass points of tables, more often than can be distinguished"
         return [f"{often}: steps do not end there, and may miss what is short"]
 
 
-def foreseen_by_steps(mechanism: Mechanism, order: int, first: float, step: float | None) -> Foreseen:
+def foresee_by_steps(mechanism: Mechanism, order: int, first: float, step: float | None) -> Foreseen:
     """Return the discontinuities of formulas of joints, forces, integrals and gaps at which constant steps end.
 
     Where the k-th derivative of a table jumps, a step errs by its power k + 1: below the order of the scheme it counts,
@@ -215,12 +215,12 @@ def foreseen_by_steps(mechanism: Mechanism, order: int, first: float, step: floa
     first, step : float
         First point and distance of the grid of steps [s].
     """
-    kinks, sides, gaps, _ = _passed(mechanism)
+    kinks, sides, gaps, _ = _passed_times(mechanism)
     kinks = tuple(kink for kink in kinks if kink.derivative + 1 < max(order, LEAST_ORDER))
     return Foreseen(mechanism, kinks, sides, gaps, (first, step or 0.0))
 
 
-def foreseen_in_run(
+def foresee_in_run(
     mechanism: Mechanism,
     events: Sequence[Event],
     adaptive: bool,
@@ -234,34 +234,36 @@ def foreseen_in_run(
     mechanism, events
         The description, and the events of the run.
     adaptive : bool
-        Whether steps are adaptive (`foreseen`) or constant (`foreseen_by_steps`).
+        Whether steps are adaptive (`foresee_changes`) or constant (`foresee_by_steps`).
     order, grid
         Order of the scheme, first point and distance of the grid of constant steps.
     """
-    return foreseen(mechanism, events) if adaptive else foreseen_by_steps(mechanism, order, *grid)
+    return foresee_changes(mechanism, events) if adaptive else foresee_by_steps(mechanism, order, *grid)
 
 
-def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
+def foresee_changes(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
     """Return the foreseen discontinuities of formulas of joints, forces, integrals and gaps, and of events.
 
     Steps find an event that is a straight line in t wherever they end; another one may come and go within a step.
     """
     if not events:
-        kinks, sides, gaps, latest = _passed(mechanism)
+        kinks, sides, gaps, latest = _passed_times(mechanism)
         return Foreseen(mechanism, kinks, sides, gaps, latest=latest)
     timely = {p.name for p in mechanism.parameters if not p.input} | {"t"}
     values = parameter_values(mechanism)
     happening = (
         jump
         for jump in (Jump(event.when) for event in events)
-        if "t" in (read := {*names_in_expression(jump.argument)}) and read <= timely and line_of(jump, values) is None
+        if "t" in (read := {*names_in_expression(jump.argument)})
+        and read <= timely
+        and line_of_formula(jump, values) is None
     )
     kinks, sides = jumps_in_time(mechanism, events)
     return Foreseen(mechanism, kinks, (*sides, *happening), jumps_of_gaps(mechanism))
 
 
 @compute_once
-def _passed(mechanism: Mechanism) -> tuple[tuple[Jump, ...], tuple[Jump, ...], tuple[Jump, ...], dict[Any, Any]]:
+def _passed_times(mechanism: Mechanism) -> tuple[tuple[Jump, ...], tuple[Jump, ...], tuple[Jump, ...], dict[Any, Any]]:
     return *jumps_in_time(mechanism), jumps_of_gaps(mechanism), {}
 
 

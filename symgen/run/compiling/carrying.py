@@ -16,7 +16,9 @@ from symgen.run.layout.compiled import CompiledModel, ModelInfo
 from symgen.run.starts.tree_start import Carrying
 
 
-def carrying_of(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel, compiled: CompiledModel) -> Carrying:
+def carried_motion(
+    mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel, compiled: CompiledModel
+) -> Carrying:
     """Return the map from rows of bodies to rows of a tree."""
     assert carried.topology is not None, "it was put on a tree"
     info, own = bodies.info, compiled.info
@@ -27,19 +29,19 @@ def carrying_of(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel,
     turned = {m: abi.WINDING + i for i, m in enumerate(winding_order(mechanism, bodies.shape))}
     gauge = info.sections["gauge"][0]
 
-    def integers(numbers: Iterable[int]) -> NDArray[np.int64]:
+    def integer_array(numbers: Iterable[int]) -> NDArray[np.int64]:
         return np.array(list(numbers), dtype=np.int64)
 
     return Carrying(
         *(own.work, max(info.observed, info.nq + 2 * info.nv)),
-        places=integers(x for name, _ in (*names, *speeds) for x in places[name]),
-        windings=integers(turned[m] for m in winding_order(carried, "straight")),
-        gauges=integers(-1 if j is None else gauge + j for j in _levers(carried, info)),
-        spins=integers(first for first, _ in info.spins),
+        places=integer_array(x for name, _ in (*names, *speeds) for x in places[name]),
+        windings=integer_array(turned[m] for m in winding_order(carried, "straight")),
+        gauges=integer_array(-1 if j is None else gauge + j for j in _levers_of_bodies(carried, info)),
+        spins=integer_array(first for first, _ in info.spins),
     )
 
 
-def _levers(carried: Mechanism, info: ModelInfo) -> list[int | None]:
+def _levers_of_bodies(carried: Mechanism, info: ModelInfo) -> list[int | None]:
     """Return the velocity that gives each velocity of a tree its length, None for those that are no angles."""
     assert carried.topology is not None, "it has a tree"
     levers = list[int | None]()

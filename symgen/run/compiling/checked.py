@@ -21,7 +21,7 @@ _MODEL = {"masses": abi.MOVE, "move": abi.MOVE, "bodies": abi.OBSERVE, "measure"
 NAMES = (*_LAW, *_MODEL)
 
 
-def checked(compiled: CompiledModel, names: Container[str] = NAMES) -> dict[str, Function]:
+def check_kernels(compiled: CompiledModel, names: Container[str] = NAMES) -> dict[str, Function]:
     """Return those functions that a compiled model has, and both that fill the hoisted numbers.
 
     Parameters

@@ -33,9 +33,9 @@ from symgen.describe.parts.topology import (
 )
 from symgen.describe.remembered import compute_once
 from symgen.describe.spanning_tree import Topology
-from symgen.run.compiling.method_choice import MethodChoice, for_coordinates
+from symgen.run.compiling.method_choice import MethodChoice, choice_for_coordinates
 from symgen.run.compiling.pipeline import refuse_loops, straight_alone
-from symgen.run.compiling.side import module_beside
+from symgen.run.compiling.side import side_module
 
 #: Lengths of bodies between which corrections in the metric of the identity keep at least four digits [m].
 LENGTHS_OF_IDENTITY = 1e-6, 1e6
@@ -48,7 +48,7 @@ class Taken(NamedTuple):
     reason: str
 
 
-def weighed(choice: MethodChoice, massless: bool) -> MethodChoice:
+def weigh_corrections(choice: MethodChoice, massless: bool) -> MethodChoice:
     """Return a method with corrections in the metric of the masses, where it leaves the choice.
 
     The identity in the angles and displacements of joints depends on which joints carry, that of the masses does not.
@@ -59,7 +59,7 @@ def weighed(choice: MethodChoice, massless: bool) -> MethodChoice:
     return choice.with_options(weight="body" if massless else "mass")
 
 
-def for_lengths(choice: MethodChoice, longest: float) -> tuple[MethodChoice, tuple[str, ...]]:
+def choice_for_lengths(choice: MethodChoice, longest: float) -> tuple[MethodChoice, tuple[str, ...]]:
     """Return a choice for bodies of such a length [m], and why; lengths of machines leave it as it is.
 
     In the metric of the identity 1 rad weighs as 1 m. D D^T then adds 1 and the square of the length: beyond these
@@ -171,7 +171,7 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluat
         if shape == "looped":
             refuse_loops(mechanism)
         return Taken("straight", f"loops have no {what}")
-    coordinates, choice = mechanism.body_coordinates, for_coordinates(mechanism, choice)
+    coordinates, choice = mechanism.body_coordinates, choice_for_coordinates(mechanism, choice)
     size = f"{plural(coordinates, 'coordinate')}, about {evaluations:.2g} evaluations"
     faster = Taken("straight", f"faster runs outweigh compilation ({size})")
     straight = coordinates <= LARGEST_STRAIGHT and not _looped_is_sooner(mechanism, choice, evaluations)
@@ -215,7 +215,7 @@ GAIN = 0.01
 
 
 @compute_once
-def on_tree(mechanism: Mechanism) -> Mechanism:
+def mechanism_on_tree(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism in the coordinates of its tree's joints; joints with ``cut = true`` carry nothing.
 
     Every run of the same description takes the same one, whose digest and numbers are then computed once.
@@ -224,19 +224,19 @@ def on_tree(mechanism: Mechanism) -> Mechanism:
     if not joints_of_loops(mechanism, first):
         return with_joint_coordinates(mechanism, first)
     text = f'"""Joints that carry nothing where `{mechanism.name}` is a tree."""\n'
-    metadata, _ = module_beside(
-        mechanism, "tree", [sorted(mechanism.cuts)], lambda: (text, {"cut": list(_cheapest(mechanism, first))})
+    metadata, _ = side_module(
+        mechanism, "tree", [sorted(mechanism.cuts)], lambda: (text, {"cut": list(_cheapest_choice(mechanism, first))})
     )
     return with_joint_coordinates(mechanism, spanning_tree(mechanism, tuple(metadata["cut"])))
 
 
-def with_tree_of(mechanism: Mechanism, whole: Mechanism) -> Mechanism:
+def take_tree_of(mechanism: Mechanism, whole: Mechanism) -> Mechanism:
     """Return a mechanism that takes the tree of another one, which has the same joints and more rows or forces.
 
     Which tree is the cheapest depends on all that is derived. Where a part is left out, states keep their coordinates
     by this: all joints outside the other's tree are cut, which leaves nothing to choose.
     """
-    tree = on_tree(whole).topology
+    tree = mechanism_on_tree(whole).topology
     assert tree is not None, "it is in joint coordinates"
     inside = {link.joint for link in tree.links}
     return msgspec.structs.replace(
@@ -244,9 +244,9 @@ def with_tree_of(mechanism: Mechanism, whole: Mechanism) -> Mechanism:
     )
 
 
-def _cheapest(mechanism: Mechanism, first: Topology) -> tuple[str, ...]:
+def _cheapest_choice(mechanism: Mechanism, first: Topology) -> tuple[str, ...]:
     """Return the joints to cut, besides those that follow, for the fewest operations counted."""
-    best, least = mechanism.cuts, operations(with_joint_coordinates(mechanism, first))
+    best, least = mechanism.cuts, count_rhs_operations(with_joint_coordinates(mechanism, first))
     counted, empty = least, count_empty_ends(mechanism, first)
     if least > LARGE:
         return best
@@ -257,21 +257,21 @@ def _cheapest(mechanism: Mechanism, first: Topology) -> tuple[str, ...]:
                 return best
             trial = (*cuts, joint)
             tree = spanning_tree(mechanism, trial)
-            if _free(tree) > _free(first) or count_empty_ends(mechanism, tree) > empty:
+            if _has_free_choice(tree) > _has_free_choice(first) or count_empty_ends(mechanism, tree) > empty:
                 continue
-            count = operations(with_joint_coordinates(mechanism, tree))
+            count = count_rhs_operations(with_joint_coordinates(mechanism, tree))
             counted += count
             if count < (1.0 - GAIN) * least:
                 best, least = trial, count
     return best
 
 
-def _free(topology: Topology) -> int:
+def _has_free_choice(topology: Topology) -> int:
     """Return the number of bodies that no joint carries."""
     return sum(not link.joint for link in topology.links)
 
 
-def operations(mechanism: Mechanism) -> int:
+def count_rhs_operations(mechanism: Mechanism) -> int:
     """Return the operations of the right-hand side of `lagrange`, after sharing, without those on parameters alone."""
     from symgen.derive.formulate.formulate import formulate
     from symgen.derive.lower.plans import cheapest_plan, cost_of_plan

@@ -50,14 +50,14 @@ DEPENDENT = 1e-9
 NEARLY_BEST = 0.25
 
 
-def at_start(mechanism: Mechanism, choice: MethodChoice) -> MethodChoice:
+def choice_at_start(mechanism: Mechanism, choice: MethodChoice) -> MethodChoice:
     """Return a choice with the velocities that stay free, where a mechanism's loops are closed by determinants."""
     if choice.implicit or choice.shape != "straight":
         return choice
     closed = replace(choice, free=free_velocities(mechanism))
     if not closed.free or _is_stored(mechanism, closed):
         return closed
-    return closed if _eliminates(choice.method, tuple(choice.options.items())) else choice
+    return closed if _eliminates_multipliers(choice.method, tuple(choice.options.items())) else choice
 
 
 def _is_stored(mechanism: Mechanism, choice: MethodChoice) -> bool:
@@ -66,7 +66,7 @@ def _is_stored(mechanism: Mechanism, choice: MethodChoice) -> bool:
 
 
 @lru_cache(maxsize=64)
-def _eliminates(method: Method, options: tuple[tuple[str, str], ...]) -> bool:
+def _eliminates_multipliers(method: Method, options: tuple[tuple[str, str], ...]) -> bool:
     """Whether a method solves M v' + D^T lambda = f, D v' = gamma in its right-hand side."""
     from symgen.derive.lower.record import record_law
 
@@ -80,7 +80,7 @@ def law_at_start(mechanism: Mechanism, equations: Equations, program: ModelProgr
     from symgen.derive.lower.law import lower_law
     from symgen.derive.lower.plans import closing_plan
 
-    choice = at_start(mechanism, choice)
+    choice = choice_at_start(mechanism, choice)
     closing = closing_plan(equations, program.plan, choice.free)
     return lower_law(equations, program, choice.method, choice.options, closing=closing, suffix=choice.suffix)
 
@@ -88,19 +88,19 @@ def law_at_start(mechanism: Mechanism, equations: Equations, program: ModelProgr
 @compute_once
 def free_velocities(mechanism: Mechanism) -> tuple[int, ...]:
     """Return the velocities that no loop is solved for; none where loops are not closed."""
-    info, model = _model(mechanism)
+    info, model = _model_at_start(mechanism)
     every = {c for _, columns in info.pairs for c in columns}
     count = len(every) - 2 * len(info.pairs)
     if not info.pairs or count < 1 or comb(len(every), count) > MOST_CHOICES:
         return ()
     try:
-        d = _constraints(mechanism, info, model)
+        d = _jacobian_at_start(mechanism, info, model)
     except (ArithmeticError, ValueError, InputError):  # of a start that is refused elsewhere
         return ()
     own = [i for i in range(info.m) if i not in info.bounded]
     if np.linalg.matrix_rank(d[own], DEPENDENT * np.abs(d).max()) < len(own):
         return ()  # a row that is left out may be that of a loop
-    left = _behind_fixed(info, d)
+    left = _eliminate_fixed(info, d)
     sines = {free: _least_sine(info, left, free) for free in combinations(sorted(every), count)}
     best = max(sines.values())
     if not best > LEAST_SINE:
@@ -108,7 +108,7 @@ def free_velocities(mechanism: Mechanism) -> tuple[int, ...]:
     return next(free for free, sine in sines.items() if sine >= max(NEARLY_BEST * best, LEAST_SINE))
 
 
-def _model(mechanism: Mechanism) -> tuple[ModelInfo, Any]:
+def _model_at_start(mechanism: Mechanism) -> tuple[ModelInfo, Any]:
     """Return description and module of a mechanism's own functions, emitted where the cache does not have them."""
     stages = StraightStages(mechanism, ())
     with stages.store.completing(stages.folder, stages.stems) as stages.described:
@@ -118,12 +118,12 @@ def _model(mechanism: Mechanism) -> tuple[ModelInfo, Any]:
     return msgspec.convert(metadata, ModelInfo), load_module(path)
 
 
-def _constraints(mechanism: Mechanism, info: ModelInfo, model: Any) -> Array:
+def _jacobian_at_start(mechanism: Mechanism, info: ModelInfo, model: Any) -> Array:
     """Return D at the described start."""
     values = parameter_values(mechanism)
     q = described_start(mechanism, scalar_values(values))[0]
     if mechanism.topology is not None:
-        q = _on_joints(mechanism, q)
+        q = _coordinates_on_joints(mechanism, q)
     sections = info.sections.values()
     y, w = [*map(float, q), *[0.0] * (info.ny - info.nq)], [0.0] * max(first + size for first, size in sections)
     for name in ("gauge", "row_weight"):
@@ -138,7 +138,7 @@ def _constraints(mechanism: Mechanism, info: ModelInfo, model: Any) -> Array:
     return d
 
 
-def _on_joints(mechanism: Mechanism, q: Sequence[float]) -> list[float]:
+def _coordinates_on_joints(mechanism: Mechanism, q: Sequence[float]) -> list[float]:
     """Return coordinates of a tree that are coordinates of bodies.
 
     Raises
@@ -155,7 +155,7 @@ def _on_joints(mechanism: Mechanism, q: Sequence[float]) -> list[float]:
     return [of_bodies[name] for name, _ in names]
 
 
-def _behind_fixed(info: ModelInfo, d: Array) -> Array:
+def _eliminate_fixed(info: ModelInfo, d: Array) -> Array:
     """Return D with the fixed velocities eliminated."""
     columns = [c for block, _ in info.fixed for c in block]
     rows = [r for _, block in info.fixed for r in block]

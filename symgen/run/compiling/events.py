@@ -62,8 +62,8 @@ def compile_events(
         function=side.function,
         needs_rates="ydot" in side.reads or bool(mechanism.bounded),  # which leave multipliers in w
         of_forces=tuple(i for i in range(len(functions)) if i in side.of_forces),
-        effects=effects_of(mechanism, compiled, events),
-        switches=tuple(switch_of(x, 1.0 if rtol is None else rtol) for x in passed),
+        effects=effects_of_events(mechanism, compiled, events),
+        switches=tuple(switch_of_event(x, 1.0 if rtol is None else rtol) for x in passed),
         jumps=any(x.jumps for x in passed),
         rows=row_jumps(mechanism, compiled) if any(x.holds for x in passed) else None,
         adaptive=rtol is not None,
@@ -120,7 +120,7 @@ def row_jumps(mechanism: Mechanism, compiled: CompiledModel) -> RowJumps:
     return RowJumps(rows, side, mechanism.defaults.until)
 
 
-def effects_of(mechanism: Mechanism, compiled: CompiledModel, events: Sequence[Event]) -> Effects | None:
+def effects_of_events(mechanism: Mechanism, compiled: CompiledModel, events: Sequence[Event]) -> Effects | None:
     """Return the effects of events, or None where events change nothing."""
     states = {state.name for state in mechanism.states}
     parts = dict[int, tuple[list[tuple[Expr, Expr]], list[tuple[Expr, Expr]]]]()
@@ -132,7 +132,7 @@ def effects_of(mechanism: Mechanism, compiled: CompiledModel, events: Sequence[E
     if not parts:
         return None
     struck = [pair for velocities, _ in parts.values() for pair in velocities]
-    masses = masses_of(mechanism) if struck else {}
+    masses = diagonal_masses(mechanism) if struck else {}
     formulas = [(to_text(name), name) for name, _ in struck]
     formulas += [(f"{to_text(name)} afterwards", value) for name, value in struck]
     formulas += [(f"{to_text(name)} afterwards", value) for _, writes in parts.values() for name, value in writes]
@@ -167,10 +167,10 @@ def rate_of_rotor(mechanism: Mechanism, rotor: Rotor) -> Expr:
     return sum_of_terms(*(rate if sign > 0.0 else call("neg", rate) for sign, rate in rates))
 
 
-def switch_of(passed: Discontinuity, rtol: float) -> Switch:
+def switch_of_event(passed: Discontinuity, rtol: float) -> Switch:
     """Return a discontinuity in the form for loops.
 
-    If a fraction x of a step lies behind a jump of the k-th derivative, its stages err by x^k, which may be `rtol`.
+    If a fraction x of a step lies after a jump of the k-th derivative, its stages err by x^k, which may be `rtol`.
     Points of a table that matter less than `rtol` are left out: many of them together are a smooth curve, which the
     error estimate sees.
     """
@@ -203,7 +203,7 @@ def sizes_of_kinks(curve: Interpolation) -> tuple[float, ...]:
     return tuple((total / span).tolist()) if span > 0.0 else (0.0,) * n
 
 
-def masses_of(mechanism: Mechanism) -> dict[tuple[int, int], Expr]:
+def diagonal_masses(mechanism: Mechanism) -> dict[tuple[int, int], Expr]:
     """Return entries of bodies in M by row and column: off-diagonal ones, with joints or rotors diagonal ones too."""
     entries, first = dict[tuple[int, int], Expr](), 0
     for body in mechanism.bodies:

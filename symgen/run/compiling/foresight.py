@@ -14,7 +14,7 @@ import numpy as np
 
 from symgen.base.vocabulary.expressions import names_in_expression
 from symgen.describe.parts.driven_mechanism import Jump
-from symgen.run.breaks.in_time import line_of, line_parts
+from symgen.run.breaks.in_time import line_of_formula, slope_and_offset
 from symgen.run.breaks.seams import Foreseen
 from symgen.run.compiling.side import Side, compile_side
 from symgen.run.loops.seams import seams_with_room
@@ -52,13 +52,13 @@ class Passages:
     shortest: float
 
     @classmethod
-    def of(cls, foreseen: Foreseen, compiled: CompiledModel) -> Passages:
+    def of_run(cls, foreseen: Foreseen, compiled: CompiledModel) -> Passages:
         """Return the passages of a run."""
         mechanism, jumps = foreseen.mechanism, foreseen.passing
         formulas = [
             (f"{name} {i}", e)
             for i, (jump, _) in enumerate(jumps)
-            for name, e in zip(("value", "slope"), line_parts(jump.argument) or (jump.argument,), strict=False)
+            for name, e in zip(("value", "slope"), slope_and_offset(jump.argument) or (jump.argument,), strict=False)
         ]
         lines = compile_side(mechanism, compiled, "passages", "Formulas that pass levels in time", formulas)
         step = 0.0 if foreseen.grid is None else foreseen.grid[1]
@@ -67,12 +67,12 @@ class Passages:
     @property
     def room(self) -> int:
         """Number of passages that a window has room for."""
-        endless = any(jump.period or line_parts(jump.argument) is None for jump, _ in self.jumps)
+        endless = any(jump.period or slope_and_offset(jump.argument) is None for jump, _ in self.jumps)
         return min(sum(len(jump.levels) for jump, _ in self.jumps) + (_ROOM if endless else 1), _MOST_ROOM)
 
     def foresight(self, spec: RunSpec, shown: Any) -> Any:
         """Return these as `Foresight`, for a run that shows an array of times."""
-        straight = [line_parts(jump.argument) is not None for jump, _ in self.jumps]
+        straight = [slope_and_offset(jump.argument) is not None for jump, _ in self.jumps]
         widths = [1 + is_straight for is_straight in straight]
         levels = [sorted(jump.levels) for jump, _ in self.jumps]
         integers = (x.astype(np.int64) for x in (np.cumsum([0, *widths])[:-1], np.array(straight)))
@@ -102,5 +102,5 @@ def is_laid_out(foreseen: Foreseen, until: float) -> bool:
 
 def _ends_before(jump: Jump, until: float) -> bool:
     """Return whether a straight line passes all its levels before a time."""
-    line = line_of(jump, {})
+    line = line_of_formula(jump, {})
     return line is not None and all((x - line[0]) / line[1] < until for x in jump.levels if line[1])

@@ -17,7 +17,7 @@ from symgen.compile.native import types
 from symgen.compile.native.array_entry import EntrySlots, array_entry, batch_function, entry_slots, supports_entries
 from symgen.compile.store.jit import MachineFunction, object_file
 from symgen.compile.store.loaded_modules import load_module
-from symgen.run.compiling.side import module_beside
+from symgen.run.compiling.side import side_module
 
 if TYPE_CHECKING:
     from symgen.derive.lower.function_programs import StateFunctions, Values
@@ -106,12 +106,12 @@ class StateFunction:
             return int(batch_function(len(arrays), object_file)(*places, *flat)), int(status[0])
         results = out.reshape(count, -1)
         for k in range(count):
-            code = self._plainly([a if a.ndim == 1 else a[k] for a in arrays], results[k])
+            code = self._evaluate_plainly([a if a.ndim == 1 else a[k] for a in arrays], results[k])
             if code:
                 return k, code
         return -1, 0
 
-    def _plainly(self, arrays: Sequence[Array], out: Array) -> int:
+    def _evaluate_plainly(self, arrays: Sequence[Array], out: Array) -> int:
         """Evaluate one state by plain Python or by a call that unpacks its arguments."""
         with np.errstate(all="ignore"):
             if self.kernel is None:
@@ -162,6 +162,6 @@ def compile_function(
         described = {"lengths": list(program.sizes.values()), "shape": list(program.shape)}
         return emit_function(program, len(mechanism.parameters)), described
 
-    metadata, path = module_beside(mechanism, name, (purpose, *vectors, *identity), make)
+    metadata, path = side_module(mechanism, name, (purpose, *vectors, *identity), make)
     function = getattr(load_module(path), name)
     return StateFunction(name, function, (*vectors, "p"), tuple(metadata["lengths"]), tuple(metadata["shape"]))

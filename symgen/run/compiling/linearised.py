@@ -21,7 +21,7 @@ from symgen.compile.store.loaded_modules import load_module
 from symgen.describe.formulas.evaluate import dependent_parameters
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Mechanism
-from symgen.run.compiling.side import beside, module_beside
+from symgen.run.compiling.side import compile_beside, side_module
 from symgen.run.layout.abi import OBSERVE
 from symgen.run.layout.compiled import CompiledModel
 from symgen.run.layout.probe import Few
@@ -144,7 +144,7 @@ def compile_linearised(mechanism: Mechanism, compiled: CompiledModel, by: tuple[
     InputError
         If numbers that meet in a formula overflow.
     """
-    form = _compiled(mechanism, compiled, by, ())
+    form = _compile_module(mechanism, compiled, by, ())
     assert form is not None, "the whole form is wanted"
     return form
 
@@ -161,13 +161,13 @@ def compile_growth(mechanism: Mechanism, compiled: CompiledModel) -> DescriptorF
     InputError
         If numbers that meet in a formula overflow.
     """
-    return _compiled(mechanism, compiled, (), GROWTH)
+    return _compile_module(mechanism, compiled, (), GROWTH)
 
 
-def _compiled(
+def _compile_module(
     mechanism: Mechanism, compiled: CompiledModel, by: tuple[str, ...], groups: tuple[str, ...]
 ) -> DescriptorForm | None:
-    of_model, around = compiled.info, beside(mechanism, compiled)
+    of_model, around = compiled.info, compile_beside(mechanism, compiled)
     # the digest that names folders does not cover outputs
     reported = () if groups else [(o.name, o.unit, to_text(o.value)) for o in mechanism.outputs]
 
@@ -182,7 +182,7 @@ def _compiled(
         return emit_side(side), info.to_dict()
 
     identity = around, by, dependent_parameters(mechanism.parameters) if by else "", groups, reported
-    metadata, path = module_beside(mechanism, NAME, identity, make)
+    metadata, path = side_module(mechanism, NAME, identity, make)
     if not metadata:
         return None
     info = msgspec.convert(metadata, LinearisedInfo)

@@ -36,9 +36,9 @@ from symgen.derive.lower.record_form import record_form
 from symgen.describe.bounds.by_reaction import rows_bounded_by_reactions
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.folders import generator_digest, shared_folder
-from symgen.run.compiling.looped_model import LoopedModel, describe_model, diagonal, hoisting
+from symgen.run.compiling.looped_model import LoopedModel, describe_model, filler_of_hoisted, mass_diagonal_of
 from symgen.run.compiling.method_choice import MethodChoice
-from symgen.run.compiling.stages import Generated, Stages
+from symgen.run.compiling.stages import Generated, PipelineStages
 
 if TYPE_CHECKING:
     from symgen.derive.formulate.elements import Element
@@ -103,7 +103,7 @@ class Needs:
 
     @property
     def shifted(self) -> bool:
-        """Whether equations of states of the file stand between the others and rows for projections."""
+        """Whether equations of the file's states are between the others and rows for projections."""
         choice = self.choice
         return bool(self.mechanism.states) and record_form(choice.method, choice.options).form in BEHIND
 
@@ -123,7 +123,7 @@ class Needs:
         """Whether M couples bodies, which other generic code is for."""
         return any(instance.kind == "rotor" for instance in self.instances)
 
-    def laid_out(self, metadata: Mapping[str, Mapping[str, Any]]) -> tuple[LoopedShape, IndexTables, LawInfo]:
+    def lay_out(self, metadata: Mapping[str, Mapping[str, Any]]) -> tuple[LoopedShape, IndexTables, LawInfo]:
         """Return the mechanism's indices, its tables and the law's facts for these, from all metadata."""
         choice = self.choice
         infos = {stem: msgspec.convert(metadata[stem], KernelInfo) for stem in self.elements}
@@ -146,7 +146,7 @@ class LoopedPrograms(NamedTuple):
 
 
 @final
-class LoopedStages(Stages[Mapping[str, "Element"], LoopedPrograms]):
+class LoopedStages(PipelineStages[Mapping[str, "Element"], LoopedPrograms]):
     """The stages of looped code.
 
     Parameters
@@ -168,7 +168,7 @@ class LoopedStages(Stages[Mapping[str, "Element"], LoopedPrograms]):
         self.began, self.heading = time.perf_counter(), (heading or generator_digest())[:16]
         super().__init__(mechanism, choices, shared_folder(), whole)
         for choice in choices:
-            _refuse(mechanism, choice)
+            _refuse_loops(mechanism, choice)
         elements = instances_of_mechanism(mechanism)
         self.needs = tuple(Needs(mechanism, choice, elements) for choice in choices)
 
@@ -264,15 +264,18 @@ class LoopedStages(Stages[Mapping[str, "Element"], LoopedPrograms]):
         """Return the compiled model with the one law of `choices`, and with the tables of the mechanism."""
         self.keep(sources)
         (needs,), mechanism = self.needs, self.mechanism
-        shape, tables, law = needs.laid_out(self.described)
+        shape, tables, law = needs.lay_out(self.described)
         path = self.store.path(self.folder, _MODEL).parent
         kernels = {stem: load_module(path / f"{stem}.py") for stem in (*needs.elements, *needs.forms.values())}
         machine, model = load_module(path / f"{_MACHINE}.py"), load_module(path / f"{_MODEL}.py")
         info, law_module = describe_model(mechanism, shape, tables), load_module(path / f"{needs.law}.py")
-        functions = _gathered(model, "geometry", "spread", "measure", "observe", "move", "turn")
-        functions.masses, functions.prepare = diagonal(shape, tables), hoisting(mechanism, shape, tables, kernels)
+        functions = _gather_functions(model, "geometry", "spread", "measure", "observe", "move", "turn")
+        functions.masses, functions.prepare = (
+            mass_diagonal_of(shape, tables),
+            filler_of_hoisted(mechanism, shape, tables, kernels),
+        )
         if needs.choice.implicit:
-            law_module = _gathered(law_module, "rhs", "confirm", "accept", "prepare", "geometry", "spread")
+            law_module = _gather_functions(law_module, "rhs", "confirm", "accept", "prepare", "geometry", "spread")
             law_module.residual, law_module.tangent = model.residual, model.tangent
         return LoopedModel(
             info=info,
@@ -290,29 +293,29 @@ class LoopedStages(Stages[Mapping[str, "Element"], LoopedPrograms]):
     def collect(self, sources: Modules) -> Generated:
         """Return the sources, and as ``mechanism``, which has no source, the tables for every law.
 
-        As whole modules, kernels have readable names; see `numbered`.
+        As whole modules, kernels have readable names; see `number_kernels`.
         """
         modules, tables = dict(sources), dict[str, Any]()
         for needs in self.needs:
-            _, built, _ = needs.laid_out({stem: modules[stem][1] for stem in needs.modules})
+            _, built, _ = needs.lay_out({stem: modules[stem][1] for stem in needs.modules})
             tables[f"{needs.law}_implicit" if needs.choice.implicit else needs.law] = {
                 "numbers": list(built.numbers),
                 "functions": [f"{stem}.{name}" for stem, name in built.functions],
                 "sections": dict(built.sections),
             }
         modules["mechanism"] = "", tables
-        named = _readable(modules) if self.whole else modules
+        named = _readable_modules(modules) if self.whole else modules
         return Generated(self.folder, named, 0.0, time.perf_counter() - self.began)
 
 
-def _refuse(mechanism: Mechanism, choice: MethodChoice) -> None:
+def _refuse_loops(mechanism: Mechanism, choice: MethodChoice) -> None:
     """Refuse methods that loops, or efforts that depend on reactions, do not take."""
     refuse_dense(choice.method, choice.options, choice.implicit)
     for row in rows_bounded_by_reactions(mechanism):
         refuse_bounded_rows(choice.method, choice.options, choice.implicit, row.family.noun)
 
 
-def _gathered(module: ModuleType, *names: str) -> Any:
+def _gather_functions(module: ModuleType, *names: str) -> Any:
     """Return those functions that this module has, by name, as a module has them."""
     return SimpleNamespace(**{name: getattr(module, name) for name in names if hasattr(module, name)})
 
@@ -323,22 +326,25 @@ _STEM = re.compile(
 )
 
 
-def _readable(modules: Modules) -> Modules:
+def _readable_modules(modules: Modules) -> Modules:
     """Return modules under readable names, which import each other from one folder."""
     from symgen.derive.emit.whole import import_siblings_by_name
 
-    names = numbered(modules)
+    names = number_kernels(modules)
 
-    def named(text: str) -> str:
+    def name_of_part(text: str) -> str:
         return _STEM.sub(lambda match: names.get(match[0], match[0]), text)
 
     return {
-        names.get(stem, stem): (import_siblings_by_name(named(source)), json.loads(named(json.dumps(metadata))))
+        names.get(stem, stem): (
+            import_siblings_by_name(name_of_part(source)),
+            json.loads(name_of_part(json.dumps(metadata))),
+        )
         for stem, (source, metadata) in modules.items()
     }
 
 
-def numbered(stems: Iterable[str]) -> dict[str, str]:
+def number_kernels(stems: Iterable[str]) -> dict[str, str]:
     """Return names of kernels with numbers instead of digests: ``joint_revolute``, ``joint_revolute_2``."""
     names: dict[str, str] = {}
     for stem in stems:

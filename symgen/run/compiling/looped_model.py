@@ -70,20 +70,20 @@ class LoopedModel(CompiledModel):
         return self.with_scales(w)
 
 
-def diagonal(shape: LoopedShape, tables: IndexTables) -> Callable[[Array, Array], int]:
+def mass_diagonal_of(shape: LoopedShape, tables: IndexTables) -> Callable[[Array, Array], int]:
     """Return the function that writes the diagonal of M to its section."""
     first, (offset, size) = shape.mass_diagonal, tables.sections["mass"]
     added = np.array(shape.rotor_diagonal, dtype=np.int64).reshape(-1, 2)
 
-    def masses(p: Array, w: Array) -> int:
+    def fill_masses(p: Array, w: Array) -> int:
         w[offset : offset + size] = p[first : first + size]
         np.add.at(w, offset + added[:, 0], p[added[:, 1]])
         return 0
 
-    return masses
+    return fill_masses
 
 
-def hoisting(
+def filler_of_hoisted(
     mechanism: Mechanism, shape: LoopedShape, tables: IndexTables, kernels: Mapping[str, ModuleType]
 ) -> Callable[[Array], int]:
     """Return the function that fills the numbers after the parameters in ``p``: interpreted, once a run."""

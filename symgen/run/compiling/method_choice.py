@@ -64,14 +64,14 @@ def choose_method(name: str, options: Mapping[str, str] | None = None, implicit:
     return MethodChoice(method, method.complete_options(options or {}), implicit)
 
 
-def for_coordinates(mechanism: Mechanism, choice: MethodChoice) -> MethodChoice:
+def choice_for_coordinates(mechanism: Mechanism, choice: MethodChoice) -> MethodChoice:
     """Return a choice for the mechanism's coordinates: the metric of bodies is the identity in their own."""
     if mechanism.topology is not None or choice.options.get("weight") != "body":
         return choice
     return choice.with_options(weight="identity")
 
 
-def for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = True) -> MethodChoice:
+def choice_for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = True) -> MethodChoice:
     """Return a choice for massless bodies: v' is not eliminated, where the solver is `free` to be chosen.
 
     Raises

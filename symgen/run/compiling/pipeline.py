@@ -14,15 +14,15 @@ from typing import Any
 
 from symgen.base.errors import InputError
 from symgen.describe.mechanism import Mechanism
-from symgen.run.compiling.closing import at_start
-from symgen.run.compiling.method_choice import MethodChoice, choose_method, for_coordinates
-from symgen.run.compiling.stages import Generated, Stages, unless_stored
+from symgen.run.compiling.closing import choice_at_start
+from symgen.run.compiling.method_choice import MethodChoice, choice_for_coordinates, choose_method
+from symgen.run.compiling.stages import Generated, PipelineStages, unless_stored
 from symgen.run.compiling.straight import StraightStages
 from symgen.run.layout.compiled import CompiledModel
 
 
 @unless_stored
-def compile_in_stages(stages: Stages[Any, Any]) -> CompiledModel:
+def compile_in_stages(stages: PipelineStages[Any, Any]) -> CompiledModel:
     """Return a compiled model: the whole pipeline."""
     equations = stages.formulate()
     programs = stages.lower(equations)
@@ -30,7 +30,7 @@ def compile_in_stages(stages: Stages[Any, Any]) -> CompiledModel:
     return stages.compile(sources)
 
 
-def generate_in_stages(stages: Stages[Any, Any]) -> Generated:
+def generate_in_stages(stages: PipelineStages[Any, Any]) -> Generated:
     """Return the source for readers, from the same stages without the last one."""
     equations = stages.formulate()
     programs = stages.lower(equations)
@@ -40,7 +40,7 @@ def generate_in_stages(stages: Stages[Any, Any]) -> Generated:
 
 def stages_of(
     mechanism: Mechanism, choices: tuple[MethodChoice, ...], shape: str, target: str = "cpu", whole: bool = False
-) -> Stages[Any, Any]:
+) -> PipelineStages[Any, Any]:
     """Return the stages of a shape of code; parameters and errors as of `generate`."""
     if target != "cpu":
         _refuse_target(target, choices, shape)
@@ -72,10 +72,10 @@ def compile_model(mechanism: Mechanism, choice: MethodChoice, target: str = "cpu
     InputError
         As for `generate`.
     """
-    choice = for_coordinates(mechanism, choice)
+    choice = choice_for_coordinates(mechanism, choice)
     options = dict(choice.options)
     arguments = mechanism, choice.method.name, options, choice.implicit, choice.shape, target, choice.directed
-    compiled = compile_in_stages(stages_of(mechanism, (at_start(mechanism, choice),), choice.shape, target))
+    compiled = compile_in_stages(stages_of(mechanism, (choice_at_start(mechanism, choice),), choice.shape, target))
     return replace(compiled, origin=(compile_again, arguments))
 
 
@@ -126,7 +126,7 @@ def generate(
         If the code would be looped or for implicit integrators where it is not for ``cpu``; if tables are too long for
         ``cuda``, or a method iterates for ``lanes``; if numbers overflow.
     """
-    choices = tuple(for_coordinates(mechanism, choice) for choice in choices)
+    choices = tuple(choice_for_coordinates(mechanism, choice) for choice in choices)
     return generate_in_stages(stages_of(mechanism, choices, shape, target, whole))
 
 

@@ -19,7 +19,7 @@ from symgen.compile.native.loops import read_loop
 from symgen.compile.native.read_values import Foreign
 from symgen.describe.parts.event_sections import RECORD, STOP
 from symgen.run.compiling.checked import checked_function
-from symgen.run.compiling.events import DIRECTIONS, effects_of
+from symgen.run.compiling.events import DIRECTIONS, effects_of_events
 from symgen.run.compiling.side import compile_side
 from symgen.run.effects.applying import apply_effects
 from symgen.run.effects.effects import Effects
@@ -31,7 +31,7 @@ from symgen.run.layout.start_records import Instant, StartConditions
 from symgen.run.printed import partition
 from symgen.run.printed.exchanged_steps import exchange_steps
 from symgen.run.printed.partition_tables import new_partition
-from symgen.run.starts.assembler import layout_of
+from symgen.run.starts.assembler import layout_of_starts
 from symgen.run.starts.starting import begin_row, close_row, observe_nothing
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ Naming = Callable[[str], str | None]
 
 
 @lru_cache(maxsize=512)
-def source_of(function: object) -> lang.Function:
+def source_of_piece(function: object) -> lang.Function:
     """Return a function of the runtime, whose callees are functions of their own; it is read once a process.
 
     Raises
@@ -61,7 +61,7 @@ def source_of(function: object) -> lang.Function:
     return read_loop(compiled_form(function), signature.arguments, None, apart=True)
 
 
-def meanings_of(
+def meanings_of_names(
     function: object, arguments: tuple[Any, ...], emitted: Mapping[int, lang.Function], room: Naming
 ) -> dict[str, Meaning]:
     """Return the meanings of a function's parameters for the arguments of a call.
@@ -83,25 +83,25 @@ def meanings_of(
     meanings = dict[str, Meaning]()
     for name, kind, argument in zip(names, compiled.signature.arguments, arguments, strict=False):
         _, parameters = argument_value(name, kind)
-        for parameter, value in zip(parameters, _items(kind, argument), strict=True):
-            meanings[parameter.name] = _meaning(parameter, value, emitted, room)
+        for parameter, value in zip(parameters, _table_items(kind, argument), strict=True):
+            meanings[parameter.name] = _meaning_of_value(parameter, value, emitted, room)
     return meanings
 
 
-def _items(kind: types.Kind, value: Any) -> Iterator[Any]:
+def _table_items(kind: types.Kind, value: Any) -> Iterator[Any]:
     """Yield numbers, arrays and functions of an argument in the order of parameters."""
     if isinstance(kind, types.RecordType):
         for part, item in zip(kind, value, strict=True):
-            yield from _items(part, item)
+            yield from _table_items(part, item)
     else:
         yield value
 
 
-def _meaning(
+def _meaning_of_value(
     parameter: lang.FunctionParameter, value: Any, emitted: Mapping[int, lang.Function], room: Naming
 ) -> Meaning:
     if parameter.address:
-        return emitted[id(value)] if id(value) in emitted else source_of(value)
+        return emitted[id(value)] if id(value) in emitted else source_of_piece(value)
     if not parameter.array:
         if value is None:
             return None
@@ -114,7 +114,7 @@ def _meaning(
     return ConstantTable(parameter.name.rpartition(".")[2], parameter.type, table)
 
 
-def _identity(meaning: Meaning) -> Hashable:
+def _identity_of_meaning(meaning: Meaning) -> Hashable:
     """Return what two meanings that are one have in common."""
     return meaning.key if isinstance(meaning, lang.Function) else meaning
 
@@ -147,7 +147,7 @@ class PrintedEvents:
             return cls()
         conditions = [(event.name, event.when) for event in events]
         switching = compile_side(mechanism, compiled, "events", "Switching functions", conditions).function
-        effects = effects_of(mechanism, compiled, events)
+        effects = effects_of_events(mechanism, compiled, events)
         if all(event.action == RECORD for event in events):
             return cls((), (), switching, effects)
         directions = [2 if event.action == RECORD else DIRECTIONS[event.direction] for event in events]
@@ -196,9 +196,9 @@ def _room_of_exchange(name: str) -> str | None:
     return _ALONE_IN_EXCHANGE[name] if name in _ALONE_IN_EXCHANGE else _room_of_steps(name)
 
 
-def _partitioned(compiled: CompiledModel, tables: Any) -> tuple[Any, ...]:
+def _partition_model(compiled: CompiledModel, tables: Any) -> tuple[Any, ...]:
     """Return a `symgen.run.printed.partition_tables.PartitionModel`."""
-    return layout_of(compiled), compiled_form(compiled.model.geometry), tables
+    return layout_of_starts(compiled), compiled_form(compiled.model.geometry), tables
 
 
 def _room_of_lock(name: str) -> str | None:
@@ -227,12 +227,12 @@ class Printed:
         """Identity of all functions and meanings, from which any text of them follows."""
         emitted = tuple((name, function.key) for name, function in self.emitted.items())
         entries = (
-            (name, function.key, tuple((parameter, _identity(x)) for parameter, x in meanings.items()))
+            (name, function.key, tuple((parameter, _identity_of_meaning(x)) for parameter, x in meanings.items()))
             for name, (function, meanings) in self.entries.items()
         )
         return emitted, tuple(entries)
 
-    def bound(self) -> BoundFunctions:
+    def bind_functions(self) -> BoundFunctions:
         """Return the functions bound to the model."""
         return bind_functions(self.entries, frozenset(f.key for f in self.emitted.values()))
 
@@ -263,7 +263,7 @@ class Printed:
             function, values = arguments[name]
             own = function is apply_effects  # whose memory has another name elsewhere
             room = (lambda name: _room_of_steps(name.replace("work.", "impact."))) if own else _room_of_steps
-            self.entries[name] = source_of(function), meanings_of(function, values, emitted, room)
+            self.entries[name] = source_of_piece(function), meanings_of_names(function, values, emitted, room)
 
     def _of_steps(self, compiled: CompiledModel, events: PrintedEvents) -> dict[int, lang.Function]:
         """Return the emitted functions of steps by their identity."""
@@ -293,7 +293,7 @@ class Printed:
         tables : PartitionTables
             What is partitioned.
         """
-        model = _partitioned(compiled, tables)
+        model = _partition_model(compiled, tables)
         part, y, w = new_partition(model[0], tables), np.zeros(compiled.info.ny), compiled.scratch()
         p, emitted = np.zeros(1), {id(model[1]): self.emitted["geometry"]}
         state = model, None, y, p, w, part
@@ -303,7 +303,7 @@ class Printed:
             **dict.fromkeys((partition.read_states, partition.write_states), (model, y, part, y)),
         }
         for function, values in arguments.items():
-            entry = source_of(function), meanings_of(function, values, emitted, _room_of_exchange)
+            entry = source_of_piece(function), meanings_of_names(function, values, emitted, _room_of_exchange)
             self.entries[compiled_form(function).py_func.__name__] = entry
 
     def add_exchanged_steps(self, compiled: CompiledModel, events: PrintedEvents, tables: Any) -> None:
@@ -318,10 +318,10 @@ class Printed:
         """
         (steps, effects, ends), (now, iw, work, impact) = events.steps(compiled)
         emitted = self._of_steps(compiled, events)
-        model = _partitioned(compiled, tables), steps, effects, ends
+        model = _partition_model(compiled, tables), steps, effects, ends
         memory = now, iw, np.zeros(len(ends), dtype=np.int64), work, impact, new_partition(steps[0], tables)
-        meanings = meanings_of(exchange_steps, (model, None, None, *memory), emitted, _room_of_exchange)
-        self.entries["exchange_run"] = source_of(exchange_steps), meanings
+        meanings = meanings_of_names(exchange_steps, (model, None, None, *memory), emitted, _room_of_exchange)
+        self.entries["exchange_run"] = source_of_piece(exchange_steps), meanings
 
     def add_run(self, run: PrintedRun) -> None:
         """Add ``start_run()`` and ``advance_run(through, h, until)`` of a run with modes."""
@@ -341,12 +341,15 @@ class Printed:
 
     def add_lock(self, compiled: CompiledModel, drivers: Collection[str], dependent: float = DEPENDENT) -> None:
         """Add ``find_lock(t, y)``, see `symgen.run.effects.locking`, for these joints."""
-        layout, geometry = layout_of(compiled), compiled.model.geometry
+        layout, geometry = layout_of_starts(compiled), compiled.model.geometry
         driven = np.array([int(row.joint in drivers) for row in compiled.info.rows], dtype=np.int64)
         now = Instant(np.zeros(compiled.info.ny), np.zeros(1), compiled.scratch())
         arguments = (layout, geometry, driven, dependent), None, now, new_lock_work(layout)
         emitted = {id(geometry): self.emitted["geometry"]}
-        self.entries["find_lock"] = source_of(find_lock), meanings_of(find_lock, arguments, emitted, _room_of_lock)
+        self.entries["find_lock"] = (
+            source_of_piece(find_lock),
+            meanings_of_names(find_lock, arguments, emitted, _room_of_lock),
+        )
 
     def add_start(self, assembly: Assembly) -> None:
         """Add ``begin_row(state)`` and ``close_row()``, which make the start consistent; see `starting.py`.
@@ -376,12 +379,12 @@ class Printed:
             return f"start_{own}" if owner in ("work", "conditions") else _ALONE.get(name)
 
         model = (assembly.layout, *own), observe, joints
-        meanings = meanings_of(close_row, (model, now, conditions, work), functions, room)
-        self.entries["close_row"] = source_of(close_row), meanings
+        meanings = meanings_of_names(close_row, (model, now, conditions, work), functions, room)
+        self.entries["close_row"] = source_of_piece(close_row), meanings
         places, counters = np.flatnonzero(scratch), np.zeros(abi.N_COUNTERS, dtype=np.int64)
         described = assembly.layout, places, scratch[places]
-        meanings = meanings_of(begin_row, (described, now.y, now, counters, conditions), {}, room)
-        self.entries["begin_row"] = source_of(begin_row), meanings
+        meanings = meanings_of_names(begin_row, (described, now.y, now, counters, conditions), {}, room)
+        self.entries["begin_row"] = source_of_piece(begin_row), meanings
 
 
 #: Functions that a start calls, by their names in models, and their types.

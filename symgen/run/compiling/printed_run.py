@@ -22,7 +22,7 @@ from symgen.describe.bounds.bounded_modes import MODE
 from symgen.describe.parts.event_sections import STOP
 from symgen.run.compiling.checked import checked_function
 from symgen.run.compiling.foresight import Passages
-from symgen.run.compiling.printed import meanings_of
+from symgen.run.compiling.printed import meanings_of_names
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.probe import rate_functions
@@ -30,18 +30,18 @@ from symgen.run.layout.records import RowChunk, Span
 from symgen.run.layout.redundancy import room_of_choice
 from symgen.run.loops.event_loop import notes_at
 from symgen.run.loops.schemes import readable
-from symgen.run.loops.seams import preparing, seams_of
+from symgen.run.loops.seams import preparing_functions, seams_of_loop
 from symgen.run.loops.search_records import COUNT
 from symgen.run.loops.searching import deciding
 from symgen.run.printed.exchanged_run import RESTS, Exchange, exchanged_run
 from symgen.run.printed.foreseen_run import foreseen_run
 from symgen.run.printed.kept_reset import kept_reset
 from symgen.run.printed.kept_run import KeptLoops, KeptOutput, Traits, Visible, kept_run
-from symgen.run.rows.rows import observe_no_coordinate
+from symgen.run.rows.rows import observe_nothing_of_coordinates
 from symgen.run.single.events import event_state
 from symgen.run.single.new_state import model_sizes, new_state, span_of
 from symgen.run.single.turn_memory import effects_of_runs, modes_of_runs
-from symgen.run.starts.assembler import layout_of
+from symgen.run.starts.assembler import layout_of_starts
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
@@ -81,7 +81,7 @@ _OWN |= {"exchange.times": "run_times"}
 
 
 @functools.cache
-def _plain(piece: Piece) -> Any:
+def _plain_function(piece: Piece) -> Any:
     """Return a function in LLVM's language as one of the language of loops."""
     return RuntimeFunction(piece.plain, inlined=False)
 
@@ -105,7 +105,7 @@ class PrintedRun:
     seams : tuple of Seam
         Times at which formulas jump or have kinks.
     passages : Passages, optional
-        What a run finds these times with, where they depend on parameters or lie behind its end.
+        What a run finds these times with, where they depend on parameters or lie after its end.
     """
 
     compiled: CompiledModel
@@ -141,7 +141,7 @@ class PrintedRun:
             PASSAGES: None if self.passages is None else self.passages.lines.function,
         }
 
-    def emitted(self, named: Mapping[str, lang.Function]) -> dict[int, lang.Function]:
+    def emitted_functions(self, named: Mapping[str, lang.Function]) -> dict[int, lang.Function]:
         """Return emitted functions by their identity; `named` has all that the text has, by name."""
         law, model = self.compiled.law_module, self.compiled.model
         places = {
@@ -162,7 +162,10 @@ class PrintedRun:
         named : mapping of str to Function
             Emitted functions by their names in the text, those of `functions` among them.
         """
-        emitted, (model, scheme, span, chunk, state, outputs, visible, _) = self.emitted(named), self._arguments
+        emitted, (model, scheme, span, chunk, state, outputs, visible, _) = (
+            self.emitted_functions(named),
+            self._arguments,
+        )
         start, advance, _ = self._loops
         limits = np.array([self.spec.max_violation, self.spec.velocity_limit, self.spec.max_energy_error, WARN])
         functions = {
@@ -175,7 +178,7 @@ class PrintedRun:
         self, named: Mapping[str, lang.Function]
     ) -> dict[str, tuple[lang.Function, dict[str, Meaning]]]:
         """Return ``indicate_run(t, y, values)``, ``exchange_run(doing, t)``; see `symgen.run.printed.exchanged_run`."""
-        emitted, (model, _, span, chunk, state, _, visible, exchange) = self.emitted(named), self._arguments
+        emitted, (model, _, span, chunk, state, _, visible, exchange) = self.emitted_functions(named), self._arguments
         indicate, serve = exchanged_run(*self._recipe)
         y, values = visible.y.copy(), np.zeros(int(state.hunt[COUNT]))
         span = span._replace(step=self.spec.step, until=np.inf)
@@ -189,7 +192,7 @@ class PrintedRun:
         """Return ``reset_run(event, t, y)``; see `symgen.run.printed.kept_reset`."""
         model, _, _, _, state, _, visible, _ = self._arguments
         functions = {"reset_run": (kept_reset(*self._recipe), (None, None, visible.y.copy(), model, state))}
-        return self._read(functions, self.emitted(named))
+        return self._read(functions, self.emitted_functions(named))
 
     def foresight_entries(
         self, named: Mapping[str, lang.Function]
@@ -197,7 +200,7 @@ class PrintedRun:
         """Return ``foresee_run(is_start, t)``; see `symgen.run.printed.foreseen_run`."""
         state, function = self._arguments[4], foreseen_run(self.watched is not None)
         functions = {"foresee_run": (function, (None, None, self._foresight, self._seams, state))}
-        return self._read(functions, self.emitted(named))
+        return self._read(functions, self.emitted_functions(named))
 
     def _read(
         self, functions: Mapping[str, tuple[Any, tuple[Any, ...]]], emitted: dict[int, lang.Function]
@@ -206,10 +209,10 @@ class PrintedRun:
         entries = dict[str, tuple[lang.Function, dict[str, Meaning]]]()
         steps = self._loops.steps
         if steps is not None:
-            emitted = emitted | {id(steps): read_loop(steps, steps.signature.arguments, _plain, apart=True)}
+            emitted = emitted | {id(steps): read_loop(steps, steps.signature.arguments, _plain_function, apart=True)}
         for name, (function, arguments) in functions.items():
-            source = read_loop(function, function.signature.arguments, _plain, apart=True)
-            entries[name] = source, meanings_of(function, arguments, emitted, self._room)
+            source = read_loop(function, function.signature.arguments, _plain_function, apart=True)
+            entries[name] = source, meanings_of_names(function, arguments, emitted, self._name_of_array)
         return entries
 
     @cached_property
@@ -235,10 +238,10 @@ class PrintedRun:
     def _decide(self) -> Any:
         return deciding(_NOTES)
 
-    def _hunt(self, watched: Watched, hunt: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _search_record(self, watched: Watched, hunt: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the data of events with room for few notes, as all are taken before the next step."""
         width = self.compiled.info.ny
-        if watched.switches:  # whose points stand behind the notes
+        if watched.switches:  # whose points follow the notes
             return hunt
         first = notes_at(len(watched.names), width, len(self.compiled.scratch()))
         return hunt[: first + (_NOTES + 2 * len(watched.names)) * (2 + width)].copy()
@@ -255,7 +258,7 @@ class PrintedRun:
     def _seams(self) -> Any:
         if self.passages is not None:
             return self.passages.seams(self.compiled, self.spec.adaptive)
-        return seams_of(self.compiled, self.spec.adaptive, (self.seams,)) if self.seams else ()
+        return seams_of_loop(self.compiled, self.spec.adaptive, (self.seams,)) if self.seams else ()
 
     @cached_property
     def _foresight(self) -> Any:
@@ -263,7 +266,7 @@ class PrintedRun:
 
     @cached_property
     def _arguments(self) -> tuple[Any, ...]:
-        """Arguments of `advance_run` behind its first one, then `Exchange`; a step and its end are None: passed."""
+        """Arguments of `advance_run` after its first one, then `Exchange`; a step and its end are None: passed."""
         compiled, info, watched = self.compiled, self.compiled.info, self.watched
         setup, sizes = self.integrator.setup(compiled, self.spec, compiled.scratch()), model_sizes(compiled)
         sizes, span, memory = sizes._replace(width=info.ny), span_of(self.spec, setup), setup.memory
@@ -276,24 +279,24 @@ class PrintedRun:
         model: tuple[Any, ...] = (sizes, *setup.functions)
         if watched is not None:
             state = event_state(watched, sizes, state)
-            state = state._replace(hunt=self._hunt(watched, state.hunt))
+            state = state._replace(hunt=self._search_record(watched, state.hunt))
             model = *model, watched.function, self._decide, rates[0]
         if self._has_seams:
-            model = model, self._seams, self._loops.steps, *preparing(compiled)
-        observers = sizes, *rates, compiled.law_module.accept, observe_no_coordinate
+            model = model, self._seams, self._loops.steps, *preparing_functions(compiled)
+        observers = sizes, *rates, compiled.law_module.accept, observe_nothing_of_coordinates
         integers, nothing = np.zeros(0, dtype=np.int64), np.zeros(0)
         actions = () if watched is None else watched.actions
         own = sum(action != MODE for action in actions)  # a row keeps no events of modes, which end no run
         events = np.zeros(e.HEAD_OF_EVENTS + e.OF_EVENT * own)
         arrays = integers, nothing, np.zeros(len(state.p)), nothing, nothing, integers, nothing, nothing, events
         room = np.zeros(room_of_choice(info.m, info.nv))
-        chunk = RowChunk(*arrays, 0, 0, 0, layout_of(compiled), room)
+        chunk = RowChunk(*arrays, 0, 0, 0, layout_of_starts(compiled), room)
         outputs = KeptOutput(np.zeros(1), np.zeros(info.ny), np.zeros(abi.N_STATUS + info.kept))
         ends = np.array([action == STOP for action in actions[:own]], dtype=np.int64)
         clock = np.array([0.0, self.spec.until][: 1 + self.spec.adaptive])
         visible = Visible(np.zeros(info.ny), clock, np.zeros(4, dtype=np.int64), ends)
         numbers = Span(**{**span._asdict(), "until": None, "step": None, "end": np.inf})
-        of_model = model, observers, *self._further(span, len(state.w))
+        of_model = model, observers, *self._further_arguments(span, len(state.w))
         return (
             of_model,
             setup.scheme,
@@ -305,8 +308,8 @@ class PrintedRun:
             Exchange(np.zeros(RESTS + (0 if self._rows is None else len(self._rows.names)))),
         )
 
-    def _further(self, span: Span, nw: int) -> tuple[Any, ...]:
-        """Return what stands behind the functions of a model: rows with bounds, or effects of events."""
+    def _further_arguments(self, span: Span, nw: int) -> tuple[Any, ...]:
+        """Return what follows the functions of a model: rows with bounds, or effects of events."""
         compiled, watched, rows, width = self.compiled, self.watched, self._rows, self.compiled.info.ny
         if watched is not None and rows is not None:
             return (modes_of_runs(compiled, watched, rows, span, width, nw),)
@@ -321,7 +324,7 @@ class PrintedRun:
         """Name and array by its identity; constant ones have no name."""
         named = dict[int, tuple[str, NDArray[Any]]]()
         for name, argument in self._all_arguments:
-            for path, array in _arrays(name, argument):
+            for path, array in _arrays_of_record(name, argument):
                 named.setdefault(id(array), ("" if self._is_constant(path) else _name_of(path), array))
         return named
 
@@ -338,22 +341,22 @@ class PrintedRun:
 
     @cached_property
     def _by_path(self) -> dict[str, str]:
-        pairs = [pair for name, value in self._all_arguments for pair in _arrays(name, value)]
+        pairs = [pair for name, value in self._all_arguments for pair in _arrays_of_record(name, value)]
         return {path: self._named[id(array)][0] for path, array in pairs}
 
-    def _room(self, name: str) -> str | None:
+    def _name_of_array(self, name: str) -> str | None:
         """Return the name of an array in the memory; see `symgen.run.compiling.printed.Naming`."""
         return "" if name in _PASSED else self._by_path.get(name) or None
 
 
-def _arrays(name: str, value: object) -> Iterator[tuple[str, NDArray[Any]]]:
+def _arrays_of_record(name: str, value: object) -> Iterator[tuple[str, NDArray[Any]]]:
     """Yield the paths and arrays of records."""
     if isinstance(value, np.ndarray):
         yield name, value
     elif isinstance(value, tuple):
         fields = getattr(value, "_fields", range(len(value)))
         for field, item in zip(fields, value, strict=True):
-            yield from _arrays(f"{name}.{field}", item)
+            yield from _arrays_of_record(f"{name}.{field}", item)
 
 
 def _name_of(path: str) -> str:

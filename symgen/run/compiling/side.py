@@ -85,7 +85,7 @@ class Side:
         return out
 
 
-def beside(mechanism: Mechanism, compiled: CompiledModel) -> Beside:
+def compile_beside(mechanism: Mechanism, compiled: CompiledModel) -> Beside:
     """Return the quantities of a compiled model that formulas may read."""
     info = compiled.info
     sections = {section: info.sections[section] for section in READ if section in info.sections}
@@ -99,7 +99,7 @@ def stem_of(name: str, *identity: object) -> str:
     return f"{name}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
 
 
-def module_beside(
+def side_module(
     mechanism: Mechanism, name: str, identity: Sequence[object], make: Callable[[], tuple[str, dict[str, Any]]]
 ) -> tuple[dict[str, Any], Path]:
     """Return the description of a module next to a model's, from all that shapes it, and its path; emit a new one."""
@@ -141,7 +141,7 @@ def compile_side(
     """
     labels = ["rate of " * k + label for k in range(rates + 1) for label, _ in formulas]
     labels += ["size of " + label for label, _ in formulas if sizes]
-    around, texts = beside(mechanism, compiled), [to_text(e) for _, e in formulas]
+    around, texts = compile_beside(mechanism, compiled), [to_text(e) for _, e in formulas]
 
     def make() -> tuple[str, dict[str, Any]]:
         from symgen.derive.emit.emit import emit_side
@@ -152,7 +152,7 @@ def compile_side(
         return emit_side(program), {"reads": list(program.reads), "of_forces": list(program.of_forces)}
 
     identity = purpose, rates, around, list(integrals_of_outputs(mechanism)), *labels, *texts
-    metadata, path = module_beside(mechanism, name, identity, make)
+    metadata, path = side_module(mechanism, name, identity, make)
     reads, of_forces = frozenset(metadata["reads"]), frozenset(metadata["of_forces"])
     return Side(getattr(load_module(path), name), path, tuple(labels), reads, of_forces)
 
@@ -162,7 +162,7 @@ def can_integrate(compiled: CompiledModel) -> bool:
     return not hasattr(compiled.law_module, "rates")
 
 
-def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledModel:
+def add_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledModel:
     """Return a compiled model whose state holds integrals of outputs; unchanged where they integrate nothing.
 
     Raises
@@ -177,9 +177,9 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledMod
         expected = "a method that integrates velocities, as an output is an integral"
         raise InputError(f"method '{compiled.law.method}'", expected, "one that integrates momenta")
     auxiliary = compiled.law.nw, 1 + len(formulas)
-    around = beside(mechanism, compiled)
+    around = compile_beside(mechanism, compiled)
     around = replace(around, sections={**around.sections, "auxiliary": auxiliary})
-    files = _files(law)
+    files = _files_of_module(law)
     stems = {name: file.stem for name, file in sorted(files.items())}
     texts = [to_text(integral.of) for integral in formulas]
     store, folder = Entries(), next(iter(files.values())).parent.name
@@ -204,7 +204,7 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledMod
     )
 
 
-def _files(law: Any) -> dict[str, Path]:
+def _files_of_module(law: Any) -> dict[str, Path]:
     """Return the source file of each emitted function of a law, by the function's name.
 
     That is the law's own module; where functions were gathered from several modules, as looped code's for implicit

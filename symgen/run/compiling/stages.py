@@ -33,7 +33,7 @@ class Generated:
     emit_seconds: float
 
 
-class Stages(ABC, Generic[Equations, Programs]):
+class PipelineStages(ABC, Generic[Equations, Programs]):
     """The four stages from a mechanism to a compiled model, in one shape of code.
 
     Parameters
@@ -108,11 +108,13 @@ class Stages(ABC, Generic[Equations, Programs]):
         self.emit_seconds += time.perf_counter() - began
 
 
-def unless_stored(pipeline: Callable[[Stages[Any, Any]], CompiledModel]) -> Callable[[Stages[Any, Any]], CompiledModel]:
+def unless_stored(
+    pipeline: Callable[[PipelineStages[Any, Any]], CompiledModel],
+) -> Callable[[PipelineStages[Any, Any]], CompiledModel]:
     """Have the cache answer where it has the source; otherwise other processes wait until this one has made it."""
 
     @wraps(pipeline)
-    def through_cache(stages: Stages[Any, Any]) -> CompiledModel:
+    def through_cache(stages: PipelineStages[Any, Any]) -> CompiledModel:
         with stages.store.completing(stages.folder, stages.stems) as described:
             stages.described = described
             return stages.compile({}) if len(described) == len(stages.stems) else pipeline(stages)

@@ -25,7 +25,7 @@ from symgen.describe.facts.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.folders import folder_of
 from symgen.run.compiling.method_choice import MethodChoice
-from symgen.run.compiling.stages import Generated, Stages
+from symgen.run.compiling.stages import Generated, PipelineStages
 from symgen.run.layout.compiled import Array, CompiledModel, ModelInfo, RowInfo
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ def _with_finite_numbers(stage: Stage) -> Stage:
 
 
 @final
-class StraightStages(Stages[Derivation, Programs]):
+class StraightStages(PipelineStages[Derivation, Programs]):
     """The stages of straight code; parameters as of `symgen.run.compiling.pipeline.generate`."""
 
     def __init__(
@@ -267,7 +267,7 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
         spins=equations.spins,
         operations={b.name: b.operations for b in program.blocks},
         inputs=equations.inputs,
-        alone=_alone(program, len(equations.rows)),
+        alone=_constant_pivots(program, len(equations.rows)),
         states=equations.states,
         switchable=tuple(i for i, row in enumerate(equations.rows) if row.held is not None),
         bounded=tuple(i for i, row in enumerate(equations.rows) if row.bounded),
@@ -276,7 +276,7 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
     )
 
 
-def _alone(program: ModelProgram, rows: int) -> tuple[int, ...]:
+def _constant_pivots(program: ModelProgram, rows: int) -> tuple[int, ...]:
     """Return the rows whose pivot is the same everywhere, which ``geometry`` need not report."""
     pivots = {
         target.index

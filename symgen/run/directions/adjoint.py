@@ -21,14 +21,14 @@ from symgen.compile.native.accesses import Accesses, array_accesses
 from symgen.compile.native.read_values import Foreign
 from symgen.compile.native.straightening import has_early_end, straight_correction
 from symgen.compile.store.emitted import AdjointFunction, EmittedFunction
-from symgen.run.directions.directed_model import DirectedModel, Seeds, for_derivatives, lanes_of
-from symgen.run.directions.kept_run import KeptRun, refusal
+from symgen.run.directions.directed_model import DirectedModel, Seeds, form_for_derivatives, lanes_for_directions
+from symgen.run.directions.kept_run import KeptRun, reason_against_adjoint
 from symgen.run.directions.moments import Moments
 from symgen.run.directions.passages import RunPassage
 from symgen.run.directions.transfer import Transfer
 from symgen.run.layout import abi
 from symgen.run.modes.bounded_rows import CONSTANT, LIMIT
-from symgen.run.single.run import Progress, completed
+from symgen.run.single.run import Progress, complete_run
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
@@ -55,13 +55,13 @@ def check_covered(compiled: CompiledModel, integrator: Integrator, spec: RunSpec
     from symgen.run.loops.schemes import explicit
 
     if integrator.loop(spec.adaptive) not in (explicit.constant, explicit.adaptive):
-        raise refusal("an explicit Runge-Kutta scheme", f"'{integrator.name}'", "take dop853")
+        raise reason_against_adjoint("an explicit Runge-Kutta scheme", f"'{integrator.name}'", "take dop853")
     if start.saved is not None:
-        raise refusal("a run from its start", "one that goes on from another run")
+        raise reason_against_adjoint("a run from its start", "one that goes on from another run")
     law = compiled.law_module
     if not isinstance(law.rhs, EmittedFunction):
-        raise refusal("compiled functions", "NUMBA_DISABLE_JIT, where plain Python runs")
-    _check_functions(for_derivatives(law, "rhs"), law.accept, compiled.law.method, compiled.info.windings)
+        raise reason_against_adjoint("compiled functions", "NUMBA_DISABLE_JIT, where plain Python runs")
+    _check_functions(form_for_derivatives(law, "rhs"), law.accept, compiled.law.method, compiled.info.windings)
 
 
 @functools.lru_cache(maxsize=256)
@@ -80,44 +80,44 @@ def _check_functions(rhs: EmittedFunction, accept: EmittedFunction, law: str, wi
     from symgen.run.loops.schemes.adjoint import CORRECTION, RATES
 
     method = f"the method {law}"
-    own, other = _accesses(rhs, abi.RHS), _accesses(accept, abi.ACCEPT)
-    _compile(_adjoint(rhs, _iterations(rhs)), RATES, f"accelerations of {method}")
+    own, other = _accesses_of_law(rhs, abi.RHS), _accesses_of_law(accept, abi.ACCEPT)
+    _compile(_adjoint_function(rhs, _count_iterations(rhs)), RATES, f"accelerations of {method}")
     angles = {("w", abi.WINDING + i) for i in range(windings)}
     passing = {place for place in own.stored | other.stored if place[0] == "w"} - (angles - own.stored)
     read = own.read
-    if _corrects(accept):
-        _compile(_adjoint(accept, 0), CORRECTION, f"corrections of {method}")
+    if _has_correction(accept):
+        _compile(_adjoint_function(accept, 0), CORRECTION, f"corrections of {method}")
         read |= _correction_accesses(accept).read
     if read & passing or ("w", -1) in own.read | own.stored:
-        raise refusal("rates of the state alone", f"{method}, which keeps numbers from step to step")
+        raise reason_against_adjoint("rates of the state alone", f"{method}, which keeps numbers from step to step")
 
 
 @functools.lru_cache(maxsize=256)
-def _iterates(rhs: EmittedFunction) -> bool:
+def _has_iterations(rhs: EmittedFunction) -> bool:
     """Whether rates of the state are found by iteration."""
     return has_early_end(rhs.read(abi.RHS.signature.arguments))
 
 
-def _iterations(rhs: EmittedFunction, mean: float = 0.0) -> int | None:
+def _count_iterations(rhs: EmittedFunction, mean: float = 0.0) -> int | None:
     """Return the iterations of rates in an adjoint, one more than a run takes as a mean; None without any.
 
     Derivatives converge as fast as values, an iteration behind.
     """
-    return max(ITERATIONS, math.ceil(mean) + 1) if _iterates(rhs) else None
+    return max(ITERATIONS, math.ceil(mean) + 1) if _has_iterations(rhs) else None
 
 
 @functools.lru_cache(maxsize=256)
-def _corrects(accept: EmittedFunction) -> bool:
+def _has_correction(accept: EmittedFunction) -> bool:
     """Whether a function that accepts states changes them."""
-    return any(array == "y" for array, _ in _accesses(accept, abi.ACCEPT).stored)
+    return any(array == "y" for array, _ in _accesses_of_law(accept, abi.ACCEPT).stored)
 
 
 @functools.lru_cache(maxsize=256)
-def _accesses(function: EmittedFunction, kind: types.FunctionType) -> Accesses:
+def _accesses_of_law(function: EmittedFunction, kind: types.FunctionType) -> Accesses:
     try:
         return array_accesses(function.read(kind.signature.arguments).body)
     except Foreign as foreign:
-        raise refusal("functions of the state in closed form", str(foreign)) from None
+        raise reason_against_adjoint("functions of the state in closed form", str(foreign)) from None
 
 
 @functools.lru_cache(maxsize=256)
@@ -126,7 +126,7 @@ def _correction_accesses(accept: EmittedFunction) -> Accesses:
 
 
 @functools.lru_cache(maxsize=256)
-def _adjoint(function: EmittedFunction, rounds: int | None = None) -> AdjointFunction:
+def _adjoint_function(function: EmittedFunction, rounds: int | None = None) -> AdjointFunction:
     """Return the adjoint of a function, the same one for all runs."""
     return AdjointFunction(function, rounds)
 
@@ -136,7 +136,9 @@ def _compile(function: AdjointFunction, kind: types.FunctionType, what: str) -> 
     try:
         function.address(kind.signature)
     except InputError as error:
-        raise refusal("functions of the state in closed form", f"{what} with {error.got}", _HINT) from None
+        raise reason_against_adjoint(
+            "functions of the state in closed form", f"{what} with {error.got}", _HINT
+        ) from None
 
 
 @dataclass(frozen=True)
@@ -154,7 +156,7 @@ class Adjoint:
     outcome: Outcome
     run: KeptRun
 
-    def back(self, end: Array, seeds: Seeds) -> tuple[Array, list[str]]:
+    def derivatives_by_start(self, end: Array, seeds: Seeds) -> tuple[Array, list[str]]:
         """Return the derivatives of a number at the end by directions of the start, shape (n,).
 
         With these what may be in doubt of some directions, which runs with these directions decide.
@@ -168,11 +170,11 @@ class Adjoint:
         """
         run, way = self.run, WayBack(self.run, end, seeds)
         for item in reversed(run.course[run.corrected :]):
-            way.through(item)
+            way.go_back_through(item)
         way.undo_correction()
         for item in reversed(run.course[: run.corrected]):
-            way.through(item)
-        return way.slopes(), way.doubts
+            way.go_back_through(item)
+        return way.slopes_of_end(), way.doubts
 
 
 class WayBack:
@@ -189,7 +191,7 @@ class WayBack:
     """
 
     def __init__(self, run: KeptRun, end: Array, seeds: Seeds) -> None:
-        from symgen.run.loops.schemes.adjoint import transposed
+        from symgen.run.loops.schemes.adjoint import transpose_tableau
 
         self.run, self.seeds, state = run, seeds, run.state
         law, width, sizes = run.compiled.law_module, run.sizes.width, (len(state.p), len(state.w))
@@ -199,13 +201,16 @@ class WayBack:
         self._w = self._bars[width + sizes[0] :]
         self._room = np.zeros((int(run.scheme.stages) + 4) * width)
         self._now = state.p.copy(), state.w.copy(), state.iw.copy()
-        rhs, mean = for_derivatives(law, "rhs"), state.iw[abi.LAW_ITERATIONS] / max(1, state.control[abi.EVALUATIONS])
-        self._rates, self._table = _adjoint(rhs, _iterations(rhs, mean)), transposed(run.scheme)
+        rhs, mean = (
+            form_for_derivatives(law, "rhs"),
+            state.iw[abi.LAW_ITERATIONS] / max(1, state.control[abi.EVALUATIONS]),
+        )
+        self._rates, self._table = _adjoint_function(rhs, _count_iterations(rhs, mean)), transpose_tableau(run.scheme)
         self._angles = run.compiled.info.windings
-        self._corrections = self._corrected() if _corrects(law.accept) else None
+        self._corrections = self._correction_of_step() if _has_correction(law.accept) else None
         self._found = np.zeros(seeds.count)
 
-    def _corrected(self) -> Any:
+    def _correction_of_step(self) -> Any:
         """Return the adjoints of ``accept`` with the numbers of rounds that the run has."""
         from symgen.run.loops.schemes.adjoint import CORRECTIONS, Corrections
 
@@ -214,11 +219,11 @@ class WayBack:
         counts = sorted({int(k) for piece in pieces for k in np.unique(piece[CORRECTIONS :: run.size])})
         if counts[-1] >= most:
             expected = f"at most {most - 1} rounds of corrections in a step"
-            raise refusal(expected, f"a step with {counts[-1]}", "take smaller steps or tolerances")
-        made = {k: _adjoint(accept, k) for k in counts}
+            raise reason_against_adjoint(expected, f"a step with {counts[-1]}", "take smaller steps or tolerances")
+        made = {k: _adjoint_function(accept, k) for k in counts}
         return Corrections(*(made.get(k, made[counts[0]]) for k in range(most)))
 
-    def through(self, item: Array | RunPassage) -> None:
+    def go_back_through(self, item: Array | RunPassage) -> None:
         """Go back through some steps, or a passage."""
         if isinstance(item, RunPassage):
             self._through_passage(item)
@@ -263,7 +268,7 @@ class WayBack:
             c, count = len(own), len(own) + n + len(self._places)
             y, modes = np.zeros((self.run.sizes.ny, count)), np.zeros((place.stop - place.start, count))
             y[own, np.arange(c)] = modes[self._places, np.arange(c + n, count)] = 1.0
-            after, after_modes = self._transfer.through(passage, y, modes)
+            after, after_modes = self._transfer.transfer_through(passage, y, modes)
             by = self._y[: len(y)] @ after + self._w[place] @ after_modes
             self._y[own], self._w[place] = by[:c], 0.0
             self._found += by[c : c + n]
@@ -301,22 +306,22 @@ class WayBack:
         """Add what the parameters of the present part of the run contribute, and begin anew for those before."""
         p, (model, seeds), bar = self._now[0], self._model, self._p
         for first in range(0, seeds.count, model.lanes):
-            directions = model.shadow(model.parameters(p, seeds.part(first, model.lanes).p), "p")
+            directions = model.directions_after(model.parameters(p, seeds.seeds_of_part(first, model.lanes).p), "p")
             self._found[first : first + model.lanes] += (bar @ directions)[: seeds.count - first]
         bar[:] = 0.0
 
     @functools.cached_property
     def _model(self) -> tuple[DirectedModel, Seeds]:
-        return DirectedModel(self.run.compiled, lanes_of(self.seeds.count)), self.seeds
+        return DirectedModel(self.run.compiled, lanes_for_directions(self.seeds.count)), self.seeds
 
-    def slopes(self) -> Array:
+    def slopes_of_end(self) -> Array:
         """Return the derivatives by the directions of the start."""
         self._take_parameters()
         run, (model, seeds) = self.run, self._model
         for first in range(0, seeds.count, model.lanes):
-            part = seeds.part(first, model.lanes)
+            part = seeds.seeds_of_part(first, model.lanes)
             w = model.scratch(model.parameters(run.start.p, part.p), run.start.w)
-            slope = self._y[: run.sizes.ny] @ part.y + self._w @ model.shadow(w, "w")
+            slope = self._y[: run.sizes.ny] @ part.y + self._w @ model.directions_after(w, "w")
             self._found[first : first + model.lanes] += slope[: seeds.count - first]
         return self._found
 
@@ -345,4 +350,4 @@ def run_for_adjoint(
     """
     check_covered(compiled, integrator, spec, start)
     run = KeptRun(compiled, integrator, start, spec, [] if pages is None else pages)
-    return Adjoint(completed(run, progress), run)
+    return Adjoint(complete_run(run, progress), run)

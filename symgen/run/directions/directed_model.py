@@ -1,7 +1,7 @@
-"""Code with directions: a compiled model whose arrays have room for derivatives behind them.
+"""Code with directions: a compiled model whose arrays have room for derivatives after them.
 
-The state is longer: behind y lie L directions of each element, and those of parameters and scratch behind ``p`` and
-``w``. Emitted functions have a form with directions (`symgen.compile.native.tangents`).
+The arrays are longer: ``y`` is followed by L directions of each of its elements, and so are the parameters ``p`` and
+the scratch ``w``. Emitted functions have a form with directions (`symgen.compile.native.tangents`).
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class Seeds:
         """Number of directions."""
         return int(self.y.shape[1])
 
-    def part(self, first: int, lanes: int) -> Seeds:
+    def seeds_of_part(self, first: int, lanes: int) -> Seeds:
         """Return `lanes` directions from one on, zeros where there are no more."""
         parts = [np.zeros((len(a), lanes)) for a in (self.y, self.p)]
         for room, array in zip(parts, (self.y, self.p), strict=True):
@@ -94,7 +94,7 @@ class DirectedModel:
         self.whole: CompiledModel = plain.longer(own * lanes, hoisted, longer["w"], *modules)
 
     def _module(self, module: object, names: dict[str, Any]) -> Any:
-        functions = {name: self.function(for_derivatives(module, name)) for name in names if hasattr(module, name)}
+        functions = {name: self.function(form_for_derivatives(module, name)) for name in names if hasattr(module, name)}
         return SimpleNamespace(**{**vars(module), **functions})
 
     def function(self, function: object, length: int = 0, timed: bool = False) -> TangentFunction:
@@ -121,7 +121,7 @@ class DirectedModel:
             places["t"] = self.sizes["w"] * (1 + self.lanes)
         return with_directions(function, self.lanes, tuple(sorted(places.items())))
 
-    def longer(self, array: Array, name: str, directions: Array | None = None) -> Array:
+    def room_with_directions(self, array: Array, name: str, directions: Array | None = None) -> Array:
         """Return an array with room for its directions, zeros if not given, shape (n, L)."""
         size = self.sizes[name]
         room, own = np.zeros(size * (1 + self.lanes)), array[:size]
@@ -130,20 +130,20 @@ class DirectedModel:
             room[size:] = directions.ravel()
         return room
 
-    def shadow(self, array: Array, name: str) -> Array:
-        """Return the directions behind an array, or behind those in rows, shape (..., n, L)."""
+    def directions_after(self, array: Array, name: str) -> Array:
+        """Return the directions after an array, or after those in rows, shape (..., n, L)."""
         size = self.sizes[name]
         return array[..., size : size * (1 + self.lanes)].reshape(*array.shape[:-1], size, self.lanes)
 
     def parameters(self, p: Array, directions: Array) -> Array:
         """Return parameters with directions, and the numbers that follow them."""
-        longer = self.longer(p, "p", directions)
+        longer = self.room_with_directions(p, "p", directions)
         self.whole.prepare(longer)
         return longer
 
     def scratch(self, p: Array, w: Array) -> Array:
         """Return scratch with directions: masses follow parameters with directions."""
-        longer = self.longer(w, "w")
+        longer = self.room_with_directions(w, "w")
         self.caller("masses", self.whole.model.masses)(p, longer)
         return longer
 
@@ -153,17 +153,17 @@ class DirectedModel:
         return function.caller((_MODEL | _LAW)[name].signature.arguments)
 
 
-def for_derivatives(module: object, name: str) -> Any:
+def form_for_derivatives(module: object, name: str) -> Any:
     """Return the function of a module under a name, or its form whose derivatives take the fewest operations."""
     return getattr(module, name + SLOPES, getattr(module, name))
 
 
-def lanes_of(count: int) -> int:
+def lanes_for_directions(count: int) -> int:
     """Return the number of directions that code is made for, for a number of them."""
     return next((lanes for lanes in LANES if lanes >= count), LANES[-1])
 
 
-def few_passes(count: int) -> int:
+def lanes_of_few_passes(count: int) -> int:
     """Return the number of directions of code that goes over a step as seldom as can be, for a number of them."""
     if count <= LANES[0]:
         return LANES[0]

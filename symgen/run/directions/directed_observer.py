@@ -48,7 +48,7 @@ class Observer:
     w: Array
     modes: Sequence[tuple[float, Array]] = ()
 
-    def _here(self, k: int) -> tuple[float, Array, Array]:
+    def _state_at_output(self, k: int) -> tuple[float, Array, Array]:
         """Return time, state and parameters of an output."""
         p = next(p for until, p in self.pieces if self.times[k] <= until)
         return float(self.times[k]), self.states[k].copy(), p
@@ -66,23 +66,23 @@ class Observer:
         rows, scratch = np.zeros_like(self.states), np.zeros((len(self.times), len(w)))
         ydot = np.zeros(model.sizes["y"] * (1 + model.lanes))
         for k in range(len(self.times)):
-            t, y, p = self._here(k)
-            self._wind(w, k)
+            t, y, p = self._state_at_output(k)
+            self._wind_angles(w, k)
             accept(t, y, p, w, iw)
             if rates(t, y, p, w, iw, ydot) != 0:
                 confirm(t, y, p, w, iw, ydot)
             rows[k], scratch[k] = ydot[: rows.shape[1]], w
         return rows, scratch
 
-    def _wind(self, w: Array, k: int) -> None:
+    def _wind_angles(self, w: Array, k: int) -> None:
         """Set the angles that count turns, and the numbers of modes, to their values at an output."""
         w[abi.WINDING : abi.WINDING + self.windings.shape[1]] = self.windings[k]
         if self.modes and self.model.plain.info.switchable:
             first, size = self.model.plain.info.sections["modes"]
             directions = next(modes for until, modes in self.modes if self.times[k] <= until)
-            self.model.shadow(w, "w")[first : first + size] = directions
+            self.model.directions_after(w, "w")[first : first + size] = directions
 
-    def observed(self, function: object, length: int) -> tuple[Array, Array]:
+    def observe_directions(self, function: object, length: int) -> tuple[Array, Array]:
         """Return the values of a function of the motion and their directions, shapes (k, length), (k, length, L).
 
         Parameters
@@ -96,11 +96,11 @@ class Observer:
         rates, scratch = self.rates
         out, lanes = np.zeros((len(self.times), length * (1 + self.model.lanes))), self.model.lanes
         for k in range(len(self.times)):
-            t, y, p = self._here(k)
+            t, y, p = self._state_at_output(k)
             call(t, y, p, scratch[k].copy(), rates[k].copy(), out[k])
         return out[:, :length], out[:, length:].reshape(len(self.times), length, lanes)
 
-    def violations(self) -> Array:
+    def violations_of_directions(self) -> Array:
         """Return the largest derivative of a row of Phi at the outputs in each direction, shape (k, L)."""
         model = self.model
         info = model.plain.info
@@ -108,9 +108,9 @@ class Observer:
         holonomic = [first + i for i, row in enumerate(info.rows) if row.holonomic]
         largest = np.zeros((len(self.times), model.lanes))
         for k in range(len(self.times)):
-            t, y, p = self._here(k)
+            t, y, p = self._state_at_output(k)
             w = self.w.copy()
-            self._wind(w, k)
+            self._wind_angles(w, k)
             model.caller("geometry", model.whole.model.geometry)(t, y, p, w)
-            largest[k] = np.abs(model.shadow(w, "w")[holonomic]).max(axis=0, initial=0.0)
+            largest[k] = np.abs(model.directions_after(w, "w")[holonomic]).max(axis=0, initial=0.0)
         return largest

@@ -47,7 +47,7 @@ class Estimating:
         return replace(plain, loop=self.loop, memory=plain.memory + HEAD + self.lanes * PARTS * NUMBERS)
 
 
-def estimating(integrator: Integrator, spec: RunSpec, lanes: int) -> Integrator | Estimating:
+def with_error_estimates(integrator: Integrator, spec: RunSpec, lanes: int) -> Integrator | Estimating:
     """Return a scheme that keeps the errors of directions; constant steps have no estimate."""
     from symgen.run.loops.schemes import adams, directed, explicit
 

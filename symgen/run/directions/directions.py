@@ -1,9 +1,9 @@
 """Runs with directions: derivatives of the state by numbers beside it, through the same steps.
 
-The state is longer: behind y lie L directions of each element; directions of parameters and scratch lie behind p and
-w. Emitted functions have a form with directions (`symgen.compile.native.tangents`); loops and explicit schemes, which
-are linear in the state, stay as they are. Error control leaves directions out, so a run without them takes the same
-steps.
+The arrays are longer: ``y`` is followed by L directions of each of its elements, and so are the parameters ``p`` and
+the scratch ``w``. Emitted functions have a form with directions (`symgen.compile.native.tangents`); loops and explicit
+schemes, which are linear in the state, stay as they are. Error control ignores directions, so a run without them takes
+the same steps.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.run.directions.directed_model import DirectedModel, Seeds, lanes_of
-from symgen.run.directions.direction_errors import StepErrors, begin_estimates, estimating, step_errors
+from symgen.run.directions.directed_model import DirectedModel, Seeds, lanes_for_directions
+from symgen.run.directions.direction_errors import StepErrors, begin_estimates, step_errors, with_error_estimates
 from symgen.run.directions.moments import Moments
 from symgen.run.directions.passages import PassingSimulation, RunPassage
 from symgen.run.directions.reset_directions import events_at_start
 from symgen.run.directions.transfer import Transfer
 from symgen.run.layout import abi
-from symgen.run.single.run import Progress, completed
+from symgen.run.single.run import Progress, complete_run
 from symgen.run.single.simulation import Simulation
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ class DirectedPart:
     outcome : Outcome
         Outcome of the longer state.
     doubts : sequence of str
-        Why directions behind events are in doubt.
+        Why directions after events are in doubt.
     modes : sequence of (float, Array)
         Directions of the numbers of modes, each with the last time at which they hold.
     """
@@ -60,16 +60,16 @@ class DirectedPart:
     @property
     def states(self) -> Array:
         """Directions of the state at the outputs, shape (k, ny, L)."""
-        return self.model.shadow(self.outcome.states, "y")
+        return self.model.directions_after(self.outcome.states, "y")
 
     @property
     def end(self) -> Array:
         """Directions of the last accepted state, shape (ny, L)."""
-        return self.model.shadow(self.outcome.simulation.state.y, "y")
+        return self.model.directions_after(self.outcome.simulation.state.y, "y")
 
 
 @dataclass(frozen=True)
-class Course:
+class DirectedCourse:
     """A run with directions at its outputs.
 
     Attributes
@@ -88,17 +88,17 @@ class Course:
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Why directions behind events are in doubt."""
+        """Why directions after events are in doubt."""
         return tuple(doubt for part in self.parts for doubt in part.doubts)
 
-    def gathered(self, of: Callable[[DirectedPart], Array]) -> Array:
+    def directions_side_by_side(self, of: Callable[[DirectedPart], Array]) -> Array:
         """Return the directions of all parts beside each other, along the last axis."""
         return np.concatenate([of(part) for part in self.parts], axis=-1)[..., : self.count]
 
     @cached_property
     def states(self) -> Array:
         """Directions of the state at the outputs, shape (k, ny, n)."""
-        return self.gathered(lambda part: part.states)
+        return self.directions_side_by_side(lambda part: part.states)
 
     @cached_property
     def errors(self) -> StepErrors | None:
@@ -138,14 +138,14 @@ class DirectedSimulation(PassingSimulation):
         """Place of the numbers of modes in the scratch array."""
         return self.transfer.moments.place_of_modes()
 
-    def passed(self, passage: RunPassage) -> None:
+    def note_passed(self, passage: RunPassage) -> None:
         """Take the directions through a passage."""
         model, state = self.directed, self.state
-        y, w = (model.shadow(x, name) for x, name in ((passage.before.y, "y"), (passage.before.w, "w")))
+        y, w = (model.directions_after(x, name) for x, name in ((passage.before.y, "y"), (passage.before.w, "w")))
         place = self.place
-        after, modes = self.transfer.through(passage, y, w[place])
-        model.shadow(state.y, "y")[:] = after
-        model.shadow(state.w, "w")[place] = modes
+        after, modes = self.transfer.transfer_through(passage, y, w[place])
+        model.directions_after(state.y, "y")[:] = after
+        model.directions_after(state.w, "w")[place] = modes
         self.modes.append((passage.before.t, w[place].copy()))
 
 
@@ -156,7 +156,7 @@ def run_with_directions(
     spec: RunSpec,
     seeds: Seeds,
     progress: Progress | None = None,
-) -> Course:
+) -> DirectedCourse:
     """Integrate with directions; those that one loop does not take are further runs of the same steps.
 
     Parameters
@@ -166,25 +166,25 @@ def run_with_directions(
     seeds : Seeds
         Directions at the start.
     """
-    model, parts = DirectedModel(compiled, lanes_of(seeds.count)), list[DirectedPart]()
+    model, parts = DirectedModel(compiled, lanes_for_directions(seeds.count)), list[DirectedPart]()
     for first in range(0, seeds.count, model.lanes):
-        own = seeds.part(first, model.lanes)
+        own = seeds.seeds_of_part(first, model.lanes)
         p = model.parameters(start.p, own.p)
-        initial = replace(start, y=model.longer(start.y, "y", own.y), p=p, w=model.scratch(p, start.w))
+        initial = replace(start, y=model.room_with_directions(start.y, "y", own.y), p=p, w=model.scratch(p, start.w))
         doubts = events_at_start(spec, model, initial)
-        scheme = estimating(integrator, spec, model.lanes)
+        scheme = with_error_estimates(integrator, spec, model.lanes)
         simulation = DirectedSimulation(model, scheme, initial, spec, own.p)
         begin_estimates(simulation, model.sizes["y"])
-        outcome = completed(simulation, progress)
-        modes = *simulation.modes, (np.inf, model.shadow(simulation.state.w, "w")[simulation.place].copy())
+        outcome = complete_run(simulation, progress)
+        modes = *simulation.modes, (np.inf, model.directions_after(simulation.state.w, "w")[simulation.place].copy())
         parts.append(DirectedPart(model, outcome, (*doubts, *simulation.transfer.doubts), modes))
         progress = None
         if outcome.interrupted:
             break
-    return Course(_plain(parts[0], integrator, start, spec), tuple(parts), seeds.count)
+    return DirectedCourse(_plain_outcome(parts[0], integrator, start, spec), tuple(parts), seeds.count)
 
 
-def _plain(part: DirectedPart, integrator: Integrator, start: Start, spec: RunSpec) -> Outcome:
+def _plain_outcome(part: DirectedPart, integrator: Integrator, start: Start, spec: RunSpec) -> Outcome:
     """Return the outcome of a run with directions as one of a run without them."""
     outcome, sizes, compiled = part.outcome, part.model.sizes, part.model.plain
     simulation, longer = Simulation(compiled, integrator, start, spec), outcome.simulation

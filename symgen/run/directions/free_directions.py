@@ -34,7 +34,7 @@ class Free:
     now : Moment
         The state.
     by : Directions
-        All directions, and behind them that of the motion.
+        All directions, and after them that of the motion.
     """
 
     def __init__(self, moments: Moments, now: Moment, by: Directions) -> None:
@@ -55,7 +55,7 @@ class Free:
         sizes = np.linalg.norm(rows, axis=1)
         return np.asarray(rows[sizes > 0.0] / sizes[sizes > 0.0, np.newaxis])
 
-    def moves(self, rows: Array, of: Array) -> bool:
+    def has_free_motion(self, rows: Array, of: Array) -> bool:
         """Whether derivatives, which are differences of others, do not vanish in all directions that are free."""
         left = rows
         if len(self._rows):
@@ -70,9 +70,9 @@ def constraint_directions(moments: Moments, now: Moment, by: Directions) -> tupl
     geometry = model.function(compiled.model.geometry, timed=True).caller(abi.MEASURE.signature.arguments)
     (first, _), (residual, m), (nu, _) = (info.sections[name] for name in ("jacobian", "residual", "nu"))
     d, places = np.zeros((info.m, info.nv)), [(i, j, slot) for i, j, _, slot in info.jacobian if slot is not None]
-    for _, y, p, w in moments.chunks(now, by):
+    for _, y, p, w in moments.chunks_of_states(now, by):
         geometry(now.t, y, p, w)
-        d, own = compiled.jacobian(w[: model.sizes["w"]]), model.shadow(w, "w")
+        d, own = compiled.jacobian(w[: model.sizes["w"]]), model.directions_after(w, "w")
         slopes = np.zeros((info.m, info.nv + 2, model.lanes))
         for i, j, slot in places:
             slopes[i, j] = own[first + slot]

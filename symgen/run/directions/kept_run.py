@@ -30,7 +30,7 @@ class Uncovered(InputError):
     """A run has no adjoint; says what has one."""
 
 
-def refusal(expected: str, got: str, hint: str = "") -> Uncovered:
+def reason_against_adjoint(expected: str, got: str, hint: str = "") -> Uncovered:
     """Return the error on a run without an adjoint."""
     return Uncovered("adjoint", expected, got, hint or "forward directions take it")
 
@@ -51,7 +51,7 @@ class Recorder:
         return getattr(self.integrator, name)
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
-        """Return the arguments of the loop, which keeps steps behind the memory of the scheme."""
+        """Return the arguments of the loop, which keeps steps after the memory of the scheme."""
         from symgen.run.loops.schemes import adjoint
 
         plain = self.integrator.setup(compiled, spec, w)
@@ -77,7 +77,7 @@ class KeptRun(PassingSimulation):
     first : Array
         Record of the start, whose state was corrected.
     course : list of (Array or Passage)
-        Records of `symgen.run.loops.schemes.adjoint`, each part of them behind a record of where it begins, and the
+        Records of `symgen.run.loops.schemes.adjoint`, each part of them after a record of where it begins, and the
         passages between them.
     corrected : int
         Number of passages before the state at the start was corrected.
@@ -99,7 +99,7 @@ class KeptRun(PassingSimulation):
         self.course = list[Array | RunPassage]()
         self._pages, self._turned, self._begins, self._left = pages, 0, 0, 0
         if self._capacity < 1:
-            raise refusal("a smaller mechanism", f"one with {self.sizes.ny} numbers in its state")
+            raise reason_against_adjoint("a smaller mechanism", f"one with {self.sizes.ny} numbers in its state")
 
     def enter(
         self, outputs: Outputs, until: float | None = None, pause: float = np.inf, most: float | None = None
@@ -109,43 +109,43 @@ class KeptRun(PassingSimulation):
         while True:
             begun = len(self.first) > 0
             if begun:
-                self._close()
+                self._close_page()
                 self._turn_page(self._record(self._count - 1).copy() if self._turned else self.first)
             seam = next((seam.t for seam in self.spec.seams if self.is_ahead(seam.t)), end)
             here = self.state.control[abi.STEPS]
             code = super().enter(outputs, min(seam, end), min(pause, here + self._capacity * begun), most)
             if not begun:
-                self.first, self.corrected = self._here(float(self.state.iw[abi.ITERATIONS])), len(self.course)
-                self._keep(self.first)
-            elif self._moved():
-                self._pass((), self._moment()._replace(p=self._p))
+                self.first, self.corrected = self._present_state(float(self.state.iw[abi.ITERATIONS])), len(self.course)
+                self._keep_step(self.first)
+            elif self._has_changed():
+                self._pass_event((), self._present_moment()._replace(p=self._p))
             if code == abi.DONE and seam < end:
                 continue
             if code != abi.PAUSED or self.state.control[abi.STEPS] >= pause:
-                self._close()
+                self._close_page()
                 return code
 
-    def passed(self, passage: RunPassage) -> None:
-        """Keep a passage; the steps behind it begin anew."""
-        self._close()
+    def note_passed(self, passage: RunPassage) -> None:
+        """Keep a passage; the steps after it begin anew."""
+        self._close_page()
         self.course.append(passage)
-        self._keep(passage.before.y, passage.before.w, passage.after.y, passage.after.w)
+        self._keep_step(passage.before.y, passage.before.w, passage.after.y, passage.after.w)
         if len(self.first) == 0:  # the run has not begun
             return
         if self._left == 0:
-            self._turn_page(self._here())
+            self._turn_page(self._present_state())
             return
         self._left -= 1
         self._begins = self._count
         self.state.memory[self._head] += 1.0
-        self._record(self._begins)[:] = self._here()
+        self._record(self._begins)[:] = self._present_state()
 
-    def _ended(self, code: int, until: float) -> int | None:
+    def _note_end(self, code: int, until: float) -> int | None:
         if code != abi.CHOOSE:
-            return super()._ended(code, until)
-        before = self._moment()
-        ended = super()._ended(code, until)
-        self._pass((), before)
+            return super()._note_end(code, until)
+        before = self._present_moment()
+        ended = super()._note_end(code, until)
+        self._pass_event((), before)
         return ended
 
     @property
@@ -159,7 +159,7 @@ class KeptRun(PassingSimulation):
         record: Array = self.state.memory[self._head + HEAD :][number * self.size : (number + 1) * self.size]
         return record
 
-    def _here(self, corrections: float = 0.0) -> Array:
+    def _present_state(self, corrections: float = 0.0) -> Array:
         """Return the record of the present state."""
         from symgen.run.loops.schemes.adjoint import ANGLES, CORRECTIONS, TIME, state_at
 
@@ -169,30 +169,32 @@ class KeptRun(PassingSimulation):
         record[ANGLES : ANGLES + angles] = self.state.w[abi.WINDING : abi.WINDING + angles]
         return record
 
-    def _moved(self) -> bool:
+    def _has_changed(self) -> bool:
         """Whether time or inputs have changed since the last step."""
         from symgen.run.loops.schemes.adjoint import TIME
 
         last = self._record(self._count - 1)
         return bool(last[TIME] != self.state.clock[abi.TIME]) or not np.array_equal(self._p, self.state.p)
 
-    def _keep(self, *arrays: Array) -> None:
+    def _keep_step(self, *arrays: Array) -> None:
         self.bytes_kept += sum(array.nbytes for array in arrays)
         if self.bytes_kept > MOST_KEPT:
-            raise refusal(f"stages of at most {MOST_KEPT >> 30} GiB", "more", "take larger tolerances or steps")
+            raise reason_against_adjoint(
+                f"stages of at most {MOST_KEPT >> 30} GiB", "more", "take larger tolerances or steps"
+            )
 
-    def _close(self) -> None:
+    def _close_page(self) -> None:
         """Keep the steps since the last passage, or since the page was turned."""
         from symgen.run.loops.schemes.adjoint import HEAD
 
         if self._turned and self._count - self._begins > 1:
             records = self.state.memory[self._head + HEAD :][self._begins * self.size : self._count * self.size]
             self.course.append(records)
-            self._keep(records)
+            self._keep_step(records)
             self._begins = self._count - 1
 
     def _turn_page(self, first: Array) -> None:
-        """Let the loop write its next steps to another page, behind a record of where they begin."""
+        """Let the loop write its next steps to another page, after a record of where they begin."""
         from symgen.run.loops.schemes.adjoint import HEAD
 
         head = self._head

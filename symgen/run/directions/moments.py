@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.ir.program import MODE_NUMBERS
-from symgen.run.directions.directed_model import DirectedModel, for_derivatives, lanes_of
+from symgen.run.directions.directed_model import DirectedModel, form_for_derivatives, lanes_for_directions
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready, rate_functions
 
@@ -74,7 +74,7 @@ class Moments:
 
     def __init__(self, compiled: CompiledModel, parameters: Array) -> None:
         self.compiled, self._seeds, self.count = compiled, parameters, parameters.shape[1]
-        self.model = DirectedModel(compiled, lanes_of(self.count))
+        self.model = DirectedModel(compiled, lanes_for_directions(self.count))
         self._p, self._templates = np.zeros(0), list[tuple[Array, Array]]()
 
     @cached_property
@@ -86,7 +86,7 @@ class Moments:
     @cached_property
     def _directed(self) -> tuple[Any, Any, Any]:
         law = self.compiled.law_module
-        rates = for_derivatives(law, "rates" if hasattr(law, "rates") else "rhs")
+        rates = form_for_derivatives(law, "rates" if hasattr(law, "rates") else "rhs")
         pairs = (law.accept, abi.ACCEPT), (rates, abi.RHS), (getattr(law, "confirm", rates), abi.RHS)
         accept, rates, confirm = (
             self.model.function(f, timed=True).caller(kind.signature.arguments) for f, kind in pairs
@@ -114,7 +114,7 @@ class Moments:
     def _counters() -> NDArray[np.int64]:
         return np.zeros(abi.N_COUNTERS, dtype=np.int64)
 
-    def chunks(self, now: Moment, by: Directions) -> list[tuple[int, Array, Array, Array]]:
+    def chunks_of_states(self, now: Moment, by: Directions) -> list[tuple[int, Array, Array, Array]]:
         """Return the first direction, state, parameters and scratch of each part of as many as the code takes.
 
         Directions of time follow the scratch.
@@ -127,8 +127,8 @@ class Moments:
             y, w = np.zeros(model.sizes["y"] * (1 + lanes)), template.copy()
             y[: model.sizes["y"]], w[:size] = now.y[: model.sizes["y"]], now.w[:size]
             part = by.y[:, first : first + lanes]
-            model.shadow(y, "y")[:, : part.shape[1]] = part
-            model.shadow(w, "w")[modes, : part.shape[1]] = by.modes[:, first : first + lanes]
+            model.directions_after(y, "y")[:, : part.shape[1]] = part
+            model.directions_after(w, "w")[modes, : part.shape[1]] = by.modes[:, first : first + lanes]
             w[-lanes:][: part.shape[1]] = by.t[first : first + lanes]
             parts.append((first, y, p, w))
         return parts
@@ -146,27 +146,31 @@ class Moments:
                 longer = model.parameters(p, room)
                 w = model.scratch(longer, now.w[: model.sizes["w"]])
             else:
-                longer, w = model.longer(p, "p"), model.longer(now.w, "w")
+                longer, w = model.room_with_directions(p, "p"), model.room_with_directions(now.w, "w")
             self._templates.append((longer, np.concatenate([w, np.zeros(model.lanes)])))
 
-    def evaluated(self, function: object, length: int, now: Moment, by: Directions) -> tuple[Array, Array]:
+    def evaluate_moment(self, function: object, length: int, now: Moment, by: Directions) -> tuple[Array, Array]:
         """Return values and directions of a function that reads no rates, shapes (length,), (length, k)."""
-        call, lanes = self._caller(function, length), self.model.lanes
-        slopes, out = self._room(length), np.zeros(length * (1 + lanes))
-        for first, y, p, w in self.chunks(now, by):
+        call, lanes = self._caller_of_function(function, length), self.model.lanes
+        slopes, out = self._room_of_moment(length), np.zeros(length * (1 + lanes))
+        for first, y, p, w in self.chunks_of_states(now, by):
             call(now.t, y, p, w, np.zeros_like(y), out)
             slopes[:, first : first + lanes] = out[length:].reshape(length, lanes)
         return out[:length].copy(), slopes[:, : self.count]
 
-    def _room(self, length: int) -> Array:
+    def _room_of_moment(self, length: int) -> Array:
         return np.zeros((length, -(-self.count // self.model.lanes) * self.model.lanes))
 
-    def observed(self, function: object, length: int, now: Moment, by: Directions) -> tuple[Array, Array]:
+    def observe(self, function: object, length: int, now: Moment, by: Directions) -> tuple[Array, Array]:
         """Return values and directions of a function that reads rates and multipliers."""
-        call, lanes, (accept, rates, confirm) = self._caller(function, length), self.model.lanes, self._directed
-        slopes, out = self._room(length), np.zeros(length * (1 + lanes))
+        call, lanes, (accept, rates, confirm) = (
+            self._caller_of_function(function, length),
+            self.model.lanes,
+            self._directed,
+        )
+        slopes, out = self._room_of_moment(length), np.zeros(length * (1 + lanes))
         iw = self._counters()
-        for first, y, p, w in self.chunks(now, by):
+        for first, y, p, w in self.chunks_of_states(now, by):
             ydot = np.zeros_like(y)
             accept(now.t, y, p, w, iw)
             if rates(now.t, y, p, w, iw, ydot) != 0:
@@ -175,10 +179,10 @@ class Moments:
             slopes[:, first : first + lanes] = out[length:].reshape(length, lanes)
         return out[:length].copy(), slopes[:, : self.count]
 
-    def _caller(self, function: object, length: int) -> Any:
+    def _caller_of_function(self, function: object, length: int) -> Any:
         return self.model.function(function, length, timed=True).caller(abi.OBSERVE.signature.arguments)
 
 
-def modes_of(compiled: CompiledModel, numbers: Array) -> Array:
+def modes_of_moment(compiled: CompiledModel, numbers: Array) -> Array:
     """Return the numbers of modes, or directions of them, one line a row, shape (rows, MODE_NUMBERS, ...)."""
     return numbers.reshape(len(compiled.info.switchable), MODE_NUMBERS, *numbers.shape[1:])

@@ -93,36 +93,36 @@ class PassingSimulation(Simulation):
     def _time(self) -> float:
         return float(self.state.clock[abi.TIME])
 
-    def _moment(self) -> Moment:
+    def _present_moment(self) -> Moment:
         state = self.state
         return Moment(self._time, state.y.copy(), state.p.copy(), state.w.copy())
 
-    def passed(self, passage: RunPassage) -> None:
-        """Take a passage; the run goes on behind it. What is done with it is up to subclasses."""
+    def note_passed(self, passage: RunPassage) -> None:
+        """Take a passage; the run goes on after it. What is done with it is up to subclasses."""
         raise NotImplementedError
 
-    def _pass(
+    def _pass_event(
         self, numbers: Sequence[int], before: Moment, effects: tuple[Struck, ...] = (), starts: bool = False
     ) -> None:
         self._p = self.state.p.copy()
-        self.passed(RunPassage(tuple(numbers), before, self._moment(), effects, starts))
+        self.note_passed(RunPassage(tuple(numbers), before, self._present_moment(), effects, starts))
 
     def _begin_modes(self) -> None:
         if not self.has_modes or self.state.control[abi.BEGUN] == 1:
             return
-        before = self._moment()._replace(p=self._p)
+        before = self._present_moment()._replace(p=self._p)
         starts = bool(self.state.control[abi.BEGUN] == 0 and self.state.control[abi.STEPS] == 0)
         super()._begin_modes()
-        self._pass((), before, self._struck(), starts)
+        self._pass_event((), before, self._struck(), starts)
 
     def _meet(self, events: Sequence[tuple[int, Happening]]) -> int:
-        before, acting = self._moment(), self._acting(events)
+        before, acting = self._present_moment(), self._rows_that_act(events)
         code = super()._meet(events)
         if acting:
-            self._pass(acting, before, self._struck())
+            self._pass_event(acting, before, self._struck())
         return code
 
-    def _acting(self, events: Sequence[tuple[int, Happening]]) -> list[int]:
+    def _rows_that_act(self, events: Sequence[tuple[int, Happening]]) -> list[int]:
         """Return the numbers of the events at the present time that change anything."""
         from symgen.describe.bounds.bounded_modes import MODE
         from symgen.describe.parts.event_sections import RESET
@@ -131,8 +131,8 @@ class PassingSimulation(Simulation):
         return [number for number, event in events if event.t == now and event.action in (MODE, RESET)]
 
     def _go_on_changed(self) -> bool:
-        before = self._moment()._replace(p=self._p)
+        before = self._present_moment()._replace(p=self._p)
         if not super()._go_on_changed():
             return False
-        self._pass((), before, self._struck() if self.has_modes else ())
+        self._pass_event((), before, self._struck() if self.has_modes else ())
         return True

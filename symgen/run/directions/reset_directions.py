@@ -51,7 +51,7 @@ def events_at_start(spec: RunSpec, model: DirectedModel, start: Start) -> list[s
     count = len(watched.names) + len(watched.switches)
     windings = start.w[np.newaxis, abi.WINDING : abi.WINDING + model.plain.info.windings]
     observer = Observer(model, np.array([start.t]), start.y[np.newaxis], windings, ((np.inf, start.p),), start.w)
-    values, slopes = (x[0] for x in observer.observed(watched.function, 3 * count))
+    values, slopes = (x[0] for x in observer.observe_directions(watched.function, 3 * count))
     return [
         f"the event '{name}' is at the start: with other numbers it may happen behind it"
         for k, (name, action) in enumerate(zip(watched.names, watched.actions, strict=True))
@@ -103,8 +103,8 @@ class ResetDirections:
 
     def directions(self) -> Array:
         """Return the directions of the state after the reset at its event, shape (ny, L)."""
-        info, changes, after = self.info, self.changes, self.model.shadow(self.y, "y").copy()
-        out, count = self._evaluated(self.effects.formulas, len(self.work.out), self.y), len(changes.owners)
+        info, changes, after = self.info, self.changes, self.model.directions_after(self.y, "y").copy()
+        out, count = self._evaluate_reset(self.effects.formulas, len(self.work.out), self.y), len(changes.owners)
         numbers = self._values
         writes = changes.writes.reshape(-1, 2)
         for (event, place), slopes in zip(writes, out[2 * count :], strict=False):
@@ -112,7 +112,9 @@ class ResetDirections:
                 after[place] = slopes
         struck = [k for k, event in enumerate(changes.owners) if self.chosen[event]]
         if struck:
-            velocities, energy, impulses = self._struck(struck, out[count : 2 * count], out[2 * count + len(writes) :])
+            velocities, energy, impulses = self._strike_directions(
+                struck, out[count : 2 * count], out[2 * count + len(writes) :]
+            )
             after[info.nq : info.work] = velocities
             after[info.work] += energy
             for k, event in enumerate(struck):
@@ -123,7 +125,7 @@ class ResetDirections:
                     after[place] -= 0.5 * loss
         return after
 
-    def _evaluated(self, function: object, length: int, y: Array) -> Array:
+    def _evaluate_reset(self, function: object, length: int, y: Array) -> Array:
         """Return the directions of what a function writes, shape (length, L)."""
         call = self.model.function(function, length, timed=True).caller(abi.OBSERVE.signature.arguments)
         out = np.zeros(length * (1 + self.model.lanes))
@@ -131,24 +133,24 @@ class ResetDirections:
         self._values = out[:length]
         return out[length:].reshape(length, self.model.lanes)
 
-    def _probed(self, function: object, length: int) -> tuple[Array, Array]:
+    def _probe_velocities(self, function: object, length: int) -> tuple[Array, Array]:
         """Return the directions of what velocities have as coefficients, and of the rest, shape (length, nv, L)."""
         info, still = self.info, self.y.copy()
         still[info.nq : info.work] = 0.0
-        self.model.shadow(still, "y")[info.nq : info.work] = 0.0
-        rest, coefficients = self._evaluated(function, length, still), list[Array]()
+        self.model.directions_after(still, "y")[info.nq : info.work] = 0.0
+        rest, coefficients = self._evaluate_reset(function, length, still), list[Array]()
         for j in range(info.nq, info.work):
             still[j] = 1.0
-            coefficients.append(self._evaluated(function, length, still) - rest)
+            coefficients.append(self._evaluate_reset(function, length, still) - rest)
             still[j] = 0.0
         return np.stack(coefficients, axis=1), rest
 
-    def _struck(self, struck: list[int], values: Array, entries: Array) -> tuple[Array, Array, Array]:
+    def _strike_directions(self, struck: list[int], values: Array, entries: Array) -> tuple[Array, Array, Array]:
         """Return the directions of velocities after the smallest impulse, of its energy, and of impulses at events."""
         info, impulse, n = self.info, self.work.impulse, self.info.nv
         k = info.m + len(struck)
         c, m = impulse.rows[: k * n].reshape(k, n), impulse.mass.reshape(n, n)
-        own, rest = self._probed(self.effects.formulas, len(self.work.out))
+        own, rest = self._probe_velocities(self.effects.formulas, len(self.work.out))
         jacobian, nu = self._joints()
         off = ~np.any(c[: info.m] != 0.0, axis=1)  # of rows that are off
         jacobian[off], nu[off] = 0.0, 0.0
@@ -156,7 +158,7 @@ class ResetDirections:
         right = np.concatenate([nu, values[struck] - rest[struck]])
         mass, more = self._masses(entries)
         before, after = self.y[info.nq : info.work], self.impact.v
-        directions = self.model.shadow(self.y, "y")[info.nq : info.work]
+        directions = self.model.directions_after(self.y, "y")[info.nq : info.work]
         change = after - before
         # C dv+ = dc - dC v+, and M dv+ = M dv- - dM (v+ - v-) + dC^T i where rows leave it free
         right = right - np.einsum("ijk,j->ik", slopes, after)
@@ -191,7 +193,7 @@ class ResetDirections:
         geometry = model.function(model.plain.model.geometry, timed=True).caller(abi.MEASURE.signature.arguments)
         w = self.w.copy()
         geometry(self.t, self.y.copy(), self.p, w)
-        directions, (first, _), (nu, m) = model.shadow(w, "w"), info.sections["jacobian"], info.sections["nu"]
+        directions, (first, _), (nu, m) = model.directions_after(w, "w"), info.sections["jacobian"], info.sections["nu"]
         slopes = np.zeros((info.m, info.nv, model.lanes))
         for row, column, _, slot in info.jacobian:
             if slot is not None:
@@ -204,12 +206,12 @@ class ResetDirections:
         mass, places = np.zeros((info.nv, info.nv, lanes)), changes.entries.reshape(-1, 2).tolist()
         if not changes.bodies:
             first, size = info.sections["mass"]
-            mass[range(size), range(size)] = self.model.shadow(self.w, "w")[first : first + size]
+            mass[range(size), range(size)] = self.model.directions_after(self.w, "w")[first : first + size]
             for (i, j), slopes in zip(places, entries, strict=True):
                 mass[i, j] = mass[j, i] = slopes
             return mass, lambda change, slopes: np.zeros(lanes)
         bodies = slice(changes.first, changes.first + changes.bodies)
-        coefficients, rest = self._probed(self.model.plain.model.bodies, len(self.work.motion))
+        coefficients, rest = self._probe_velocities(self.model.plain.model.bodies, len(self.work.motion))
         by, drift = coefficients[bodies], rest[bodies]
         carried, still = self.work.carried.reshape(changes.bodies, info.nv), self.work.drift
         full, slopes = np.zeros((changes.bodies, changes.bodies)), np.zeros((changes.bodies, changes.bodies, lanes))

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.compile.store.emitted import with_directions
-from symgen.run.directions.directed_model import for_derivatives
+from symgen.run.directions.directed_model import form_for_derivatives
 from symgen.run.directions.moments import Directions, Moment, Moments
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
@@ -79,28 +79,28 @@ class StageDirections(ABC):
         self.moments, self.law = moments, moments.compiled.law_module
 
     @abstractmethod
-    def through(self, step: DifferentiatedStep, state: State) -> Array:
-        """Return the directions of the state behind a step, shape (ny, k).
+    def directions_after_step(self, step: DifferentiatedStep, state: State) -> Array:
+        """Return the directions of the state after a step, shape (ny, k).
 
         Parameters
         ----------
         step : DifferentiatedStep
             The step.
         state : State
-            Of the run behind it: in its working memory, stages of the step or some near them.
+            Of the run after it: in its working memory, stages of the step or some near them.
         """
 
     @cached_property
     def _accept(self) -> Any:
         return self.moments.model.function(self.law.accept, timed=True).caller(abi.ACCEPT.signature.arguments)
 
-    def _corrected(self, step: DifferentiatedStep, end: Array, y: Array) -> Array:
-        """Return the directions of a state behind its correction."""
+    def _correct_directions(self, step: DifferentiatedStep, end: Array, y: Array) -> Array:
+        """Return the directions of a state after its correction."""
         columns, model = list[Array](), self.moments.model
         now, by = step.at(1.0, end), Directions(y, step.time(1.0), step.by.modes)
-        for _, own, p, w in self.moments.chunks(now, by):
+        for _, own, p, w in self.moments.chunks_of_states(now, by):
             self._accept(now.t, own, p, w, np.zeros(abi.N_COUNTERS, dtype=np.int64))
-            columns.append(model.shadow(own, "y").copy())
+            columns.append(model.directions_after(own, "y").copy())
         return np.concatenate(columns, axis=1)[:, : y.shape[1]]
 
 
@@ -124,13 +124,13 @@ class ExplicitStages(StageDirections):
 
     @cached_property
     def _rates(self) -> tuple[Any, Any]:
-        rhs = for_derivatives(self.law, "rhs")
+        rhs = form_for_derivatives(self.law, "rhs")
         functions = (self.moments.model.function(f, timed=True) for f in (rhs, getattr(self.law, "confirm", rhs)))
         rates, confirm = (f.caller(abi.RHS.signature.arguments) for f in functions)
         return rates, confirm
 
-    def through(self, step: DifferentiatedStep, state: State) -> Array:
-        """Return the directions of the state behind a step, shape (ny, k)."""
+    def directions_after_step(self, step: DifferentiatedStep, state: State) -> Array:
+        """Return the directions of the state after a step, shape (ny, k)."""
         stages, columns, count = list[Array](), list[Array](), len(self._a) - 1
         end = step.before.y[: self.moments.model.sizes["y"]]
         y = step.by.y
@@ -143,18 +143,18 @@ class ExplicitStages(StageDirections):
                 rate, slope = self._rate(step, float(self._c[s]), end, y)
                 stages.append(rate)
                 columns.append(slope)
-        return self._corrected(step, end, y)
+        return self._correct_directions(step, end, y)
 
     def _rate(self, step: DifferentiatedStep, c: float, y: Array, by: Array) -> tuple[Array, Array]:
         """Return the rate at a stage and its directions."""
         model, (rates, confirm), columns = self.moments.model, self._rates, list[Array]()
         now, counters = step.at(c, y), np.zeros(abi.N_COUNTERS, dtype=np.int64)
         ydot = np.zeros(len(y) * (1 + model.lanes))
-        for _, own, p, w in self.moments.chunks(now, Directions(by, step.time(c), step.by.modes)):
+        for _, own, p, w in self.moments.chunks_of_states(now, Directions(by, step.time(c), step.by.modes)):
             ydot[:] = 0.0
             if rates(now.t, own, p, w, counters, ydot) != 0:
                 confirm(now.t, own, p, w, counters, ydot)
-            columns.append(model.shadow(ydot, "ydot").copy())
+            columns.append(model.directions_after(ydot, "ydot").copy())
         return ydot[: len(y)].copy(), np.concatenate(columns, axis=1)[:, : by.shape[1]]
 
 
@@ -187,29 +187,29 @@ class ImplicitStages(StageDirections):
         function = with_directions(self.law.residual, model.lanes, tuple(sorted(places.items())))
         return function.caller(abi.STAGE.signature.arguments)
 
-    def through(self, step: DifferentiatedStep, state: State) -> Array:
-        """Return the directions of the state behind a step, shape (ny, k)."""
+    def directions_after_step(self, step: DifferentiatedStep, state: State) -> Array:
+        """Return the directions of the state after a step, shape (ny, k)."""
         pattern, n, s, y = Pattern.of(self.moments.compiled, step.before.w), self._n, self._s, step.by.y
-        k, matrix = self._converged(step, pattern, state.room[2 * len(state.y) :][: s * n].reshape(s, n).copy())
+        k, matrix = self._converge_stages(step, pattern, state.room[2 * len(state.y) :][: s * n].reshape(s, n).copy())
         rest = np.zeros((s, n, y.shape[1]))
         for i in range(s):
             rate = np.zeros(len(y))
             rate[self._elements] = self._a[i] @ k[:, self._rates]
-            rest[i] = self._by_state(step, i, k, y + np.outer(rate, step.longer))
+            rest[i] = self._slopes_by_state(step, i, k, y + np.outer(rate, step.longer))
         rest[:, pattern.left_out] = 0.0
-        by_stages = _solved(matrix, -rest.reshape(s * n, -1)).reshape(s, n, -1)
+        by_stages = _solve_stages(matrix, -rest.reshape(s * n, -1)).reshape(s, n, -1)
         after, end = y.copy(), step.before.y.copy()
         total = self._b @ k[:, self._rates]
         after[self._elements] += step.h * np.einsum("i,ijk->jk", self._b, by_stages[:, self._rates])
         after[self._elements] += np.outer(total, step.longer)
         end[self._elements] += step.h * total
-        return self._corrected(step, end, after)
+        return self._correct_directions(step, end, after)
 
-    def _converged(self, step: DifferentiatedStep, pattern: Pattern, k: Array) -> tuple[Array, Array]:
+    def _converge_stages(self, step: DifferentiatedStep, pattern: Pattern, k: Array) -> tuple[Array, Array]:
         """Return the stages from some near them, and Newton's matrix there."""
         for _ in range(_ITERATIONS):
             matrix, right = self._equations(step, pattern, k)
-            change = _solved(matrix, right).reshape(k.shape)
+            change = _solve_stages(matrix, right).reshape(k.shape)
             k = k - change
             if np.abs(change).max() <= _SAME * max(1.0, np.abs(k).max()):
                 return k, self._equations(step, pattern, k)[0]
@@ -238,19 +238,19 @@ class ImplicitStages(StageDirections):
             right[i, out] = k[i, out]
         return matrix.reshape(s * n, s * n), right.ravel()
 
-    def _by_state(self, step: DifferentiatedStep, i: int, k: Array, y: Array) -> Array:
+    def _slopes_by_state(self, step: DifferentiatedStep, i: int, k: Array, y: Array) -> Array:
         """Return the directions of the residual of a stage whose unknowns have none, shape (n, k)."""
         lanes, n, columns, now = self.moments.model.lanes, self._n, list[Array](), self._stage(step, i, k)
         unknowns, out = np.zeros(n * (1 + lanes)), np.zeros(n * (1 + lanes))
         unknowns[:n] = k[i]
         by = Directions(y, step.time(float(self._c[i])), step.by.modes)
-        for _, own, p, w in self.moments.chunks(now, by):
+        for _, own, p, w in self.moments.chunks_of_states(now, by):
             self._directed(now.t, own, unknowns, p, w, out)
             columns.append(out[n:].reshape(n, lanes).copy())
         return np.concatenate(columns, axis=1)[:, : y.shape[1]]
 
 
-def _solved(matrix: Array, right: Array) -> Array:
+def _solve_stages(matrix: Array, right: Array) -> Array:
     """Return the solution; of dependent rows the shortest."""
     try:
         solution = np.linalg.solve(matrix, right)

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Ends of loops behind which a run goes on.
+#: Ends of loops after which a run goes on.
 _ENDS = (abi.DONE, abi.MET, abi.PAUSED)
 
 
@@ -46,7 +46,7 @@ class StepsAgain(PassingSimulation):
     Attributes
     ----------
     slopes : Array, shape (ny, k)
-        Directions behind the steps.
+        Directions after the steps.
     transfer : Transfer
         Takes directions through passages.
     """
@@ -63,7 +63,7 @@ class StepsAgain(PassingSimulation):
         self.slopes, self._modes = seeds.y.copy(), np.zeros((self._place.stop - self._place.start, count))
         self._later, self._motion = np.zeros(count), np.zeros(len(seeds.y))
 
-    def made_again(self, before: Mapping[str, NDArray[Any]], until: float) -> bool:
+    def repeat_steps(self, before: Mapping[str, NDArray[Any]], until: float) -> bool:
         """Make the steps from a state before up to a time [s]; return whether a loop takes them to their end.
 
         Parameters
@@ -83,15 +83,15 @@ class StepsAgain(PassingSimulation):
         self.slopes, self._modes[:], self._later[:] = self._seeds.y.copy(), 0.0, 0.0
         self._begin()
         if self.has_modes:
-            here = self._moment()
-            self.passed(RunPassage((), here, here, starts=True))
+            here = self._present_moment()
+            self.note_passed(RunPassage((), here, here, starts=True))
         while self.is_ahead(until) and code in _ENDS:
             code = self.enter(self._nothing, until, float(state.control[abi.STEPS] + 1))
             self._follow()
         return code in _ENDS
 
     def _begin(self) -> None:
-        self._first, self._made = self._moment(), int(self.state.control[abi.STEPS])
+        self._first, self._made = self._present_moment(), int(self.state.control[abi.STEPS])
 
     def _follow(self, ends_in_event: bool = False) -> None:
         """Take the directions through the step made since the last call, if one was made."""
@@ -101,20 +101,22 @@ class StepsAgain(PassingSimulation):
             # the last step goes up to a given time; others have their length, and begin later with an event before
             fixed = ends_in_event or not self.is_ahead(self._until)
             longer = np.append(-self._later if fixed else np.zeros_like(self._later), 1.0)
-            by = Directions(*(_with_motion(x) for x in (self.slopes, self._later, self._modes)))
-            after = self._stages.through(DifferentiatedStep(self._first, h, by, longer), self.state)
+            by = Directions(*(_add_motion(x) for x in (self.slopes, self._later, self._modes)))
+            after = self._stages.directions_after_step(DifferentiatedStep(self._first, h, by, longer), self.state)
             self.slopes, self._motion = after[:, :-1], after[:, -1]
             if fixed:
                 self._later[:] = 0.0
         self._begin()
 
-    def passed(self, passage: RunPassage) -> None:
+    def note_passed(self, passage: RunPassage) -> None:
         """Take the directions through a passage, whose events give directions to the time from then on."""
         self._follow(bool(passage.numbers))
-        self.slopes, self._modes, later = self.transfer.at_event(passage, self.slopes, self._modes, self._motion)
+        self.slopes, self._modes, later = self.transfer.transfer_at_event(
+            passage, self.slopes, self._modes, self._motion
+        )
         self._later = self._later + later
 
 
-def _with_motion(x: Array) -> Array:
+def _add_motion(x: Array) -> Array:
     """Return directions with one of the motion, which does not move the beginning of a step."""
     return np.concatenate([x, np.zeros((*x.shape[:-1], 1))], axis=-1)

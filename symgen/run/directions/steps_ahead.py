@@ -63,11 +63,13 @@ class DirectedRun:
         outputs: object,
         count: int,
     ) -> None:
-        y, p, w = (model.longer(array, name) for array, name in ((start.y, "y"), (start.p, "p"), (start.w, "w")))
+        y, p, w = (
+            model.room_with_directions(array, name) for array, name in ((start.y, "y"), (start.p, "p"), (start.w, "w"))
+        )
         self.simulation = Simulation(model.whole, integrator, replace(start, y=y, p=p, w=w, saved=None), spec)
         self.model, self.count, self.seeds = model, count, seeds
-        self.observe = ahead.unobserved if outputs is None else model.function(outputs, count)
-        self.passes = [seeds.part(first, model.lanes) for first in range(0, seeds.count, model.lanes)]
+        self.observe = ahead.observe_nothing_ahead if outputs is None else model.function(outputs, count)
+        self.passes = [seeds.seeds_of_part(first, model.lanes) for first in range(0, seeds.count, model.lanes)]
         self.places, self.inputs = np.array(places, dtype=np.int64), np.array(inputs, dtype=np.int64)
         self.numbers_by = np.concatenate([part.p.ravel() for part in self.passes])
         self.seeds_of_y = np.concatenate([part.y.ravel() for part in self.passes])
@@ -97,7 +99,7 @@ class StepsAhead:
     steps : int
         Number of steps.
     end : Array, optional
-        The state behind the one step, which has to be the same; nothing is written to `before` then.
+        The state after the one step, which has to be the same; nothing is written to `before` then.
     same : float
         Part of the state by which it may differ.
 
@@ -138,18 +140,18 @@ class StepsAhead:
             still=run.still,
             room=run.room,
         )
-        self._entry = self._made()
+        self._entry = self._make_step()
 
-    def _made(self) -> LoopEntry:
+    def _make_step(self) -> LoopEntry:
         simulation, whole, directed = self._run.simulation, self._run.model.whole, self._run
         functions = simulation.setup.loop, whole.model.prepare, whole.law_module.prepare, directed.observe
         model = (simulation._model, self._record, *functions)
         arguments = model, simulation.scheme, simulation.span, simulation.state, simulation.outputs(np.zeros(0))
-        entry = loop_entry(ahead.ahead_of(simulation.setup.loop), arguments)
+        entry = loop_entry(ahead.loop_ahead_of(simulation.setup.loop), arguments)
         assert entry is not None, "directions are compiled"
         return entry
 
-    def made(self, span: Span, end: float, length: float = 0.0) -> int:
+    def make_steps(self, span: Span, end: float, length: float = 0.0) -> int:
         """Make the steps; return the code of their end.
 
         Parameters

@@ -1,4 +1,4 @@
-"""Directions through passages: how the state behind an event depends on all numbers, the time of the event among them.
+"""Directions through passages: how the state after an event depends on all numbers, the time of the event among them.
 
 At an event g = 0 its time changes by ``dt = -dg / g'``, and the state there by ``dy + y' dt``. What the event changes
 is differentiated there: velocities by the equations of the smallest impulse
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from symgen.describe.bounds.bounded_modes import HIT
 from symgen.run.directions.free_directions import TOGETHER, Free, constraint_directions
-from symgen.run.directions.moments import Directions, Moment, Moments, modes_of
+from symgen.run.directions.moments import Directions, Moment, Moments, modes_of_moment
 from symgen.run.directions.reset_directions import ResetDirections
 from symgen.run.layout import abi
 from symgen.run.modes.bounded_rows import CONSTANT, EFFORT, HELD, LIMIT, SIGN, STILL
@@ -80,8 +80,8 @@ class Transfer:
         """The model."""
         return self.moments.compiled
 
-    def through(self, passage: RunPassage, y: Array, modes: Array) -> tuple[Array, Array]:
-        """Return the directions of state and modes behind a passage from those before it.
+    def transfer_through(self, passage: RunPassage, y: Array, modes: Array) -> tuple[Array, Array]:
+        """Return the directions of state and modes after a passage from those before it.
 
         Parameters
         ----------
@@ -91,18 +91,18 @@ class Transfer:
             Directions at the same time, without that of the motion.
         """
         rate = self.moments.rates(self._plain(passage.before)) if passage.numbers else np.zeros(len(y))
-        y, modes, later = self.at_event(passage, y, modes, rate)
+        y, modes, later = self.transfer_at_event(passage, y, modes, rate)
         if passage.numbers:
             y = y - np.outer(self.moments.rates(self._plain(passage.after)), later)
         return y, modes
 
-    def at_event(self, passage: RunPassage, y: Array, modes: Array, rate: Array) -> tuple[Array, Array, Array]:
-        """Return the directions of state, modes and time of a passage behind it, at its own time.
+    def transfer_at_event(self, passage: RunPassage, y: Array, modes: Array, rate: Array) -> tuple[Array, Array, Array]:
+        """Return the directions of state, modes and time of a passage after it, at its own time.
 
         Parameters
         ----------
         passage, y, modes
-            As for `through`: directions before at a time that has none.
+            As for `transfer_through`: directions before at a time that has none.
         rate : Array, shape (ny,)
             How the state before changes with the time of its events.
         """
@@ -119,7 +119,7 @@ class Transfer:
         return y, self._modes(passage, before, after, here, free), later
 
     def _plain(self, x: Moment) -> Moment:
-        """Return a state without the directions behind its arrays."""
+        """Return a state without the directions after its arrays."""
         sizes = self.moments.model.sizes
         return Moment(x.t, x.y[: sizes["y"]], x.p[: sizes["p"]], x.w[: sizes["w"]])
 
@@ -138,21 +138,21 @@ class Transfer:
         count = len(watched.names) + len(watched.switches)
         times = np.append(np.zeros(y.shape[1]), 1.0)
         by = Directions(self._with(y, rate), times, self._with(modes))
-        values, slopes = self.moments.observed(watched.function, 3 * count, now, by)
+        values, slopes = self.moments.observe(watched.function, 3 * count, now, by)
         own, speeds, rounding = slopes[numbers, :-1], slopes[numbers, -1], values[2 * count :][numbers]
         resolved = np.abs(speeds) * _CROSSES * max(1.0, abs(now.t)) + rounding / _GRAZES
         if np.any(np.abs(values[numbers]) > resolved):  # a jump has carried it beyond zero
             if not self._seams_near(now.t):
-                self.doubts.append(f"the event {self._named(passage)} at t = {now.t:.6g} s happens by a jump")
+                self.doubts.append(f"the event {self._name_of_switch(passage)} at t = {now.t:.6g} s happens by a jump")
             return np.zeros(y.shape[1])
         if not np.all(np.abs(speeds) * self.spec.until * _GRAZES > rounding):
-            where = f"the event {self._named(passage)} at t = {now.t:.6g} s"
+            where = f"the event {self._name_of_switch(passage)} at t = {now.t:.6g} s"
             self.doubts.append(f"{where} is met without speed: its time has no derivative")
         with np.errstate(divide="ignore", invalid="ignore"):
             later = -own / speeds[:, np.newaxis]
-        if len(numbers) > 1 and self._differ(later[1:] - later[0], later, now.t, free):
+        if len(numbers) > 1 and self._rates_differ(later[1:] - later[0], later, now.t, free):
             self.doubts.append(
-                f"the events {self._named(passage)} at t = {now.t:.6g} s are together for these numbers only"
+                f"the events {self._name_of_switch(passage)} at t = {now.t:.6g} s are together for these numbers only"
             )
         return np.asarray(later[int(np.argmax(np.abs(speeds) / np.where(rounding > 0.0, rounding, 1.0)))])
 
@@ -161,16 +161,16 @@ class Transfer:
         near = (_NEAR + self.spec.rtol * self.spec.adaptive) * max(1.0, abs(t))
         return any(abs(seam.t - t) <= near and seam.t > 0.0 for seam in self.spec.seams)
 
-    def _named(self, passage: RunPassage) -> str:
+    def _name_of_switch(self, passage: RunPassage) -> str:
         assert self.watched is not None, "the run has events"
         return " and ".join(f"'{self.watched.names[k]}'" for k in passage.numbers)
 
-    def _differ(self, rows: Array, of: Array, t: float, free: Free) -> bool:
+    def _rates_differ(self, rows: Array, of: Array, t: float, free: Free) -> bool:
         """Whether differences of times do not vanish in directions that satisfy the constraints."""
         if not np.all(np.isfinite(rows)):
             return False
         if not self.consistent:
-            return free.moves(rows, of)
+            return free.has_free_motion(rows, of)
         size = np.abs(of).max(axis=0)
         return bool(
             np.any(np.abs(rows) > np.maximum(TOGETHER * size, _LEAST * max(1.0, t, float(size.max(initial=0.0)))))
@@ -182,31 +182,31 @@ class Transfer:
         last, self._last = self._last, (passage, later)
         t = passage.before.t
         if passage.numbers and self._seams_near(t):
-            if self._differ(later[np.newaxis], later[np.newaxis], t, free):
-                what = f"the event {self._named(passage)}"
+            if self._rates_differ(later[np.newaxis], later[np.newaxis], t, free):
+                what = f"the event {self._name_of_switch(passage)}"
                 self.doubts.append(f"{what} and a jump at t = {t:.6g} s are together for these numbers only")
             return
         if last is None or not (passage.numbers and last[0].numbers):
             return
         if abs(t - last[0].before.t) <= near and passage.numbers != last[0].numbers:
             both = np.stack([last[1], later])
-            if not self.consistent or self._differ(both[1:] - both[:1], both, t, free):
-                names = f"{self._named(last[0])} and {self._named(passage)}"
+            if not self.consistent or self._rates_differ(both[1:] - both[:1], both, t, free):
+                names = f"{self._name_of_switch(last[0])} and {self._name_of_switch(passage)}"
                 self.doubts.append(f"the events {names} at t = {t:.6g} s are together for these numbers only")
 
     # -- what events change --------------------------------------------------------------------------------------------
 
     def _through_effects(self, numbers: tuple[int, ...], now: Moment, y: Array, later: Array) -> Array:
-        """Return the directions of the state behind the effects of events."""
+        """Return the directions of the state after the effects of events."""
         watched = self.watched
         assert watched is not None, "the run has events"
         effects = watched.effects
         work = effects.memory(len(now.y), len(now.w))
         state, scratch = now.y.copy(), now.w.copy()
-        impact = effects.applied(numbers, now.t, state, now.p.copy(), scratch, work)
+        impact = effects.apply_to_state(numbers, now.t, state, now.p.copy(), scratch, work)
         by = Directions(self._with(y), self._with(later), self._with(np.zeros((self._count, y.shape[1]))))
         chosen, columns = effects.chosen(numbers), list[Array]()
-        for _, own, p, w in self.moments.chunks(now, by):
+        for _, own, p, w in self.moments.chunks_of_states(now, by):
             reset = ResetDirections(effects, self.moments.model, chosen, now.t, own, p, w, work, impact, self._losses)
             columns.append(reset.directions())
         return np.concatenate(columns, axis=1)[:, : y.shape[1]]
@@ -230,15 +230,15 @@ class Transfer:
     # -- modes ---------------------------------------------------------------------------------------------------------
 
     def _modes(self, passage: RunPassage, before: Moment, after: Moment, by: Directions, free: Free) -> Array:
-        """Return the directions of the numbers of modes behind a passage."""
+        """Return the directions of the numbers of modes after a passage."""
         rows = None if self.watched is None else self.watched.bounded
         kept = by.modes[:, :-1]
         if rows is None:
             return kept
         info, place, k = self.compiled.info, self.moments.place_of_modes(), len(rows.names)
         own = [info.switchable.index(row) for row in info.bounded]
-        old, new = (modes_of(self.compiled, x.w[place])[own] for x in (before, after))
-        slopes = modes_of(self.compiled, kept.copy())
+        old, new = (modes_of_moment(self.compiled, x.w[place])[own] for x in (before, after))
+        slopes = modes_of_moment(self.compiled, kept.copy())
         held = new[:, HELD] != 0.0
         was = (old[:, HELD] != 0.0) & (new[:, CONSTANT] == old[:, CONSTANT])
         if passage.starts:
@@ -247,7 +247,7 @@ class Transfer:
             slopes[own] = 0.0
             return slopes.reshape(kept.shape)
         length = 2 * k + 2 * rows.dry + (k - rows.dry)
-        values, directions = self.moments.evaluated(rows.state.function, length, after, by)
+        values, directions = self.moments.evaluate_moment(rows.state.function, length, after, by)
         directions = directions[:, :-1]
         for i in range(k):
             line = slopes[own[i]]
@@ -256,7 +256,7 @@ class Transfer:
             line[CONSTANT] = constant
             if held[i] and i < rows.dry and i not in rows.pressed and i not in rows.varying:
                 line[LIMIT] = directions[2 * k + i]
-        self._share(rows, own, new, slopes, values, directions, after, by)
+        self._share_of_row(rows, own, new, slopes, values, directions, after, by)
         rests = (held & ~was) | ((new[:, CONSTANT] != 0.0) & (new[:, SIGN] == 0.0) & (old[:, CONSTANT] == 0.0))
         self._check_rest(passage, rows.names, rests, directions, after, by, free)
         return slopes.reshape(kept.shape)
@@ -274,7 +274,7 @@ class Transfer:
         """Doubt directions in which a row moves that has come to rest here, or a gap that is closed at the start."""
         k, w, info = len(names), after.w, self.compiled.info
         if len(passage.numbers) == 1:  # the row of the event rests by what the event is
-            own = self._named(passage)[1:-1].rpartition(".")[0]
+            own = self._name_of_switch(passage)[1:-1].rpartition(".")[0]
             rests = rests & np.array([name != own for name in names])
         rows, which = directions[k : 2 * k][rests], np.array(names)[rests]
         if passage.starts and self.watched is not None and self.watched.bounded is not None:
@@ -288,13 +288,13 @@ class Transfer:
             sizes = np.maximum(sizes, np.abs(by.t[:-1]) * w[abi.SPEED] * max(1.0, w[abi.SPEED] / w[abi.LENGTH]))
             moving = (np.abs(rows) > _STAYS * np.maximum(sizes, STILL) * max(1.0, 1.0 / w[abi.LENGTH])).any(axis=1)
         else:
-            moving = np.array([free.moves(x[np.newaxis], x[np.newaxis]) for x in rows])
+            moving = np.array([free.has_free_motion(x[np.newaxis], x[np.newaxis]) for x in rows])
         if np.any(moving):
             found = " and ".join(dict.fromkeys(which[moving].tolist()))
             rest = "rests at the start" if passage.starts else f"comes to rest at t = {after.t:.6g} s"
             self.doubts.append(f"{found} {rest} for these numbers only: derivatives on both sides differ")
 
-    def _share(
+    def _share_of_row(
         self,
         rows: Any,
         own: list[int],

@@ -10,7 +10,7 @@ import numpy as np
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout import abi
-from symgen.run.layout.scales import larger
+from symgen.run.layout.scales import larger_number
 from symgen.run.layout.start_records import Instant
 from symgen.run.loops.search_records import DIRECTION, N_HEAD, N_VALUES
 
@@ -94,7 +94,7 @@ def add_resets(past: Past, chosen: Integers, t: float) -> int:
 
 
 @exact()
-def remainder(before: float, last: float) -> float:
+def remaining_series(before: float, last: float) -> float:
     """Return the remainder of a geometric series after two of its terms (Aitken)."""
     ratio = last / before
     return last * ratio / (1.0 - ratio)
@@ -110,12 +110,12 @@ def end_of_series(past: Past, k: int) -> float:
     for i in range(SHRINKING):
         before = times[first + i + 1] - times[first + i]
         ratio = (times[first + i + 2] - times[first + i + 1]) / before
-        least, most = ratio if ratio < least else least, larger(most, ratio)
+        least, most = ratio if ratio < least else least, larger_number(most, ratio)
     if most >= 1.0 or most - least >= _STEADY:
         return math.nan
     now = times[first + count - 1]
     last, before = now - times[first + count - 2], times[first + count - 2] - times[first + count - 3]
-    rest = remainder(before, last)
+    rest = remaining_series(before, last)
     return now + rest if rest < NOTHING_LEFT * now else math.nan
 
 
@@ -127,7 +127,7 @@ def switching_values(functions: Rates, t: float, y: Array, p: Array, past: Past)
 
 
 @exact()
-def rates_at(functions: Rates, t: float, y: Array, p: Array, past: Past) -> None:
+def rates_at_state(functions: Rates, t: float, y: Array, p: Array, past: Past) -> None:
     """Set the rates at a state; where a pivot is suspicious, they are confirmed."""
     rates, confirm, _ = functions
     if rates(t, y, p, past.scratch, past.counters, past.rate) != 0:
@@ -176,7 +176,7 @@ def is_lost(
         past.counters[i] = iw[i]
     for i in range(other.shape[0]):
         other[i], past.rate[i] = y[i], 0.0
-    rates_at(functions, t, other, p, past)
+    rates_at_state(functions, t, other, p, past)
     switching_values(functions, t, y, p, past)
     for k in range(n):
         past.values[k], past.slopes[k] = past.out[k], past.out[n + k]
@@ -184,7 +184,7 @@ def is_lost(
     ahead = _AHEAD * past.until
     for i in range(other.shape[0]):
         other[i] = y[i] + ahead * past.rate[i]
-    rates_at(functions, t + ahead, other, p, past)
+    rates_at_state(functions, t + ahead, other, p, past)
     switching_values(functions, t + ahead, other, p, past)
     for k in range(chosen.shape[0]):
         slope, curve = past.slopes[k], (past.out[n + k] - past.slopes[k]) / ahead
@@ -237,7 +237,7 @@ def accumulation(
         before = times[at + count - 2] - times[at + count - 3]
         last = times[at + count - 1] - times[at + count - 2]
         if last < before:
-            return t + float(remainder(before, last))
+            return t + float(remaining_series(before, last))
     return t
 
 

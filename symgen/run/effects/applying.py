@@ -19,7 +19,7 @@ from symgen.run.layout.start_records import Instant, Layout
 APPLIED, NO_VELOCITIES, NO_VALUES = range(3)
 
 
-class Changes(Record):
+class EffectChanges(Record):
     """What the events of a run change, in the order of the function of their formulas.
 
     Velocities come first, then their new values, values that are written, entries of the mass matrix of bodies, rates
@@ -80,11 +80,11 @@ class EffectWork(Record):
     impulse: Impulse
 
 
-#: Layout of a model, ``geometry``, the functions of formulas and of bodies, and `Changes`.
-EffectModel = tuple[Layout, abi.Measure, abi.Observe, abi.Observe, Changes]
+#: Layout of a model, ``geometry``, the functions of formulas and of bodies, and `EffectChanges`.
+EffectModel = tuple[Layout, abi.Measure, abi.Observe, abi.Observe, EffectChanges]
 
 
-def new_effect_work(layout: Layout, changes: Changes, width: int, nw: int) -> Any:
+def new_effect_work(layout: Layout, changes: EffectChanges, width: int, nw: int) -> Any:
     """Return working memory for the states of `width` numbers of a model whose scratch has `nw`."""
     k, n = len(changes.owners), layout.nv
     bodies, rotors = changes.bodies, changes.rotors
@@ -94,13 +94,13 @@ def new_effect_work(layout: Layout, changes: Changes, width: int, nw: int) -> An
 
 
 @exact()
-def first_entry(changes: Changes) -> int:
+def first_entry(changes: EffectChanges) -> int:
     """Return the place of the first entry of M among the numbers of formulas."""
     return int(2 * changes.owners.shape[0] + changes.writes.shape[0] // 2)
 
 
 @exact()
-def first_turn(changes: Changes) -> int:
+def first_turn(changes: EffectChanges) -> int:
     """Return the place of the first rate of a rotor among these numbers."""
     return int(first_entry(changes) + changes.entries.shape[0] // 2)
 
@@ -182,7 +182,7 @@ def fill_masses(model: EffectModel, w: Array, work: EffectWork) -> None:
 
 
 @exact()
-def added_energy(model: EffectModel, v: Array, first: int, work: EffectWork) -> float:
+def energy_of_effects(model: EffectModel, v: Array, first: int, work: EffectWork) -> float:
     """Return the change of the kinetic energy."""
     layout, _, _, _, changes = model
     n, mass, after, entries = layout.nv, work.impulse.mass, work.impulse.after, changes.entries
@@ -206,7 +206,7 @@ def added_energy(model: EffectModel, v: Array, first: int, work: EffectWork) -> 
 
 
 @exact()
-def written_values(changes: Changes, chosen: Integers, work: EffectWork) -> bool:
+def write_values(changes: EffectChanges, chosen: Integers, work: EffectWork) -> bool:
     """Write the values of states to the state afterwards; return whether they are finite and agree."""
     writes, first = changes.writes, 2 * changes.owners.shape[0]
     for i in range(writes.shape[0] // 2):
@@ -222,7 +222,7 @@ def written_values(changes: Changes, chosen: Integers, work: EffectWork) -> bool
 
 
 @exact()
-def struck_velocities(model: EffectModel, t: float, now: Instant, chosen: Integers, work: EffectWork) -> bool:
+def strike_velocities(model: EffectModel, t: float, now: Instant, chosen: Integers, work: EffectWork) -> bool:
     """Write the velocities after the smallest impulse to the state afterwards; return whether there are any."""
     layout, geometry, _, _, changes = model
     n, nq, m, impulse = layout.nv, layout.nq, layout.m, work.impulse
@@ -259,7 +259,7 @@ def struck_velocities(model: EffectModel, t: float, now: Instant, chosen: Intege
         if not math.isfinite(impulse.after[j]):
             return False
         work.state[nq + j] = impulse.after[j]
-    work.energy[0] = added_energy(model, now.y, nq, work)
+    work.energy[0] = energy_of_effects(model, now.y, nq, work)
     return True
 
 
@@ -298,9 +298,9 @@ def apply_effects(model: EffectModel, t: float, now: Instant, chosen: Integers, 
     formulas(t, now.y, now.p, work.scratch, work.rate, work.out)
     for i in range(changes.owners.shape[0]):
         struck = struck or chosen[changes.owners[i]] != 0
-    if not written_values(changes, chosen, work):
+    if not write_values(changes, chosen, work):
         return int(NO_VALUES)
-    if struck and not struck_velocities(model, t, now, chosen, work):
+    if struck and not strike_velocities(model, t, now, chosen, work):
         return int(NO_VELOCITIES)
     for i in range(ny):
         now.y[i] = work.state[i]

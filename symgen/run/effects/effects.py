@@ -12,10 +12,17 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.compile.loopcode.exact import compiled_form
-from symgen.run.effects.applying import NO_VALUES, NO_VELOCITIES, Changes, EffectWork, apply_effects, new_effect_work
+from symgen.run.effects.applying import (
+    NO_VALUES,
+    NO_VELOCITIES,
+    EffectChanges,
+    EffectWork,
+    apply_effects,
+    new_effect_work,
+)
 from symgen.run.effects.impulse import new_impulse, smallest_impulse
 from symgen.run.layout.start_records import Instant
-from symgen.run.starts.assembler import layout_of
+from symgen.run.starts.assembler import layout_of_starts
 from symgen.run.starts.starting import observe_nothing
 
 if TYPE_CHECKING:
@@ -106,7 +113,7 @@ class Effects:
         own = {} if self.bodies else {v.name: i for i, v in enumerate(info.velocities)}
         columns = [own.get(name, -1) for effect in self.effects.values() for name in effect.velocities]
         numbers = (np.array(x, dtype=np.int64).ravel() for x in (owners, columns, writes, list(self.entries)))
-        return Changes._make((self.bodies, self.first, self.rotors, *numbers))
+        return EffectChanges._make((self.bodies, self.first, self.rotors, *numbers))
 
     @cached_property
     def model(self) -> tuple[Any, ...]:
@@ -114,7 +121,7 @@ class Effects:
         emitted = self.compiled.model
         bodies = emitted.bodies if self.bodies else observe_nothing
         functions = (compiled_form(f) for f in (emitted.geometry, self.formulas, bodies))
-        return layout_of(self.compiled), *functions, self.changes
+        return layout_of_starts(self.compiled), *functions, self.changes
 
     def memory(self, width: int, nw: int) -> Any:
         """Return working memory for states of `width` numbers and scratch of `nw`; each thread has its own."""
@@ -141,9 +148,11 @@ class Effects:
         InputError
             If the joints, or other effects, do not allow an effect; nothing is changed then.
         """
-        return self.applied(numbers, t, y, p, w, self.memory(len(y), len(w)))
+        return self.apply_to_state(numbers, t, y, p, w, self.memory(len(y), len(w)))
 
-    def applied(self, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array, work: EffectWork) -> Impact:
+    def apply_to_state(
+        self, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array, work: EffectWork
+    ) -> Impact:
         """Change a state as `apply` does; working memory keeps the problem of impulses."""
         info = self.compiled.info
         chosen, before = self.chosen(numbers), y[info.nq : info.work].copy()
@@ -159,7 +168,7 @@ class Effects:
         return self.impact(numbers, y[info.nq : info.work], work.impulse.impulses, float(work.energy[0]))
 
     def impact(self, numbers: Sequence[int], v: Array, impulses: Array, energy: float) -> Impact:
-        """Return what some events have changed: velocities behind it, impulses (and memory behind these), energy."""
+        """Return what some events have changed: velocities, impulses (followed by their memory) and energy."""
         labels = self._labels(numbers)
         return Impact(v.copy(), impulses[: self.compiled.info.m + len(labels)].copy(), labels, energy)
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers, Record
-from symgen.run.layout.scales import larger
+from symgen.run.layout.scales import larger_number
 from symgen.run.starts.start_solvers import least_norm_above
 
 #: Rows with an independent part below this fraction of the largest are rounding; relative residual of rows that hold.
@@ -77,7 +77,7 @@ def scale_rows(n: int, k: int, work: Impulse) -> None:
         for j in range(n):
             square += (rows[i * n + j] * unit[j]) ** 2
         scale[i] = math.sqrt(square)
-        longest = larger(longest, scale[i])
+        longest = larger_number(longest, scale[i])
     for i in range(k):
         # a row that the joints of a tree satisfy by construction is rounding: scaled, it would become a constraint
         scale[i] = 1.0 / scale[i] if scale[i] > ROUNDING * longest else 0.0
@@ -215,8 +215,8 @@ def smallest_impulse(n: int, k: int, v: Array, work: Impulse) -> int:
             before += rows[i * n + j] * v[j]
             # the change of a slow body may be less than the rounding of fast ones
             fast += abs(rows[i * n + j]) * (abs(v[j]) + abs(work.after[j]))
-        wanted = larger(wanted, abs(scale[i] * work.values[i]))
-        moved, noise = larger(moved, abs(scale[i] * before)), larger(noise, scale[i] * fast)
+        wanted = larger_number(wanted, abs(scale[i] * work.values[i]))
+        moved, noise = larger_number(moved, abs(scale[i] * before)), larger_number(noise, scale[i] * fast)
     for i in range(k):
         left = -work.values[i]
         for j in range(n):

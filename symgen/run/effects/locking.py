@@ -10,7 +10,7 @@ import numpy as np
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout import abi
-from symgen.run.layout.redundancy import farthest
+from symgen.run.layout.redundancy import farthest_row
 from symgen.run.layout.scales import square_rows
 from symgen.run.layout.start_records import Instant, Layout
 
@@ -102,7 +102,7 @@ def find_lock(model: LockModel, t: float, now: Instant, work: LockWork) -> bool:
         work.scale[i] = 1.0 / math.sqrt(square) if square > 0.0 else 0.0
         usual = work.scale[i] if work.scale[i] > usual else usual
         factors[i] = 1.0 + i / m
-    farthest(layout, width, m, dependent, 0, now.w, numbers)
+    farthest_row(layout, width, m, dependent, 0, now.w, numbers)
     for _ in range(ROUNDS):
         for j in range(n):
             jumps[j] = 0.0

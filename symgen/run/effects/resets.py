@@ -117,7 +117,7 @@ def store_before(kept: KeptEffect, y: Array) -> None:
         kept.y[i] = y[i]
 
 
-def store_after(kept: KeptEffect, now: Instant, first: int, work: EffectWork) -> None:
+def store_state_after(kept: KeptEffect, now: Instant, first: int, work: EffectWork) -> None:
     """Keep what an effect has changed; `first` is the place of the velocities in the state."""
     for i in range(kept.w.shape[0]):
         kept.w[i] = now.w[i]
@@ -207,4 +207,4 @@ def apply_resets(last: int, effects: OfEffects, state: EventState) -> int:
     return int(change_nothing(last, effects, state))
 
 
-KEEPING = Meanings("single runs, which read the effects", keep_before=store_before, keep_after=store_after)
+KEEPING = Meanings("single runs, which read the effects", keep_before=store_before, keep_after=store_state_after)

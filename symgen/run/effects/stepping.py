@@ -136,7 +136,7 @@ def keep_beginning(now: Instant, iw: Integers, work: StepWork) -> int:
 
 
 @exact()
-def restore(now: Instant, iw: Integers, work: StepWork) -> int:
+def restore_beginning(now: Instant, iw: Integers, work: StepWork) -> int:
     """Go back to the beginning of a step."""
     copy_numbers(work.y, now.y, work.y.shape[0])
     copy_numbers(work.w, now.w, work.w.shape[0])
@@ -144,14 +144,14 @@ def restore(now: Instant, iw: Integers, work: StepWork) -> int:
 
 
 @exact()
-def passes(direction: int, before: float, after: float) -> bool:
+def passes_event(direction: int, before: float, after: float) -> bool:
     """Whether a switching function passes 0 as its event has it; see `STEP_MODEL` for directions."""
     rises, falls = before < 0.0 and after >= 0.0, before > 0.0 and after <= 0.0
     return (rises and (direction == 0 or direction == 1)) or (falls and (direction == 0 or direction == -1))
 
 
 @exact()
-def attempt(model: StepModel, t: float, h: float, now: Instant, iw: Integers, work: StepWork) -> int:
+def attempt_step(model: StepModel, t: float, h: float, now: Instant, iw: Integers, work: StepWork) -> int:
     """Make a step; return the number of events in it, -1 where it fails."""
     _, _, _, _, happens, directions = model
     if not take_step(model, t, h, now, iw, work):
@@ -160,7 +160,7 @@ def attempt(model: StepModel, t: float, h: float, now: Instant, iw: Integers, wo
     if directions.shape[0] > 0:
         happens(t + h, now.y, now.p, now.w, work.middle, work.after)
     for k in range(directions.shape[0]):
-        work.chosen[k] = 1 if passes(directions[k], work.before[k], work.after[k]) else 0
+        work.chosen[k] = 1 if passes_event(directions[k], work.before[k], work.after[k]) else 0
         count += work.chosen[k]
     return int(count)
 
@@ -189,7 +189,7 @@ def step_to_event(model: StepModel, t: float, h: float, now: Instant, iw: Intege
     keep_beginning(now, iw, work)
     if directions.shape[0] > 0:
         happens(t, now.y, now.p, now.w, work.middle, work.before)
-    count = attempt(model, t, h, now, iw, work)
+    count = attempt_step(model, t, h, now, iw, work)
     low, high = 0.0, h
     if directions.shape[0] > 0:
         if count > 0:
@@ -197,11 +197,11 @@ def step_to_event(model: StepModel, t: float, h: float, now: Instant, iw: Intege
                 if count < 0 or not high - low > FINEST * (1.0 + abs(t)):
                     break
                 middle = 0.5 * (low + high)
-                restore(now, iw, work)
-                count = attempt(model, t, middle, now, iw, work)
+                restore_beginning(now, iw, work)
+                count = attempt_step(model, t, middle, now, iw, work)
                 low, high = (low, middle) if count > 0 else (middle, high)
-            restore(now, iw, work)
-            count = attempt(model, t, high, now, iw, work) if count >= 0 else -1
+            restore_beginning(now, iw, work)
+            count = attempt_step(model, t, high, now, iw, work) if count >= 0 else -1
     return high if count >= 0 else math.nan
 
 
@@ -253,6 +253,6 @@ def take_steps(
                 work.ending[0] = last
                 return ENDED
         else:
-            restore(now, iw, work)
+            restore_beginning(now, iw, work)
             size, halving = step, True
     return REACHED

@@ -147,5 +147,5 @@ class Tableau:
 
         width, scheme = padded(compiled.info.ny), self.record(spec.adaptive)
         memory = len(scheme.nodes) * width if spec.adaptive else 0
-        functions, room = law_functions(compiled), explicit.room(width, scheme, compiled.info.kept)
+        functions, room = law_functions(compiled), explicit.explicit_room(width, scheme, compiled.info.kept)
         return Setup(self.loop(spec.adaptive), functions, scheme, spec.step or 0.0, memory, room, self.safety)

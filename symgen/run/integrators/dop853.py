@@ -206,7 +206,7 @@ _D: tuple[dict[int, float], ...] = (
 )
 
 
-def _filled(rows: tuple[dict[int, float], ...], width: int) -> NDArray[np.float64]:
+def _fill_coefficients(rows: tuple[dict[int, float], ...], width: int) -> NDArray[np.float64]:
     result = np.zeros((len(rows), width))
     for i, row in enumerate(rows):
         for j, x in row.items():
@@ -214,15 +214,15 @@ def _filled(rows: tuple[dict[int, float], ...], width: int) -> NDArray[np.float6
     return result
 
 
-def _dense() -> NDArray[np.float64]:
+def _dense_coefficients() -> NDArray[np.float64]:
     """Expand Hairer's nested form of the continuous extension into powers of x.
 
     With F0 = y1 - y0, F1 = h k0 - F0, F2 = 2 F0 - h (k12 + k0) and F3..F6 = h D k it is
     y0 + x (F0 + (1-x) (F1 + x (F2 + (1-x) (F3 + x (F4 + (1-x) (F5 + x F6)))))).
     """
-    d = _filled(_D, 16)
+    d = _fill_coefficients(_D, 16)
     increment = np.zeros(16)
-    increment[:_STAGES] = _filled(_A, 16)[_STAGES, :_STAGES]
+    increment[:_STAGES] = _fill_coefficients(_A, 16)[_STAGES, :_STAGES]
     start, end = np.eye(16)[0], np.eye(16)[_STAGES]
     parts = [increment, start - increment, 2 * increment - end - start, *d]
     result = np.zeros((16, 7))
@@ -234,7 +234,7 @@ def _dense() -> NDArray[np.float64]:
     return result
 
 
-_ALL = _filled(_A, 16)
+_ALL = _fill_coefficients(_A, 16)
 
 KIND = Tableau(
     name="dop853",
@@ -244,11 +244,11 @@ KIND = Tableau(
     b=_ALL[_STAGES, :_STAGES],
     c=np.array(_C[:_STAGES]),
     real_boundary=6.39,
-    errors=(_filled(_E, _STAGES + 1)[0], _filled(_E, _STAGES + 1)[1]),
+    errors=(_fill_coefficients(_E, _STAGES + 1)[0], _fill_coefficients(_E, _STAGES + 1)[1]),
     error_order=7,
     extra_a=_ALL[_STAGES + 1 :, :],
     extra_c=np.array(_C[_STAGES + 1 :]),
-    dense=_dense(),
+    dense=_dense_coefficients(),
     # the error goes with the eighth power of the step: aiming at a tenth of the tolerance costs 3 % more evaluations
     # and spares nearly all rejected attempts, which cost more
     safety=0.75,

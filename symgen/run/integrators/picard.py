@@ -128,17 +128,17 @@ class Picard:
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
-        from symgen.run.layout.right_hand_side import at_nodes
+        from symgen.run.layout.right_hand_side import rates_at_nodes
         from symgen.run.layout.scheme_records import Nodes
         from symgen.run.loops.schemes import picard_memory
 
         info, c = compiled.info, coefficients()
-        derive, vector = at_nodes(compiled)
+        derive, vector = rates_at_nodes(compiled)
         degree = int(min(max(1.0 - np.log10(spec.rtol), 4.0), NODES)) if spec.adaptive else NODES
         arrays = c.table, c.middle, c.share, c.legendre, c.dense
         scheme = Nodes(derive, vector, rates_of(info), *arrays, degree, DOP853.record(True))
         width = padded(info.ny)
-        memory, room = picard_memory.memory(width), picard_memory.room(width, info.kept)
+        memory, room = picard_memory.memory(width), picard_memory.picard_room(width, info.kept)
         return Setup(self.loop(spec.adaptive), law_functions(compiled), scheme, spec.step or 0.0, memory, room)
 
 

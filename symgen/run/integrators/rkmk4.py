@@ -43,7 +43,7 @@ class LieTableau(Tableau):
         assert spec.step is not None, "constant steps have a length"
         spins, stage = np.array([j for _, j in info.spins], dtype=np.int64), lie.stage_width(info.nq, info.nv, info.ny)
         scheme, further = self.scheme(info, spins, stage)
-        room = lie.room(padded(info.ny), stage, self.stages) + further
+        room = lie.lie_room(padded(info.ny), stage, self.stages) + further
         return Setup(self.loop(False), law_functions(compiled, "turn"), scheme, spec.step, 0, room)
 
     def scheme(self, info: ModelInfo, spins: NDArray[np.int64], stage: int) -> tuple[Any, int]:

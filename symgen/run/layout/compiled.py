@@ -43,8 +43,8 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     the number of auxiliary states after these; `alone` are rows eliminated before all rows coupled to them: they are
     never left out, so nothing reads their mask; `switchable` are rows that may be off,
     and `bounded` those of them with forces within bounds, which are off at a start; `pairs` are the rows of joints that
-    may close loops, with their velocities behind those that are `fixed`, by columns and rows;
-    `shadows` is the number of elements behind the state without error control, directions
+    may close loops, with their velocities after those that are `fixed`, by columns and rows;
+    `shadows` is the number of elements after the state without error control, directions
     (`symgen.run.directions.directed_model`).
     """
 
@@ -93,7 +93,7 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
 
     @property
     def kept(self) -> int:
-        """Count of the numbers behind the status that are kept with every output: turns of angles, modes of rows."""
+        """Count of the numbers after the status that are kept with every output: turns of angles, modes of rows."""
         return self.windings + MODE_NUMBERS * len(self.switchable)
 
     @property
@@ -172,7 +172,7 @@ class CompiledModel(ABC):
         Parameters
         ----------
         shadows : int
-            Elements behind the state without error control.
+            Elements after the state without error control.
         hoisted, nw : int
             Numbers that ``prepare`` computes, and length of the scratch array.
         model, law_module : module

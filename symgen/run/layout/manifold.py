@@ -8,12 +8,12 @@ from symgen.run.layout.records import ModelSystem, Run
 
 
 @jit(entry=True)
-def stay(y: Array, w: Array) -> int:
-    """Stand for the emitted ``turn`` of models whose coordinates have velocities as rates; it is never called."""
+def turn_nothing(y: Array, w: Array) -> int:
+    """Replace the emitted ``turn`` of models whose coordinates have velocities as rates; it is never called."""
     return 0
 
 
-def advance(system: ModelSystem, run: Run, delta: Array, trial: Array) -> None:
+def advance_coordinates(system: ModelSystem, run: Run, delta: Array, trial: Array) -> None:
     """Set the positions of `trial`: the accepted state moved by `delta`, bodies in space by its exponential.
 
     Parameters

@@ -82,8 +82,8 @@ def rate_function(compiled: CompiledModel) -> Callable[..., None]:
     """
     rates, confirm = (Ready(function, abi.RHS) for function in rate_functions(compiled.law_module))
 
-    def evaluate(*arguments: object) -> None:
+    def evaluate_rates(*arguments: object) -> None:
         if rates(*arguments) != 0:
             confirm(*arguments)
 
-    return evaluate
+    return evaluate_rates

@@ -32,7 +32,7 @@ class Sizes(Record):
         velocities, the factors that make rank independent of units and rows equally long, the entries of D that vary,
         and the residuals of the rates of auxiliary states.
     states : int
-        States defined by the file, behind the work; their rates are the last unknowns.
+        States defined by the file, after the work; their rates are the last unknowns.
     """
 
     nq: int
@@ -130,7 +130,7 @@ class State(Record):
 
 
 class Run(Record):
-    """A `State` opened by a loop: bare arrays, `trial` being the trial state and `room` the memory behind it."""
+    """A `State` opened by a loop: bare arrays, `trial` being the trial state and `room` the memory after it."""
 
     y: Array
     trial: Array

@@ -41,13 +41,13 @@ def is_off(layout: Layout, row: int, w: Array) -> bool:
 
 
 @exact()
-def weight_in_force(layout: Layout, w: Array, i: int) -> float:
+def row_weight_in_force(layout: Layout, w: Array, i: int) -> float:
     """Return the factor that makes a row of Phi a length, 0 where the row is off."""
     return 0.0 if is_off(layout, i, w) else float(row_weight(layout, w, i))
 
 
 @exact(entry=True)
-def farthest(layout: Layout, width: int, count: int, least: float, weighed: int, w: Array, room: Array) -> int:
+def farthest_row(layout: Layout, width: int, count: int, least: float, weighed: int, w: Array, room: Array) -> int:
     """Choose up to `count` rows, each the one farthest from the rows chosen before it; return their number.
 
     Rows that are off are zero.
@@ -118,15 +118,15 @@ def farthest(layout: Layout, width: int, count: int, least: float, weighed: int,
 def choose_rows(layout: Layout, count: int, weighed: int, w: Array, room: Array) -> int:
     """Mask all rows in force but those kept, of which the others are linear combinations with small factors.
 
-    An error in a kept row causes one in the others, times these factors. The rows left over by `farthest` are linear
-    combinations of all rows that vanish. The row with the largest factor in each, in turn, is left out: so no factor is
-    much above 1, whatever rows `farthest` chose. Rows that are eliminated alone always stay: they are independent of
-    each other. The choice depends on the position only, not on earlier choices.
+    An error in a kept row causes one in the others, times these factors. The rows left over by `farthest_row` are
+    linear combinations of all rows that vanish. The row with the largest factor in each, in turn, is left out: so no
+    factor is much above 1, whatever rows `farthest_row` chose. Rows that are eliminated alone always stay: they are
+    independent of each other. The choice depends on the position only, not on earlier choices.
 
     Parameters
     ----------
     layout, weighed, w
-        As for `farthest`.
+        As for `farthest_row`.
     count : int
         Number of kept rows, with those that are off: their mask is 0.
     room : Array, shape (m * (nv + m) + 2 * m,)
@@ -141,7 +141,7 @@ def choose_rows(layout: Layout, count: int, weighed: int, w: Array, room: Array)
     width = n + m
     for i in range(m):
         count -= 1 if is_off(layout, i, w) else 0
-    if farthest(layout, width, count, 0.0, weighed, w, room) < count:
+    if farthest_row(layout, width, count, 0.0, weighed, w, room) < count:
         return 0  # D is not finite
     lengths, masked, changed = m * width, m * width + m, 0
     for i in range(m):
@@ -205,6 +205,6 @@ def rows_fell(run: Run) -> bool:
     return True
 
 
-def never(run: Run) -> bool:
+def no_rows_fell(run: Run) -> bool:
     """Return False: the replacement of `rows_fell` where rows stay the same."""
     return False

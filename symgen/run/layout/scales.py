@@ -39,7 +39,7 @@ _ADDED_UP = 1e3
 
 
 @exact()
-def larger(a: float, b: float) -> float:
+def larger_number(a: float, b: float) -> float:
     """Return the larger of two numbers, `a` where one is nan: the same compiled and interpreted."""
     return b if b > a else a
 
@@ -100,7 +100,7 @@ def measure_lengths(geometry: abi.Measure, layout: Layout, now: Instant, work: W
             square = lengths[spin[j]]
             square = longest if square == 0.0 else square
             w[layout.gauge + j] = 1.0 / (square if square > least else least)
-    w[abi.LENGTH] = larger(math.sqrt(longest), extent)
+    w[abi.LENGTH] = larger_number(math.sqrt(longest), extent)
     w[abi.MEAN_MASS] = mean_mass(layout, w)
 
 
@@ -136,7 +136,7 @@ def weigh_rows(layout: Layout, now: Instant) -> None:
     square_rows(layout, w, part(w, weights, layout.m))
     for i in range(layout.m):
         usual = LEAST_ROW / (row_weight(layout, w, i) * row_weight(layout, w, i))
-        w[weights + i] = 1.0 / larger(w[weights + i], usual)
+        w[weights + i] = 1.0 / larger_number(w[weights + i], usual)
 
 
 @exact()
@@ -171,7 +171,7 @@ def turning_length(geometry: abi.Measure, layout: Layout, now: Instant, work: Wo
     `work.w` are overwritten.
     """
     y, w, other, there, entries = now.y, now.w, work.y, work.w, layout.entries
-    count, step = layout.constants.shape[0], larger(SHORTEST, 8.0 * ROUNDING * coarseness_of(layout, now.y))
+    count, step = layout.constants.shape[0], larger_number(SHORTEST, 8.0 * ROUNDING * coarseness_of(layout, now.y))
     for i in range(w.shape[0] if count > 0 and layout.m > 0 else 0):
         there[i] = w[i]
     while count > 0 and step < LONGEST:
@@ -189,7 +189,7 @@ def turning_length(geometry: abi.Measure, layout: Layout, now: Instant, work: Wo
             here = -2 if k == count else entries[3 * k]
             if here != row:
                 if change >= TURNED * TURNED * size and size > 0.0:
-                    length = larger(length, math.sqrt(way * size / change))
+                    length = larger_number(length, math.sqrt(way * size / change))
                 row, way, size, change = here, 0.0, 0.0, 0.0
             if here >= 0 and layout.rows[2 * here + 1] == 1 and layout.spin[entries[3 * k + 1]] < 0:
                 before, after = entry_of(layout, w, k), entry_of(layout, there, k)
@@ -209,7 +209,7 @@ def gyration_of(layout: Layout, w: Array) -> float:
     for j in range(1, layout.nv):
         first = layout.spin[j]
         if first > 0 and w[layout.mass + first - 1] > 0.0:
-            largest = larger(largest, w[layout.mass + j] / w[layout.mass + first - 1])
+            largest = larger_number(largest, w[layout.mass + j] / w[layout.mass + first - 1])
     return largest
 
 
@@ -248,12 +248,12 @@ def row_weight(layout: Layout, w: Array, i: int) -> float:
 def settle_scales(sizes: Sizes, span: Span, run: Run) -> None:
     """Set the scales of a run's states at its beginning, from the lengths computed at its start.
 
-    `run.metric` converts coordinates and velocities to lengths and speeds (0 for angles, and for all behind the
+    `run.metric` converts coordinates and velocities to lengths and speeds (0 for angles, and for all after the
     velocities); `run.scales` converts them to numbers of order 1. A motion that begins at rest is taken to cross the
     mechanism in the time `span.duration`. The energy in motion is at least that of speeds within the tolerances: a
     motion that begins at rest, without a force, has no other energy to which errors could be compared.
 
-    Behind the factors of both are the places that coordinates are measured from, as in `run.share`.
+    After the factors of both are the places that coordinates are measured from, as in `run.share`.
     """
     w, nq, width = run.w, sizes.nq, sizes.width
     for i in range(nq):
@@ -267,11 +267,11 @@ def settle_scales(sizes: Sizes, span: Span, run: Run) -> None:
         run.scales[i] = 1.0 / length if run.metric[i] != 0.0 else 1.0
     for j in range(sizes.nv):
         run.scales[nq + j] = run.metric[nq + j] / speed
-    open_speed = open_to(span, speed)
+    open_speed = speed_within_tolerance(span, speed)
     run.gauges[abi.ENERGY_SCALE] = w[abi.MEAN_MASS] * open_speed * open_speed
 
 
-def open_to(span: Span, speed: float) -> float:
+def speed_within_tolerance(span: Span, speed: float) -> float:
     """Return the speed within the tolerances [m/s], at a scale of speeds [m/s]."""
     tolerance = span.atol * speed if span.relative != 0.0 else span.atol
     return _ADDED_UP * max(tolerance, LEAST_SPEED * speed)
@@ -283,7 +283,7 @@ def weights_of(span: Span, run: Run) -> Array:
     return run.scales if span.relative != 0.0 else run.share
 
 
-def rests(sizes: Sizes, span: Span, run: Run) -> bool:
+def is_at_rest(sizes: Sizes, span: Span, run: Run) -> bool:
     """Return whether no velocity is more than its tolerance at the beginning or at the end of a step.
 
     What is left of the velocities of a mechanism that is held at rest is rounding, and so is the work of its forces.
@@ -291,15 +291,15 @@ def rests(sizes: Sizes, span: Span, run: Run) -> bool:
     weights, largest = weights_of(span, run), 0.0
     for i in range(sizes.nq, sizes.nq + sizes.nv):
         largest = max(largest, weights[i] * max(abs(run.y[i]), abs(run.trial[i])))
-    return bool(largest <= still(span))
+    return bool(largest <= tolerance_at_rest(span))
 
 
-def still(span: Span) -> float:
+def tolerance_at_rest(span: Span) -> float:
     """Return the tolerance of velocities at rest, over the factors of `weights_of`."""
     return float(max(span.atol, LEAST_SPEED) if span.relative != 0.0 else span.atol)
 
 
-def with_work(sizes: Sizes, span: Span, run: Run, error: float, others: float) -> float:
+def error_with_work(sizes: Sizes, span: Span, run: Run, error: float, others: float) -> float:
     """Return the larger of two errors over their tolerances: of the work, and of all other elements of a state.
 
     The error of the work is relative to the energy in motion. The work enters no rate, but the balance of energy, and
@@ -310,6 +310,6 @@ def with_work(sizes: Sizes, span: Span, run: Run, error: float, others: float) -
         least *= run.w[abi.KINETIC] + abs(run.w[abi.POTENTIAL])
     allowed = least + span.rtol * max(run.gauges[abi.ENERGY_SCALE], abs(run.y[at]), abs(run.trial[at]))
     ratio = abs(error) / allowed if allowed > 0.0 else 0.0
-    if ratio > others and rests(sizes, span, run):
+    if ratio > others and is_at_rest(sizes, span, run):
         ratio = 0.0
     return ratio if ratio > others else others  # nan of the others stays nan

@@ -15,7 +15,7 @@ class TableauRecord(Record):
         Nonzero coefficients row by row: the stages, b, the stages of dense output, then the error weights. Row r has
         the entries from ``start[r]`` to ``start[r + 1]``.
     nodes : Array
-        c of all stages, 1 for the end of the step behind those of the scheme.
+        c of all stages, 1 for the end of the step after those of the scheme.
     dense : Array, shape (degree, padded stages), flat
         y(t + x h) = y + h sum_k K_k sum_j dense[j, k] x^(j + 1); empty without dense output.
     count : Array of int64

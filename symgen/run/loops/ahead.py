@@ -1,8 +1,8 @@
 """Steps ahead with directions, in one call: the loop of a run with directions, entered step by step.
 
-Before each step the directions behind the state are seeds again, so that what stands there behind it are the
-derivatives of this step alone. States, derivatives and those of outputs are written for each step. More directions than
-the code has lanes are further passes over the same step.
+Before each step the directions in the state are set to seeds, so that after the step they are the derivatives of this
+step alone. The loop writes states, derivatives of states and derivatives of outputs for each step. If there are more
+directions than the code has lanes, the loop takes the same step again for the others.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import ModelSystem, Outputs, Span, State, System
 from symgen.run.loops.frame_parts import evaluate
-from symgen.run.loops.step_control import part_of
+from symgen.run.loops.step_control import part_of_step
 
 #: Code of an end beside those of loops: the step ends elsewhere than that of the run.
 ELSEWHERE = 200
@@ -38,8 +38,8 @@ class Ahead(Record):
     head, numbers : Array of int64, Array
         At the places of `STEPS` and following, and of `END` and following.
     y, p, w, iw, clock, gauges, control : Array, Array of int64
-        The state before, without directions; overwritten. Numbers that are computed of parameters stand at the
-        end of p, more or fewer than in the run with directions, which computes its own.
+        The state before, without directions; overwritten. Numbers computed from parameters are the last elements of
+        p; the run with directions computes its own, which may be more or fewer.
     end : Array
         The state after the one step, where it is compared.
     places : Array of int64
@@ -79,7 +79,7 @@ class Ahead(Record):
 AHEAD = record_type(Ahead)
 
 
-def put(source: Array | Integers, target: Array | Integers) -> None:
+def copy_to_beginning(source: Array | Integers, target: Array | Integers) -> None:
     """Copy an array to the beginning of another one."""
     for i in range(source.shape[0]):
         target[i] = source[i]
@@ -89,17 +89,17 @@ def begin_pass(a: Ahead, state: State, k: int, which: int, prepare: e.Prepare, p
     """Give a run with directions the state before step `k`, with the seeds of a pass."""
     lanes = a.head[LANES]
     ny, np, nw = a.y.shape[0], state.p.shape[0] // (1 + lanes), a.w.shape[0]
-    put(a.y, state.y)
-    put(part(a.seeds, which * ny * lanes, ny * lanes), part(state.y, ny, ny * lanes))
-    put(a.p, state.p)
-    put(part(a.numbers_by, which * np * lanes, np * lanes), part(state.p, np, np * lanes))
-    put(a.w, state.w)
+    copy_to_beginning(a.y, state.y)
+    copy_to_beginning(part(a.seeds, which * ny * lanes, ny * lanes), part(state.y, ny, ny * lanes))
+    copy_to_beginning(a.p, state.p)
+    copy_to_beginning(part(a.numbers_by, which * np * lanes, np * lanes), part(state.p, np, np * lanes))
+    copy_to_beginning(a.w, state.w)
     for i in range(nw, nw * (1 + lanes)):
         state.w[i] = 0.0
-    put(a.iw, state.iw)
-    put(a.clock, state.clock)
-    put(a.gauges, state.gauges)
-    put(a.control, state.control)
+    copy_to_beginning(a.iw, state.iw)
+    copy_to_beginning(a.clock, state.clock)
+    copy_to_beginning(a.gauges, state.gauges)
+    copy_to_beginning(a.control, state.control)
     count = a.inputs.shape[0]
     if a.values.shape[0] > 0:
         for i in range(count):
@@ -109,7 +109,7 @@ def begin_pass(a: Ahead, state: State, k: int, which: int, prepare: e.Prepare, p
 
 
 def keep_pass(a: Ahead, state: State, k: int, which: int) -> None:
-    """Keep the derivatives of the states behind step `k`."""
+    """Keep the derivatives of the states after step `k`."""
     lanes, n, ny = a.head[LANES], a.places.shape[0], a.y.shape[0]
     row = a.head[PASSES] * lanes
     for i in range(n):
@@ -119,17 +119,17 @@ def keep_pass(a: Ahead, state: State, k: int, which: int) -> None:
 
 
 def keep_outputs(a: Ahead, state: State, k: int, observe: abi.Observe) -> None:
-    """Keep the derivatives of outputs at the state behind step `k`, by that state."""
+    """Keep the derivatives of outputs at the state after step `k`, by that state."""
     lanes, count = a.head[LANES], a.head[OUTPUTS]
     ny, np, nw = a.y.shape[0], state.p.shape[0] // (1 + lanes), a.w.shape[0]
     y, p = part(a.still, 0, state.y.shape[0]), part(a.still, state.y.shape[0], state.p.shape[0])
     w = part(a.still, state.y.shape[0] + state.p.shape[0], state.w.shape[0])
     row = a.head[PASSES] * lanes
     for which in range(a.head[PASSES]):
-        put(part(state.y, 0, ny), y)
-        put(part(a.seeds, which * ny * lanes, ny * lanes), part(y, ny, ny * lanes))
-        put(part(state.p, 0, np), p)
-        put(part(state.w, 0, nw), w)
+        copy_to_beginning(part(state.y, 0, ny), y)
+        copy_to_beginning(part(a.seeds, which * ny * lanes, ny * lanes), part(y, ny, ny * lanes))
+        copy_to_beginning(part(state.p, 0, np), p)
+        copy_to_beginning(part(state.w, 0, nw), w)
         for i in range(nw, w.shape[0]):
             w[i] = 0.0
         rates, out = part(a.room, 0, y.shape[0]), part(a.room, y.shape[0], count * (1 + lanes))
@@ -140,7 +140,7 @@ def keep_outputs(a: Ahead, state: State, k: int, observe: abi.Observe) -> None:
 
 
 def ends_elsewhere(a: Ahead, y: Array) -> bool:
-    """Whether a state differs from the state of the run behind its step."""
+    """Whether a state differs from the state of the run after its step."""
     largest, off = 1.0, 0.0
     for i in range(a.end.shape[0]):
         largest, off = max(largest, abs(a.end[i])), max(off, abs(a.end[i] - y[i]))
@@ -172,7 +172,7 @@ def step_ahead(model: System, scheme: Record, span: Span, state: State, outputs:
             if a.head[ADAPTIVE] != 0 and run.control[abi.BEGUN] == 1:
                 # what the scheme keeps of the last rates has directions as well
                 evaluate(ModelSystem(*system), run, run.clock[abi.TIME], run.y, run.memory)
-            code = loop(system, scheme, part_of(span, until, span.step), state, outputs)
+            code = loop(system, scheme, part_of_step(span, until, span.step), state, outputs)
             if code != abi.DONE:
                 return int(code)
             keep_pass(a, run, k, which)
@@ -183,26 +183,26 @@ def step_ahead(model: System, scheme: Record, span: Span, state: State, outputs:
         if a.head[OUTPUTS] > 0:
             keep_outputs(a, run, k, observe)
         if k + 1 < a.head[STEPS]:
-            put(part(run.y, 0, a.y.shape[0]), a.y)
-            put(part(run.p, 0, a.p.shape[0]), a.p)
-            put(part(run.w, 0, a.w.shape[0]), a.w)
-            put(run.iw, a.iw)
-            put(run.clock, a.clock)
-            put(run.gauges, a.gauges)
-            put(run.control, a.control)
+            copy_to_beginning(part(run.y, 0, a.y.shape[0]), a.y)
+            copy_to_beginning(part(run.p, 0, a.p.shape[0]), a.p)
+            copy_to_beginning(part(run.w, 0, a.w.shape[0]), a.w)
+            copy_to_beginning(run.iw, a.iw)
+            copy_to_beginning(run.clock, a.clock)
+            copy_to_beginning(run.gauges, a.gauges)
+            copy_to_beginning(run.control, a.control)
     return abi.DONE
 
 
 @jit(entry=True)
-def unobserved(t: float, y: Array, p: Array, w: Array, ydot: Array, out: Array) -> int:
-    """Stand for the outputs of a file without any; it is never called."""
+def observe_nothing_ahead(t: float, y: Array, p: Array, w: Array, ydot: Array, out: Array) -> int:
+    """Replace the outputs of a file that has none; it is never called."""
     return 0
 
 
 _loops: dict[Any, Any] = {}
 
 
-def ahead_of(loop: RuntimeFunction) -> Any:
+def loop_ahead_of(loop: RuntimeFunction) -> Any:
     """Return the loop that enters another one step by step, made at the first use.
 
     Parameters

@@ -50,7 +50,7 @@ _RESOLVED = abi.RESOLVED_TIME
 
 
 @plain
-def move_on(hunt: A, n: int) -> int:
+def move_bracket(hunt: A, n: int) -> int:
     """Move the bracket to the rest of the step."""
     at = N_HEAD
     for k in range(n):
@@ -64,7 +64,7 @@ def move_on(hunt: A, n: int) -> int:
 
 
 @plain
-def note(hunt: A, n: int, notes: int, t: float, width: int, y: A) -> int:
+def note_events(hunt: A, n: int, notes: int, t: float, width: int, y: A) -> int:
     """Note the time and the state of all events that happen at the end of the bracket."""
     at = N_HEAD
     for k in range(n):
@@ -100,7 +100,7 @@ def settle_bracket(hunt: A, n: int, ends: int) -> int:
 
 
 @plain
-def crossed(hunt: A, n: int, column: int, least: int) -> int:
+def action_of_passages(hunt: A, n: int, column: int, least: int) -> int:
     """Return the highest action, at least `least`, of passages from the bracket's beginning to a column; -1: none."""
     at, highest = N_HEAD, -1
     for k in range(n):
@@ -113,8 +113,8 @@ def crossed(hunt: A, n: int, column: int, least: int) -> int:
 
 
 @plain
-def take_in(hunt: A, n: int, h: float, following: float, search: int) -> int:
-    """Copy the values at the trial state, which stand behind the columns, into the bracket."""
+def take_values(hunt: A, n: int, h: float, following: float, search: int) -> int:
+    """Copy the values at the trial state, which follow the columns, into the bracket."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     if search == NOTHING or search == DOUBT:
         hunt[DOING], hunt[LOW], hunt[HIGH], hunt[WHOLE] = LOOKING, 0.0, h, h

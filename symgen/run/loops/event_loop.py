@@ -25,7 +25,7 @@ from symgen.run.loops import frame
 from symgen.run.loops import search_records as searching
 from symgen.run.loops.frame_parts import DOUBT, LOOK, NOTHING, REMEMBER, TRY, evaluate
 from symgen.run.loops.frame_parts import correct as plain_correct
-from symgen.run.loops.frame_parts import opened as plain_opened
+from symgen.run.loops.frame_parts import open_run as plain_opened
 from symgen.run.loops.inside import enter_point, stays_away
 from symgen.run.loops.searching import remember
 from symgen.run.loops.switching import cubic
@@ -73,12 +73,12 @@ EVENT_STATE = record_type(EventState)
 # -- functions for the frame -------------------------------------------------------------------------------------------
 
 
-def opened(sizes: Sizes, state: EventState) -> EventRun:
+def open_event_run(sizes: Sizes, state: EventState) -> EventRun:
     """Return the state of a run, its working memory divided into parts, with its events."""
     return EventRun(*plain_opened(sizes, state), bare(state).hunt)  # type: ignore[call-arg]  # mypy counts no fields
 
 
-def decided(system: EventSystem, run: EventRun, t: float, h: float, doing: int, y: Array) -> int:
+def decide_event(system: EventSystem, run: EventRun, t: float, h: float, doing: int, y: Array) -> int:
     """Return the decision of `symgen.run.loops.searching.decide` on the state `y` at the end of a step."""
     n, width = int(run.hunt[searching.COUNT]), system.sizes.width
     notes = notes_at(n, width, run.w.shape[0])
@@ -92,7 +92,7 @@ def evaluate_events(system: EventSystem, run: EventRun, t: float, y: Array) -> N
     at, m = searching.N_HEAD + searching.N_COLUMNS * n, searching.N_VALUES * n
     out, state, rate = part(hunt, at, m), part(hunt, at + m, width), part(hunt, at + m + width, width)
     if hunt[searching.NEEDS_RATES] != 0.0:
-        decided(system, run, t, 0.0, searching.KEEP, y)
+        decide_event(system, run, t, 0.0, searching.KEEP, y)
         copied(width, y, state)
         # this may close dependent coordinates of the copy
         if system.rates(t, state, run.p, run.w, run.iw, rate) != 0:
@@ -100,10 +100,10 @@ def evaluate_events(system: EventSystem, run: EventRun, t: float, y: Array) -> N
         run.control[abi.EVALUATIONS] += 1
     system.happens(t, y, run.p, run.w, rate, out)
     if hunt[searching.NEEDS_RATES] != 0.0:
-        decided(system, run, t, 0.0, searching.GIVE_BACK, y)
+        decide_event(system, run, t, 0.0, searching.GIVE_BACK, y)
 
 
-def located(system: EventSystem, scheme: Record, run: EventRun, following: float, h: float, search: int) -> int:
+def search_step(system: EventSystem, scheme: Record, run: EventRun, following: float, h: float, search: int) -> int:
     """Search an acceptable step for events; return the decision of `decide`."""
     hunt, n = run.hunt, int(run.hunt[searching.COUNT])
     evaluate_events(system, run, following, run.trial)
@@ -113,7 +113,7 @@ def located(system: EventSystem, scheme: Record, run: EventRun, following: float
         if stays_away(hunt, n, h) == 1:
             return NOTHING
         look_inside(system, scheme, run, following, h)
-    return decided(system, run, following, h, search, run.trial)
+    return decide_event(system, run, following, h, search, run.trial)
 
 
 @called
@@ -125,12 +125,12 @@ def look_inside(system: EventSystem, scheme: Record, run: EventRun, following: f
     out, y = part(hunt, first, m), part(hunt, first + m + 2 * width, width)
     kept = part(hunt, searching.N_HEAD + searching.AT_END * n, m)
     copied(width, run.trial, y)
-    decided(system, run, following, 0.0, searching.KEEP, run.trial)
+    decide_event(system, run, following, 0.0, searching.KEEP, run.trial)
     x = inside(system, scheme, run, t, following, h, 0, y)
     own = x > 0.0
     if not own:
         rates_at_ends(system, run, t, following)
-    decided(system, run, following, 0.0, searching.GIVE_BACK, run.trial)
+    decide_event(system, run, following, 0.0, searching.GIVE_BACK, run.trial)
     for j in range(m):
         kept[j] = out[j]
     for i in range(searching.N_INSIDE):
@@ -167,7 +167,7 @@ def between_ends(system: EventSystem, run: EventRun, h: float, i: int, y: Array)
     return x
 
 
-def prepare_search(system: EventSystem, run: EventRun, doing: int) -> int:
+def prepare_event_search(system: EventSystem, run: EventRun, doing: int) -> int:
     """Find the side of each event on which a run begins, or continues after a change of velocities or parameters.
 
     Or save the memory of emitted functions at the beginning of a step (`REMEMBER`), or restore it (`RECALL`).
@@ -178,16 +178,16 @@ def prepare_search(system: EventSystem, run: EventRun, doing: int) -> int:
         return int(remember(hunt, n, t, width, run.y, w.shape[0], w, run.iw))
     if doing == LOOK:
         evaluate_events(system, run, run.clock[abi.TIME], run.y)
-    return decided(system, run, run.clock[abi.TIME], 0.0, doing, run.y)
+    return decide_event(system, run, run.clock[abi.TIME], 0.0, doing, run.y)
 
 
-def step_to_point(system: EventSystem, run: EventRun, h: float) -> float:
+def step_to_event_point(system: EventSystem, run: EventRun, h: float) -> float:
     """Return the step to try in place of one of `h` seconds: one that ends at the next point of a table."""
-    decided(system, run, run.clock[abi.TIME], h, searching.AIM, run.y)
+    decide_event(system, run, run.clock[abi.TIME], h, searching.AIM, run.y)
     return float(run.hunt[TRY])
 
 
-def correct(system: EventSystem, run: EventRun, t: float, y: Array, between: bool) -> int:
+def correct_at_jumps(system: EventSystem, run: EventRun, t: float, y: Array, between: bool) -> int:
     """Correct and measure a state; store how far that moves it where rows may jump."""
     hunt, sizes = run.hunt, system.sizes
     at, width = int(hunt[searching.BEGINNING]), sizes.width
@@ -212,7 +212,7 @@ def largest_difference(y: Array, other: Array, weights: Array, first: int, last:
     return far
 
 
-def is_astray(span: Span, run: EventRun, adaptive: bool) -> bool:
+def is_astray_at_jump(span: Span, run: EventRun, adaptive: bool) -> bool:
     """Return whether a correction moved the accepted state by much more than the error of its step explains.
 
     The error of a constant step is unknown; it moves no coordinate farther than the step itself moves one.
@@ -239,18 +239,18 @@ def notes_at(n: int, width: int, nw: int) -> int:
 MEANINGS = Meanings(
     "runs with events or switches",
     EVENTS=True,
-    opened=opened,
+    open_run=open_event_run,
     ModelSystem=EventSystem,
-    located=located,
-    prepare_search=prepare_search,
-    step_to_point=step_to_point,
-    correct=correct,
-    is_astray=is_astray,
+    locate_event=search_step,
+    prepare_search=prepare_event_search,
+    step_to_point=step_to_event_point,
+    correct=correct_at_jumps,
+    is_astray=is_astray_at_jump,
 )
 _loops: dict[Any, Any] = {}
 
 
-def with_events(loop: RuntimeFunction | None) -> Any:
+def loop_with_events(loop: RuntimeFunction | None) -> Any:
     """Return the same loop with events, built at the first use.
 
     Parameters
@@ -278,7 +278,7 @@ def __getattr__(name: str) -> Any:
     if own and find_spec(f"symgen.run.loops.schemes.{scheme}") is not None:
         loop = getattr(import_module(f"symgen.run.loops.schemes.{scheme}"), own, None)
         if loop in frame.RECIPES:
-            return with_events(loop)
+            return loop_with_events(loop)
     raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
 
 

@@ -126,7 +126,7 @@ CourseModel = tuple[Course, abi.Measure, abi.Measure, abi.Move, abi.Move, abi.Ob
 
 
 @jit()
-def size_of(course: Course, values: Array, first: int) -> float:
+def size_of_velocities(course: Course, values: Array, first: int) -> float:
     """Return the largest dimensionless component of velocities, or of their change."""
     largest = 0.0
     for j in range(course.nv):
@@ -136,7 +136,7 @@ def size_of(course: Course, values: Array, first: int) -> float:
 
 
 @jit()
-def close(
+def close_positions_of_trial(
     geometry: abi.Measure, move: abi.Move, spread: abi.Move, course: Course, t: float, p: Array, w: Array, z: Array
 ) -> float:
     """Close the positions of a state; return the distance moved, or -1 if no closed ones are in reach.
@@ -157,7 +157,7 @@ def close(
         if closed and size <= 0.02 * course.tolerance:
             return moved
         spread(p, w)
-        step = size_of(course, w, course.change)
+        step = size_of_velocities(course, w, course.change)
         moved += step
         if not moved <= FARTHEST:
             return -1.0
@@ -176,15 +176,15 @@ def close(
 def refine_velocities(course: Course, spread: abi.Move, p: Array, w: Array, values: Array, first: int) -> float:
     """Correct velocities by D^+ times the section of the residual; return the relative change."""
     spread(p, w)
-    step = size_of(course, w, course.change)
+    step = size_of_velocities(course, w, course.change)
     for j in range(course.nv):
         values[first + j] += w[course.change + j]
-    size = size_of(course, values, first)
+    size = size_of_velocities(course, values, first)
     return step / size if size > 0.0 else 0.0
 
 
 @jit()
-def attempt(model: CourseModel, h: float, p: Array, w: Array, stand: Stand) -> int:
+def attempt_position(model: CourseModel, h: float, p: Array, w: Array, stand: Stand) -> int:
     """Compute a trial state at `h` after the present one; return `DONE` if it is acceptable."""
     course, geometry, measure, move, spread, observe = model
     nq, nv, y, a, z, rates, jerk = course.nq, course.nv, stand.y, stand.a, stand.trial, stand.rates, stand.jerk
@@ -208,7 +208,7 @@ def attempt(model: CourseModel, h: float, p: Array, w: Array, stand: Stand) -> i
         move(z, w)
     for i in range(course.windings):
         w[abi.WINDING + i] = stand.turned[i]
-    moved = close(geometry, move, spread, course, t, p, w, z)
+    moved = close_positions_of_trial(geometry, move, spread, course, t, p, w, z)
     if math.isnan(moved):
         return UNDEFINED
     if moved < 0.0:
@@ -337,7 +337,7 @@ def follow_motion(
     model = course, geometry, measure, move, spread, observe
     clock, counts = stand.clock, stand.counts
     if counts[SETTLED] == 0:
-        code = attempt(model, 0.0, p, w, stand)
+        code = attempt_position(model, 0.0, p, w, stand)
         if code != DONE:
             return int(code)
         accept_trial(course, 0.0, w, stand)
@@ -353,7 +353,7 @@ def follow_motion(
             whole = abs(h) <= clock[REACH]
             h = h if whole else math.copysign(clock[REACH], h)
             clock[TRIED] = target if whole else clock[TIME] + h
-            code = attempt(model, h, p, w, stand)
+            code = attempt_position(model, h, p, w, stand)
             if code == SINGULAR:
                 return SINGULAR
             if code != DONE:

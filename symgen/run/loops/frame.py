@@ -35,16 +35,16 @@ from symgen.run.loops.frame_parts import (
     TRY,
     correct,
     note_step,
-    opened,
-    refused,
-    store,
+    open_run,
+    refuse_step,
     store_between,
-    taken_back,
+    store_output,
+    take_back_outputs,
 )
 from symgen.run.loops.judgement import AGAIN, REFUSE, judge_attempt, judge_state
-from symgen.run.loops.step_control import grown, part_of
+from symgen.run.loops.step_control import grown_step, part_of_step
 from symgen.run.loops.unbound import attempt, interpolate, is_astray, prepare, prepare_search, renew, step_to_point
-from symgen.run.loops.watch import approach, begin, remember_rank, stuck, watch
+from symgen.run.loops.watch import allowed_step, begin_watch, is_stuck, remember_rank, watch
 
 #: Constant steps at the beginning of a run in which its energy is not judged: from rest, the error of n steps of a
 #: first-order scheme is an n-th of an energy that is only building up.
@@ -70,13 +70,13 @@ def begin_loop(system: ModelSystem, scheme: Record, span: Span, run: EventRun, o
         copied(sizes.width, run.y, run.trial)
         correct(system, run, clock[abi.TIME], run.trial, False)
         copied(sizes.width, run.trial, run.y)
-        begin(run)
+        begin_watch(run)
         code = watch(sizes, run, run.y, clock[abi.TIME])
         if code != abi.DONE:
             return code
-        out, latest = control[abi.OUTPUTS], clock[abi.TIME] + resolution(span)
+        out, latest = control[abi.OUTPUTS], clock[abi.TIME] + time_resolution(span)
         while out < times.shape[0] and times[out] <= latest:
-            store(sizes, run.w, outputs, out, run.y)
+            store_output(sizes, run.w, outputs, out, run.y)
             out += 1
         control[abi.OUTPUTS] = out
     # a scheme that began at the end of a run, after its last event, had no time to choose a step for
@@ -87,14 +87,14 @@ def begin_loop(system: ModelSystem, scheme: Record, span: Span, run: EventRun, o
             clock[abi.NEXT] = max(clock[abi.NEXT], span.step) if control[abi.BEGUN] == abi.ONWARD else span.step
         # laws whose gains follow the step are evaluated before the first step
         note_step(run, span.step if span.step > 0.0 else _BEFORE * span.duration)
-        prepare(system, scheme, part_of(span, span.until, clock[abi.NEXT] if ADAPTIVE else span.step), run)
+        prepare(system, scheme, part_of_step(span, span.until, clock[abi.NEXT] if ADAPTIVE else span.step), run)
         if prepare_search(system, run, LOOK) == FAIL:
             return abi.UNDEFINED
         control[abi.BEGUN] = 1
     return abi.DONE
 
 
-def resolution(span: Span) -> float:
+def time_resolution(span: Span) -> float:
     """Return the difference below which times of a grid of constant steps are equal [s]."""
     return 0.0 if ADAPTIVE else abi.SAME_TIME * span.step
 
@@ -106,14 +106,14 @@ def shortest_step(t: float) -> float:
 
 def last_resolution(span: Span) -> float:
     """Return the rest of a run that is no step [s]: an event may be by some roundings before its end."""
-    return abi.END_TIME * abs(span.until) if ADAPTIVE else resolution(span)
+    return abi.END_TIME * abs(span.until) if ADAPTIVE else time_resolution(span)
 
 
 def end_run(system: ModelSystem, span: Span, run: EventRun, outputs: Outputs) -> None:
     """Have a run that has ended by some roundings before its end be there, with the outputs up to it."""
     out = run.control[abi.OUTPUTS]
     while out < outputs.times.shape[0] and outputs.times[out] <= span.until:
-        store(system.sizes, run.w, outputs, out, run.y)
+        store_output(system.sizes, run.w, outputs, out, run.y)
         out += 1
     run.control[abi.OUTPUTS] = out
     run.clock[abi.TIME] = max(run.clock[abi.TIME], span.until)
@@ -139,13 +139,13 @@ def choose_step(
         code = abi.PAUSED
     elif not ADAPTIVE:
         h, following = span.step, clock[abi.ORIGIN] + (control[abi.INDEX] + 1) * span.step
-        if following > until + resolution(span):
+        if following > until + time_resolution(span):
             h, following = until - t, until
-    elif stuck(span, run, t):
+    elif is_stuck(span, run, t):
         code = abi.NO_PROGRESS
     else:
         crossing = control[abi.BARRED] == 0 and control[abi.IN_ZONE] == 1 and run.gauges[abi.FALL] > 0.0
-        h = approach(min(clock[abi.NEXT], span.largest), run.gauges)
+        h = allowed_step(min(clock[abi.NEXT], span.largest), run.gauges)
         if crossing:
             h = min(span.largest, _ACROSS * run.gauges[abi.LAST_SINE] / run.gauges[abi.FALL])
         proposal = h
@@ -157,7 +157,7 @@ def choose_step(
         if not h > shortest_step(t):
             code = abi.TINY_STEP
     between, out = False, control[abi.OUTPUTS]
-    if not DENSE and out < times.shape[0] and times[out] < following - resolution(span):
+    if not DENSE and out < times.shape[0] and times[out] < following - time_resolution(span):
         between, h, following = True, times[out] - t, times[out]
     return code, h, following, between, crossing, proposal
 
@@ -197,23 +197,23 @@ def accept_step(
     control[abi.STEPS] += 1
     code = watch(system.sizes, run, run.trial, following)
     setting_out = (not ADAPTIVE or ROUGH) and control[abi.STEPS] <= SETTING_OUT
-    if code != abi.DONE and not (setting_out and code == abi.ENERGY and following < span.end - resolution(span)):
+    if code != abi.DONE and not (setting_out and code == abi.ENERGY and following < span.end - time_resolution(span)):
         return code
     if EVENTS and is_astray(span, run, ADAPTIVE):
         return abi.JUMPED
     if met or restart:
-        taken_back(run, times, following)
+        take_back_outputs(run, times, following)
     if DENSE and control[abi.OUTPUTS] < times.shape[0] and times[control[abi.OUTPUTS]] < following:
         interpolate(system, scheme, span, run, outputs, t, following, h)
     received(width, run.trial, run.y)
     propose_step(span, run, h, following, crossing, proposal, error, met)
     out = control[abi.OUTPUTS]
-    if out < times.shape[0] and times[out] <= following + resolution(span):
-        store(system.sizes, run.w, outputs, out, run.y)
+    if out < times.shape[0] and times[out] <= following + time_resolution(span):
+        store_output(system.sizes, run.w, outputs, out, run.y)
         control[abi.OUTPUTS] = out + 1
     if restart:  # rates jump at a switch, so that data of past steps are useless
         run.clock[abi.NEXT], run.clock[abi.ALLOWED] = max(run.clock[abi.NEXT], whole), 0.0
-        prepare(system, scheme, part_of(span, span.until, run.clock[abi.NEXT]), run)
+        prepare(system, scheme, part_of_step(span, span.until, run.clock[abi.NEXT]), run)
     else:
         renew(system, scheme, span, run, following, changed)
     if met:
@@ -231,12 +231,12 @@ def propose_step(
     if not ADAPTIVE:
         control[abi.INDEX] += 1
         grid = clock[abi.ORIGIN] + control[abi.INDEX] * span.step
-        if met or (following == span.until and following < grid - resolution(span)):
+        if met or (following == span.until and following < grid - time_resolution(span)):
             clock[abi.ORIGIN], control[abi.INDEX] = following, 0  # a continued run has its grid from here
     elif crossing:
         clock[abi.ALLOWED] = 0.0
     else:
-        grow = grown(span, run, h, error)
+        grow = grown_step(span, run, h, error)
         clock[abi.NEXT] = h * (min(1.0, grow) if control[abi.REFUSED] == 1 else grow)
         if EVENTS and h < proposal and control[abi.REFUSED] == 0:  # it was not shortened by its error
             clock[abi.NEXT] = max(clock[abi.NEXT], proposal)
@@ -267,7 +267,7 @@ def integrate(model: System, scheme: Record, span: Span, state: State, outputs: 
         Code of its end, see `symgen.run.layout.abi`.
     """
     system = ModelSystem(*model)
-    scheme, outputs, run = bare(scheme), bare(outputs), opened(system.sizes, state)
+    scheme, outputs, run = bare(scheme), bare(outputs), open_run(system.sizes, state)
     code = begin_loop(system, scheme, span, run, outputs)
     if code != abi.DONE:
         return code
@@ -305,7 +305,7 @@ def integrate(model: System, scheme: Record, span: Span, state: State, outputs: 
             continue
         if code == REFUSE:
             search = NOTHING
-            refused(run, outputs.times, t, phi, drift, energy)
+            refuse_step(run, outputs.times, t, phi, drift, energy)
             continue
         if code == abi.DONE:
             lengths, trial = (h, following, crossing, proposal, whole), (error, bits & 2 != 0)

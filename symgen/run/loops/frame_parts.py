@@ -43,7 +43,7 @@ LOOK, REMEMBER, RECALL = range(DOUBT + 1, DOUBT + 4)
 
 
 @viewing
-def opened(sizes: Sizes, state: State) -> EventRun:
+def open_run(sizes: Sizes, state: State) -> EventRun:
     """Return the state of a run, its working memory divided into parts."""
     s, width = bare(state), sizes.width
     trial, room = part(s.room, 0, width), part(s.room, width, s.room.shape[0] - width)
@@ -70,7 +70,7 @@ def note_step(run: Run, h: float) -> None:
     run.w[abi.STEP_STATUS] = h
 
 
-def store(sizes: Sizes, w: Array, outputs: Outputs, k: int, y: Array) -> None:
+def store_output(sizes: Sizes, w: Array, outputs: Outputs, k: int, y: Array) -> None:
     """Write output `k`: the state, the measures of ``accept``, angles with counted turns and modes of rows."""
     for i in range(sizes.ny):
         outputs.states[k, i] = y[i]
@@ -80,8 +80,8 @@ def store(sizes: Sizes, w: Array, outputs: Outputs, k: int, y: Array) -> None:
         outputs.status[k, i] = w[abi.WINDING - abi.N_STATUS + i]
 
 
-def store_behind(outputs: Outputs, count: int, now: float, near: float, y: Array, w: Array) -> None:
-    """Have outputs at the time of a reset hold the state behind it, from which the motion goes on.
+def store_after_reset(outputs: Outputs, count: int, now: float, near: float, y: Array, w: Array) -> None:
+    """Have outputs at the time of a reset hold the state after it, from which the motion goes on.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def store_behind(outputs: Outputs, count: int, now: float, near: float, y: Array
     now, near : float
         The time, and the difference up to which times count as the same [s].
     y, w : Array
-        State and scratch behind the reset.
+        State and scratch after the reset.
     """
     out = count
     while out > 0 and abs(outputs.times[out - 1] - now) <= near:
@@ -106,11 +106,11 @@ def store_between(sizes: Sizes, run: Run, outputs: Outputs) -> None:
     """Measure and store the trial state as an output between steps."""
     out = run.control[abi.OUTPUTS]
     keep_maxima(sizes, run, run.trial)
-    store(sizes, run.w, outputs, out, run.trial)
+    store_output(sizes, run.w, outputs, out, run.trial)
     run.control[abi.OUTPUTS] = out + 1
 
 
-def taken_back(run: Run, times: Array, t: float) -> None:
+def take_back_outputs(run: Run, times: Array, t: float) -> None:
     """Remove the outputs after the time `t` [s].
 
     Outputs inside a step are written before its end is fixed: a step that is refused, or shortened to an event, has
@@ -131,9 +131,9 @@ def largest_turn(sizes: Sizes, span: Span, run: Run) -> float:
     return largest
 
 
-def refused(run: Run, times: Array, t: float, phi: float, drift: float, energy: float) -> None:
+def refuse_step(run: Run, times: Array, t: float, phi: float, drift: float, energy: float) -> None:
     """Refuse the step from the time `t` [s]; restore the largest violations and energy error from before it."""
     run.control[abi.REJECTED] += 1
     run.control[abi.REFUSED] = 1
     run.gauges[abi.MAX_PHI], run.gauges[abi.MAX_DRIFT], run.gauges[abi.MAX_ENERGY] = phi, drift, energy
-    taken_back(run, times, t)
+    take_back_outputs(run, times, t)

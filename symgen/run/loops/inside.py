@@ -2,7 +2,7 @@
 
 A function that is on the same side at both ends of a step may have been on the other one in between. Slopes tell most
 steps in which none can reach zero (`stays_away`). In the others functions are known at inner points of the motion,
-and a cubic stands between two neighbours, with its error from the fourth derivative that its neighbours show. A point
+and a cubic joins two neighbours; the fourth derivative that other points show gives its error. A point
 at which a function may be on another side than at the ends is handed to the search, which tries a step up to there.
 """
 
@@ -107,7 +107,7 @@ def stays_away(hunt: A, n: int, h: float) -> int:
 
 @plain
 def enter_point(hunt: A, n: int, x: float) -> int:
-    """Store the functions evaluated at an inner point, x behind the beginning of the step [s]."""
+    """Store the functions evaluated at an inner point, x after the beginning of the step [s]."""
     at, out, i = N_HEAD, N_HEAD + N_COLUMNS * n, int(hunt[INSIDE])
     hunt[PLACES + i], hunt[INSIDE] = x, float(i + 1)
     for k in range(n):
@@ -171,7 +171,7 @@ def difference_at(hunt: A, n: int, k: int, i: int) -> float:
 def slopes_of_forces(hunt: A, n: int) -> int:
     """Set slopes of functions of forces by differences, at all points of a step.
 
-    Behind an event the rate of a force is not known otherwise.
+    After an event the rate of a force is not known otherwise.
     """
     at, last = N_HEAD, int(hunt[INSIDE]) + 1
     spread_points(hunt)

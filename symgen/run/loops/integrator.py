@@ -120,14 +120,14 @@ class Integrator(Protocol):
         """
 
 
-def adapts(integrator: Integrator, options: Mapping[str, str | float]) -> bool:
+def chooses_steps(integrator: Integrator, options: Mapping[str, str | float]) -> bool:
     """Whether an integrator chooses its steps, by default or by the option ``adaptive``."""
     keys = (f"{owner}.adaptive" for owner in ("integrator", integrator.name))
     chosen = next((str(options[key]).lower() for key in keys if key in options), "")
-    return chosen != "false" if integrator.adaptive else estimates(integrator) and chosen == "true"
+    return chosen != "false" if integrator.adaptive else can_choose_steps(integrator) and chosen == "true"
 
 
-def estimates(integrator: Integrator) -> bool:
+def can_choose_steps(integrator: Integrator) -> bool:
     """Whether an integrator can choose its steps, by default or by its option ``adaptive``."""
     return bool(getattr(integrator, "estimates", integrator.adaptive))
 
@@ -142,10 +142,10 @@ def law_functions(compiled: CompiledModel, *names: str) -> tuple[Any, ...]:
     *names : str
         Functions called besides ``rhs``, ``confirm`` and ``accept``: ``turn``, ``residual``, ``tangent``.
     """
-    from symgen.run.layout.manifold import stay
+    from symgen.run.layout.manifold import turn_nothing
 
     law = compiled.law_module
     # a law without pivots of S has nothing to confirm; coordinates whose rates are velocities are not turned
     common = law.rhs, getattr(law, "confirm", law.rhs), law.accept
-    turn = getattr(compiled.model, "turn", stay) if "turn" in names else 0
+    turn = getattr(compiled.model, "turn", turn_nothing) if "turn" in names else 0
     return *common, turn, *(getattr(law, name) if name in names else 0 for name in ("residual", "tangent"))

@@ -22,9 +22,9 @@ from symgen.run.loops.frame_parts import (
     TRY,
     largest_turn,
 )
-from symgen.run.loops.step_control import shrunk
-from symgen.run.loops.unbound import located, refuse
-from symgen.run.loops.watch import meets
+from symgen.run.loops.step_control import shrunk_step
+from symgen.run.loops.unbound import locate_event, refuse
+from symgen.run.loops.watch import meets_singularity
 
 #: A step across a singular position is refused only above this multiple of the tolerance, or, if that is tighter, an
 #: error of this part of the state: it leads nowhere. The rounding error of such a step does not follow the tolerance.
@@ -54,7 +54,7 @@ def judge_attempt(
     error : float
         Error over the tolerance; negative if the attempt has no result.
     search : int
-        Last result of `located`.
+        Last result of `locate_event`.
     doubtful : bool
         Whether the error of the whole step may be that of a switch inside, which is sought.
 
@@ -83,7 +83,7 @@ def judge_attempt(
     elif ADAPTIVE and not good and not between:
         if EVENTS and (search == NOTHING or doubtful):
             if search != TAKE and math.isfinite(error):  # a switch inside may cause the error
-                search = located(system, scheme, run, following, h, DOUBT if search == NOTHING else search)
+                search = locate_event(system, scheme, run, following, h, DOUBT if search == NOTHING else search)
                 doubtful = search != NOTHING
                 # an attempt that ends before the switch has its own error
                 if doubtful and run.hunt[LOW] != h:
@@ -94,7 +94,7 @@ def judge_attempt(
             verdict = REFUSE
             if crossing:
                 run.control[abi.BARRED] = 1
-            change = shrunk(span, run, error)
+            change = shrunk_step(span, run, error)
             if EVENTS and doubtful:  # its end is near a switch, and some stages are beyond it
                 change = _SHORT_OF
             run.clock[abi.NEXT] = h * change
@@ -114,7 +114,7 @@ def judge_state(
     bits : int
         Result of `correct`.
     search : int
-        Last result of `located`.
+        Last result of `locate_event`.
 
     Returns
     -------
@@ -124,12 +124,12 @@ def judge_state(
     verdict = abi.DONE
     if bits & 1 != 0 and not ADAPTIVE:
         verdict = abi.CORRECTION if math.isfinite(run.w[abi.PHI]) else abi.NOT_FINITE
-    elif bits & 1 != 0 or (ADAPTIVE and search == NOTHING and meets(run)):
+    elif bits & 1 != 0 or (ADAPTIVE and search == NOTHING and meets_singularity(run)):
         verdict = REFUSE
         run.control[abi.BARRED] = 1
         run.clock[abi.NEXT] = 0.5 * h
     elif EVENTS:
-        search = located(system, scheme, run, following, h, search)
+        search = locate_event(system, scheme, run, following, h, search)
         if search == SEEK or search == TAKE:
             verdict = AGAIN
         elif search == DIVIDE:

@@ -167,11 +167,11 @@ def projection_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
     nv, m, tail = pattern.nv, pattern.m, pattern.unknowns - pattern.states
     by_multiplier = (pattern.columns >= pattern.width) & (pattern.columns < tail)
 
-    def joined(place: Indices) -> Indices:
+    def join_patterns(place: Indices) -> Indices:
         return np.where(place < nv, place, place - m)
 
     parts, products = _along_motion(pattern, (pattern.dynamic | (pattern.rows >= tail)) & ~by_multiplier)
-    parts = [(joined(rows), joined(columns), factor, sources) for rows, columns, factor, sources in parts]
+    parts = [(join_patterns(rows), join_patterns(columns), factor, sources) for rows, columns, factor, sources in parts]
     row, velocity, source = constraint_forces(pattern)
     by_row: dict[int, list[tuple[int, int]]] = {}
     for c, j, e in zip(row.tolist(), velocity.tolist(), source.tolist(), strict=True):
@@ -275,7 +275,8 @@ def newton_plan(
     products : Products, optional
         Sources computed first.
     motion : (int, int, int)
-        Begin and end of the equations of motion and their accelerations in a stage, and number of multipliers behind.
+        Begin and end of the equations of motion and their accelerations in a stage, and number of multipliers that
+        follow.
 
     Notes
     -----
@@ -348,10 +349,10 @@ def elimination_order(n: int, rows: Indices, columns: Indices) -> tuple[list[int
     waits_for = [0 if diagonal[i] else sum(diagonal[j] for j in beside[i] & below[i]) for i in range(n)]
     waiting = [[i for i in beside[j] & below[j] if diagonal[j] and not diagonal[i]] for j in range(n)]
 
-    def rank(i: int) -> tuple[bool, int, int]:
+    def rank_of_pattern(i: int) -> tuple[bool, int, int]:
         return waits_for[i] > 0, len(beside[i]) * len(below[i]), i
 
-    queue = [rank(i) for i in range(n)]
+    queue = [rank_of_pattern(i) for i in range(n)]
     heapq.heapify(queue)
     done = [False] * n
     order: list[int] = []
@@ -359,7 +360,7 @@ def elimination_order(n: int, rows: Indices, columns: Indices) -> tuple[list[int
     while queue:
         entry = heapq.heappop(queue)
         pivot = entry[2]
-        if done[pivot] or entry != rank(pivot):
+        if done[pivot] or entry != rank_of_pattern(pivot):
             continue  # the entry is out of date
         done[pivot] = True
         order.append(pivot)
@@ -374,5 +375,5 @@ def elimination_order(n: int, rows: Indices, columns: Indices) -> tuple[list[int
         for i in waiting[pivot]:
             waits_for[i] -= 1
         for i in equations | unknowns:
-            heapq.heappush(queue, rank(i))
+            heapq.heappush(queue, rank_of_pattern(i))
     return order, fill

@@ -22,13 +22,13 @@ NO_MASS = 1e-14
 LEFT = 1e-9
 
 
-def room(n: int, m: int, k: int = 0) -> int:
+def projection_room(n: int, m: int, k: int = 0) -> int:
     """Return the length of the working memory for `n` velocities, `m` rows and `k` actuators."""
     return max(n * n + n + m * n + m, n + m * n + m + 2 * k * n + k * k + 3 * k)
 
 
 @jit()
-def orthonormal(rows: Array, right: Array, count: int, n: int) -> int:
+def orthonormalise(rows: Array, right: Array, count: int, n: int) -> int:
     """Replace rows, and right-hand sides of their equations, by orthonormal ones; return their number.
 
     They come first, in the order in which they were taken; rows that depend on them are left behind as rounding.
@@ -70,7 +70,7 @@ def orthonormal(rows: Array, right: Array, count: int, n: int) -> int:
 
 
 @jit()
-def placed_on(rows: Array, right: Array, count: int, x: Array, n: int) -> None:
+def place_on_constraints(rows: Array, right: Array, count: int, x: Array, n: int) -> None:
     """Move a vector the shortest way to where orthonormal rows have their right-hand sides."""
     for i in range(count):
         along = -right[i]
@@ -81,7 +81,7 @@ def placed_on(rows: Array, right: Array, count: int, x: Array, n: int) -> None:
 
 
 @jit(entry=True)
-def accelerations(sizes: Integers, w: Array, out: Array) -> int:
+def project_accelerations(sizes: Integers, w: Array, out: Array) -> int:
     """Set `out` to v' of M v' + D^T lambda = f, D v' = gamma.
 
     Parameters
@@ -118,10 +118,10 @@ def accelerations(sizes: Integers, w: Array, out: Array) -> int:
             for j in range(i):
                 value -= w[i * n + j] * w[begin + j]
             w[begin + i] = value / w[i * n + i]
-    rank = orthonormal(rows, right, m, n)
+    rank = orthonormalise(rows, right, m, n)
     if rank < sizes[2]:
         return SINGULAR
-    placed_on(rows, right, rank, x, n)
+    place_on_constraints(rows, right, rank, x, n)
     for i in range(n - 1, -1, -1):
         value = x[i]
         for j in range(i + 1, n):
@@ -131,7 +131,7 @@ def accelerations(sizes: Integers, w: Array, out: Array) -> int:
 
 
 @jit(entry=True)
-def efforts(sizes: Integers, w: Array, out: Array) -> int:
+def project_efforts(sizes: Integers, w: Array, out: Array) -> int:
     """Set `out` to the shortest efforts that balance M a - f with the help of rows.
 
     Parameters
@@ -150,13 +150,13 @@ def efforts(sizes: Integers, w: Array, out: Array) -> int:
     right = part(w, free, m)
     for i in range(m):
         right[i] = 0.0
-    rank = orthonormal(rows, right, m, n)
+    rank = orthonormalise(rows, right, m, n)
     if rank < sizes[2]:
         return SINGULAR
     size = 0.0
     for j in range(n):
         size += x[j] * x[j]
-    placed_on(rows, right, rank, x, n)
+    place_on_constraints(rows, right, rank, x, n)
     if sizes[4] == 0:
         for j in range(n):
             out[j] = x[j]
@@ -165,7 +165,7 @@ def efforts(sizes: Integers, w: Array, out: Array) -> int:
     begin = free + m
     none, products = part(w, begin, count), part(w, begin + count, count * count)
     for i in range(count):
-        placed_on(rows, right, rank, part(w, n + m * n + count + i * n, n), n)
+        place_on_constraints(rows, right, rank, part(w, n + m * n + count + i * n, n), n)
         none[i] = 0.0
         for j in range(n):
             size += (values[i] * ways[i * n + j]) * (values[i] * ways[i * n + j])
@@ -173,7 +173,7 @@ def efforts(sizes: Integers, w: Array, out: Array) -> int:
     copied = part(w, begin + count + count * count, count * n)
     for i in range(count * n):
         copied[i] = ways[i]
-    found = orthonormal(copied, none, count, n)
+    found = orthonormalise(copied, none, count, n)
     needed = part(w, begin + count + count * count + count * n, count)
     for k in range(found):
         needed[k] = 0.0
@@ -193,8 +193,8 @@ def efforts(sizes: Integers, w: Array, out: Array) -> int:
         return MISSING
     for i in range(count):
         out[i] = 0.0
-    rank = orthonormal(products, needed, found, count)
-    placed_on(products, needed, rank, out, count)
+    rank = orthonormalise(products, needed, found, count)
+    place_on_constraints(products, needed, rank, out, count)
     for i in range(count):
         out[i] += values[i]
     return DONE

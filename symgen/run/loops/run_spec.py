@@ -163,7 +163,7 @@ class Watched:
     rows : ChangingRows or None
         Rows that change at a switch.
     adaptive : bool
-        Whether steps are adaptive: these end at switches, constant ones behind them.
+        Whether steps are adaptive: these end at switches, constant ones after them.
     bounded : BoundedRows or None
         Rows whose forces have bounds.
     of_forces : tuple of int

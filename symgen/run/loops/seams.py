@@ -20,7 +20,7 @@ from symgen.compile.store.jit import RuntimeFunction, jit
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import Outputs, Span, State, System
-from symgen.run.loops.step_control import part_of
+from symgen.run.loops.step_control import part_of_step
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
@@ -77,13 +77,13 @@ def seams_with_room(most: int, adaptive: bool, chooses: bool = False) -> Seams:
     return Seams(head, rows, np.zeros(most), skips, changes, none.astype(np.int64), none)
 
 
-def due(seams: Seams, count: int) -> float:
-    """Return the time of seam number `count` of the present row [s]; infinity behind the last one."""
+def due_time(seams: Seams, count: int) -> float:
+    """Return the time of seam number `count` of the present row [s]; infinity after the last one."""
     at = seams.rows[seams.head[ROW]] + count
     return float(seams.times[at]) if at < seams.rows[seams.head[ROW] + 1] else math.inf
 
 
-def change(seams: Seams, count: int, p: Array) -> bool:
+def write_seam(seams: Seams, count: int, p: Array) -> bool:
     """Write the values of seam number `count` to `p`; return whether any has changed."""
     at, other = seams.rows[seams.head[ROW]] + count, False
     for i in range(seams.changes[at], seams.changes[at + 1]):
@@ -93,7 +93,7 @@ def change(seams: Seams, count: int, p: Array) -> bool:
 
 
 def has_gap(seams: Seams, count: int) -> bool:
-    """Whether a run goes on at the next seam, without a step, behind seam number `count` of the present row."""
+    """Whether a run goes on at the next seam, without a step, after seam number `count` of the present row."""
     at = seams.rows[seams.head[ROW]] + count
     return bool(at < seams.rows[seams.head[ROW] + 1] and seams.skips[at] != 0)
 
@@ -104,18 +104,18 @@ def has_struck(seams: Seams, count: int) -> bool:
     return bool(count > 0 and seams.skips[at] == 2)
 
 
-def part_before(seams: Seams, count: int, span: Span, clock: Array, control: Integers) -> tuple[float, float]:
-    """Return end and steps [s] of a part of a run: towards seam number `count`, behind which the run skips.
+def span_of_part(seams: Seams, count: int, span: Span, clock: Array, control: Integers) -> tuple[float, float]:
+    """Return end and steps [s] of a part of a run: towards seam number `count`, after which the run skips.
 
-    A grid of constant steps may have a point there to rounding. No stage may lie behind the seam: the last step is
+    A grid of constant steps may have a point there to rounding. No stage may lie after the seam: the last step is
     shorter by that much, and the grid is moved for it.
     """
-    to, step, origin = due(seams, count), float(span.step), float(clock[abi.ORIGIN])
+    to, step, origin = due_time(seams, count), float(span.step), float(clock[abi.ORIGIN])
     if seams.head[VARYING] == 0 and to <= span.until:
         ahead = math.floor((to - origin) / step + 0.5)
         before = origin + (ahead - 1.0) * step
         if abs(to - (origin + ahead * step)) <= abi.SAME_TIME * step:
-            if before - clock[abi.TIME] > same(seams, span, to):
+            if before - clock[abi.TIME] > time_tolerance(seams, span, to):
                 to = before
             else:
                 step = to - float(clock[abi.TIME])
@@ -123,9 +123,9 @@ def part_before(seams: Seams, count: int, span: Span, clock: Array, control: Int
     return to, step
 
 
-def go_over(seams: Seams, count: int, clock: Array) -> None:
-    """Set the time to the next seam behind seam number `count`."""
-    clock[abi.TIME] = max(clock[abi.TIME], due(seams, count + 1))
+def skip_to_seam(seams: Seams, count: int, clock: Array) -> None:
+    """Set the time to the next seam after seam number `count`."""
+    clock[abi.TIME] = max(clock[abi.TIME], due_time(seams, count + 1))
 
 
 def select_row(seams: Seams, r: int) -> None:
@@ -136,7 +136,7 @@ def select_row(seams: Seams, r: int) -> None:
 def parameters_at(
     seams: Seams, span: Span, prepare: e.Prepare, prepare_law: e.Prepare, t: float, passed: int, p: Array
 ) -> int:
-    """Set `p` to the parameters at an output, from those behind `passed` seams; at a seam, to those before it.
+    """Set `p` to the parameters at an output, from those after `passed` seams; at a seam, to those before it.
 
     Returns
     -------
@@ -144,8 +144,8 @@ def parameters_at(
         Number of seams before the output.
     """
     changed = False
-    while t > due(seams, passed) + same(seams, span, t):
-        changed = change(seams, passed, p) or changed
+    while t > due_time(seams, passed) + time_tolerance(seams, span, t):
+        changed = write_seam(seams, passed, p) or changed
         passed += 1
     if changed:
         prepare(p)
@@ -161,7 +161,7 @@ def is_defined(p: Array) -> bool:
     return True
 
 
-def same(seams: Seams, span: Span, t: float) -> float:
+def time_tolerance(seams: Seams, span: Span, t: float) -> float:
     """Return the difference up to which times near a time count as the same [s]."""
     if seams.head[VARYING] != 0:
         return abi.RESOLVED_TIME * abs(t)
@@ -169,7 +169,7 @@ def same(seams: Seams, span: Span, t: float) -> float:
 
 
 @jit(entry=True)
-def by_caller(p: Array) -> int:
+def prepare_by_caller(p: Array) -> int:
     """Replace a ``prepare`` that the caller of the loop calls."""
     return 1
 
@@ -188,32 +188,32 @@ def between_seams(model: System, scheme: Record, span: Span, state: State, outpu
     seams, state = bare(seams), bare(state)
     clock, control = state.clock, state.control
     while True:
-        begin, now = due(seams, control[abi.PASSED]), clock[abi.TIME]
-        if begin - now > same(seams, span, now):
+        begin, now = due_time(seams, control[abi.PASSED]), clock[abi.TIME]
+        if begin - now > time_tolerance(seams, span, now):
             origin, to, step = clock[abi.ORIGIN], begin, span.step
             if has_gap(seams, control[abi.PASSED]):
-                to, step = part_before(seams, control[abi.PASSED], span, clock, control)
+                to, step = span_of_part(seams, control[abi.PASSED], span, clock, control)
             moved = clock[abi.ORIGIN]
-            code = loop(system, scheme, part_of(span, min(to, span.until), step), state, outputs)
+            code = loop(system, scheme, part_of_step(span, min(to, span.until), step), state, outputs)
             if clock[abi.ORIGIN] == moved:
                 clock[abi.ORIGIN] = origin
             now = clock[abi.TIME]
             if code != abi.DONE:
                 return int(code)
-            if begin - now > same(seams, span, now):
-                if span.until - now > same(seams, span, now):
+            if begin - now > time_tolerance(seams, span, now):
+                if span.until - now > time_tolerance(seams, span, now):
                     continue
                 return int(code)
         control[abi.PASSED] += 1
         # a kink changes no number, but the history of multistep schemes ends there as well
         if control[abi.BEGUN] == 1:
             control[abi.BEGUN] = abi.AFRESH
-        changed = change(seams, control[abi.PASSED] - 1, state.p)
+        changed = write_seam(seams, control[abi.PASSED] - 1, state.p)
         skipped = has_gap(seams, control[abi.PASSED] - 1)
         if skipped:
-            go_over(seams, control[abi.PASSED] - 1, clock)
+            skip_to_seam(seams, control[abi.PASSED] - 1, clock)
             control[abi.PASSED] += 1
-            changed = change(seams, control[abi.PASSED] - 1, state.p) or changed
+            changed = write_seam(seams, control[abi.PASSED] - 1, state.p) or changed
         if changed:
             if prepare(state.p) != 0:
                 return abi.CHANGED
@@ -222,14 +222,14 @@ def between_seams(model: System, scheme: Record, span: Span, state: State, outpu
                 return abi.UNPREPARED
         if (changed or skipped) and seams.head[CHOOSES] != 0:
             return abi.CHANGED
-        if control[abi.BEGUN] != 0 and span.until - now <= same(seams, span, now):
+        if control[abi.BEGUN] != 0 and span.until - now <= time_tolerance(seams, span, now):
             return abi.DONE
 
 
 _loops: dict[Any, Any] = {}
 
 
-def with_seams(loop: RuntimeFunction) -> Any:
+def loop_with_seams(loop: RuntimeFunction) -> Any:
     """Return the loop that enters another one for each part of a run, made at the first use.
 
     Parameters
@@ -249,7 +249,7 @@ def with_seams(loop: RuntimeFunction) -> Any:
 # -- from Python -------------------------------------------------------------------------------------------------------
 
 
-def with_table(
+def arguments_with_table(
     compiled: CompiledModel,
     system: tuple[Any, ...],
     loop: RuntimeFunction,
@@ -262,23 +262,28 @@ def with_table(
     Parameters
     ----------
     compiled, adaptive, rows
-        As for `seams_of`.
+        As for `seams_of_loop`.
     system, loop : tuple, compiled loop
         First argument of the enclosed loop, and this loop.
     alone : bool
-        Whether it is a single run: modes are chosen behind the loop, and parameters prepared there.
+        Whether it is a single run: modes are chosen after the loop, and parameters prepared there.
     """
     # in looped code nothing is prepared in the loop
     left = compiled.shape == "looped" or (alone and compiled.info.bounded)
-    return system, seams_of(compiled, adaptive, rows), loop, *((by_caller, by_caller) if left else preparing(compiled))
+    return (
+        system,
+        seams_of_loop(compiled, adaptive, rows),
+        loop,
+        *((prepare_by_caller, prepare_by_caller) if left else preparing_functions(compiled)),
+    )
 
 
-def preparing(compiled: CompiledModel) -> tuple[Any, Any]:
+def preparing_functions(compiled: CompiledModel) -> tuple[Any, Any]:
     """Return the emitted functions that follow a change of parameters: ``prepare`` of the model and of the law."""
     return compiled.model.prepare, compiled.law_module.prepare
 
 
-def seams_of(compiled: CompiledModel, adaptive: bool, rows: Sequence[Sequence[Seam]]) -> Any:
+def seams_of_loop(compiled: CompiledModel, adaptive: bool, rows: Sequence[Sequence[Seam]]) -> Any:
     """Return the seams of rows as `Seams`.
 
     Parameters

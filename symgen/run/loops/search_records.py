@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from symgen.run.loops.frame_parts import LOW, RECALL
 
-#: Numbers of a step, behind those that the frame reads (`TRY`, `LOW`): the present task, the number of functions, 1
+#: Numbers of a step, after those that the frame reads (`TRY`, `LOW`): the present task, the number of functions, 1
 #: where rates need v', end of the examined bracket, the whole step, the resolution of time, ...
 DOING, COUNT, NEEDS_RATES, HIGH, WHOLE, RESOLUTION = range(LOW + 1, LOW + 7)
 #: ... attempts at extrema, rounds in a bracket, its width three rounds ago, notes, those of accepted steps, switches
@@ -23,7 +23,7 @@ BEGINNING, WENT, MOVED, SPED = range(LOW + 17, LOW + 21)
 #: ... number of inner points of the step at which functions are known (0: only at its ends), 1 where the next attempt
 #: ends at a point at which a function may be on its other side, the longest step whose inner points show functions (0:
 #: unlimited), refusals of steps because they do not, without a gain (-1: no step is refused any more), how badly they
-#: show them in the last refused step, times of the inner points behind the beginning of the
+#: show them in the last refused step, times of the inner points after the beginning of the
 #: step [s], and working memory for slopes by differences.
 INSIDE, PROBING, LONGEST, DIVIDED, COARSEST, PLACES = range(LOW + 21, LOW + 27)
 #: Number of inner points of a step.

@@ -18,7 +18,7 @@ from typing import Any
 
 from symgen.compile.store.emitted import plain
 from symgen.run.layout import abi
-from symgen.run.loops.bracket import crossed, move_on, note, settle_bracket, take_in
+from symgen.run.loops.bracket import action_of_passages, move_bracket, note_events, settle_bracket, take_values
 from symgen.run.loops.frame_parts import (
     CROWD,
     DIVIDE,
@@ -201,8 +201,8 @@ def give_back(hunt: A, first: int, nw: int, w: A, iw: A) -> int:
 @plain
 def ended(hunt: A, n: int, notes: int, following: float, width: int, y: A) -> int:
     """Return the action at the end of a step that ends at a passage."""
-    action = crossed(hunt, n, G_HIGH, NOTE)
-    note(hunt, n, notes, following, width, y)
+    action = action_of_passages(hunt, n, G_HIGH, NOTE)
+    note_events(hunt, n, notes, following, width, y)
     if action >= ANEW:
         if following - hunt[SINCE] > _HEAP * following:
             hunt[SINCE], hunt[PASSED] = following, 0.0
@@ -265,17 +265,17 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
             end_before(hunt, n, h)
         settle_bracket(hunt, n, 1)
         return CROWD if 2 * hunt[NOTED] >= NOTES else NOTHING
-    take_in(hunt, n, h, following, search)
+    take_values(hunt, n, h, following, search)
     if search == NOTHING and hunt[INSIDE] > 0.0 and hunt[REACH] < _ENDLESS and divides(hunt, n, h) == 1:
         return DIVIDE
     if search == TAKE:
         return int(ended(hunt, n, notes, following, width, y))
-    if search == DOUBT and crossed(hunt, n, G_HIGH, NOTE) < ANEW:
+    if search == DOUBT and action_of_passages(hunt, n, G_HIGH, NOTE) < ANEW:
         return NOTHING
     while True:
         high = hunt[HIGH]
         there = concealed(hunt, n)
-        if crossed(hunt, n, G_HIGH, NOTE) >= NOTE:
+        if action_of_passages(hunt, n, G_HIGH, NOTE) >= NOTE:
             near = 1 if h == high and there >= high and ends_near(hunt, n) == 1 else 0
             if near == 0 and is_before(hunt, n) == 1:
                 hunt[DOING], hunt[TRY] = BEFORE, SHORT_OF * hunt[LOW]
@@ -291,7 +291,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
                 hunt[ROUNDS] += 1.0
                 return SEEK
             # where notes have to be taken to make room for others, the step ends here as well
-            if crossed(hunt, n, G_HIGH, LEAVE) >= LEAVE or hunt[NOTED] > NOTES:
+            if action_of_passages(hunt, n, G_HIGH, LEAVE) >= LEAVE or hunt[NOTED] > NOTES:
                 if search == NOTHING and near == 1:
                     return int(ended(hunt, n, notes, following, width, y))
                 hunt[DOING], hunt[TRY] = TO_EVENT, high
@@ -299,9 +299,9 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
             if h != high:
                 hunt[TRY] = high
                 return SEEK
-            note(hunt, n, notes, following, width, y)
+            note_events(hunt, n, notes, following, width, y)
             hunt[PROBES] = 0.0
-            move_on(hunt, n)
+            move_bracket(hunt, n)
             if hunt[LOW] >= hunt[WHOLE]:
                 break
             continue
@@ -312,7 +312,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
             return SEEK
         if high >= hunt[WHOLE]:
             break
-        move_on(hunt, n)
+        move_bracket(hunt, n)
     if search == NOTHING:
         settle_bracket(hunt, n, 1)
         return NOTHING

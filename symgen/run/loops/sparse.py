@@ -107,7 +107,7 @@ def assemble_matrix(plan: Integers, sources: Array, coefficients: Array, numbers
     coefficients : Array
         Factors of the loop: 1, multiples of the step.
     numbers : Array
-        The plan's numbers; entries stand first.
+        The plan's numbers; entries are the first.
     """
     slots, factors = part(plan, plan[SLOTS], plan[TERMS]), part(plan, plan[FACTORS], plan[TERMS])
     origin = part(plan, plan[SOURCES], plan[TERMS])
@@ -118,8 +118,8 @@ def assemble_matrix(plan: Integers, sources: Array, coefficients: Array, numbers
 
 
 @jit()
-def prepare(plan: Integers, sources: Array, coefficients: Array, numbers: Array) -> int:
-    """Assemble and factorise a matrix; return the number of skipped pivots, -1 where `enlarged` has to be called."""
+def prepare_pattern(plan: Integers, sources: Array, coefficients: Array, numbers: Array) -> int:
+    """Assemble and factorise a matrix; return the count of skipped pivots, -1 where `enlarge_pattern` is needed."""
     assemble_matrix(plan, sources, coefficients, numbers)
     skipped = factorise(plan, numbers)
     if skipped < 0:
@@ -127,11 +127,13 @@ def prepare(plan: Integers, sources: Array, coefficients: Array, numbers: Array)
     return int(skipped)
 
 
-def enlarged(plan: NDArray[np.int64], numbers: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Return a plan and its numbers with twice the room for factors, where `prepare` had too little."""
+def enlarge_pattern(
+    plan: NDArray[np.int64], numbers: NDArray[np.float64]
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Return a plan and its numbers with twice the room for factors, where `prepare_pattern` had too little."""
     if plan[FACTORISED] != _TOO_SMALL:
         return plan, numbers
-    more = int(plan[ROOM])  # factors stand at the end of both
+    more = int(plan[ROOM])  # factors are at the end of both
     plan, numbers = np.append(plan, np.zeros(more, dtype=np.int64)), np.append(numbers, np.zeros(more))
     plan[FACTORISED], plan[ROOM] = 0, 2 * more
     return plan, numbers
@@ -299,7 +301,7 @@ def factorise_anew(plan: Integers, numbers: Array) -> int:
         for f in range(top, n):
             x[reached[f]] = 0.0
     free = 0
-    for i in range(n):  # rows that no column has taken stand where the pivots were skipped
+    for i in range(n):  # rows that no column has taken go to the places of skipped pivots
         if place[i] < 0:
             while pivot_row[free] >= 0:
                 free += 1

@@ -12,12 +12,12 @@ from symgen.run.layout.records import Run, Span
 SHRINK, SHRINK_ACCEPTED, GROW, FLOOR = 0.2, 0.2, 10.0, 1e-10
 
 
-def shrunk(span: Span, run: Run, error: float) -> float:
+def shrunk_step(span: Span, run: Run, error: float) -> float:
     """Return the next step over a refused one, by its error over the tolerance."""
     return float(max(SHRINK, span.safety * error ** (-1.0 / run.control[abi.ORDER]))) if math.isfinite(error) else 0.1
 
 
-def grown(span: Span, run: Run, h: float, error: float) -> float:
+def grown_step(span: Span, run: Run, h: float, error: float) -> float:
     """Return the next step over an accepted one of `h` seconds, by its error over the tolerance."""
     clock = run.clock
     allowed = max(error, FLOOR) ** (-1.0 / run.control[abi.ORDER])
@@ -28,7 +28,7 @@ def grown(span: Span, run: Run, h: float, error: float) -> float:
     return float(min(GROW, max(SHRINK_ACCEPTED, grow)))
 
 
-def part_of(span: Span, until: float, step: float) -> Span:
+def part_of_step(span: Span, until: float, step: float) -> Span:
     """Return a span that ends at a time [s], with another first step, or constant steps of another length [s]."""
     return Span(
         *(step, span.largest, until, span.end, span.duration, span.rtol, span.atol, span.relative),

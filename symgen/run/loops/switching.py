@@ -105,7 +105,7 @@ def first_root(g0: float, d0: float, g1: float, d1: float, side: float) -> float
     """Return the position where the cubic first leaves a side, g1 being on the other; 0 where it has left already."""
     low, below = 0.0, 1 if side * g0 >= 0.0 else 0
     first = extremum(g0, d0, g1, d1, 0)
-    for k in range(0 if first < 1.0 else 2, 3):  # the second one is behind the first
+    for k in range(0 if first < 1.0 else 2, 3):  # the second one is after the first
         high = 1.0 if k == 2 else first if k == 0 else extremum(g0, d0, g1, d1, 1)
         if high > 1.0:
             continue
@@ -150,7 +150,7 @@ def passes(hunt: A, n: int, k: int, column: int) -> int:
 def beyond_low(hunt: A, n: int, k: int, otherwise: float) -> float:
     """Return the fraction of the bracket at which g leaves its side, by values and rates up to its beginning.
 
-    Behind a jump, rates at the end of the bracket are different.
+    After a jump, rates at the end of the bracket are different.
     """
     at, low, width = N_HEAD, hunt[LOW], hunt[HIGH] - hunt[LOW]
     g, d, bent = hunt[at + G_LOW * n + k], hunt[at + D_LOW * n + k], 0.0

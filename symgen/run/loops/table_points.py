@@ -271,7 +271,7 @@ def switch_values(hunt: A, n: int, h: float, search: int) -> int:
 
 @plain
 def ends_near(hunt: A, n: int) -> int:
-    """Return 1 where the bracket passes only switches, and ends near enough behind all of them, else 0."""
+    """Return 1 where the bracket passes only switches, and ends near enough after all of them, else 0."""
     for k in range(n):
         if passes(hunt, n, k, G_HIGH) == 1:
             if hunt[N_HEAD + POINTS * n + k] > 0.0:

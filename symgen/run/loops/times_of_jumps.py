@@ -161,9 +161,9 @@ def note_passage(f: Search, t: float, kind: int) -> None:
     while i > 0 and f.moments[i - 1] > t:
         i -= 1
     if i > 0 and t - f.moments[i - 1] <= same:
-        f.flags[i - 1] = joined(f.flags[i - 1], kind)
+        f.flags[i - 1] = join_kinds(f.flags[i - 1], kind)
     elif i < n and f.moments[i] - t <= same:
-        f.moments[i], f.flags[i] = t, joined(f.flags[i], kind)
+        f.moments[i], f.flags[i] = t, join_kinds(f.flags[i], kind)
     else:
         f.found[DROPPED] = f.found[DROPPED] if n < room else 1
         for k in range(min(n, room - 1), i, -1):
@@ -173,7 +173,7 @@ def note_passage(f: Search, t: float, kind: int) -> None:
         f.found[COUNT] = min(n + 1, room)
 
 
-def joined(flags: int, kind: int) -> int:
+def join_kinds(flags: int, kind: int) -> int:
     """Return the kinds of two passages at the same time, each of them once."""
     result = 0
     for flag in (KINK, BESIDE, SKIP, STRIKE):
@@ -235,7 +235,7 @@ def turned_at(f: Search, state: Record, j: int, sign: float, low: float, high: f
     return 0.5 * (low + high)
 
 
-def turn_of(before: float, x: float, after: float, over: int, under: int) -> int:
+def extremum_of(before: float, x: float, after: float, over: int, under: int) -> int:
     """Return 1 where a sample is a greatest value, -1 where it is a least one, else 0; of a plateau, only at its ends.
 
     Undefined neighbours are ends of the formula. Where no level is `over` a sample (0), it is no greatest value to look
@@ -264,7 +264,7 @@ def sampled_at(start: float, end: float, k: int, count: int, noise: int) -> floa
 
 
 @called
-def spread_of(f: Search, state: Record, j: int, start: float, end: float, count: int) -> float:
+def range_of_samples(f: Search, state: Record, j: int, start: float, end: float, count: int) -> float:
     """Sample formula j; return the difference of its largest and its least value."""
     low, high, noise = math.inf, -math.inf, count
     for k in range(count + 2):
@@ -285,7 +285,9 @@ def pass_levels(f: Search, state: Record, j: int, a: float, b: float, below: int
 
 
 @called
-def sample(f: Search, state: Record, j: int, start: float, end: float, count: int, doing: int, spread: float) -> int:
+def count_passages(
+    f: Search, state: Record, j: int, start: float, end: float, count: int, doing: int, spread: float
+) -> int:
     """Return the number of passages of formula j between samples, `count` of them besides both ends.
 
     Parameters
@@ -315,7 +317,7 @@ def sample(f: Search, state: Record, j: int, start: float, end: float, count: in
             if above != below:
                 passages += pass_levels(f, state, j, tb, tc, below, above, finest)
         over, under = 1 if endless or below < levels else 0, 1 if endless or below > 0 else 0
-        way = turn_of(xa, xb, xc, over, under)
+        way = extremum_of(xa, xb, xc, over, under)
         if way != 0:
             if doing == _LOOK:
                 near += 1 if abs(level_at(f, j, below if way > 0 else below - 1) - xb) < spread else 0
@@ -337,16 +339,16 @@ def search_curve(f: Search, state: Record, j: int, start: float, end: float) -> 
     while count < most:
         count *= 2
     while count <= MOST_SAMPLES:
-        passages, spread = -1, spread_of(f, state, j, start, end, count)
-        seen = sample(f, state, j, start, end, count, _LOOK, spread)
+        passages, spread = -1, range_of_samples(f, state, j, start, end, count)
+        seen = count_passages(f, state, j, start, end, count, _LOOK, spread)
         if _LOOKS * (seen + f.found[NEAR]) <= count:
-            passages = sample(f, state, j, start, end, count, _ASK, spread)
+            passages = count_passages(f, state, j, start, end, count, _ASK, spread)
         if max(seen, passages) > MOST_PASSAGES:
             f.found[LEFT_OUT] = TOO_MANY
             return
         if passages >= 0 and passages == before:
             if passages > 0:
-                sample(f, state, j, start, end, count, _NOTE, spread)
+                count_passages(f, state, j, start, end, count, _NOTE, spread)
             return
         before, count = passages, 2 * count
     f.found[LEFT_OUT] = TOO_CLOSE

@@ -1,6 +1,6 @@
 """Functions that are bound late: what names of loops and of turns mean where nothing else is bound to them.
 
-Each does nothing, or returns what stands for nothing. Schemes, the search for events, modes and targets bind other
+Each does nothing, or returns a value that means nothing. Schemes, the search for events, modes and targets bind other
 functions to these names, see `symgen.compile.loopcode.loop_instances`; ``docs/late-names.md`` says who means each when.
 Of the parts of a scheme,
 
@@ -9,10 +9,10 @@ Of the parts of a scheme,
 | `prepare` | system, scheme, span, run | initial data of the scheme |
 | `attempt` | system, scheme, span, run, t, following, h, between | sets ``run.trial``, at `following`, from ``run.y`` |
 | `renew` | system, scheme, span, run, t, changed | updates the scheme's memory after the state at `t` was accepted |
-| `shrunk`, `grown` | span, run, [h,] error | ratio of the next step to a refused or accepted one |
+| `shrunk_step`, `grown_step` | span, run, [h,] error | ratio of the next step to a refused or accepted one |
 | `interpolate` | system, scheme, span, run, outputs, t, following, h | outputs inside a step, from its ends |
 | `inside` | system, scheme, run, t, following, h, i, y | a state inside a good attempt |
-| `located` | system, scheme, run, following, h, search | tests whether an event lies inside an acceptable step |
+| `locate_event` | system, scheme, run, following, h, search | tests whether an event lies inside an acceptable step |
 | `prepare_search` | system, run, doing | other work of `symgen.run.loops.event_loop`: `LOOK`, `REMEMBER`, `RECALL` |
 | `step_to_point` | system, run, h | the step to try: `h`, or one that ends where a point of a table is passed |
 | `is_astray` | span, run, adaptive | whether an accepted state was corrected by more than its error explains |
@@ -93,7 +93,7 @@ def inside(
     return 0.0
 
 
-def located(system: ModelSystem, scheme: Record, run: Run, following: float, h: float, search: int) -> int:
+def locate_event(system: ModelSystem, scheme: Record, run: Run, following: float, h: float, search: int) -> int:
     """Return `NOTHING`: a run without events finds none between a good attempt and its acceptance.
 
     ``docs/late-names.md`` says who means it when.
@@ -164,7 +164,7 @@ def gather_impacts(t: float, modes: Record, state: State) -> int:
 # -- rows of sweeps ----------------------------------------------------------------------------------------------------
 
 
-def forget(model: System, state: State) -> None:
+def forget_run(model: System, state: State) -> None:
     """Do nothing: a run without switching functions has no data of them.
 
     ``docs/late-names.md`` says who means it when.
@@ -195,7 +195,7 @@ def take_notes(code: int, r: int, model: System, chunk: RowChunk, state: State) 
     return code
 
 
-def resumed(state: State) -> int:
+def resume_code(state: State) -> int:
     """Return the end code with which a run that was left for an examination goes on, `DONE` for a new run.
 
     ``docs/late-names.md`` says who means it when.
@@ -203,7 +203,7 @@ def resumed(state: State) -> int:
     return int(abi.DONE)
 
 
-def waits(code: int, model: System, chunk: RowChunk, state: State) -> bool:
+def waits_for_caller(code: int, model: System, chunk: RowChunk, state: State) -> bool:
     """Return whether a run has to be left for an examination: none without rows that may jump.
 
     ``docs/late-names.md`` says who means it when.

@@ -44,7 +44,7 @@ def iterations_in(state: State) -> int:
     return int(state.iw[abi.ITERATIONS] + state.iw[abi.LAW_ITERATIONS] + state.control[abi.NEWTON_ITERATIONS])
 
 
-def begin(run: Run) -> None:
+def begin_watch(run: Run) -> None:
     """Take the energies of the first accepted state as the beginning of the balance."""
     run.gauges[abi.ENERGY_START] = run.w[abi.KINETIC] + run.w[abi.POTENTIAL]
     run.gauges[abi.POTENTIAL_START] = run.w[abi.POTENTIAL]
@@ -63,7 +63,7 @@ def keep_maxima(sizes: Sizes, run: Run, y: Array) -> float:
     return float(error)
 
 
-def approach(h: float, gauges: Array) -> float:
+def allowed_step(h: float, gauges: Array) -> float:
     """Return the allowed step: near a singular position at most half the distance to it.
 
     Inside the zone that counts as near the step is free again, so a passage costs about as many further steps as
@@ -78,12 +78,12 @@ def approach(h: float, gauges: Array) -> float:
     return h
 
 
-def meets(run: Run) -> bool:
+def meets_singularity(run: Run) -> bool:
     """Return whether a step ends practically on a singular position, where rounding would decide the branch."""
     return bool(run.w[abi.PIVOT] < SKIP <= run.gauges[abi.LAST_SINE] ** 2)
 
 
-def stuck(span: Span, run: Run, t: float) -> bool:
+def is_stuck(span: Span, run: Run, t: float) -> bool:
     """Return whether an adaptive run has taken, or at its present rate would take, too many attempts.
 
     The rate is that of a window of attempts as long as all before it: a passage with many attempts does not decide it.
@@ -98,7 +98,7 @@ def stuck(span: Span, run: Run, t: float) -> bool:
     return False
 
 
-def force(sizes: Sizes, run: Run, y: Array, before: float) -> float:
+def force_of_step(sizes: Sizes, run: Run, y: Array, before: float) -> float:
     """Return the force in a step [N]: its change of potential energy or work over the largest displacement of a body.
 
     What the balance lost in the step is no force: a switch at which velocities change takes no time and no way.
@@ -113,8 +113,8 @@ def force(sizes: Sizes, run: Run, y: Array, before: float) -> float:
     way = 0.0
     for i in range(sizes.nq):
         way = max(way, abs(y[i] - run.y[i]) * run.metric[i])
-    behind = sizes.nq + sizes.nv
-    change = max(abs(run.w[abi.POTENTIAL] - y[behind] - before), abs(y[behind] - run.y[behind]))
+    after = sizes.nq + sizes.nv
+    change = max(abs(run.w[abi.POTENTIAL] - y[after] - before), abs(y[after] - run.y[after]))
     return change / way if way > 0.0 else 0.0
 
 
@@ -134,11 +134,11 @@ def watch(sizes: Sizes, run: Run, y: Array, t: float) -> int:
     """
     w, gauges, control, passages = run.w, run.gauges, run.control, run.passages
     run.clock[abi.TIME] = t
-    moving, behind = sizes.nq, sizes.nq + sizes.nv
-    work = y[behind]
+    moving, after = sizes.nq, sizes.nq + sizes.nv
+    work = y[after]
     # the scale of corrections stays that of the start
     length = max(w[abi.LENGTH], largest(sizes.width, y, run.metric, 0, moving))
-    fastest = largest(sizes.width, y, run.metric, moving, behind)
+    fastest = largest(sizes.width, y, run.metric, moving, after)
     speed = w[abi.SPEED] = max(w[abi.SPEED], fastest)
     error = keep_maxima(sizes, run, y)
     scale = max(w[abi.KINETIC], abs(w[abi.POTENTIAL] - gauges[abi.POTENTIAL_START]), abs(work))
@@ -166,7 +166,7 @@ def watch(sizes: Sizes, run: Run, y: Array, t: float) -> int:
             gauges[abi.MAX_ENERGY_JUMP] = max(gauges[abi.MAX_ENERGY_JUMP], abs(error - gauges[abi.ENERGY_ENTRY]))
         gauges[abi.ENERGY_ENTRY] = error
     gauges[abi.FALL] = (gauges[abi.LAST_SINE] - sine) / elapsed if elapsed > 0.0 else 0.0
-    # so does the length of a gradient that vanishes; behind it the row is undefined
+    # so does the length of a gradient that vanishes; after it the row is undefined
     short, fell = math.sqrt(max(w[abi.SHORTEST_ROW], 0.0)), gauges[abi.SHORT_FALL]
     vanished = short < VANISHING or (fell > 0.0 and gauges[abi.LAST_SHORT] - fell * elapsed < VANISHING)
     gauges[abi.SHORT_FALL] = (gauges[abi.LAST_SHORT] - short) / elapsed if elapsed > 0.0 else 0.0
@@ -201,7 +201,7 @@ def watch(sizes: Sizes, run: Run, y: Array, t: float) -> int:
     # where nothing moves the work is that of rounding
     if fastest > LEAST_SPEED * speed and excess > limit * max(gauges[abi.ENERGY_SCALE], way * gauges[abi.FORCE]):
         # large works cancel where a body is at rest: the energy in motion is at least that over the least displacement
-        gauges[abi.FORCE] = max(gauges[abi.FORCE], force(sizes, run, y, before))
+        gauges[abi.FORCE] = max(gauges[abi.FORCE], force_of_step(sizes, run, y, before))
         if excess > limit * max(gauges[abi.ENERGY_SCALE], way * gauges[abi.FORCE]):
             return abi.ENERGY
     return abi.DONE

@@ -12,7 +12,7 @@ from symgen.base.ir.numerics import SKIP
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
-from symgen.run.layout.redundancy import farthest
+from symgen.run.layout.redundancy import farthest_row
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
     CONSTANT,
@@ -27,7 +27,7 @@ from symgen.run.modes.bounded_rows import (
     SAME,
     SHARED,
     Choice,
-    sign_of,
+    sign_of_number,
 )
 from symgen.run.modes.box import solve_box
 from symgen.run.modes.choice import (
@@ -133,7 +133,7 @@ def probe_reactions(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
 
 
 @exact()
-def set_bounds(c: Choice, n: int) -> None:
+def set_reaction_bounds(c: Choice, n: int) -> None:
     """Set the box problem of the rows at rest by the present sizes of reactions."""
     k, box = c.count, c.box
     for i in range(k):
@@ -188,7 +188,7 @@ def agree_at_rest(c: Choice) -> int:
         if rounds == _AGREEMENTS:
             return DISAGREED
         rounds += 1
-        set_bounds(c, n)
+        set_reaction_bounds(c, n)
         if solve_box(n, box) != 0:
             return NO_FORCES
         for r in range(n):
@@ -202,7 +202,7 @@ def agree_at_rest(c: Choice) -> int:
         i = c.rest[r]
         bound, force, moves = box.bounds[r], box.forces[r], moves_at(c, n, r)
         moves = moves or (c.loose[i] != 0 and abs(force) >= AT_BOUND * bound and bound > 0.0)
-        c.signs[i] = sign_of(box.left[r] if force == 0.0 else force) if moves else 0.0
+        c.signs[i] = sign_of_number(box.left[r] if force == 0.0 else force) if moves else 0.0
         c.taken[i] = 0
     for i in range(k):
         if c.pressed[i] != 0:
@@ -219,7 +219,7 @@ def can_move(c: Choice) -> int:
         return 1
     for i in range(c.count):
         c.w[c.first + MODE_NUMBERS * i + HELD] = c.after[MODE_NUMBERS * i + HELD]
-    return 1 if farthest(layout, layout.nv, layout.m, SKIP, 1, c.w, c.room) < layout.nv else 0
+    return 1 if farthest_row(layout, layout.nv, layout.m, SKIP, 1, c.w, c.room) < layout.nv else 0
 
 
 @exact(entry=True)

@@ -14,7 +14,7 @@ from symgen.run.layout.records import Span
 from symgen.run.layout.redundancy import room_of_choice
 from symgen.run.layout.start_records import Layout
 from symgen.run.modes.box import Box, new_box
-from symgen.run.starts.assembler import layout_of
+from symgen.run.starts.assembler import layout_of_starts
 from symgen.run.starts.starting import observe_nothing
 
 if TYPE_CHECKING:
@@ -28,7 +28,8 @@ STILL, NO_ACCELERATION = 1e-10, 1e-10
 TOUCHING = 1e-9
 #: A coordinate that has moved by less than this part of the mechanism's length has just broken loose.
 UNMOVED = 1e-9
-#: A gap that a change of parameters or inputs leaves is closed from this part of the mechanism's length behind it on.
+#: A change of parameters or inputs closes a gap that it leaves penetrated by more than this part of the mechanism's
+#: length.
 DEEP = 1e-6
 #: A formula for a bound in motion may be this part above that for the bound at rest, by rounding; a bound that falls
 #: may be below an effort that several rows share by this part of forces.
@@ -225,7 +226,7 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
 
     numbers = np.zeros
     return Choice(
-        layout=layout_of(compiled),
+        layout=layout_of_starts(compiled),
         rates=compiled_form(rates[0]),
         confirm=compiled_form(rates[1]),
         geometry=compiled_form(compiled.model.geometry),
@@ -313,7 +314,7 @@ def is_held(c: Choice, w: Array, i: int) -> bool:
 
 
 @exact()
-def stays_shut(c: Choice, w: Array, i: int) -> bool:
+def is_kept_shut(c: Choice, w: Array, i: int) -> bool:
     """Return whether a gap is closed by its mode, or was before a reset or an impact, whatever its gap is."""
     return bool(is_held(c, w, i) or c.shut[i] != 0)
 
@@ -326,11 +327,11 @@ def open_rows(c: Choice, w: Array) -> None:
 
 
 @exact(entry=True)
-def put_off(c: Choice, w: Array) -> int:
+def switch_off(c: Choice, w: Array) -> int:
     """Take all rows out of force before a reset or an impact, and keep which gaps are closed; return their number."""
     closed = 0
     for i in range(c.count):
-        c.shut[i] = 1 if c.pushes[i] != 0 and stays_shut(c, w, i) else 0
+        c.shut[i] = 1 if c.pushes[i] != 0 and is_kept_shut(c, w, i) else 0
         closed += c.shut[i]
     open_rows(c, w)
     return int(closed)
@@ -339,10 +340,10 @@ def put_off(c: Choice, w: Array) -> int:
 @exact()
 def is_shut(c: Choice, w: Array, i: int) -> bool:
     """Return whether a gap is closed: by its mode, or as it is 0 within the resolution of positions."""
-    return bool(stays_shut(c, w, i) or c.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH))
+    return bool(is_kept_shut(c, w, i) or c.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH))
 
 
 @exact()
-def sign_of(x: float) -> float:
+def sign_of_number(x: float) -> float:
     """Return the sign of a number."""
     return 1.0 if x > 0.0 else (-1.0 if x < 0.0 else 0.0)

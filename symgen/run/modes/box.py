@@ -20,7 +20,7 @@ import numpy as np
 
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers, Record
-from symgen.run.layout.scales import larger
+from symgen.run.layout.scales import larger_number
 
 #: Pivots below this part of the diagonal are rounding, and so are accelerations below it over those of single forces.
 DEPENDENT, ROUNDING = 1e-11, 1e-13
@@ -139,7 +139,7 @@ def free_forces(k: int, box: Box) -> int:
 
 
 @exact()
-def moved_free(k: int, box: Box) -> bool:
+def move_free_forces(k: int, box: Box) -> bool:
     """Move free forces towards the minimum, up to the first bound; return whether one was met."""
     forces, bounds, lower, place, order, right = box.forces, box.bounds, box.lower, box.place, box.order, box.right
     rank = independent_set(k, free_forces(k, box), box)
@@ -151,7 +151,7 @@ def moved_free(k: int, box: Box) -> bool:
     for i in range(rank):
         at = order[i]
         room = bounds[at] - forces[at] if right[i] > 0.0 else forces[at] - lower[at]
-        room = larger(room, 0.0)
+        room = larger_number(room, 0.0)
         if abs(right[i]) * part > room:
             part, first = room / abs(right[i]), i
     for i in range(rank):
@@ -174,7 +174,7 @@ def magnitude_of(k: int, i: int, box: Box) -> float:
 
 
 @exact()
-def moved_beside(k: int, box: Box) -> bool:
+def move_beside_bound(k: int, box: Box) -> bool:
     """Move a free force that the independent ones determine to the first bound; return whether there was one.
 
     Its acceleration follows from theirs: where it is not zero, as where a rate only passes zero at a dead centre, no
@@ -195,7 +195,7 @@ def moved_beside(k: int, box: Box) -> bool:
             first = at
             for i in range(rank):
                 j = order[i]
-                room = larger(box.bounds[j] - forces[j] if right[i] > 0.0 else forces[j] - box.lower[j], 0.0)
+                room = larger_number(box.bounds[j] - forces[j] if right[i] > 0.0 else forces[j] - box.lower[j], 0.0)
                 if abs(right[i]) * part > room:
                     part, first = room / abs(right[i]), j
             if part < math.inf:
@@ -240,10 +240,10 @@ def solve_box(k: int, box: Box) -> int:
         if box.place[i] == UPPER and box.matrix[i * k + i] > 0.0:
             box.bounds[i] = box.lower[i] = 0.0
     for _ in range(_CHANGES * (k + 1)):
-        if moved_free(k, box):
+        if move_free_forces(k, box):
             continue
-        moved_free(k, box)  # rounding
-        if moved_beside(k, box):
+        move_free_forces(k, box)  # rounding
+        if move_beside_bound(k, box):
             continue
         wrong = wrong_bound(k, box)
         if wrong < 0:

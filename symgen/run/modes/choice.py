@@ -18,8 +18,8 @@ from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
-from symgen.run.layout.redundancy import choose_rows, farthest, is_off
-from symgen.run.layout.scales import entry_of, larger
+from symgen.run.layout.redundancy import choose_rows, farthest_row, is_off
+from symgen.run.layout.scales import entry_of, larger_number
 from symgen.run.loops.afresh import forget_steps
 from symgen.run.loops.event_loop import EventState
 from symgen.run.loops.search_records import COUNT, FORCE, GAP, MARGIN, MEASURE, N_HEAD, PACE, RATE, ROW
@@ -47,10 +47,10 @@ from symgen.run.modes.bounded_rows import (
     UNMOVED,
     Choice,
     is_held,
+    is_kept_shut,
     is_shut,
     row_scale,
-    sign_of,
-    stays_shut,
+    sign_of_number,
     usual_of,
 )
 from symgen.run.modes.box import INSIDE, solve_box
@@ -79,7 +79,7 @@ def read_rows(t: float, c: Choice, y: Array, p: Array, w: Array) -> int:
             c.restitution[i] = restitution
             valid = valid and restitution >= 0.0 and restitution <= 1.0
             deep = out[i] < -c.depth[0] * row_scale(c, w, i, abi.LENGTH)
-            valid = valid and not (deep and not stays_shut(c, w, i))
+            valid = valid and not (deep and not is_kept_shut(c, w, i))
     return SAME if valid else OUT_OF_RANGE
 
 
@@ -87,7 +87,7 @@ def read_rows(t: float, c: Choice, y: Array, p: Array, w: Array) -> int:
 def find_fault(c: Choice, w: Array) -> int:
     """Return what is out of range at rows that have been read, and name the first such row."""
     for i in range(c.dry, c.count):
-        if not (c.value[i] >= -c.depth[0] * row_scale(c, w, i, abi.LENGTH) or stays_shut(c, w, i)):
+        if not (c.value[i] >= -c.depth[0] * row_scale(c, w, i, abi.LENGTH) or is_kept_shut(c, w, i)):
             c.named[0] = i
             return NEGATIVE_GAP
     for i in range(c.dry, c.count):
@@ -134,7 +134,7 @@ def find_mobility(c: Choice) -> int:
         if i >= 0:
             entry = entry_of(layout, c.w, e)
             least = LEAST_MASS * c.w[abi.MEAN_MASS] / c.w[layout.gauge + j]
-            c.alone[i] += entry * entry / larger(c.w[layout.mass + j], least)
+            c.alone[i] += entry * entry / larger_number(c.w[layout.mass + j], least)
     return int(c.count)
 
 
@@ -185,7 +185,7 @@ def probe(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, contr
         j = c.rest[r]
         force, sign = c.sliding[j], 1.0
         if c.pushes[j] != 0 and c.alone[j] > 0.0:  # accelerations as large as those that are there
-            force = larger(abs(c.offset[j]), usual_of(c, w, j)) / c.alone[j]
+            force = larger_number(abs(c.offset[j]), usual_of(c, w, j)) / c.alone[j]
             sign = -force
         if force > 0.0 or c.varying[j] != 0:
             for i in range(k):
@@ -253,7 +253,7 @@ def find_rest(c: Choice, w: Array) -> int:
             moves = c.broken[owner] + c.left[owner] != 0
             loose = loose or (moves and c.before[MODE_NUMBERS * owner + HELD] != 0.0)
         c.loose[i] = 1 if loose else 0
-        c.signs[i] = 0.0 if still or pushes else sign_of(c.speed[i])
+        c.signs[i] = 0.0 if still or pushes else sign_of_number(c.speed[i])
         if still:
             c.rest[n] = i
             n += 1
@@ -310,7 +310,7 @@ def solve_rest(c: Choice, n: int, w: Array) -> int:
         c.forces[i] = force
         c.signs[i] = 0.0
         if moves:
-            c.signs[i] = sign_of(box.left[r] if force == 0.0 or c.pushes[i] != 0 else force)
+            c.signs[i] = sign_of_number(box.left[r] if force == 0.0 or c.pushes[i] != 0 else force)
         c.taken[i] = 0
     return SAME
 
@@ -381,7 +381,7 @@ def follow_modes(t: float, c: Choice, y: Array, p: Array, w: Array) -> int:
     off, changed = 0, 0
     for i in range(m):
         off += 1 if is_off(layout, i, w) else 0
-    redundant = m - off - farthest(layout, layout.nv, m, SKIP, 1, w, c.room)
+    redundant = m - off - farthest_row(layout, layout.nv, m, SKIP, 1, w, c.room)
     for i in range(m):
         c.w[i] = w[layout.mask + i]
         w[layout.mask + i] = 0.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array
-from symgen.run.layout.scales import larger
+from symgen.run.layout.scales import larger_number
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
     AT_REST,
@@ -32,7 +32,7 @@ _LEVEL = 1e-6
 
 
 @exact()
-def independence(c: Choice, i: int) -> float:
+def undetermined_part(c: Choice, i: int) -> float:
     """Return the part of a row at rest that rows put into force do not determine."""
     return float(c.rest_of[i * c.count + i] / c.alone[i]) if c.alone[i] > 0.0 else 0.0
 
@@ -60,7 +60,7 @@ def take_rows(c: Choice, n: int, which: int, w: Array) -> None:
             elif which == PUSHING:
                 free = free and c.pushes[i] != 0
                 free = free and -c.forces[i] * c.matrix[i * k + i] > NO_ACCELERATION * usual_of(c, w, i)
-            part = independence(c, i)
+            part = undetermined_part(c, i)
             # of rows with one and two bounds on one coordinate the former carries both: one force with all bounds
             first = best < 0 or part > (1.0 + _LEVEL) * most or (c.pushes[i] != 0 and part > (1.0 - _LEVEL) * most)
             if free and part > DEPENDENT and first:
@@ -97,7 +97,7 @@ def hold_rows(c: Choice, w: Array) -> int:
     take_rows(c, kept, PUSHING, w)
     for r in range(kept):
         i = c.rest[r]
-        if c.pushes[i] == 0 and c.passing[i] == 0 and independence(c, i) <= DEPENDENT:
+        if c.pushes[i] == 0 and c.passing[i] == 0 and undetermined_part(c, i) <= DEPENDENT:
             c.signs[i] = 0.0
     take_rows(c, kept, WITHIN, w)
     take_rows(c, kept, ALL, w)
@@ -113,7 +113,7 @@ def hold_rows(c: Choice, w: Array) -> int:
     for r in range(kept):
         i = c.rest[r]
         other = c.taken[i] == 0 and c.signs[i] == 0.0 and c.matrix[i * k + i] > DEPENDENT * c.alone[i]
-        if other and not (c.pushes[i] != 0 and independence(c, i) > DEPENDENT):
+        if other and not (c.pushes[i] != 0 and undetermined_part(c, i) > DEPENDENT):
             if share_force(c, i, count) != SAME:
                 return NOT_DETERMINED
     for i in range(k):
@@ -149,7 +149,7 @@ def share_force(c: Choice, i: int, count: int) -> int:
         box.left[j] = 0.0
     for j in range(rank):
         box.left[box.order[j]] = box.right[j]
-        most = larger(most, abs(box.right[j]))
+        most = larger_number(most, abs(box.right[j]))
     owners, owner, a, factor = 0, -1, 0, 0.0
     c.named[0] = i
     for j in range(k):

@@ -20,7 +20,7 @@ from symgen.run.effects.accumulation import OF_EVENT, accumulation, add_resets
 from symgen.run.effects.applying import APPLIED, apply_effects
 from symgen.run.effects.resets import KeptEffect, OfEffects, new_kept_effect
 from symgen.run.layout import abi
-from symgen.run.layout.scales import larger
+from symgen.run.layout.scales import larger_number
 from symgen.run.layout.start_records import Instant
 from symgen.run.modes.bounded_rows import (
     IMMOVABLE,
@@ -34,8 +34,8 @@ from symgen.run.modes.bounded_rows import (
     Choice,
     is_held,
     is_shut,
-    put_off,
     row_scale,
+    switch_off,
 )
 from symgen.run.modes.box import solve_box
 from symgen.run.modes.choice import probe
@@ -47,7 +47,7 @@ _LOW, _LOST = 1e-6, 0.1
 #: Changes of a gap below this part of the mechanism's length are rounding.
 _RESOLVED = 2e-15
 #: Numbers of the series of flights to and fro of a row: their number, the end that followed at the last impact, that of
-#: the last two, the least change of the latter, and the end behind it.
+#: the last two, the least change of the latter, and the end after it.
 _COUNT, _LAST, _BETTER, _LEAST, _BEST = range(5)
 OF_SERIES = 5
 
@@ -162,7 +162,7 @@ def find_active(c: Choice, s: Strikes) -> int:
     if solve_box(n, box) != 0:
         return -1
     for r in range(n):
-        most = larger(most, abs(box.forces[r]))
+        most = larger_number(most, abs(box.forces[r]))
     for i in range(k):
         s.active[i] = 0
     for r in range(n):
@@ -198,7 +198,7 @@ def ask_rates(t: float, c: Choice, s: Strikes, now: Instant) -> None:
 
 @exact()
 def lose(c: Choice, s: Strikes, first: bool, y: Array) -> None:
-    """Add what an impact takes to the losses of its rows, by the sums of their rates before and behind it."""
+    """Add what an impact takes to the losses of its rows, by the sums of their rates before and after it."""
     place = c.layout.m
     for i in range(c.dry, c.count):
         if s.active[i] != 0:
@@ -259,7 +259,7 @@ def come_to_rest(t: float, c: Choice, s: Strikes, end: float, now: Instant) -> i
     for i in range(c.dry, c.count):
         if s.active[i] != 0:
             now.w[c.first + MODE_NUMBERS * i + SIGN] = 0.0
-            s.left[i] = larger(end - t, 0.0)
+            s.left[i] = larger_number(end - t, 0.0)
             if s.before[i] < 0.0:
                 s.effects.past.counts[s.events[i]] = 0
     for number in range(OF_SERIES * c.count):
@@ -269,14 +269,14 @@ def come_to_rest(t: float, c: Choice, s: Strikes, end: float, now: Instant) -> i
 
 @exact(entry=True)
 def strike(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -> int:
-    """Change the velocities by the impact of `find_struck`; all rows with bounds are off behind it.
+    """Change the velocities by the impact of `find_struck`; all rows with bounds are off after it.
 
     Returns `SAME`, `NO_IMPULSES` where none are found, or `NOT_APPLIED` where joints do not allow the impact.
     """
     now = Instant(y, p, w)
     for r in range(c.at_rest[0]):
         c.shut[c.rest[r]] = 1
-    put_off(c, w)
+    switch_off(c, w)
     for i in range(c.count):
         s.left[i], s.before[i] = math.nan, c.speed[i]
     ask_rates(t, c, s, now)
@@ -295,7 +295,7 @@ def strike(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -> int
 
 @exact(entry=True)
 def gather(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, iw: Integers, hunt: Array) -> int:
-    """Bring the gaps of the latest impact to rest where impacts accumulate in the modes chosen behind it.
+    """Bring the gaps of the latest impact to rest where impacts accumulate in the modes chosen after it.
 
     Returns `OTHERS` where velocities have changed, with all rows with bounds off; else `SAME`, or `NOT_APPLIED`.
     """
@@ -310,7 +310,7 @@ def gather(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, iw: In
     series = follow_series(c, s, t, count)
     if not end == end:
         return SAME
-    put_off(c, w)
+    switch_off(c, w)
     return OTHERS if come_to_rest(t, c, s, series if series == series else end, now) == SAME else NOT_APPLIED
 
 
@@ -333,7 +333,7 @@ def end_flights(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -
             lost = lost or (low and flight > 0.0 and abs(flight * pull - 2.0 * rate) > _LOST * 2.0 * rate)
     if not lost:
         return SAME
-    put_off(c, w)
+    switch_off(c, w)
     end = end_of_flights(t, c, s)
     return OTHERS if come_to_rest(t, c, s, end, Instant(y, p, w)) == SAME else NOT_APPLIED
 
@@ -369,7 +369,7 @@ def end_lost_flights(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arr
     if not find_lost(t, c, s, w):
         return SAME
     end = end_of_flights(t, c, s)
-    put_off(c, w)
+    switch_off(c, w)
     return OTHERS if come_to_rest(t, c, s, end, now) == SAME else NOT_APPLIED
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers, Record
-from symgen.run.modes.bounded_rows import SIGN, Choice, is_held, stays_shut
+from symgen.run.modes.bounded_rows import SIGN, Choice, is_held, is_kept_shut
 
 #: What a row with bounds does at a transition: rest ends, rest begins, its rate changes sign, an impact, the row comes
 #: into force, it is off again.
@@ -63,7 +63,7 @@ def remember_modes(c: Choice, w: Array, log: Transitions) -> int:
     """Keep what rows do before a choice; return their number."""
     for i in range(c.count):
         log.signs[i] = w[c.first + MODE_NUMBERS * i + SIGN]
-        log.shut[i] = 1 if stays_shut(c, w, i) else 0
+        log.shut[i] = 1 if is_kept_shut(c, w, i) else 0
     return int(c.count)
 
 

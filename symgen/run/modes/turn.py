@@ -40,7 +40,7 @@ from symgen.run.modes.bounded_rows import (
     SIGN,
     TOUCHING,
     Choice,
-    put_off,
+    switch_off,
 )
 from symgen.run.modes.choice import (
     choose_modes,
@@ -247,7 +247,7 @@ def begin_modes(modes: OfModes, state: EventState) -> int:
 
 def open_rows_of(modes: OfModes, state: EventState) -> None:
     """Take all rows out of force, where closed gaps may strike, and keep which gaps are closed."""
-    put_off(modes.choice, state.w)
+    switch_off(modes.choice, state.w)
 
 
 def forget_modes(modes: OfModes) -> None:
@@ -307,7 +307,7 @@ def take_turn(code: int, modes: OfModes, state: EventState) -> int:
             jammed = modes.jams[k] if modes.jams[k] >= 0 and jammed < 0 else jammed
     last = choose_resets(effects, state)
     if last >= 0:  # rows with two bounds have no impulse, and gaps strike after the reset
-        put_off(c, state.w)
+        switch_off(c, state.w)
     ended = change_state(last, effects, state)
     if ended == e.IMPOSSIBLE:
         return int(ended)

@@ -21,7 +21,7 @@ from symgen.run.compiling.method_choice import choose_method
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
 from symgen.run.layout.probe import rate_function
-from symgen.run.layout.right_hand_side import at_nodes
+from symgen.run.layout.right_hand_side import rates_at_nodes
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
@@ -104,7 +104,7 @@ class Facts:
         return self.fastest_decay / 3.0 / max(self.slowest_change * _STEPS_A_CHANGE, 1e-300)
 
 
-def linearised(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> Array:
+def linearise_start(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> Array:
     """Return the Jacobian of (q', v') with respect to (q, v) at the start, from derivatives on the graph.
 
     Parameters
@@ -132,25 +132,25 @@ def linearised(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> A
     rows = still.by("accelerations", "a")[independent]
     matrix = np.block([[still.by("balance", "a"), rows.T], [rows, np.zeros((len(rows), len(rows)))]])
 
-    def solved(balance: Array, accelerations: Array) -> Array:
+    def solve_modes(balance: Array, accelerations: Array) -> Array:
         right = -np.concatenate([balance, accelerations[independent]])
         return np.asarray(np.linalg.lstsq(matrix, right, rcond=1e-14)[0], dtype=np.float64)
 
     if not np.all(np.isfinite(still.out)):
         return np.full_like(result, np.nan)
-    solution = solved(still.value("balance"), still.value("accelerations"))
+    solution = solve_modes(still.value("balance"), still.value("accelerations"))
     lam[independent] = solution[nv:]
     e = form.at(start.t, start.y, solution[:nv], start.p, w)
     if not np.all(np.isfinite(e.out)):
         return np.full_like(result, np.nan)
     by_state = [np.hstack([e.by(group, space) for space in "qvz"]) for group in GROWTH]
     result[:nq] = by_state[0]
-    result[nq : nq + nv] = solved(by_state[1], by_state[2])[:nv]
+    result[nq : nq + nv] = solve_modes(by_state[1], by_state[2])[:nv]
     result[nq + nv :] = by_state[3]
     return result
 
 
-def trial_of(mechanism: Mechanism, settings: Settings) -> Settings:
+def trial_settings(mechanism: Mechanism, settings: Settings) -> Settings:
     """Return settings in which ``auto`` is replaced: the method for good, the integrator until the start is known.
 
     Parameters
@@ -194,7 +194,7 @@ def usual_integrator(mechanism: Mechanism, method: str, coordinates: str, shape:
     return EXPLICIT if shape == "looped" or discontinuities_of(mechanism) else TOGETHER
 
 
-def facts_of(mechanism: Mechanism, compiled: CompiledModel, start: Start, until: float) -> Facts:
+def facts_of_plan(mechanism: Mechanism, compiled: CompiledModel, start: Start, until: float) -> Facts:
     """Return the facts of a mechanism at its start.
 
     Parameters
@@ -208,7 +208,7 @@ def facts_of(mechanism: Mechanism, compiled: CompiledModel, start: Start, until:
     """
     info = compiled.info
     small = 2 * info.nq + info.m <= LARGEST_LINEARISED
-    jacobian = linearised(mechanism, compiled, start) if small else np.zeros((1, 1))
+    jacobian = linearise_start(mechanism, compiled, start) if small else np.zeros((1, 1))
     # off the constraints the equations without feedback have drift modes only; along them they have the mechanism's own
     eigenvalues = np.linalg.eigvals(jacobian) if np.all(np.isfinite(jacobian)) else np.zeros(1)
     rate = np.zeros_like(start.y)
@@ -226,7 +226,7 @@ def facts_of(mechanism: Mechanism, compiled: CompiledModel, start: Start, until:
         massless=bool(info.massless),
         fastest_decay=float(max(0.0, -eigenvalues.real.min(initial=0.0))),
         slowest_change=float(change),
-        together=bool(at_nodes(compiled)[1]) and not discontinuities_of(mechanism),
+        together=bool(rates_at_nodes(compiled)[1]) and not discontinuities_of(mechanism),
         vibration=_vibration(mechanism, start.p),
     )
 
@@ -300,7 +300,7 @@ def stiff_by_steps(run: Prepared, outcome: Outcome) -> tuple[str, ...]:
             return ()
         why = f"the iteration of {TOGETHER} converged slowly in {slow} of {plural(outcome.steps, 'step')}"
     else:
-        facts = facts_of(run.plan.mechanism, *run.assembled.of_bodies, run.spec.until)
+        facts = facts_of_plan(run.plan.mechanism, *run.assembled.of_bodies, run.spec.until)
         if facts.stiffness <= STIFF_RATIO:
             return ()
         why = f"the fastest decay at the start, {facts.fastest_decay:.3g} 1/s, bounded the steps of {integrator.name}"

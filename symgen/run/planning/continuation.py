@@ -16,7 +16,7 @@ from symgen.describe.facts.lengths import origin_of_sizes
 from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.mechanism import Hold
 from symgen.describe.parts.event_sections import events_in_words
-from symgen.run.planning.starts import closed_by, compiled_for, states_at_start
+from symgen.run.planning.starts import close_with_light_bodies, compiled_for, states_at_start
 from symgen.run.single.new_state import lengths_match
 from symgen.run.starts.assembly import Start, assemble
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from symgen.run.single.last_state import LastState
 
 
-def made_of(compiled: CompiledModel, plan: Plan, spec: RunSpec) -> dict[str, Any]:
+def settings_as_json(compiled: CompiledModel, plan: Plan, spec: RunSpec) -> dict[str, Any]:
     """Return the settings of a run, as JSON has them: two runs of the same making can take up each other's arrays.
 
     Parameters
@@ -63,7 +63,7 @@ def made_of(compiled: CompiledModel, plan: Plan, spec: RunSpec) -> dict[str, Any
     return making | {"tree": compiled.info.digest[:12]} if plan.coordinates == "joint" else making
 
 
-def continued(plan: Plan, last: LastState) -> tuple[CompiledModel, Start]:
+def continue_run(plan: Plan, last: LastState) -> tuple[CompiledModel, Start]:
     """Compile a plan for the coordinates of bodies, and begin where another run ended.
 
     All that the other run kept is taken up where this one is of the same making; where it looks for other events, all
@@ -71,12 +71,12 @@ def continued(plan: Plan, last: LastState) -> tuple[CompiledModel, Start]:
     """
     compiled, joint = compiled_for(plan.mechanism, choice_after(plan, last)), plan.coordinates == "joint"
     # arrays of a run in joint coordinates are taken up by `symgen.run.planning.tree`
-    if not joint and (start := taken_up(compiled, plan, last)) is not None:
+    if not joint and (start := take_up_state(compiled, plan, last)) is not None:
         return compiled, start
-    other = last.other_than({key: x for key, x in made_of(compiled, plan, plan.spec).items() if key != "tree"})
+    other = last.other_than({key: x for key, x in settings_as_json(compiled, plan, plan.spec).items() if key != "tree"})
     other = other or ["the tree is another one" if joint else "another version of symgen kept what it knows otherwise"]
-    compiled, start = closed_by(plan, compiled, partial(_from_coordinates, plan, last))
-    note = f"{_origin(last)} with its coordinates and velocities alone: {'; '.join(other)}"
+    compiled, start = close_with_light_bodies(plan, compiled, partial(_from_coordinates, plan, last))
+    note = f"{_origin_of_state(last)} with its coordinates and velocities alone: {'; '.join(other)}"
     note += "; integrals of outputs begin at 0" if compiled.info.integrals else ""
     return compiled, replace(start, notes=(note, *start.notes), work=last.work)
 
@@ -110,11 +110,11 @@ def choice_after(plan: Plan, last: LastState) -> MethodChoice:
     return plan.choice
 
 
-def _origin(last: LastState) -> str:
+def _origin_of_state(last: LastState) -> str:
     return f"goes on from t = {last.t:.6g} s of another run"
 
 
-def taken_up(compiled: CompiledModel, plan: Plan, last: LastState) -> Start | None:
+def take_up_state(compiled: CompiledModel, plan: Plan, last: LastState) -> Start | None:
     """Return the start of a run that takes up what another one kept, None where that is of another making.
 
     Parameters
@@ -124,7 +124,7 @@ def taken_up(compiled: CompiledModel, plan: Plan, last: LastState) -> Start | No
     last : LastState
         Of the other run.
     """
-    making = made_of(compiled, plan, plan.spec)
+    making = settings_as_json(compiled, plan, plan.spec)
     if last.arrays is None or last.other_than({key: x for key, x in making.items() if key != "events"}):
         return None
     memory = plan.integrator.setup(compiled, plan.spec, compiled.scratch()).memory
@@ -137,4 +137,4 @@ def taken_up(compiled: CompiledModel, plan: Plan, last: LastState) -> Start | No
     info, values = compiled.info, parameter_values(plan.mechanism, plan.parameters)
     own = compiled.parameter_array(values, plan.method_parameters)[: len(values)]  # others are inputs alone
     state = (y[: info.ny].copy(), np.concatenate([own, p[len(values) :]]), w.copy(), last.rank, compiled.redundant(w))
-    return Start(*state, (_origin(last) + words,), t=last.t, work=last.work_before, saved=arrays)
+    return Start(*state, (_origin_of_state(last) + words,), t=last.t, work=last.work_before, saved=arrays)

@@ -8,7 +8,7 @@ import numpy as np
 
 from symgen.run.effects.locking import COUNTS, MOST_NAMED
 from symgen.run.layout import abi
-from symgen.run.layout.model_arrays import velocity_of
+from symgen.run.layout.model_arrays import velocity_of_coordinate
 from symgen.run.layout.probe import Ready
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ def jacobian_at(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array)
 def moving_names(info: ModelInfo) -> list[str]:
     """Return the coordinate that each velocity changes, by name; of an angular velocity in space its own name."""
     spun = {first + k for first, _ in info.spins for k in range(4)}
-    positions = {velocity_of(i, info): c.name for i, c in enumerate(info.coordinates) if i not in spun}
+    positions = {velocity_of_coordinate(i, info): c.name for i, c in enumerate(info.coordinates) if i not in spun}
     return [positions.get(j, velocity.name) for j, velocity in enumerate(info.velocities)]
 
 

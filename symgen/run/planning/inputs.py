@@ -42,14 +42,14 @@ class Inputs:
     driven: DrivenMechanism | None = None
 
 
-def put_inputs(mechanism: Mechanism, settings: Settings, behind: float = 0.0) -> Inputs:
+def put_inputs(mechanism: Mechanism, settings: Settings, beyond: float = 0.0) -> Inputs:
     """Put the inputs of a run into their places.
 
     Parameters
     ----------
     mechanism, settings : Mechanism, Settings
         The description and the settings of a run.
-    behind : float
+    beyond : float
         Jumps are searched for this fraction of the run beyond its end, see `seams_of`.
 
     Raises
@@ -69,7 +69,7 @@ def put_inputs(mechanism: Mechanism, settings: Settings, behind: float = 0.0) ->
     parameters = {**settings.parameters, **sources.numbers}
     until = mechanism.defaults.until if settings.until is None else settings.until
     values = parameter_values(sources.mechanism, parameters)
-    seams = seams_of_motion(sources, values, until, behind=behind)
+    seams = seams_of_motion(sources, values, until, beyond=beyond)
     parameters |= seams[0].values if seams else {}
     # defaults of inputs may follow other parameters, so numbers are read from the values
     words = {name: x if isinstance(x, str) else values[name] for name, x in sources.descriptions.items()}

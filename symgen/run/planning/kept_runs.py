@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from symgen.run.breaks.seams import foreseen_in_run
+from symgen.run.breaks.seams import foresee_in_run
 from symgen.run.compiling.events import compile_events
 from symgen.run.compiling.foresight import Passages, is_laid_out
 from symgen.run.compiling.printed_run import PrintedRun
@@ -31,7 +31,7 @@ def run_with_modes(
     compiled, datum
         As for a `PrintedRun`.
     foresees : bool
-        Whether the run finds jumps whose times depend on parameters, or lie behind its end, by itself.
+        Whether the run finds jumps whose times depend on parameters, or lie after its end, by itself.
     """
     return whole_run(mechanism, run, compiled, datum, foresees) if mechanism.bounded else None
 
@@ -53,7 +53,7 @@ def _passages(run: Prepared, compiled: CompiledModel) -> Passages | None:
     """
     spec, plan = run.spec, run.plan
     grid = 0.0, spec.step
-    foreseen = foreseen_in_run(plan.mechanism, plan.events, spec.adaptive, plan.integrator.order, grid)
+    foreseen = foresee_in_run(plan.mechanism, plan.events, spec.adaptive, plan.integrator.order, grid)
     if plan.inputs.seams or is_laid_out(foreseen, spec.until):
         return None
-    return Passages.of(foreseen, compiled)
+    return Passages.of_run(foreseen, compiled)

@@ -9,7 +9,7 @@ from symgen.base.arguments import kind_of_value
 from symgen.base.errors import InputError, suggest
 from symgen.derive.methods._base import EXPLICIT_FORMS
 from symgen.run.compiling.method_choice import MethodChoice, choose_method
-from symgen.run.loops.integrator import estimates
+from symgen.run.loops.integrator import can_choose_steps
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
@@ -60,9 +60,9 @@ def _integrator_option(key: str, name: str, value: str | float, integrator: Inte
         if not q.minimum <= number <= q.maximum:
             raise InputError(f"option {key}", f"from {q.minimum:g} to {q.maximum:g}", f"{value}")
         return repr(number)
-    if estimates(integrator) and name == "adaptive" and str(value).lower() in ("true", "false"):
+    if can_choose_steps(integrator) and name == "adaptive" and str(value).lower() in ("true", "false"):
         return str(value).lower()
-    names = [*numeric, *(("adaptive=true", "adaptive=false") if estimates(integrator) else ())]
+    names = [*numeric, *(("adaptive=true", "adaptive=false") if can_choose_steps(integrator) else ())]
     raise InputError(
         f"option {key}",
         f"an option of {integrator.name}",

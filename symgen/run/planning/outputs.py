@@ -12,7 +12,7 @@ from symgen.base.errors import InputError
 from symgen.base.memory import require_memory
 from symgen.derive.methods import METHODS
 from symgen.run.integrators import INTEGRATORS
-from symgen.run.loops.integrator import adapts
+from symgen.run.loops.integrator import chooses_steps
 from symgen.run.single.run import Array
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ def _has_constant_steps(s: Settings, mechanism: Mechanism) -> bool:
     """Whether settings or a description name, or a method has by itself, an integrator with constant steps."""
     own = METHODS.get(s.method).default_integrator if s.method in METHODS else ""
     name = s.integrator or mechanism.defaults.integrator or own
-    return name in INTEGRATORS and not adapts(INTEGRATORS.get(name), s.options)
+    return name in INTEGRATORS and not chooses_steps(INTEGRATORS.get(name), s.options)
 
 
 def multiples(every: float, until: float, size: float) -> Array:

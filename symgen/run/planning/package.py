@@ -28,9 +28,9 @@ from symgen.describe.bounds.keys import nouns_of_families
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.event_sections import DOES
 from symgen.run.breaks.motions import refuse_jumps
-from symgen.run.compiling.choices import choose_coordinates, on_tree
-from symgen.run.compiling.closing import at_start
-from symgen.run.compiling.method_choice import MethodChoice, choose_method, for_coordinates
+from symgen.run.compiling.choices import choose_coordinates, mechanism_on_tree
+from symgen.run.compiling.closing import choice_at_start
+from symgen.run.compiling.method_choice import MethodChoice, choice_for_coordinates, choose_method
 from symgen.run.compiling.pipeline import generate
 from symgen.run.planning.plan import Plan, Purpose
 from symgen.run.planning.prepare import code_and_start, make_plan, prepared_run
@@ -103,21 +103,23 @@ def write_package(
     if not methods and mechanism.has_massless:
         chosen = [choice for choice in chosen if not choice.method.needs_regular_mass(choice.options)]
     coordinates = choose_coordinates(mechanism, coordinates, shape if target == "cpu" else "looped").name
-    plans = [_plan(mechanism, c.method.name, own[c.method.name], coordinates) for c in chosen]
+    plans = [_plan_of_package(mechanism, c.method.name, own[c.method.name], coordinates) for c in chosen]
     if not methods:
-        plans = [p for p in plans if _suits(for_coordinates(mechanism, p.choice), mechanism, shape, target)]
+        plans = [
+            p for p in plans if _suits_target(choice_for_coordinates(mechanism, p.choice), mechanism, shape, target)
+        ]
     check_file_name("-o", folder)
     if folder.exists() and not folder.is_dir():
         raise InputError("-o", "the name of a folder", f"the file '{folder}'")
     run, reason = None, "this code is for other programs to call"
     if shape == "straight" and target == "cpu":
-        plans, run, reason = _started(plans)
-    derived = on_tree(plans[0].mechanism) if coordinates == "joint" else plans[0].mechanism
-    choices = tuple(for_coordinates(derived, plan.choice) for plan in plans)
+        plans, run, reason = _plans_at_start(plans)
+    derived = mechanism_on_tree(plans[0].mechanism) if coordinates == "joint" else plans[0].mechanism
+    choices = tuple(choice_for_coordinates(derived, plan.choice) for plan in plans)
     if shape == "straight":
-        choices = tuple(at_start(derived, choice) for choice in choices)
+        choices = tuple(choice_at_start(derived, choice) for choice in choices)
     generated = generate(derived, choices, shape, target, whole=True)
-    modules, laws = _by_method(generated.modules, choices, SUFFIXES[target])
+    modules, laws = _modules_by_method(generated.modules, choices, SUFFIXES[target])
     files: dict[str, Content] = {f"{stem}.py": source for stem, (source, _) in modules.items()}
     files["model.json"] = _metadata(modules, laws, run)
     files["README.md"] = _readme(mechanism, modules, reason)
@@ -144,14 +146,14 @@ def _options_of(names: Sequence[str], options: Mapping[str, str]) -> dict[str, d
     return own
 
 
-def _plan(mechanism: Mechanism, name: str, options: Mapping[str, str], coordinates: str) -> Plan:
+def _plan_of_package(mechanism: Mechanism, name: str, options: Mapping[str, str], coordinates: str) -> Plan:
     """Return a run by a method as it would be at its start."""
     texts = {f"method.{key}": value for key, value in options.items()}
     settings = Settings(name, options=texts, shape="straight", coordinates=coordinates)
     return make_plan(mechanism, settings, Purpose.STATE)
 
 
-def _by_method(modules: Modules, choices: Sequence[MethodChoice], suffix: str) -> tuple[Modules, list[str]]:
+def _modules_by_method(modules: Modules, choices: Sequence[MethodChoice], suffix: str) -> tuple[Modules, list[str]]:
     """Return modules, laws named by their method alone, and these names."""
     result, laws = dict(modules), [f"{_stem(choice)}{suffix}" for choice in choices]
     _, tables = result.pop("mechanism", ("", {}))
@@ -168,7 +170,7 @@ def _stem(choice: MethodChoice) -> str:
     return choice.method.name.replace("-", "_")
 
 
-def _suits(choice: MethodChoice, mechanism: Mechanism, shape: str, target: str) -> bool:
+def _suits_target(choice: MethodChoice, mechanism: Mechanism, shape: str, target: str) -> bool:
     """Whether a method can be emitted for a mechanism in a shape and for a target."""
     if mechanism.bounded:
         try:
@@ -181,7 +183,7 @@ def _suits(choice: MethodChoice, mechanism: Mechanism, shape: str, target: str) 
     return target != "cuda" or not choice.implicit
 
 
-def _started(plans: Sequence[Plan]) -> tuple[list[Plan], dict[str, Any] | None, str]:
+def _plans_at_start(plans: Sequence[Plan]) -> tuple[list[Plan], dict[str, Any] | None, str]:
     """Return plans with the solver that their start asks for, numbers of that start, and why there are none.
 
     Where light bodies make a run take another solver, the package does too.
@@ -216,12 +218,12 @@ def _started(plans: Sequence[Plan]) -> tuple[list[Plan], dict[str, Any] | None, 
         "y": state.y[: info.ny].tolist(),
         "counters": len(COUNTERS),
         "step_at": info.sections["status"][0] + STATUS.index("step"),
-        "w": {name: list(map(_finite, state.w[at : at + size])) for name, (at, size) in sections.items()},
+        "w": {name: list(map(_finite_or_none, state.w[at : at + size])) for name, (at, size) in sections.items()},
     }
     return list(plans), run, ""
 
 
-def _finite(number: float) -> float | str:
+def _finite_or_none(number: float) -> float | str:
     """Return a number as JSON has it: the mask of a row that depends on others is ``inf``."""
     return float(number) if math.isfinite(number) else str(float(number))
 

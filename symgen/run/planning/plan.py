@@ -22,10 +22,10 @@ from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.event_sections import RECORD, STOP, read_events, watched_event
 from symgen.describe.parts.holds import read_holds
 from symgen.run.breaks.motions import refuse_jumps
-from symgen.run.breaks.seams import foreseen_in_run, merged
+from symgen.run.breaks.seams import foresee_in_run, merge_seams
 from symgen.run.compiling.method_choice import MethodChoice
 from symgen.run.integrators import INTEGRATORS
-from symgen.run.loops.integrator import adapts
+from symgen.run.loops.integrator import chooses_steps
 from symgen.run.loops.run_spec import MAX_ATTEMPTS, RunSpec, Seam
 from symgen.run.planning.automatic import usual_integrator
 from symgen.run.planning.options import split_options
@@ -160,7 +160,7 @@ class Plan:
         )
 
 
-def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ...] = ()) -> Plan:
+def resolve_settings(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ...] = ()) -> Plan:
     """Resolve and check the settings of a run.
 
     Parameters
@@ -192,7 +192,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     choice, method_parameters, integrator_options = split_options(s, integrator)
     zero: complex | None = getattr(integrator, "zero", None)
     method_parameters = method.placed(choice.options, zero, integrator.name) | method_parameters
-    adaptive = adapts(integrator, s.options)
+    adaptive = chooses_steps(integrator, s.options)
     step = s.step
     if step is None:  # the first one may be longer than the run, whose end cuts it
         step = own_run.first_step if adaptive else own_run.step
@@ -200,7 +200,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     own, warnings = _stable_step(method, method_parameters, integrator, None if adaptive else step)
     events = events_of_run(mechanism, s)
     longest, why = longest_step(mechanism, until - begin, events, inputs.driven.jumps if inputs.driven else ())
-    times = foreseen_in_run(mechanism, events, adaptive, integrator.order, (begin, step))
+    times = foresee_in_run(mechanism, events, adaptive, integrator.order, (begin, step))
     values = parameter_values(mechanism, s.parameters) if times else {}
     rtol = getattr(integrator, "rtol", RTOL)  # schemes of low order have larger ones by default
     spec = RunSpec(
@@ -237,9 +237,9 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         integrator=integrator,
         method_parameters=method_parameters,
         spec=spec,
-        seams=merged(inputs.seams, times.seams(values, until)),
+        seams=merge_seams(inputs.seams, times.seams(values, until)),
         warnings=warnings,
-        missed=tuple(times.missed(values, until)),
+        missed=tuple(times.sentence_on_missed_changes(values, until)),
         notes=(*notes, *code.notes),
         bound=(why,) if why and adaptive and purpose in (Purpose.MOTION, Purpose.ROWS) else (),
         solver_is_free=code.solver_is_free,

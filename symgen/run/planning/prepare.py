@@ -24,17 +24,17 @@ from symgen.run.planning.automatic import (
     STRUCTURAL,
     TOGETHER,
     automatic_choice,
-    facts_of,
+    facts_of_plan,
     rate_of_motion,
     slow_steps,
-    trial_of,
+    trial_settings,
 )
-from symgen.run.planning.continuation import continued
+from symgen.run.planning.continuation import continue_run
 from symgen.run.planning.inputs import put_inputs
-from symgen.run.planning.plan import Plan, Purpose, resolved
-from symgen.run.planning.starts import Code, begun, compiled_for, open_start
+from symgen.run.planning.plan import Plan, Purpose, resolve_settings
+from symgen.run.planning.starts import Code, begin_start, compiled_for, open_start
 from symgen.run.planning.tree import TreeRun
-from symgen.run.planning.tree_starts import on_tree_of, tree_taken_up
+from symgen.run.planning.tree_starts import run_on_tree, tree_taken_up
 from symgen.run.single.run import integrate
 from symgen.run.single.simulation import Simulation
 
@@ -138,7 +138,7 @@ class Prepared:
 
     def of_bodies(self, outcome: Outcome) -> Outcome:
         """Return an outcome of `integrate` in the coordinates of bodies."""
-        return outcome if self.tree is None else self.tree.carried(outcome)
+        return outcome if self.tree is None else self.tree.carry_outcome(outcome)
 
     def positions(self, outcome: Outcome) -> Array:
         """Return the coordinates of bodies at the outputs of `integrate`, shape (k, nq)."""
@@ -209,7 +209,7 @@ def prepare(
     AssemblyError
         If the mechanism cannot be closed.
     """
-    return preparation(mechanism, settings, purpose, near).run()
+    return find_preparation(mechanism, settings, purpose, near).run()
 
 
 def make_plan(mechanism: Mechanism, settings: Settings, purpose: Purpose = Purpose.MOTION) -> Plan:
@@ -222,41 +222,41 @@ def make_plan(mechanism: Mechanism, settings: Settings, purpose: Purpose = Purpo
     AssemblyError
         If an automatic choice needs the start, and the mechanism cannot be closed.
     """
-    return preparation(mechanism, settings, purpose).plan
+    return find_preparation(mechanism, settings, purpose).plan
 
 
-def preparation(
+def find_preparation(
     mechanism: Mechanism, settings: Settings, purpose: Purpose = Purpose.MOTION, near: Array | None = None
 ) -> Preparation:
     """Resolve the settings of a run; parameters and errors as for `prepare`.
 
     An automatic choice compiles code and closes the start; they serve the run too if the choice leaves them valid.
     """
-    settings, gains = _gained(mechanism, settings)
+    settings, gains = _gains_of_method(mechanism, settings)
     inputs = put_inputs(mechanism, settings)
     mechanism, settings = inputs.mechanism, inputs.settings
     if settings.integrator is None and mechanism.defaults.integrator is not None:
         settings = replace(settings, integrator=mechanism.defaults.integrator)
     if AUTO not in (settings.method, settings.integrator):
-        return Preparation(resolved(inputs, settings, purpose, gains), near)
-    trial = trial_of(mechanism, settings)
-    plan = resolved(inputs, trial, purpose)
+        return Preparation(resolve_settings(inputs, settings, purpose, gains), near)
+    trial = trial_settings(mechanism, settings)
+    plan = resolve_settings(inputs, trial, purpose)
     assembled = code_and_start(plan, near)
-    facts = facts_of(mechanism, *assembled.of_bodies, plan.spec.until)
+    facts = facts_of_plan(mechanism, *assembled.of_bodies, plan.spec.until)
     method, integrator, notes = automatic_choice(facts, settings.method, settings.integrator)
     notes = *gains, *notes
     if method == STRUCTURAL and settings.method == AUTO:
         options = {**settings.options, "integrator.adaptive": "true"}
         settings = replace(settings, method=method, integrator=integrator, options=options)
-        return Preparation(resolved(inputs, settings, purpose, notes), near)
-    chosen = resolved(inputs, replace(trial, integrator=integrator), purpose, notes)
+        return Preparation(resolve_settings(inputs, settings, purpose, notes), near)
+    chosen = resolve_settings(inputs, replace(trial, integrator=integrator), purpose, notes)
     same = assembled if chosen.choice == plan.choice else None
     if purpose is Purpose.MOTION and settings.integrator == AUTO and integrator == TOGETHER and same is not None:
         facts = replace(facts, slow=slow_steps(prepared_run(chosen, same)))
         if facts.slow > SLOW:
             _, integrator, notes = automatic_choice(facts, settings.method, settings.integrator)
             notes = *gains, *notes
-            chosen = resolved(inputs, replace(trial, integrator=integrator), purpose, notes)
+            chosen = resolve_settings(inputs, replace(trial, integrator=integrator), purpose, notes)
             same = assembled if chosen.choice == plan.choice else None
     return Preparation(chosen, near, same)
 
@@ -271,10 +271,10 @@ def first_rate(mechanism: Mechanism, settings: Settings) -> tuple[float | None, 
     return rate_of_motion(prepare(mechanism, first)), begin_at, until
 
 
-def _gained(mechanism: Mechanism, settings: Settings) -> tuple[Settings, tuple[str, ...]]:
+def _gains_of_method(mechanism: Mechanism, settings: Settings) -> tuple[Settings, tuple[str, ...]]:
     """Return the settings with the gains of ``rule=motion``, and a note; others as they are.
 
-    The motion is that of a short run by another method, whose gains can be no part of it.
+    A short run by another method gives the motion, so that the gains of this method have no part in it.
     """
     method = None if settings.method == AUTO else METHODS.get(settings.method, "method")
     rules = [] if method is None else [o for o in method.options if o.name == "rule" and MOTION in o.values]
@@ -313,23 +313,23 @@ def code_and_start(plan: Plan, near: Array | None = None, code: Code = compiled_
     tree = tree_taken_up(plan, plan.last) if joint and plan.last is not None else None
     if tree is None:
         if plan.last is not None:
-            bodies = continued(plan, plan.last)
+            bodies = continue_run(plan, plan.last)
         else:
             try:
-                bodies = begun(plan, near, code)
+                bodies = begin_start(plan, near, code)
             except AssemblyError:
                 if joint or plan.purpose is not Purpose.DESCRIBED:
                     raise
                 return Assembled(*open_start(plan), closed=False)
         if not joint:
             return Assembled(*bodies)
-        tree = on_tree_of(plan, *bodies)
+        tree = run_on_tree(plan, *bodies)
     return Assembled(tree.compiled, tree.start, tree)
 
 
 def prepared_run(plan: Plan, assembled: Assembled) -> Prepared:
     """Return a run from its plan, its code and its start, which runs with an equal `Plan.key` may share."""
-    run = Prepared(plan, noted(plan, assembled), plan.spec)
+    run = Prepared(plan, add_notes(plan, assembled), plan.spec)
     if plan.purpose in (Purpose.STATE, Purpose.DESCRIBED):
         return run
     from symgen.run.compiling.events import compile_events
@@ -338,7 +338,7 @@ def prepared_run(plan: Plan, assembled: Assembled) -> Prepared:
     return run.with_spec(seams=plan.seams, events=compile_events(run.mechanism, run.compiled, plan.events, rtol))
 
 
-def noted(plan: Plan, assembled: Assembled) -> Assembled:
+def add_notes(plan: Plan, assembled: Assembled) -> Assembled:
     """Return code and start with the notes of a plan before the notes of the start."""
     start = assembled.start
     return replace(assembled, start=replace(start, notes=(*plan.notes, *plan.bound, *start.notes)))

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 from symgen.base.settings import setting_description
 from symgen.describe.parts.holds import canonical_hold_name, read_holds
 from symgen.run.layout.start_records import Instant
-from symgen.run.planning.prepare import Assembled, noted
+from symgen.run.planning.prepare import Assembled, add_notes
 from symgen.run.planning.starts import Again, DescribedStart
-from symgen.run.planning.tree_starts import begin_on_tree, carried_of, over_of
+from symgen.run.planning.tree_starts import begin_on_tree, first_turned_over, map_to_tree
 from symgen.run.starts.kept import KeptTree
-from symgen.run.starts.start_words import turned_over
+from symgen.run.starts.start_words import turned_over_error
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Hold
@@ -54,17 +54,17 @@ class Restarts:
         names, values = tuple(start), tuple(start.values())
         if (again := self._again.get(names)) is not None and all(isinstance(x, float) and x - x == 0.0 for x in values):
             if (closed := again(values)) is not None:
-                return self._settled(closed)
-        holds = self._holds(start)
+                return self._settle_start(closed)
+        holds = self._holds_position(start)
         closed, light = self._described.state(holds)
         if light:
             return None
         if names not in self._again:
             mechanism = self._run.plan.mechanism
             self._again[names] = self._described.again(holds, [canonical_hold_name(mechanism, name) for name in names])
-        return self._settled(closed)
+        return self._settle_start(closed)
 
-    def _settled(self, closed: Instant) -> Instant:
+    def _settle_start(self, closed: Instant) -> Instant:
         """Return a copy of a start of bodies, in the coordinates of the state."""
         if (tree := self._run.tree) is None:
             return Instant(*(array.copy() for array in closed))
@@ -72,23 +72,23 @@ class Restarts:
             self._kept = KeptTree(self._carried, closed, tree.start.p)
         y, w, alike = self._kept.settle(closed.y, closed.w)
         y[tree.compiled.info.work :] = closed.y[tree.bodies.info.work :]
-        if (over := over_of(alike)) >= 0:
-            raise turned_over(tree.bodies.info, over)
+        if (over := first_turned_over(alike)) >= 0:
+            raise turned_over_error(tree.bodies.info, over)
         return Instant(y, tree.start.p, w)
 
-    def at(self, start: Mapping[str, float]) -> Prepared:
+    def start_at(self, start: Mapping[str, float]) -> Prepared:
         """Return the run from another start, where `state` has one, with its notes and changes."""
         plan, tree = self._run.plan, self._run.tree
-        plan = replace(plan, settings=replace(plan.settings, start=start), holds=self._holds(start))
+        plan = replace(plan, settings=replace(plan.settings, start=start), holds=self._holds_position(start))
         compiled, closed = self._run.assembled.of_bodies[0], self._described.start(plan.holds)
         assembled = Assembled(compiled, closed)
         if tree is not None:
             parts = tree.whole, tree.mechanism, self._carried, closed, plan.method_parameters, plan.events
             tree = begin_on_tree(*parts)
             assembled = Assembled(tree.compiled, tree.start, tree)
-        return replace(self._run, plan=plan, assembled=noted(plan, assembled))
+        return replace(self._run, plan=plan, assembled=add_notes(plan, assembled))
 
-    def _holds(self, start: Mapping[str, float]) -> tuple[Hold, ...]:
+    def _holds_position(self, start: Mapping[str, float]) -> tuple[Hold, ...]:
         return read_holds(self._run.plan.mechanism, "start", setting_description("start").check("start", start))
 
     @cached_property
@@ -107,4 +107,4 @@ class Restarts:
     def _carried(self) -> Carried:
         tree = self._run.tree
         assert tree is not None, "the state is that of joints"
-        return carried_of(tree.whole, tree.mechanism, tree.bodies, tree.compiled)
+        return map_to_tree(tree.whole, tree.mechanism, tree.bodies, tree.compiled)

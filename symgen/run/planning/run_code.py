@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from symgen.base.settings import Settings
 from symgen.describe.facts.lengths import longest_body
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.run.compiling.choices import Taken, choose_coordinates, choose_shape, for_lengths, weighed
-from symgen.run.compiling.method_choice import MethodChoice, for_masses
+from symgen.run.compiling.choices import Taken, choice_for_lengths, choose_coordinates, choose_shape, weigh_corrections
+from symgen.run.compiling.method_choice import MethodChoice, choice_for_masses
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -29,7 +29,7 @@ def code_of_run(mechanism: Mechanism, s: Settings, choice: MethodChoice, shape: 
     """Choose the solver of a law, the shape of its code, coordinates and the weight of corrections."""
     free, notes = "solver" in choice.options and not has_option(s, "solver"), tuple[str, ...]()
     massless = mechanism.has_massless
-    choice, free = for_masses(mechanism, choice, free), free and not massless
+    choice, free = choice_for_masses(mechanism, choice, free), free and not massless
     if s.coordinates == "joint":
         choose_coordinates(mechanism, s.coordinates, shape)
         shape = "straight"
@@ -37,9 +37,9 @@ def code_of_run(mechanism: Mechanism, s: Settings, choice: MethodChoice, shape: 
     choice = replace(choice, shape=code_shape.name)
     coordinates = choose_coordinates(mechanism, s.coordinates, code_shape.name)
     if coordinates.name == "joint" and not has_option(s, "weight"):
-        choice = weighed(choice, massless)
+        choice = weigh_corrections(choice, massless)
     elif not massless and not has_option(s, "weight"):
-        choice, notes = for_lengths(choice, longest_body(mechanism, parameter_values(mechanism, s.parameters)))
+        choice, notes = choice_for_lengths(choice, longest_body(mechanism, parameter_values(mechanism, s.parameters)))
     return RunCode(choice, free, code_shape, coordinates, notes)
 
 

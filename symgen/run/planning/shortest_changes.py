@@ -53,7 +53,7 @@ def shortest_slope(
     return result
 
 
-def shortest(
+def shortest_solution(
     rows: Array,
     right: Array,
     fixed: dict[int, Array],

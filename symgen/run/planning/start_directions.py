@@ -20,11 +20,11 @@ from symgen.compile.native import types
 from symgen.describe.formulas.duals import Dual, Duals, as_dual, dual_slopes, parameter_duals
 from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start
-from symgen.run.directions.directed_model import DirectedModel, Seeds, lanes_of
+from symgen.run.directions.directed_model import DirectedModel, Seeds, lanes_for_directions
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
-from symgen.run.planning.shortest_changes import NONE, shortest, shortest_slope
-from symgen.run.planning.starts import held_of
+from symgen.run.planning.shortest_changes import NONE, shortest_slope, shortest_solution
+from symgen.run.planning.starts import held_quantities
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
@@ -118,7 +118,7 @@ class StartDirections:
 
     @cached_property
     def _model(self) -> DirectedModel:
-        return DirectedModel(self.compiled, lanes_of(8))
+        return DirectedModel(self.compiled, lanes_for_directions(8))
 
     def _derived(self, function: Any, kind: types.FunctionType, y: Array, p: Array, length: int = 0) -> Array:
         """Return the directions of what a function writes, to ``out`` or to the scratch array, shape (rows, n).
@@ -136,16 +136,16 @@ class StartDirections:
         call, parts = model.function(function, length).caller(kind.signature.arguments), list[Array]()
         seeds = Seeds(y, p)
         for first in range(0, seeds.count, model.lanes):
-            own = seeds.part(first, model.lanes)
+            own = seeds.seeds_of_part(first, model.lanes)
             numbers = model.parameters(start.p, own.p)
-            state, w = model.longer(start.y, "y", own.y), model.longer(start.w, "w")
+            state, w = model.room_with_directions(start.y, "y", own.y), model.room_with_directions(start.w, "w")
             if length:
                 out = np.zeros(length * (1 + model.lanes))
                 call(start.t, state, numbers, w, np.zeros_like(state), out)
                 parts.append(out[length:].reshape(length, model.lanes))
             else:
                 call(start.t, state, numbers, w)
-                parts.append(model.shadow(w, "w"))
+                parts.append(model.directions_after(w, "w"))
         return np.concatenate(parts, axis=1)[:, : seeds.count]
 
     def _geometry(self, y: Array, p: Array) -> Array:
@@ -201,7 +201,7 @@ class StartDirections:
     def _fixed(self) -> set[int]:
         """Return the velocities whose coordinates stay as described."""
         described = [hold for hold in self.run.plan.holds if hold.value is None]
-        return set(held_of(self.info, described, self._numbers, [0.0] * self.info.nv).fixed)
+        return set(held_quantities(self.info, described, self._numbers, [0.0] * self.info.nv).fixed)
 
     @cached_property
     def _numbers(self) -> Any:
@@ -248,7 +248,9 @@ class StartDirections:
             violated = np.vstack([violated, at[list(held)] - np.array(list(held.values()))])
         names = [info.rows[i].name for i in holonomic] + [info.joint_coordinates[k].name for k in held]
         scales = np.sqrt(self.compiled.section(self.start.w, "gauge"))
-        change = shortest(rows, -violated, fixed, names, np.zeros((info.nv, self.count)), scales, self.directions)
+        change = shortest_solution(
+            rows, -violated, fixed, names, np.zeros((info.nv, self.count)), scales, self.directions
+        )
         free = [j for j in range(info.nv) if j not in fixed]
         moved = np.abs(change[free]).max(axis=0, initial=0.0) > _KEPT * np.abs(along + change).max(axis=0, initial=0.0)
         loose = rows.shape[1] > 0 and np.linalg.matrix_rank(rows[:, free]) < len(free)
@@ -299,7 +301,7 @@ class StartDirections:
         if fits:
             more = shortest_slope(rows, slopes, v, free, scales, np.zeros((info.nv, n)), bool(rates))
             try:
-                return shortest(rows, right, fixed, names, more, scales, self.directions)
+                return shortest_solution(rows, right, fixed, names, more, scales, self.directions)
             except InputError:
                 if np.any(np.abs(v[free]) > _KEPT * np.abs(v).max(initial=0.0)):
                     raise
@@ -312,15 +314,15 @@ class StartDirections:
         for j, target in fixed.items():
             given[j] = target
         still = {j: np.zeros(n) for j in held}
-        return given + shortest(rows, right - rows @ given, still, names, more, scales, self.directions)
+        return given + shortest_solution(rows, right - rows @ given, still, names, more, scales, self.directions)
 
     def _masses(self, p: Array) -> Array:
         """Return the directions of the masses of velocities, shape (nv, n)."""
         model, parts = self._model, list[Array]()
         seeds, (first, size) = Seeds(np.zeros((1, p.shape[1])), p), self.info.sections["mass"]
         for k in range(0, seeds.count, model.lanes):
-            w = model.scratch(model.parameters(self.start.p, seeds.part(k, model.lanes).p), self.start.w)
-            parts.append(model.shadow(w, "w")[first : first + size])
+            w = model.scratch(model.parameters(self.start.p, seeds.seeds_of_part(k, model.lanes).p), self.start.w)
+            parts.append(model.directions_after(w, "w")[first : first + size])
         return np.concatenate(parts, axis=1)[:, : seeds.count]
 
     def _jacobians(self, derived: Array) -> Array:
@@ -349,17 +351,17 @@ class StartDirections:
         """Return the directions of joint coordinates from the directions of bodies."""
         tree, own, info = self.run.tree, self.run.compiled.info, self.info
         assert tree is not None, "the state is that of joints"
-        model, length = DirectedModel(tree.compiled, lanes_of(8)), info.nq + 2 * info.nv
+        model, length = DirectedModel(tree.compiled, lanes_for_directions(8)), info.nq + 2 * info.nv
         call = model.function(tree.compiled.model.bodies, length).caller(abi.OBSERVE.signature.arguments)
         start, n = tree.start, self.count
 
         def moved(seeds: Seeds) -> Array:
             parts = list[Array]()
             for first in range(0, seeds.count, model.lanes):
-                part = seeds.part(first, model.lanes)
-                p, y = model.parameters(start.p, part.p), model.longer(start.y, "y", part.y)
+                part = seeds.seeds_of_part(first, model.lanes)
+                p, y = model.parameters(start.p, part.p), model.room_with_directions(start.y, "y", part.y)
                 out = np.zeros(length * (1 + model.lanes))
-                call(start.t, y, p, model.longer(start.w, "w"), np.zeros_like(y), out)
+                call(start.t, y, p, model.room_with_directions(start.w, "w"), np.zeros_like(y), out)
                 parts.append(out[length:].reshape(length, model.lanes)[: info.work])
             rows = np.concatenate(parts, axis=1)[:, : seeds.count]
             rows[: info.nq] *= tree.signs[:, np.newaxis]

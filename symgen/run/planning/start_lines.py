@@ -9,8 +9,8 @@ from symgen.compile.native.formula_lines import Dialect, FormulaLines
 from symgen.describe.formulas.evaluate import dependent_parameters, independent_values, parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start
 from symgen.describe.parts.holds import ORIENTATION, read_holds
-from symgen.run.layout.model_arrays import velocity_of
-from symgen.run.planning.starts import held_of
+from symgen.run.layout.model_arrays import velocity_of_coordinate
+from symgen.run.planning.starts import held_quantities
 from symgen.run.starts.assembler import Assembly
 from symgen.run.starts.held import Held
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
 
 
-def lines_for(mechanism: Mechanism, dialect: Dialect) -> FormulaLines:
+def room_for_lines(mechanism: Mechanism, dialect: Dialect) -> FormulaLines:
     """Return room for lines in which parameters are elements of the array ``p``."""
     return FormulaLines({p.name: f"p[{i}]" for i, p in enumerate(mechanism.parameters)}, dialect)
 
@@ -28,7 +28,7 @@ def derived_lines(mechanism: Mechanism, dialect: Dialect) -> list[tuple[int, lis
     """Return the places of parameters that follow from others, in an order that serves, with lines that set them."""
     places, results = [p.name for p in mechanism.parameters], list[tuple[int, list[str]]]()
     for name, formula in dependent_parameters(mechanism.parameters):
-        lines, place = lines_for(mechanism, dialect), places.index(name)
+        lines, place = room_for_lines(mechanism, dialect), places.index(name)
         value = lines.result(lines.value(formula, name))
         results.append((place, [*lines.lines, f"p[{place}] = {value};"]))
     return results
@@ -87,8 +87,8 @@ def exported_start(
     info = compiled.info
     if turns is not None:
         return Assembly(compiled, branches=turns, datum=datum)
-    held = held_of(info, read_holds(mechanism), scalar_values(parameter_values(mechanism)), [None] * info.nv)
-    fixed = {*held.fixed, *(velocity_of(i, info) for i in held.coordinates)}
+    held = held_quantities(info, read_holds(mechanism), scalar_values(parameter_values(mechanism)), [None] * info.nv)
+    fixed = {*held.fixed, *(velocity_of_coordinate(i, info) for i in held.coordinates)}
     return Assembly(compiled, Held(velocities=held.velocities, fixed=tuple(sorted(fixed))), datum=datum)
 
 
@@ -104,7 +104,7 @@ def written_start(mechanism: Mechanism, dialect: Dialect, described: bool) -> li
     described : bool
         Whether q and v are the described ones; else the lines set states of the file alone.
     """
-    lines, written = lines_for(mechanism, dialect), list[str]()
+    lines, written = room_for_lines(mechanism, dialect), list[str]()
     if described:
         q, v = start_lines(mechanism, lines)
         written += [f"q[{i}] = {lines.result(x)};" for i, x in enumerate(q)]

@@ -15,16 +15,16 @@ from symgen.describe.formulas.evaluate import evaluate, parameter_values, scalar
 from symgen.describe.formulas.start import described_start, displacements_of_bodies
 from symgen.describe.parts.holds import ORIENTATION, read_holds
 from symgen.run.compiling.pipeline import compile_model
-from symgen.run.compiling.side import with_integrals
+from symgen.run.compiling.side import add_integrals
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.model_arrays import lengths_of, velocity_of
+from symgen.run.layout.model_arrays import marks_of_lengths, velocity_of_coordinate
 from symgen.run.layout.start_records import Instant
 from symgen.run.starts.assembler import Assembly
 from symgen.run.starts.assembly import Start, closed_start, closed_state, described_state
 from symgen.run.starts.held import Held
 from symgen.run.starts.kept import KeptStart
-from symgen.run.starts.start_words import half_turn, opposite
+from symgen.run.starts.start_words import half_turn, opposite_sentence
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -123,7 +123,7 @@ class DescribedStart:
         mechanism, compiled, numbers = self.mechanism, self.compiled, self._numbers
         states = states_at_start(mechanism, numbers, () if isinstance(holds, Held) else holds)
         q = np.array(self._q if near is None else near, dtype=np.float64)
-        held = holds if isinstance(holds, Held) else held_of(compiled.info, holds, numbers, self._v)
+        held = holds if isinstance(holds, Held) else held_quantities(compiled.info, holds, numbers, self._v)
         assembly, reported = self._assembly(held), partial(displacements_of_bodies, mechanism, numbers)
         start = closed_start(assembly, held, assembly.close, q, self._v, self._p.copy(), reported)
         if lines := _opposite_sides(mechanism, compiled.info, start.y):
@@ -142,7 +142,7 @@ class DescribedStart:
             As `start_of`.
         """
         mechanism, compiled, p = self.mechanism, self.compiled, self._p.copy()
-        held = held_of(compiled.info, holds, self._numbers, self._v, self._indices)
+        held = held_quantities(compiled.info, holds, self._numbers, self._v, self._indices)
         kept = self._kept_start(held)
         y, w, summary = closed_state(compiled, held, partial(kept.close, held), self._q, self._velocities.copy(), p)
         _opposite_sides(mechanism, compiled.info, y)
@@ -167,7 +167,7 @@ class DescribedStart:
             has more to report. No function where a value is no coordinate or velocity.
         """
         mechanism, info, indices = self.mechanism, self.compiled.info, self._indices
-        held = held_of(info, holds, self._numbers, self._v, indices)
+        held = held_quantities(info, holds, self._numbers, self._v, indices)
         kept, velocities = self._kept_start(held), self._velocities.copy()
         velocities[list(held.velocities)] = list(held.velocities.values())
         numbers = np.array([*velocities, *held.targets])
@@ -223,7 +223,7 @@ def _opposite_sides(mechanism: Mechanism, info: ModelInfo, y: NDArray[np.float64
     for joint, held in wrong_sides(mechanism, y.tolist()):
         if held:
             raise half_turn(info, joint).with_coordinates(y.tolist())
-        lines.append(opposite(joint))
+        lines.append(opposite_sentence(joint))
     return lines
 
 
@@ -244,7 +244,7 @@ def indices_of(info: ModelInfo) -> Indices:
     return Indices(coordinates, velocities, joints, spins)
 
 
-def held_of(
+def held_quantities(
     info: ModelInfo,
     holds: Sequence[Hold],
     numbers: Scalars,
@@ -272,7 +272,7 @@ def held_of(
     for hold in holds:
         name, value = hold.name, None if hold.value is None else numbers.value(hold.value, f"start '{hold.name}'")
         if name in coordinates and value is None:
-            fixed.append(velocity_of(coordinates[name], info))
+            fixed.append(velocity_of_coordinate(coordinates[name], info))
         elif name in coordinates:
             values[coordinates[name]] = float(value or 0.0)
         elif name in velocities:
@@ -287,15 +287,15 @@ def held_of(
 
 
 def compiled_for(mechanism: Mechanism, choice: MethodChoice) -> CompiledModel:
-    """Return the compiled model of a run: with integrals behind the work, where outputs have some."""
-    return with_integrals(mechanism, compile_model(mechanism, choice))
+    """Return the compiled model of a run: with integrals after the work, where outputs have some."""
+    return add_integrals(mechanism, compile_model(mechanism, choice))
 
 
 #: Mechanism, method -> its compiled model, as `compiled_for` returns it.
 Code = Callable[["Mechanism", "MethodChoice"], "CompiledModel"]
 
 
-def begun(
+def begin_start(
     plan: Plan, near: NDArray[np.float64] | None = None, code: Code = compiled_for
 ) -> tuple[CompiledModel, Start]:
     """Compile a plan for the coordinates of bodies and close the mechanism.
@@ -314,18 +314,18 @@ def begun(
     """
     settings = plan.parameters, plan.method_parameters, plan.settings.strict
 
-    def close(compiled: CompiledModel, ask_light: bool) -> Start:
+    def close_start(compiled: CompiledModel, ask_light: bool) -> Start:
         return start_of(plan.mechanism, compiled, *settings, plan.holds, ask_light, near)
 
     usual = code(plan.mechanism, plan.choice)
-    compiled, start = closed_by(plan, usual, close, code)
+    compiled, start = close_with_light_bodies(plan, usual, close_start, code)
     if compiled is usual:
         return compiled, start
     note = "light bodies make D M^-1 D^T nearly singular: accelerations are solved with M + W D^T D"
     return compiled, replace(start, notes=(*start.notes, note))
 
 
-def closed_by(
+def close_with_light_bodies(
     plan: Plan,
     compiled: CompiledModel,
     close: Callable[[CompiledModel, bool], Start],
@@ -366,13 +366,15 @@ def open_start(plan: Plan) -> tuple[CompiledModel, Start]:
     y, w = np.zeros(info.ny), compiled.scratch()
     y[: info.nq] = q
     y[info.own_states] = states_at_start(mechanism, numbers, plan.holds or ())
-    for i, value in held_of(info, plan.holds or read_holds(mechanism), numbers, v).coordinates.items():
+    for i, value in held_quantities(info, plan.holds or read_holds(mechanism), numbers, v).coordinates.items():
         y[i] = value
     # the largest distance from the datum, or of a point in its body
     places = [x for body in mechanism.bodies for _, point in body.points for x in point]
     places += [x for _, marker in mechanism.seats for x in marker.point]
     sizes, datum = [abs(evaluate(x, values, "points")) for x in places], origin_of_sizes(mechanism, numbers)
-    w[abi.LENGTH] = max(float((np.abs(y[: info.nq] - datum) * lengths_of(info)).max(initial=0.0)), *sizes, 0.0) or 1.0
+    w[abi.LENGTH] = (
+        max(float((np.abs(y[: info.nq] - datum) * marks_of_lengths(info)).max(initial=0.0)), *sizes, 0.0) or 1.0
+    )
     p = compiled.parameter_array(values, plan.method_parameters)
     compiled.prepare(p)
     return compiled, Start(y, p, w, 0, (), ())

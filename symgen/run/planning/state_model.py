@@ -17,7 +17,7 @@ from symgen.describe.bounds.smooth import sliding_rows_as_forces
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.topology import state_quantities
-from symgen.run.compiling.choices import choose_coordinates, on_tree, with_tree_of
+from symgen.run.compiling.choices import choose_coordinates, mechanism_on_tree, take_tree_of
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare
 
@@ -65,9 +65,9 @@ class StateModel:
         refuse_bounds(where, described)
         self.kind = choose_coordinates(described, coordinates, "straight").name
         if self.kind == "joint" and described is not mechanism:  # runs have the rows that are left out here
-            described = with_tree_of(described, mechanism)
+            described = take_tree_of(described, mechanism)
         self._described = described
-        self.mechanism = on_tree(self._described) if self.kind == "joint" else self._described
+        self.mechanism = mechanism_on_tree(self._described) if self.kind == "joint" else self._described
         self.coordinates, self.velocities = state_quantities(self.mechanism)
         distinct = without_repeats(self.mechanism)[0]
         self.rows = tuple(f"{joint.name}.{row.label}" for joint in distinct.joints for row in joint.rows)

@@ -84,12 +84,12 @@ class TreeRun:
 
     def positions(self, outcome: Outcome) -> Array:
         """Return the coordinates of bodies at the outputs, shape (k, nq)."""
-        return self._moving(outcome)[:, : self.bodies.info.nq]
+        return self._moving_joints(outcome)[:, : self.bodies.info.nq]
 
-    def carried(self, outcome: Outcome) -> CarriedOutcome:
+    def carry_outcome(self, outcome: Outcome) -> CarriedOutcome:
         """Return the outcome of a run as the motion of bodies."""
         info, own = self.bodies.info, self.compiled.info
-        moving = self._moving(outcome)
+        moving = self._moving_joints(outcome)
         k, n = len(outcome.times), info.nq + info.nv
         states = np.zeros((k, info.ny))
         states[:, :n] = moving[:, :n]
@@ -110,7 +110,7 @@ class TreeRun:
         values = {f.name: getattr(outcome, f.name) for f in fields(Outcome)}
         start = replace(self.body_start, notes=outcome.start.notes)
         values |= {"states": states, "status_columns": status, "compiled": self.bodies, "start": start}
-        happened, halt = self._happened(outcome)
+        happened, halt = self._carry_events(outcome)
         values |= {"p": self._parameters(outcome.p), "w": w, "happened": happened}
         if halt is not None:
             values |= {"code": abi.HALTED, "reason": str(halt)}
@@ -126,7 +126,7 @@ class TreeRun:
         rank = np.array([self.start.rank])
         return dict(zip(BODIES, (y, outcome.p.copy(), outcome.w.copy(), rank), strict=True))
 
-    def _happened(self, outcome: Outcome) -> tuple[tuple[Happening, ...], InputError | None]:
+    def _carry_events(self, outcome: Outcome) -> tuple[tuple[Happening, ...], InputError | None]:
         """Return the events with coordinates, velocities and row impulses of the bodies.
 
         The second value is the error of the first reset that the joints of the bodies do not allow.
@@ -156,9 +156,9 @@ class TreeRun:
         return (*self.events, *mode_events(self.whole))
 
     def _effects_on_bodies(self) -> Effects:
-        from symgen.run.compiling.events import effects_of
+        from symgen.run.compiling.events import effects_of_events
 
-        effects = self.effects() if self.effects else effects_of(self.whole, self.bodies, self._watched)
+        effects = self.effects() if self.effects else effects_of_events(self.whole, self.bodies, self._watched)
         assert effects is not None, "an event has changed something"
         return effects
 
@@ -194,9 +194,9 @@ class TreeRun:
                 signs[first : first + 4] = -1.0
         return signs
 
-    def _moving(self, outcome: Outcome) -> Array:
+    def _moving_joints(self, outcome: Outcome) -> Array:
         info = self.bodies.info
-        motion = outcome.observed(self.compiled.model.bodies, info.nq + 2 * info.nv)
+        motion = outcome.observe_motion(self.compiled.model.bodies, info.nq + 2 * info.nv)
         motion[:, : info.nq] *= self.signs
         return motion
 

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.run.compiling.carrying import carrying_of
-from symgen.run.compiling.choices import on_tree
+from symgen.run.compiling.carrying import carried_motion
+from symgen.run.compiling.choices import mechanism_on_tree
 from symgen.run.layout.start_records import Instant
-from symgen.run.planning.continuation import choice_after, taken_up
+from symgen.run.planning.continuation import choice_after, take_up_state
 from symgen.run.planning.starts import compiled_for
 from symgen.run.planning.tree import BODIES, TreeRun
-from symgen.run.starts.assembler import ALONE, Assembly, one_row
+from symgen.run.starts.assembler import ALONE, Assembly, as_one_row
 from symgen.run.starts.assembly import Start
-from symgen.run.starts.start_words import turned_over
+from symgen.run.starts.start_words import turned_over_error
 from symgen.run.starts.tree_start import TURNED_OVER, Carried
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-def on_tree_of(plan: Plan, bodies: CompiledModel, start: Start) -> TreeRun:
+def run_on_tree(plan: Plan, bodies: CompiledModel, start: Start) -> TreeRun:
     """Return the run in joint coordinates that begins where a run in coordinates of bodies begins.
 
     Parameters
@@ -47,11 +47,13 @@ def on_tree_of(plan: Plan, bodies: CompiledModel, start: Start) -> TreeRun:
         If a body of the tree would start turned over.
     """
     mechanism, compiled = tree_code(plan.mechanism, plan.choice, bodies)
-    carried = carried_of(plan.mechanism, mechanism, bodies, compiled, start.t)
-    return upright(begin_on_tree(plan.mechanism, mechanism, carried, start, plan.method_parameters, plan.events))
+    carried = map_to_tree(plan.mechanism, mechanism, bodies, compiled, start.t)
+    return turn_bodies_upright(
+        begin_on_tree(plan.mechanism, mechanism, carried, start, plan.method_parameters, plan.events)
+    )
 
 
-def upright(run: TreeRun) -> TreeRun:
+def turn_bodies_upright(run: TreeRun) -> TreeRun:
     """Return a run in which no body of the tree starts turned over.
 
     Raises
@@ -60,7 +62,7 @@ def upright(run: TreeRun) -> TreeRun:
         If one would.
     """
     if run.over >= 0:
-        raise turned_over(run.bodies.info, run.over)
+        raise turned_over_error(run.bodies.info, run.over)
     return run
 
 
@@ -76,12 +78,12 @@ def tree_code(mechanism: Mechanism, choice: MethodChoice, bodies: CompiledModel)
     bodies : CompiledModel
         In the bodies' own coordinates; its solver is the tree's.
     """
-    carried = on_tree(mechanism)
+    carried = mechanism_on_tree(mechanism)
     weight = {name: value for name, value in choice.options.items() if name == "weight"}
     return carried, compiled_for(carried, replace(choice, options={**bodies.law.options, **weight}, shape="straight"))
 
 
-def carried_of(
+def map_to_tree(
     whole: Mechanism, mechanism: Mechanism, bodies: CompiledModel, compiled: CompiledModel, t: float = 0.0
 ) -> Carried:
     """Return the map from starts of bodies at a time to starts of a tree.
@@ -95,7 +97,7 @@ def carried_of(
     t : float
         Time [s].
     """
-    return Carried(bodies, Assembly(compiled, t=t), carrying_of(whole, mechanism, bodies, compiled))
+    return Carried(bodies, Assembly(compiled, t=t), carried_motion(whole, mechanism, bodies, compiled))
 
 
 def begin_on_tree(
@@ -114,7 +116,7 @@ def begin_on_tree(
     whole, mechanism : Mechanism
         As described, and with its tree.
     carried : Carried
-        From `carried_of`.
+        From `map_to_tree`.
     start : Start
         In the bodies' own coordinates.
     method_parameters : mapping
@@ -128,28 +130,28 @@ def begin_on_tree(
     names = (x.name for x in bodies.info.parameters)
     p = compiled.parameter_array(dict(zip(names, start.p, strict=False)), method_parameters)
     y, w = np.zeros(compiled.info.ny), compiled.scratch()
-    over = settled(carried, Instant(start.y, start.p, start.w), Instant(y, p, w))
+    over = settle_on_tree(carried, Instant(start.y, start.p, start.w), Instant(y, p, w))
     notes = start.notes, start.changes, start.light, start.warnings
     own = Start(y, p, w, compiled.rank(w), compiled.redundant(w), *notes, t=start.t, work=start.work)
     return TreeRun(whole, mechanism, compiled, own, bodies, start, events, effects, over)
 
 
-def settled(carried: Carried, of_bodies: Instant, now: Instant) -> int:
+def settle_on_tree(carried: Carried, of_bodies: Instant, now: Instant) -> int:
     """Map a start of bodies to a tree, in place; return the body in space that would start turned over, -1 for none.
 
     Parameters
     ----------
     carried : Carried
-        From `carried_of`.
+        From `map_to_tree`.
     of_bodies, now : Instant
         The start of bodies, and the tree's, whose parameters are not yet prepared.
     """
-    alike = carried.settle(one_row(*of_bodies), one_row(*now), *ALONE)[0]
+    alike = carried.settle(as_one_row(*of_bodies), as_one_row(*now), *ALONE)[0]
     now.y[carried.assembly.compiled.info.work :] = of_bodies.y[carried.bodies.info.work :]
-    return over_of(alike)
+    return first_turned_over(alike)
 
 
-def over_of(alike: Array) -> int:
+def first_turned_over(alike: Array) -> int:
     """Return the first body in space that would start turned over, -1 for none, from products of Euler parameters."""
     if not len(alike):
         return -1
@@ -163,7 +165,7 @@ def tree_taken_up(plan: Plan, last: LastState) -> TreeRun | None:
         return None
     bodies = compiled_for(plan.mechanism, choice_after(plan, last))
     carried, compiled = tree_code(plan.mechanism, plan.choice, bodies)
-    start = taken_up(compiled, plan, last)
+    start = take_up_state(compiled, plan, last)
     if start is None or last.arrays["body_w"].shape != bodies.scratch().shape:
         return None
     y, p, w, rank = (last.arrays[name].copy() for name in BODIES)

@@ -19,9 +19,16 @@ from symgen.compile.store.jit import RuntimeFunction
 from symgen.run.layout import abi
 from symgen.run.layout.records import CHUNK, SPAN, EventRun, RowChunk, Span, System
 from symgen.run.loops import search_records as records
-from symgen.run.loops.event_loop import EVENT_STATE, EventState, EventSystem, decided, evaluate_events, opened
+from symgen.run.loops.event_loop import (
+    EVENT_STATE,
+    EventState,
+    EventSystem,
+    decide_event,
+    evaluate_events,
+    open_event_run,
+)
 from symgen.run.loops.frame_parts import DOUBT, FAIL, LOOK, TAKE, correct
-from symgen.run.loops.seams import change, due, go_over, has_gap, has_struck, is_defined, same
+from symgen.run.loops.seams import due_time, has_gap, has_struck, is_defined, skip_to_seam, time_tolerance, write_seam
 from symgen.run.loops.switching import is_sought, taken_for
 from symgen.run.loops.unbound import (
     forget_rests,
@@ -33,11 +40,11 @@ from symgen.run.loops.unbound import (
     rest_lost_gaps,
     system_of_steps,
 )
-from symgen.run.modes.bounded_rows import OTHERS, OUT_OF_RANGE, SAME, put_off
+from symgen.run.modes.bounded_rows import OTHERS, OUT_OF_RANGE, SAME, switch_off
 from symgen.run.modes.choice import read_rows
 from symgen.run.modes.strikes import end_flights, end_lost_flights
 from symgen.run.modes.turn import OfModes, rest_gaps
-from symgen.run.printed.kept_run import CHANGED, ENDING, VISIBLE, Traits, Visible, meet, recipe_of
+from symgen.run.printed.kept_run import CHANGED, ENDING, VISIBLE, Traits, Visible, meet_event, recipe_of
 from symgen.run.rows.row_events import ModelWithModes, begin_row_in_modes
 
 _F, _A, _K = types.float64, types.float64[::1], types.int64
@@ -47,9 +54,9 @@ _F, _A, _K = types.float64, types.float64[::1], types.int64
 COMPLETE, HANDLE, GO_ON, ASK = range(4)
 #: Answers: nothing has happened; something has; an event ends the run; the motion cannot go on.
 QUIET, HAPPENED, OVER, STUCK = range(4)
-#: Places of times: that of the next jump or kink of formulas, or of a rest; the one behind a jump, from which formulas
-#: are evaluated; then, for each row, that at which the flights end of a gap that has come to rest before.
-NEXT, BEHIND, RESTS = range(3)
+#: Places of times: that of the next jump or kink of formulas, or of a rest; the one after a jump, from which formulas
+#: are evaluated; then, for each row, the time at which the flights of its gap end, which has come to rest before.
+NEXT, AFTER, RESTS = range(3)
 
 #: Values of functions below this part of their size are 0 for an importer that has located that; a margin that sleeps
 #: has fallen to 0 at this part of what lifts it; and the least value.
@@ -71,22 +78,22 @@ EXCHANGE = record_type(Exchange)
 def next_seam(model: System, state: EventState) -> float:
     """Return the time of the next seam [s]."""
     _, seams, _, _, _ = model
-    return float(due(seams, state.control[abi.PASSED]))
+    return float(due_time(seams, state.control[abi.PASSED]))
 
 
 @called
 def pass_due_seams(model: ModelWithModes, span: Span, state: EventState) -> int:
-    """Pass the seams that are due; return `HAPPENED` where modes have to be chosen behind them, or `STUCK`."""
+    """Pass the seams that are due; return `HAPPENED` where modes have to be chosen after them, or `STUCK`."""
     system, _, modes = model
     _, seams, _, prepare, prepare_law = system
     control, clock, p, changed, skipped = state.control, state.clock, state.p, False, False
-    while due(seams, control[abi.PASSED]) - clock[abi.TIME] <= same(seams, span, clock[abi.TIME]):
-        changed = change(seams, control[abi.PASSED], p) or changed
+    while due_time(seams, control[abi.PASSED]) - clock[abi.TIME] <= time_tolerance(seams, span, clock[abi.TIME]):
+        changed = write_seam(seams, control[abi.PASSED], p) or changed
         if has_gap(seams, control[abi.PASSED]):
-            go_over(seams, control[abi.PASSED], clock)
+            skip_to_seam(seams, control[abi.PASSED], clock)
             skipped = True
             if has_struck(seams, control[abi.PASSED] + 1):
-                put_off(modes.choice, state.w)
+                switch_off(modes.choice, state.w)
         control[abi.PASSED] += 1
     if changed:
         prepare(p)
@@ -125,7 +132,7 @@ def note_rests_of_gaps(t: float, modes: OfModes, times: Array) -> None:
 
 
 def next_rest_of_gaps(t: float, modes: OfModes, times: Array) -> float:
-    """Return the first time behind `t` at which flights end that have been left out; else infinity."""
+    """Return the first time after `t` at which flights end that have been left out; else infinity."""
     first = math.inf
     for i in range(modes.strikes.left.shape[0]):
         if t < times[RESTS + i] < first:
@@ -143,7 +150,7 @@ def indicate_run(t: float, y: Array, model: ModelWithModes, state: EventState, v
     They pass 0 at events alone: a margin that its mode makes positive, whatever rounding makes of it, is positive.
     """
     system = EventSystem(*system_of_steps(model[0]))
-    run = opened(system.sizes, state)
+    run = open_event_run(system.sizes, state)
     hunt, n, h = run.hunt, int(run.hunt[records.COUNT]), max(t - run.clock[abi.TIME], 0.0)
     evaluate_events(system, run, t, y)
     for k in range(n):
@@ -152,10 +159,10 @@ def indicate_run(t: float, y: Array, model: ModelWithModes, state: EventState, v
     return n
 
 
-def reach(hunt: Array, n: int) -> None:
+def pass_rounding(hunt: Array, n: int) -> None:
     """Have functions that are about to pass 0, and are 0 up to rounding, pass it here.
 
-    An importer that has located an event stands on it up to rounding, on either side. A margin that sleeps passes where
+    An importer that has located an event is on either side of it, up to rounding. A margin that sleeps passes 0 where
     it has lost what lifts it.
     """
     at, out = records.N_HEAD, records.N_HEAD + records.N_COLUMNS * n
@@ -176,7 +183,7 @@ def reach(hunt: Array, n: int) -> None:
 
 
 @called
-def look_at(system: EventSystem, run: EventRun, t: float) -> int:
+def look_at_events(system: EventSystem, run: EventRun, t: float) -> int:
     """Note the events between the last state and this one; return `QUIET`, `HAPPENED` or `STUCK`."""
     hunt, n, h = run.hunt, int(run.hunt[records.COUNT]), max(t - run.clock[abi.TIME], 0.0)
     m = records.N_VALUES * n
@@ -188,12 +195,12 @@ def look_at(system: EventSystem, run: EventRun, t: float) -> int:
     for j in range(m):
         kept[j] = out[j]
     hunt[records.NOTED] = hunt[records.ACCEPTED] = hunt[records.INSIDE] = 0.0
-    code = decided(system, run, t, h, DOUBT, run.y)
+    code = decide_event(system, run, t, h, DOUBT, run.y)
     for j in range(m):
         out[j] = kept[j]
-    reach(hunt, n)
+    pass_rounding(hunt, n)
     hunt[records.NOTED], hunt[records.DOING] = 0.0, float(records.TO_EVENT)
-    code = decided(system, run, t, h, TAKE, run.y)
+    code = decide_event(system, run, t, h, TAKE, run.y)
     run.clock[abi.TIME] = t
     if code == FAIL:
         return STUCK
@@ -201,7 +208,7 @@ def look_at(system: EventSystem, run: EventRun, t: float) -> int:
 
 
 @called
-def handle(
+def handle_event(
     t: float,
     system: EventSystem,
     run: EventRun,
@@ -211,12 +218,12 @@ def handle(
     state: EventState,
     visible: Visible,
 ) -> int:
-    """Handle the event at which an importer stands: modes, impacts, resets, seams; return as `exchange_run`."""
+    """Handle the event at which an importer has stopped: modes, impacts, resets, seams; return as `exchange_run`."""
     _, _, modes = model
     control, numbers, code = state.control, visible.numbers, QUIET
     known = run.clock[abi.TIME] == t and run.hunt[records.NOTED] > 0.0
     if not known and numbers[CHANGED] == 0:
-        code = look_at(system, run, t)
+        code = look_at_events(system, run, t)
     elif not known:  # what a jump of inputs brings about is a choice, no passage
         copied(system.sizes.width, run.y, run.trial)
         correct(system, run, t, run.trial, False)
@@ -224,7 +231,7 @@ def handle(
     if code == STUCK:
         return STUCK
     if run.hunt[records.NOTED] > 0.0:
-        ended = meet(model, chunk, state, visible)
+        ended = meet_event(model, chunk, state, visible)
         if ended == abi.DONE:
             return OVER
         if ended != abi.MET:
@@ -272,18 +279,18 @@ def exchange_run(
         `QUIET`, `HAPPENED`, `OVER` or `STUCK`.
     """
     system = EventSystem(*system_of_steps(model[0]))
-    run, code = opened(system.sizes, state), QUIET
+    run, code = open_event_run(system.sizes, state), QUIET
     _, _, modes = model
     if doing != ASK:
         for i in range(visible.y.shape[0]):
             state.y[i] = visible.y[i]
-    now = min(t, next_time(model[0], state))  # where an importer stands at a jump, it comes from before it
+    now = min(t, next_time(model[0], state))  # an importer at a jump comes from before it
     if doing == COMPLETE:
-        code = look_at(system, run, now)
+        code = look_at_events(system, run, now)
     elif doing == HANDLE:
         visible.numbers[ENDING] = -1
         forget_rests(modes, exchange.times, True)
-        code = handle(now, system, run, model, span, chunk, state, visible)
+        code = handle_event(now, system, run, model, span, chunk, state, visible)
         note_rests(now, modes, exchange.times)
         visible.numbers[CHANGED] = 0
         for i in range(visible.y.shape[0]):
@@ -295,7 +302,7 @@ def exchange_run(
         forget_rests(modes, exchange.times, False)
     following, rest = next_time(model[0], state), next_rest(t, modes, exchange.times)
     exchange.times[NEXT] = following if following < rest else rest
-    exchange.times[BEHIND] = run.clock[abi.TIME] if run.clock[abi.TIME] > t else 0.0
+    exchange.times[AFTER] = run.clock[abi.TIME] if run.clock[abi.TIME] > t else 0.0
     return int(code)
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from symgen.compile.loopcode.exact import copy_numbers, exact
 from symgen.compile.native.annotations import Integers
 from symgen.run.effects.applying import EffectModel, EffectWork, apply_effects
-from symgen.run.effects.stepping import StepModel, StepWork, passes
+from symgen.run.effects.stepping import StepModel, StepWork, passes_event
 from symgen.run.layout import abi
 from symgen.run.layout.start_records import Instant
 from symgen.run.printed.exchanged_run import COMPLETE, HANDLE, HAPPENED, OVER, QUIET, STUCK
@@ -20,14 +20,14 @@ ExchangedModel = tuple[PartitionModel, StepModel, EffectModel, Integers]
 
 
 @exact()
-def look(steps: StepModel, t: float, now: Instant, happened: Integers, work: StepWork) -> int:
+def look_at_step(steps: StepModel, t: float, now: Instant, happened: Integers, work: StepWork) -> int:
     """Note the events that have happened since the last look; return their number."""
     _, _, _, _, happens, directions = steps
     count = 0
     if directions.shape[0] > 0:
         happens(t, now.y, now.p, now.w, work.middle, work.after)
     for k in range(directions.shape[0]):
-        if passes(directions[k], work.before[k], work.after[k]):
+        if passes_event(directions[k], work.before[k], work.after[k]):
             happened[k] = 1
         count += happened[k]
         work.before[k] = work.after[k]
@@ -35,13 +35,13 @@ def look(steps: StepModel, t: float, now: Instant, happened: Integers, work: Ste
 
 
 @exact()
-def handle(
+def apply_events(
     model: ExchangedModel, t: float, now: Instant, happened: Integers, work: StepWork, impact: EffectWork
 ) -> int:
     """Apply the events that have happened; return as `exchange_run` does."""
     _, steps, effects, ends = model
     _, _, _, _, changes = effects
-    code, count = QUIET, look(steps, t, now, happened, work)
+    code, count = QUIET, look_at_step(steps, t, now, happened, work)
     for k in range(ends.shape[0]):
         if count > 0 and happened[k] != 0:
             happened[k] = 0
@@ -91,7 +91,7 @@ def exchange_steps(
     partition, steps, _, _ = model
     layout, _, _, accept, happens, directions = steps
     if doing == HANDLE:
-        return int(handle(model, t, now, happened, work, impact))
+        return int(apply_events(model, t, now, happened, work, impact))
     if doing == COMPLETE:
         if layout.windings > 0:  # counts turns; the correction is rounding and is left
             copy_numbers(now.y, work.y, layout.ny)
@@ -99,7 +99,7 @@ def exchange_steps(
             accept(t, work.y, now.p, now.w, iw)
         if quality_of_choice(partition, t, now.y, now.p, now.w, part) < POOR:
             return HAPPENED
-        return HAPPENED if look(steps, t, now, happened, work) > 0 else QUIET
+        return HAPPENED if look_at_step(steps, t, now, happened, work) > 0 else QUIET
     if directions.shape[0] > 0:
         happens(t, now.y, now.p, now.w, work.middle, work.before)
     return QUIET

@@ -1,10 +1,10 @@
 """One run that is kept between calls, with its modes, impacts and events, for programs without Python.
 
 The loop is the frame of all runs (`symgen.run.loops.frame`), so that steps, events and modes are those of single runs.
-An output between two steps shortens none of them: what is shown is the state at the time asked for, and the run itself
-may stand at the end of the step behind it. Where a caller changes what is shown, the run goes on from there.
+An output between two steps shortens neither: the run shows the state at the requested time, and may itself already be
+at the end of the step that contains it. If a caller changes the state shown, the run goes on from there.
 
-Outputs inside an adaptive step are read from that step, which is kept (`symgen.run.loops.schemes.readable`).
+Outputs inside an adaptive step are read from that step, which the run keeps (`symgen.run.loops.schemes.readable`).
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from symgen.run.loops import frame
 from symgen.run.loops.event_loop import EVENT_STATE, MEANINGS, EventState
 from symgen.run.loops.frame_parts import ADAPTIVE
 from symgen.run.loops.schemes.readable import forget_step
-from symgen.run.loops.seams import SEAMS, between_seams, due
+from symgen.run.loops.seams import SEAMS, between_seams, due_time
 from symgen.run.loops.unbound import (
     assume_step,
     begin_choice,
-    forget,
+    forget_run,
     integrate,
     let_go,
     read_step,
@@ -49,10 +49,10 @@ _A = types.float64[::1]
 #: Results of `advance_run`: the time is reached; an event ends the run; no step, or no modes, lead on.
 REACHED, ENDED, FAILED = range(3)
 #: Places of the time that is shown, and of the time at which a run with adaptive steps is to end [s]; then those of the
-#: code of the end of the run, of the number of the event that ends it, -1 for none, of 1 where the events at which the
-#: run stands have not been met yet, and of 1 where the caller has changed something.
+#: code of the end of the run, of the number of the event that ends it, -1 for none, of 1 where the run has stopped at
+#: events that it has not met yet, and of 1 where the caller has changed something.
 SHOWN_TIME, END_TIME = range(2)
-END_CODE, ENDING, STANDS, CHANGED = range(4)
+END_CODE, ENDING, UNMET, CHANGED = range(4)
 
 
 class KeptOutput(Record):
@@ -91,7 +91,7 @@ VISIBLE = record_type(Visible)
 # -- outputs -----------------------------------------------------------------------------------------------------------
 
 
-def show(sizes: Sizes, w: Array, outputs: KeptOutput, k: int, y: Array) -> None:
+def show_state(sizes: Sizes, w: Array, outputs: KeptOutput, k: int, y: Array) -> None:
     """Write the only output: the state, the measures of ``accept``, angles with counted turns and modes of rows."""
     for i in range(sizes.ny):
         outputs.states[i] = y[i]
@@ -104,7 +104,7 @@ def show(sizes: Sizes, w: Array, outputs: KeptOutput, k: int, y: Array) -> None:
 def return_to_shown(
     until: float, scheme: TableauRecord, visible: Visible, state: EventState, outputs: KeptOutput
 ) -> int:
-    """Have the run go on from what is shown, where the caller has changed it, or the run stands behind a time [s].
+    """Have the run go on from the state shown, if the caller has changed it or the run is past a time [s].
 
     Returns 1 where the caller has changed the state, else 0.
     """
@@ -124,7 +124,7 @@ def return_to_shown(
             state.w[abi.WINDING - abi.N_STATUS + i] = outputs.status[i]
         clock[abi.TIME] = clock[abi.ORIGIN] = state.gauges[abi.LAST_TIME] = visible.clock[SHOWN_TIME]
         control[abi.INDEX] = 0
-    visible.numbers[STANDS], visible.numbers[CHANGED] = 0, 1
+    visible.numbers[UNMET], visible.numbers[CHANGED] = 0, 1
     control[abi.BEGUN] = abi.AFRESH if control[abi.BEGUN] != 0 else 0
     return 0 if unchanged or control[abi.BEGUN] == 0 else 1
 
@@ -144,9 +144,9 @@ def system_between_seams(system: System) -> Any:
 
 
 def forget_later_seams(system: System, state: State) -> None:
-    """Forget that seams behind the present time have been passed."""
+    """Forget that seams after the present time have been passed."""
     _, seams, _, _, _ = system
-    while state.control[abi.PASSED] > 0 and due(seams, state.control[abi.PASSED] - 1) > state.clock[abi.TIME]:
+    while state.control[abi.PASSED] > 0 and due_time(seams, state.control[abi.PASSED] - 1) > state.clock[abi.TIME]:
         state.control[abi.PASSED] -= 1
 
 
@@ -174,12 +174,12 @@ def start_run(model: System, limits: Array, chunk: RowChunk, state: EventState, 
         As in a `RowChunk`.
     """
     begin_run(state, limits)
-    forget(model, state)
+    forget_run(model, state)
     for i in range(chunk.events.shape[0]):
         counts = i >= e.HEAD_OF_EVENTS and (i - e.HEAD_OF_EVENTS) % e.OF_EVENT == 0
         chunk.events[i] = 0.0 if counts else math.nan
     visible.clock[SHOWN_TIME] = 0.0
-    visible.numbers[END_CODE], visible.numbers[ENDING], visible.numbers[STANDS] = abi.DONE, -1, 0
+    visible.numbers[END_CODE], visible.numbers[ENDING], visible.numbers[UNMET] = abi.DONE, -1, 0
     visible.numbers[CHANGED] = 1
     return 0
 
@@ -201,16 +201,16 @@ def ending_event(chunk: RowChunk, visible: Visible, t: float) -> int:
     return -1
 
 
-def meet(model: System, chunk: RowChunk, state: EventState, visible: Visible) -> int:
+def meet_event(model: System, chunk: RowChunk, state: EventState, visible: Visible) -> int:
     """Take the events at which a step has ended; return `MET` to go on, `DONE` where one ends the run."""
     code = int(take_notes(abi.MET, 0, model, chunk, state))
-    visible.numbers[STANDS] = 0
+    visible.numbers[UNMET] = 0
     if code == abi.DONE:
         visible.numbers[ENDING] = ending_event(chunk, visible, state.clock[abi.TIME])
     return code
 
 
-def go_on(
+def advance_to_output(
     model: System,
     scheme: TableauRecord,
     span: Span,
@@ -223,8 +223,8 @@ def go_on(
     system, observers = model[0], model[1]
     control, clock, until = state.control, state.clock, outputs.times[0]
     code, near = abi.MET, abi.RESOLVED_TIME * abs(until) if ADAPTIVE else abi.SAME_TIME * span.step
-    if visible.numbers[STANDS] != 0:
-        code = meet(model, chunk, state, visible)
+    if visible.numbers[UNMET] != 0:
+        code = meet_event(model, chunk, state, visible)
     if code == abi.MET and visible.numbers[CHANGED] != 0:
         return_before_seams(system, state)
         code = begin_at_seams(model, span, state) if control[abi.BEGUN] == 0 else begin_choice(model, span, state)
@@ -245,14 +245,14 @@ def go_on(
         elif code == abi.NOTED:
             take_notes(code, 0, model, chunk, state)
         elif code == abi.MET and control[abi.OUTPUTS] > 0 and until < clock[abi.TIME] - near:
-            visible.numbers[STANDS] = 1
+            visible.numbers[UNMET] = 1
         elif code == abi.MET:
-            control[abi.OUTPUTS] = 0  # what is shown is the state behind events
-            code = meet(model, chunk, state, visible)
+            control[abi.OUTPUTS] = 0  # the state shown is that after events
+            code = meet_event(model, chunk, state, visible)
         if code < abi.DONE and clock[abi.TIME] >= until - near:
             code = abi.DONE
     if code == abi.DONE and control[abi.OUTPUTS] == 0:
-        show(observers[0], state.w, outputs, 0, state.y)
+        show_state(observers[0], state.w, outputs, 0, state.y)
     return int(code)
 
 
@@ -271,9 +271,9 @@ def advance_run(
     Parameters
     ----------
     through : int
-        1 where the run may go on to the end of a step behind that time, as runs with outputs do; 0 where a step ends.
+        1 where the run may go on to the end of a step after that time, as runs with outputs do; 0 where a step ends.
     model : tuple
-        First argument of the loop, sizes and functions of the model, and behind these `OfModes` where rows have
+        First argument of the loop, sizes and functions of the model, and after these `OfModes` where rows have
         bounds, else `OfEffects` where events change a run.
     scheme : record
         The scheme.
@@ -294,8 +294,8 @@ def advance_run(
     observers = model[1]
     control, clock, numbers, until = state.control, state.clock, visible.numbers, span.until
     duration = visible.clock[END_TIME] if ADAPTIVE else span.duration
-    behind = max(until, visible.clock[END_TIME]) if ADAPTIVE else math.inf
-    endless = steps_until(span, behind if through != 0 else until, math.inf, duration)
+    last = max(until, visible.clock[END_TIME]) if ADAPTIVE else math.inf
+    endless = steps_until(span, last if through != 0 else until, math.inf, duration)
     if control[abi.BEGUN] == 0:
         assume_step(model, endless)
     if return_to_shown(until, scheme, visible, state, outputs) == 1:
@@ -303,17 +303,19 @@ def advance_run(
     outputs.times[0], control[abi.OUTPUTS], numbers[ENDING] = until, 0, -1
     code = abi.DONE
     if not ADAPTIVE or read_step(system_of_steps(model[0]), scheme, state, outputs) == 0:
-        code = go_on(model, scheme, endless, chunk, state, outputs, visible)
+        code = advance_to_output(model, scheme, endless, chunk, state, outputs, visible)
     if not ADAPTIVE and code > abi.DONE and control[abi.OUTPUTS] > 0 and through != 0:
-        # the step behind the output fails: the run goes on up to the output
+        # the step past the output fails: the run goes on up to the output
         control[abi.OUTPUTS] = 0
-        code = go_on(model, scheme, steps_until(span, until, math.inf, duration), chunk, state, outputs, visible)
+        code = advance_to_output(
+            model, scheme, steps_until(span, until, math.inf, duration), chunk, state, outputs, visible
+        )
     numbers[END_CODE] = code
     if code > abi.DONE:
         take_notes(code, 0, model, chunk, state)
     ended = code != abi.DONE or numbers[ENDING] >= 0
     if ended:
-        show(observers[0], state.w, outputs, 0, state.y)
+        show_state(observers[0], state.w, outputs, 0, state.y)
         outputs.times[0] = clock[abi.TIME]
     for i in range(visible.y.shape[0]):
         visible.y[i] = outputs.states[i]
@@ -322,7 +324,7 @@ def advance_run(
 
 
 _loops: dict[Any, KeptLoops] = {}
-_KEPT = Meanings("printed runs", store=show, _MAX_PASSAGES=1, integrate=frame.integrate)
+_KEPT = Meanings("printed runs", store_output=show_state, _MAX_PASSAGES=1, integrate=frame.integrate)
 _OF_ROWS = Meanings("printed runs with bounded rows", assume_step=assume_first_step, let_go=let_rows_go)
 _OF_ROWS_BETWEEN_SEAMS = Meanings(
     "printed runs with bounded rows and seams",
@@ -373,7 +375,7 @@ class Traits(NamedTuple):
 
     @property
     def further(self) -> tuple[types.RecordType, ...]:
-        """Types of what stands behind the functions of a model."""
+        """Types of what follows the functions of a model."""
         return (turn.FURTHER["modes" if self.modes else "effects"],) if self.modes or self.effects else ()
 
 

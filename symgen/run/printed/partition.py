@@ -27,7 +27,7 @@ POOR = 0.4
 
 
 @exact()
-def counts(switch: int, w: Array, is_imposed: bool) -> bool:
+def row_counts(switch: int, w: Array, is_imposed: bool) -> bool:
     """Whether a row counts: one with bounds does where it is in force, and imposed."""
     return switch < 0 or (is_imposed and w[switch] != 0.0)
 
@@ -68,7 +68,7 @@ def position_rows(
     for i in range(count):
         row = tables.holonomic[i]
         right[i] = 0.0
-        if counts(tables.of_positions[i], w, is_imposed):
+        if row_counts(tables.of_positions[i], w, is_imposed):
             fill_position_row(layout, tables, y, row, part, i * nq)
             right[i] = -w[layout.residual + row]
             size = abs(right[i]) * (1.0 / length if tables.measured[row] != 0 else 1.0)
@@ -96,7 +96,7 @@ def velocity_rows(model: PartitionModel, y: Array, w: Array, part: Partition, is
         right[i] = 0.0
         for k in range(nv):
             matrix[i * nv + k] = 0.0
-        if counts(layout.switches[i], w, is_imposed):
+        if row_counts(layout.switches[i], w, is_imposed):
             right[i] = w[tables.nu + i]
             for k in range(nv):
                 right[i] -= d[i * nv + k] * y[nq + k]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout import abi
 from symgen.run.layout.start_records import Layout
-from symgen.run.starts.assembler import layout_of
+from symgen.run.starts.assembler import layout_of_starts
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
@@ -95,7 +95,7 @@ class Partition(Record):
 
 def tables_of(compiled: CompiledModel, w: Array, is_moded: bool) -> PartitionTables:
     """Return what is partitioned of a model, with the ranks of its rows at the scratch of a start."""
-    info, rows, switches = compiled.info, compiled.jacobian(w), layout_of(compiled).switches
+    info, rows, switches = compiled.info, compiled.jacobian(w), layout_of_starts(compiled).switches
     holonomic = [i for i, row in enumerate(info.rows) if row.holonomic]
     rows[list(info.switchable)] = 0.0  # states of an importer are those that are independent in all modes
     ranks = _rank(rows[holonomic]) + len(info.spins), _rank(rows)

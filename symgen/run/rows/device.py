@@ -29,7 +29,7 @@ from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.probe import rate_functions
 from symgen.run.layout.records import SIZES, SPAN, Kept, Observed, Outputs, Run, Sizes, Span, State
-from symgen.run.layout.redundancy import never
+from symgen.run.layout.redundancy import no_rows_fell
 from symgen.run.layout.scheme_records import TABLEAU, TableauRecord
 from symgen.run.loops import frame, watch
 from symgen.run.loops.schemes import explicit
@@ -88,7 +88,7 @@ def _numbas(kind: native.Kind) -> Any:
 SIGNATURE = types.void(_numbas(TABLEAU), _numbas(SIZES), _numbas(SPAN), STARTS, RESULTS)
 
 
-def simulated() -> bool:
+def is_simulated() -> bool:
     """Return whether Numba's simulator replaces a device (``NUMBA_ENABLE_CUDASIM=1``)."""
     return bool(config.ENABLE_CUDASIM)
 
@@ -103,7 +103,7 @@ def bare_value(value: _Value) -> _Value:
 
 
 @viewing
-def cut(array: Array, first: int, size: int) -> Array:
+def part_on_device(array: Array, first: int, size: int) -> Array:
     """Replace `symgen.compile.loopcode.bare.part`."""
     return array[first : first + size]
 
@@ -121,7 +121,7 @@ def watch_passages(sizes: Sizes, run: Run, y: Array, t: float) -> int:
 
 
 def watch_states(sizes: Sizes, run: Run, y: Array, t: float) -> int:
-    """Stand for `symgen.run.loops.watch.watch` with a table of one event."""
+    """Replace `symgen.run.loops.watch.watch` by one with a table of one event."""
     return 0
 
 
@@ -150,8 +150,8 @@ class ForgivingMath:
 
 
 #: Meanings of names in all functions on a device, and in the frame.
-_ON_DEVICE = Meanings("sweeps on a CUDA device", bare=bare_value, part=cut, **PLAIN)
-_FRAME = Meanings("sweeps on a CUDA device", watch=watch_passages, rows_fell=never)
+_ON_DEVICE = Meanings("sweeps on a CUDA device", bare=bare_value, part=part_on_device, **PLAIN)
+_FRAME = Meanings("sweeps on a CUDA device", watch=watch_passages, rows_fell=no_rows_fell)
 
 
 def on_device(function: Any, **meanings: Any) -> Any:
@@ -165,12 +165,12 @@ def on_device(function: Any, **meanings: Any) -> Any:
         Further meanings of global names on the device: helpers, and sizes.
     """
     common: dict[str, Any] = {**_ON_DEVICE, **meanings}
-    if simulated():
+    if is_simulated():
         common["math"] = ForgivingMath()
-    return Instances(common, _compiled, everything=True).of(function)
+    return Instances(common, _compile_kernel, everything=True).of(function)
 
 
-def _compiled(copy: python.FunctionType, original: Any) -> Any:
+def _compile_kernel(copy: python.FunctionType, original: Any) -> Any:
     return cuda.jit(device=True, inline="always" if hasattr(original, "viewing") else "never")(copy)
 
 
@@ -240,7 +240,7 @@ def make_kernel(law: ModuleType, model: ModuleType, need: Need) -> Any:
     one_passage = on_device(watch.watch, _N_PASSAGE=0)
     watched = on_device(watch_passages, watch_states=one_passage)
     integrate = on_device(frame.integrate, **{**parts, **_FRAME, "watch": watched})
-    begin_run, pick = on_device(rows.begin_run), on_device(row_results.pick)
+    begin_run, pick = on_device(rows.begin_run), on_device(row_results.pick_quantities)
     summarise = on_device(row_results.summarise, _MAX_PASSAGES=1)  # only the narrowest passage is kept
     observe_rates, observe_rows = on_device(observe.observe_rates), on_device(observe.observe_rows)
     nothing = on_device(confirm_nothing)

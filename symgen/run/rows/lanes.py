@@ -31,14 +31,14 @@ from symgen.run.layout.records import (
     Span,
     State,
 )
-from symgen.run.layout.redundancy import FALLEN, never
-from symgen.run.layout.scales import open_to
+from symgen.run.layout.redundancy import FALLEN, no_rows_fell
+from symgen.run.layout.scales import speed_within_tolerance
 from symgen.run.layout.scheme_records import TableauRecord
 from symgen.run.loops import watch as watching
 from symgen.run.loops.frame import integrate
 from symgen.run.loops.schemes import explicit
 from symgen.run.rows.row_results import end_run
-from symgen.run.rows.rows import begin_run, take
+from symgen.run.rows.rows import begin_run, select_elements
 
 #: rhs(t, z) and accept(t, z).
 LaneFunction = Callable[[float, Array], int]
@@ -86,7 +86,7 @@ _SHORT = 0.25
 # -- operations of the frame, for all lanes ----------------------------------------------------------------------------
 
 
-def opened(sizes: Sizes, state: State) -> Run:
+def open_lanes(sizes: Sizes, state: State) -> Run:
     """Return the states of runs; the trial state is a part of z, for emitted code."""
     s = bare(state)
     trial = part(s.p, 0, sizes.width)
@@ -104,30 +104,30 @@ def settle_lanes(sizes: Sizes, span: Span, run: Run) -> None:
         speed = run.w[_LENGTH + lane] / span.duration
         speed = speed if speed > run.w[_SPEED + lane] else run.w[_SPEED + lane]
         run.w[_SPEED + lane] = speed
-        open_speed = open_to(span, speed)
+        open_speed = speed_within_tolerance(span, speed)
         run.gauges[_SCALE + lane] = run.w[_MEAN_MASS + lane] * open_speed * open_speed
 
 
-def evaluate(system: LaneSystem, run: Run, t: float, y: Array, rate: Array) -> None:
+def evaluate_lanes(system: LaneSystem, run: Run, t: float, y: Array, rate: Array) -> None:
     """Set `rate` to the rates of the trial states."""
     width = system.sizes.width
     system.rhs(t, run.p)
     copied(width, part(run.p, width, width), rate)
 
 
-def correct(system: LaneSystem, run: Run, t: float, y: Array, between: bool) -> int:
+def correct_lanes(system: LaneSystem, run: Run, t: float, y: Array, between: bool) -> int:
     """Correct and measure the trial states; failures are counted."""
     system.accept(t, run.p)
     return 0
 
 
-def note_step(run: Run, h: float) -> None:
+def note_lane_step(run: Run, h: float) -> None:
     """Store the present step for emitted functions."""
     for lane in range(_L):
         run.w[_STEP_STATUS + lane] = h
 
 
-def largest_turn(sizes: Sizes, span: Span, run: Run) -> float:
+def largest_turn_of_lanes(sizes: Sizes, span: Span, run: Run) -> float:
     """Return 0: lanes in which an angle changes by too much in a step are left to single runs."""
     for i in range(sizes.nq):
         for lane in range(_L):
@@ -136,18 +136,18 @@ def largest_turn(sizes: Sizes, span: Span, run: Run) -> float:
     return 0.0
 
 
-def remember_rank(sizes: Sizes, run: Run) -> None:
+def remember_lane_ranks(sizes: Sizes, run: Run) -> None:
     """Do nothing: each lane has the rank of its own start."""
 
 
-def begin(run: Run) -> None:
+def begin_lanes(run: Run) -> None:
     """Set the initial energies of the balances: the energies of the first accepted states."""
     for lane in range(_L):
         run.gauges[_START + lane] = run.w[_KINETIC + lane] + run.w[_POTENTIAL + lane]
         run.gauges[_POTENTIAL_START + lane] = run.w[_POTENTIAL + lane]
 
 
-def keep_maxima(sizes: Sizes, run: Run, y: Array) -> float:
+def keep_lane_maxima(sizes: Sizes, run: Run, y: Array) -> float:
     """Update the largest violations and energy errors."""
     w, gauges, work = run.w, run.gauges, (sizes.nq + sizes.nv) * _L
     for lane in range(_L):
@@ -159,11 +159,11 @@ def keep_maxima(sizes: Sizes, run: Run, y: Array) -> float:
     return 0.0
 
 
-def watch(sizes: Sizes, run: Run, y: Array, t: float) -> int:
+def watch_lanes(sizes: Sizes, run: Run, y: Array, t: float) -> int:
     """Judge accepted states as `symgen.run.loops.watch.watch` does; mark lanes that cannot continue."""
-    w, counters, gauges, behind = run.w, run.iw, run.gauges, sizes.nq + sizes.nv
+    w, counters, gauges, after = run.w, run.iw, run.gauges, sizes.nq + sizes.nv
     run.clock[abi.TIME] = t
-    keep_maxima(sizes, run, y)
+    keep_lane_maxima(sizes, run, y)
     for lane in range(_L):
         gauges[_LARGEST + lane] = 0.0
     for i in range(sizes.nq):
@@ -172,11 +172,11 @@ def watch(sizes: Sizes, run: Run, y: Array, t: float) -> int:
             gauges[_ODD + lane] = gauges[_ODD + lane] if angle <= _LARGEST_ANGLE else 1.0
             size = abs(y[i * _L + lane] - run.share[sizes.width + i]) * run.metric[i]
             gauges[_LARGEST + lane] = size if size > gauges[_LARGEST + lane] else gauges[_LARGEST + lane]
-    for i in range(sizes.nq, behind):
+    for i in range(sizes.nq, after):
         for lane in range(_L):
             size = abs(y[i * _L + lane]) * gauges[(_N_LANE_GAUGES + i - sizes.nq) * _L + lane]
             w[_SPEED + lane] = size if size > w[_SPEED + lane] else w[_SPEED + lane]
-    work, going = behind * _L, 0.0
+    work, going = after * _L, 0.0
     for lane in range(_L):
         largest = gauges[_LARGEST + lane]
         length = largest if largest > w[_LENGTH + lane] else w[_LENGTH + lane]
@@ -214,7 +214,7 @@ def watch(sizes: Sizes, run: Run, y: Array, t: float) -> int:
     return abi.DONE if going > 0.0 else _NONE_GOES
 
 
-def store(sizes: Sizes, w: Array, outputs: Outputs, k: int, y: Array) -> None:
+def store_lanes(sizes: Sizes, w: Array, outputs: Outputs, k: int, y: Array) -> None:
     """Write output `k` of all lanes: states, measures of ``accept``, and angles with counted turns."""
     n, width = sizes.ny * _L, outputs.status.shape[0] // outputs.times.shape[0]
     for i in range(n):
@@ -227,19 +227,19 @@ def store(sizes: Sizes, w: Array, outputs: Outputs, k: int, y: Array) -> None:
 
 _MEANINGS = Meanings(
     "sweeps in vector lanes",
-    opened=opened,
-    evaluate=evaluate,
-    correct=correct,
-    note_step=note_step,
-    store=store,
-    largest_turn=largest_turn,
+    open_run=open_lanes,
+    evaluate=evaluate_lanes,
+    correct=correct_lanes,
+    note_step=note_lane_step,
+    store_output=store_lanes,
+    largest_turn=largest_turn_of_lanes,
     settle_scales=settle_lanes,
-    remember_rank=remember_rank,
-    begin=begin,
-    keep_maxima=keep_maxima,
-    watch=watch,
+    remember_rank=remember_lane_ranks,
+    begin_watch=begin_lanes,
+    keep_maxima=keep_lane_maxima,
+    watch=watch_lanes,
     # emitted code for lanes writes whole vectors, which are read as such
-    rows_fell=never,
+    rows_fell=no_rows_fell,
     attempt=explicit.attempt_constant,
     follow=combine,
 )
@@ -339,7 +339,7 @@ def run_lanes(model: LaneModel, scheme: TableauRecord, span: Span, chunk: RowChu
                 chunk.summary[r * e.N_SUMMARY + e.CODE] = abi.LEFT
                 continue
             unload_row(lane, sizes, lanes, state, outputs, kept)
-            take(chunk.ps, r * n_p, n_p, state.p)
+            select_elements(chunk.ps, r * n_p, n_p, state.p)
             clock[abi.TIME] = span.until
             control[abi.STEPS], control[abi.OUTPUTS], control[abi.EVALUATIONS] = steps, times.shape[0], evaluations
             end_run(abi.DONE, r, 0, span, (sizes, rates, confirm, accept, observe), chunk, state, kept)

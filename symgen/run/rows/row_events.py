@@ -13,8 +13,8 @@ from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import Observers, Outputs, RowChunk, Span, System
 from symgen.run.loops import search_records as records
 from symgen.run.loops.event_loop import EventState
-from symgen.run.loops.frame_parts import store_behind
-from symgen.run.loops.seams import change, due, go_over, has_gap, has_struck, is_defined, same
+from symgen.run.loops.frame_parts import store_after_reset
+from symgen.run.loops.seams import due_time, has_gap, has_struck, is_defined, skip_to_seam, time_tolerance, write_seam
 from symgen.run.loops.unbound import keep_ends
 from symgen.run.modes.turn import OfModes, begin_modes, forget_modes, open_rows_of, take_resets, take_turn
 
@@ -147,10 +147,12 @@ def begin_row_between_seams(model: ModelWithModes, span: Span, state: EventState
     _, seams, _, prepare, prepare_law = system
     seams = bare(seams)
     control, p, changed = state.control, state.p, False
-    while due(seams, control[abi.PASSED]) - state.clock[abi.TIME] <= same(seams, span, state.clock[abi.TIME]):
-        changed = change(seams, control[abi.PASSED], p) or changed
+    while due_time(seams, control[abi.PASSED]) - state.clock[abi.TIME] <= time_tolerance(
+        seams, span, state.clock[abi.TIME]
+    ):
+        changed = write_seam(seams, control[abi.PASSED], p) or changed
         if has_gap(seams, control[abi.PASSED]):
-            go_over(seams, control[abi.PASSED], state.clock)
+            skip_to_seam(seams, control[abi.PASSED], state.clock)
         control[abi.PASSED] += 1
     if changed:
         prepare(p)
@@ -167,24 +169,24 @@ def choose_after_change(model: ModelWithModes, span: Span, state: EventState) ->
     if has_struck(seams, state.control[abi.PASSED] - 1):
         open_rows_of(modes, state)
     code = begin_row_in_modes(model, span, state)
-    if code == abi.DONE and span.until - now > same(seams, span, now):
+    if code == abi.DONE and span.until - now > time_tolerance(seams, span, now):
         code = int(abi.CHANGED)
     return code
 
 
 def store_after_effects(code: int, span: Span, state: EventState, outputs: Outputs) -> None:
-    """Have outputs at the present time hold the state behind the effects of events."""
+    """Have outputs at the present time hold the state after the effects of events."""
     if code == abi.MET:
         now = state.clock[abi.TIME]
         adaptive = state.hunt[records.REACH] < math.inf
         near = abi.RESOLVED_TIME * abs(now) if adaptive else abi.SAME_TIME * span.step
-        store_behind(outputs, state.control[abi.OUTPUTS], now, near, state.y, state.w)
+        store_after_reset(outputs, state.control[abi.OUTPUTS], now, near, state.y, state.w)
 
 
 # -- constraints that may jump -----------------------------------------------------------------------------------------
 
 
-def resumed_after_examination(state: EventState) -> int:
+def resume_code_after_examination(state: EventState) -> int:
     """Return the end code with which an examined run goes on, `DONE` for a new run."""
     if state.control[e.EXAMINATION] == e.HOLDS:
         return int(abi.MET)

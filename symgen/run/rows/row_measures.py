@@ -49,7 +49,7 @@ class Left(Record):
 Changing = tuple[Seams, Span, e.Prepare, e.Prepare]
 
 
-def bring(columns: Cube, r: int, k: int, first: int, places: Integers, y: Array, rates: Array, w: Array) -> bool:
+def bring_output(columns: Cube, r: int, k: int, first: int, places: Integers, y: Array, rates: Array, w: Array) -> bool:
     """Copy results of a run at an output to the arguments of functions; return whether the run reached it."""
     for c in range(places.shape[0] // 2):
         value, at = columns[r, first + c, k], places[2 * c + 1]
@@ -87,7 +87,7 @@ def measure_each(model: tuple[Left, Changing, abi.Observe, abi.Measure], values:
         for i in range(p.shape[0]):
             p[i] = ps[r, i]
         for k in range(times.shape[1]):
-            reached = bring(columns, r, k, first, places, y, rates, ws[r])
+            reached = bring_output(columns, r, k, first, places, y, rates, ws[r])
             t = times[r if times.shape[0] > 1 else 0, k]
             if reached:
                 passed = parameters_at(seams, span, prepare, prepare_law, t, passed, p)

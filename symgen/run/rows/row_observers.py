@@ -15,7 +15,7 @@ from symgen.run.layout.records import CHUNK, KEPT_OF_RUN, SPAN, STATE, Kept, Row
 from symgen.run.loops.seams import SEAMS
 from symgen.run.loops.unbound import take_row
 from symgen.run.rows.row_results import observe_outputs
-from symgen.run.rows.rows import OBSERVERS, SEAMED, take
+from symgen.run.rows.rows import OBSERVERS, SEAMED, select_elements
 
 
 def observe_left(model: System, span: Span, chunk: RowChunk, state: State, series: Kept, left: Cube) -> int:
@@ -24,8 +24,8 @@ def observe_left(model: System, span: Span, chunk: RowChunk, state: State, serie
     Parameters
     ----------
     model : tuple
-        What changes parameters, in the places of `symgen.run.loops.seams.with_table`, or 0; sizes and functions of
-        the observer.
+        What changes parameters, in the places of `symgen.run.loops.seams.arguments_with_table`, or 0; sizes and
+        functions of the observer.
     span, chunk, state, series
         As for `symgen.run.rows.rows.run_rows`, of the model that observes.
     left : Array, shape (rows, ny + status, times)
@@ -46,8 +46,8 @@ def observe_left(model: System, span: Span, chunk: RowChunk, state: State, serie
             return int(s)
         r, count, masked = chunk.selected[s], 0, 0
         take_row(system, r)
-        take(chunk.ps, r * n_p, n_p, state.p)
-        take(chunk.ws, r * nw, nw, state.w)
+        select_elements(chunk.ps, r * n_p, n_p, state.p)
+        select_elements(chunk.ws, r * nw, nw, state.w)
         while count < times.shape[0] and not math.isnan(left[r, 0, count]):
             for i in range(ny):
                 outputs.states[count, i] = left[r, i, count]

@@ -11,7 +11,7 @@ from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import Kept, Observed, Observers, Outputs, RowChunk, Sizes, Span, State, System
 from symgen.run.layout.redundancy import choose_rows
-from symgen.run.loops.frame_parts import store
+from symgen.run.loops.frame_parts import store_output
 from symgen.run.loops.unbound import hold
 from symgen.run.loops.watch import iterations_in
 from symgen.run.single.observe import observe_rates, observe_rows
@@ -19,7 +19,7 @@ from symgen.run.single.observe import observe_rates, observe_rows
 _N_PASSAGE, _MAX_PASSAGES = abi.N_PASSAGE, abi.MAX_PASSAGES
 
 
-def pick(sizes: Sizes, picks: Integers, series: Kept, count: int, start: float, values: Array) -> None:
+def pick_quantities(sizes: Sizes, picks: Integers, series: Kept, count: int, start: float, values: Array) -> None:
     """Write the requested quantities at the outputs of a run, one after the other; nan at outputs not reached.
 
     Parameters
@@ -129,9 +129,9 @@ def observe_outputs(
             observe_rows(observe, sizes, here, 1, state.p, state.w, single, state.room)
     length = (chunk.picks.shape[0] // 2) * series.outputs.times.shape[0]
     values = part(chunk.values, r * length, length)
-    pick(sizes, chunk.picks, series, count, state.gauges[abi.ENERGY_START], values)
+    pick_quantities(sizes, chunk.picks, series, count, state.gauges[abi.ENERGY_START], values)
     if chunk.rates == 1 or chunk.joints == 1:
-        # loops take the padding behind a state for zeros; observed values may even be nan
+        # loops take the padding after a state for zeros; observed values may even be nan
         for i in range(2 * sizes.ny + series.observed.rows.shape[1]):
             state.room[i] = 0.0
 
@@ -157,7 +157,7 @@ def end_run(
     until = series.outputs.times[series.outputs.times.shape[0] - 1]
     if chunk.ends == 1 and count == 0 and code == abi.DONE:  # an event has ended it
         series.outputs.times[0] = state.clock[abi.TIME]
-        store(sizes, state.w, series.outputs, 0, state.y)
+        store_output(sizes, state.w, series.outputs, 0, state.y)
         count = 1
     part(chunk.ws, r * nw, nw)[abi.STEP_STATUS] = state.w[abi.STEP_STATUS]  # for laws whose gains follow the step
     observe_outputs(count, r, system, span, model, chunk, state, series)

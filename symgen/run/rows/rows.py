@@ -26,25 +26,25 @@ from symgen.run.layout.records import (
     System,
 )
 from symgen.run.layout.scheme_records import Nodes, TableauRecord
-from symgen.run.loops.event_loop import with_events
-from symgen.run.loops.seams import parameters_at, select_row, with_seams
+from symgen.run.loops.event_loop import loop_with_events
+from symgen.run.loops.seams import loop_with_seams, parameters_at, select_row
 from symgen.run.loops.unbound import (
     begin_choice,
-    forget,
+    forget_run,
     integrate,
-    resumed,
+    resume_code,
     store_after,
     take_change,
     take_notes,
     take_row,
-    waits,
+    waits_for_caller,
 )
 from symgen.run.modes import turn
 from symgen.run.rows import row_events
 from symgen.run.rows.row_results import end_run, follow_rows
 
 
-def take(array: Array, first: int, size: int, out: Array) -> None:
+def select_elements(array: Array, first: int, size: int, out: Array) -> None:
     """Set `out` to elements of an array."""
     for i in range(size):
         out[i] = array[first + i]
@@ -76,7 +76,7 @@ def run_rows(
     ----------
     model : tuple
         First argument of the loop over one run; then, for observed values at outputs, sizes and functions
-        (`symgen.run.layout.abi`): ``rates`` or ``rhs``, its confirmation, ``accept`` and ``observe``; behind these,
+        (`symgen.run.layout.abi`): ``rates`` or ``rhs``, its confirmation, ``accept`` and ``observe``; after these,
         where bounded rows have modes, `OfModes`, else where events change a run, what they change: `OfEffects`.
     scheme, span
         As for a single run.
@@ -100,14 +100,14 @@ def run_rows(
         if state.control[abi.STOP] != 0:
             return int(s)
         r = chunk.selected[s]
-        code = resumed(state)
+        code = resume_code(state)
         if code == abi.DONE:
             begin_run(state, chunk.limits)
             take_row(system, r)
-            take(chunk.ys, r * ny, ny, state.y)
-            take(chunk.ps, r * n_p, n_p, state.p)
-            take(chunk.ws, r * nw, nw, state.w)
-            forget(model, state)
+            select_elements(chunk.ys, r * ny, ny, state.y)
+            select_elements(chunk.ps, r * n_p, n_p, state.p)
+            select_elements(chunk.ws, r * nw, nw, state.w)
+            forget_run(model, state)
             code = begin_choice(model, span, state)
             if code == abi.DONE:
                 code = integrate(system, scheme, span, state, series.outputs)
@@ -118,7 +118,7 @@ def run_rows(
                 code = take_change(model, span, state)
                 if code != abi.CHANGED:
                     break
-            elif waits(code, model, chunk, state):
+            elif waits_for_caller(code, model, chunk, state):
                 return int(s)
             else:
                 ended = take_notes(code, r, model, chunk, state)
@@ -153,7 +153,7 @@ def hold_between_seams(system: System, span: Span, chunk: RowChunk, r: int, stat
     control, n_p = state.control, state.p.shape[0]
     if k == 0:
         control[abi.PASSED] = 0
-        take(chunk.ps, r * n_p, n_p, state.p)
+        select_elements(chunk.ps, r * n_p, n_p, state.p)
     passed = parameters_at(seams, span, prepare, prepare_law, times[k], control[abi.PASSED], state.p)
     control[abi.PASSED] = passed
 
@@ -162,24 +162,26 @@ def hold_between_seams(system: System, span: Span, chunk: RowChunk, r: int, stat
 
 
 @jit(entry=True)
-def observe_no_coordinate(t: float, y: Array, p: Array, w: Array, ydot: Array, out: Array) -> int:
+def observe_nothing_of_coordinates(t: float, y: Array, p: Array, w: Array, ydot: Array, out: Array) -> int:
     """Replace the emitted ``observe`` where no joint coordinate is requested, so that it is not compiled."""
     return 0
 
 
 #: Sizes of a model, and the functions called at outputs.
 OBSERVERS = type_of(Observers)
-EVENTS = Meanings("sweeps with events", forget=row_events.forget_functions, take_notes=row_events.take_notes_of_events)
+EVENTS = Meanings(
+    "sweeps with events", forget_run=row_events.forget_functions, take_notes=row_events.take_notes_of_events
+)
 EFFECTS = Meanings(
     "sweeps of which events change the state",
-    forget=row_events.forget_past,
+    forget_run=row_events.forget_past,
     happen=row_events.happen_with_resets,
     keep_ends=row_events.keep_ends_of_resets,
     store_after=row_events.store_after_effects,
 )
 MODES = Meanings(
     "sweeps with bounded rows",
-    forget=row_events.forget_past_modes,
+    forget_run=row_events.forget_past_modes,
     begin_choice=row_events.begin_row_in_modes,
     happen=row_events.happen_with_modes,
     keep_ends=row_events.keep_ends_of_modes,
@@ -192,8 +194,8 @@ MODES_BETWEEN_SEAMS = Meanings(
 )
 _EXAMINED = Meanings(
     "sweeps with constraints that may jump",
-    resumed=row_events.resumed_after_examination,
-    waits=row_events.waits_for_examination,
+    resume_code=row_events.resume_code_after_examination,
+    waits_for_caller=row_events.waits_for_examination,
 )
 SEAMED = Meanings("sweeps with seams", take_row=take_seams, hold=hold_between_seams)
 _loops: dict[Any, Any] = {}
@@ -222,8 +224,8 @@ def over_rows(
     if key not in _loops:
         name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}" + "_with_events" * events + "_with_seams" * seams
         name += "_with_effects" * effects + "_examined" * examined + "_with_modes" * modes + "_pressed" * pressed
-        inner = with_events(loop) if events else loop
-        inner = with_seams(inner) if seams else inner
+        inner = loop_with_events(loop) if events else loop
+        inner = loop_with_seams(inner) if seams else inner
         args = signature_of(inner).arguments
         further = [turn.FURTHER["modes" if modes else "effects"]] if modes or effects else []
         model = types.RecordType((*args[:1], OBSERVERS, *further))

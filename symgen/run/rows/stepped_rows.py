@@ -17,7 +17,7 @@ from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import OUTPUTS, SPAN, STATE, Outputs, Span, State, System
 from symgen.run.loops.seams import is_defined
-from symgen.run.loops.step_control import part_of
+from symgen.run.loops.step_control import part_of_step
 
 
 class Stepped(Record):
@@ -81,7 +81,7 @@ def changed_inputs(table: Stepped, r: int, p: Array) -> bool:
     return other
 
 
-def evaluate(model: System, table: Stepped, r: int, state: State) -> None:
+def evaluate_stepped_rows(model: System, table: Stepped, r: int, state: State) -> None:
     """Evaluate the formulas of a row at its state, which stays as it is."""
     rates, confirm, observe, count = model
     t, w, counters = state.clock[abi.TIME], table.w, table.counters
@@ -96,7 +96,7 @@ def evaluate(model: System, table: Stepped, r: int, state: State) -> None:
 
 
 def step_each(model: System, scheme: Record, span: Span, table: Stepped, state: State, outputs: Outputs) -> int:
-    """Take rows on by a time, and evaluate formulas where they stand then.
+    """Advance rows by a time, and evaluate formulas at their states then.
 
     A row that fails stays where it was. One whose loop has a request (a negative code) is left as it is there.
 
@@ -131,7 +131,7 @@ def step_each(model: System, scheme: Record, span: Span, table: Stepped, state: 
             if table.adaptive == 1 and control[abi.STEPS] > 0:  # a scheme that begins anew keeps its step
                 step = state.clock[abi.NEXT]
             if code == abi.DONE:
-                code = loop(system, scheme, part_of(span, table.until[r], step), state, outputs)
+                code = loop(system, scheme, part_of_step(span, table.until[r], step), state, outputs)
             if code <= abi.DONE:
                 for i in range(size):
                     row[i] = table.front[i]
@@ -140,7 +140,7 @@ def step_each(model: System, scheme: Record, span: Span, table: Stepped, state: 
                     table.front[i] = row[i]
         table.codes[r] = code
         if code >= abi.DONE:
-            evaluate(formulas, table, r, state)
+            evaluate_stepped_rows(formulas, table, r, state)
     return 0
 
 

@@ -15,13 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
-from symgen.compile.loopcode.entry import direct
+from symgen.compile.loopcode.entry import bind_arguments
 from symgen.compile.loopcode.exact import plain_form
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.model_arrays import triplets_of
+from symgen.run.layout.model_arrays import triplets_of_entries
 from symgen.run.layout.scales import mean_mass
-from symgen.run.starts.assembler import layout_of
+from symgen.run.starts.assembler import layout_of_starts
 
 if TYPE_CHECKING:
     from symgen.run.single.simulation import Simulation
@@ -37,7 +37,7 @@ def begin_stepping(simulation: Simulation) -> int:
     control = simulation.state.control
     control[abi.STOP] = 1
     try:
-        code = simulation.go(simulation.spec.until, math.inf)
+        code = simulation.go_until(simulation.spec.until, math.inf)
     finally:
         control[abi.STOP] = 0
     return abi.DONE if code == abi.STOPPED else code
@@ -91,7 +91,7 @@ class Changes:
         state = self.simulation.state
         self._first_p, self._first_seam = state.p.copy(), int(state.control[abi.PASSED])
 
-    def held(self, times: Array) -> tuple[tuple[float, Array], ...]:
+    def earlier_parameters(self, times: Array) -> tuple[tuple[float, Array], ...]:
         """Return the parameters of earlier parts of the run, each with the last time at which it holds.
 
         Parameters
@@ -115,7 +115,7 @@ class Changes:
                 p[places[name]] = value
         return tuple(pieces)
 
-    def give(self, values: Mapping[str, float]) -> bool:
+    def give_values(self, values: Mapping[str, float]) -> bool:
         """Set inputs to other values from the present state on; the scheme begins anew.
 
         Parameters
@@ -216,7 +216,7 @@ class Changes:
                 raise InputError("set", f"a mass and an inertia of {body} above 0", f"{mass[j]:g}")
         if not (math.isfinite(w[abi.PHI]) and np.isfinite(state.p).all()):
             raise InputError("set", "parameters for which the equations are defined", "numbers that are not finite")
-        w[abi.MEAN_MASS] = plain_form(mean_mass)(layout_of(compiled), w)
+        w[abi.MEAN_MASS] = plain_form(mean_mass)(layout_of_starts(compiled), w)
         spec, width, nq = self.simulation.spec, self.simulation.sizes.width, info.nq
         reach = state.metric[:nq] * (state.y[:nq] - state.metric[width : width + nq])
         length = max(float(w[abi.LENGTH]), float(np.abs(reach).max(initial=0.0)))
@@ -237,7 +237,7 @@ class Changes:
     def _drift(self, jacobian: Array, nu: Array) -> float:
         """Return the norm of D v - nu of the present velocities, angular rows multiplied by the length."""
         info, state = self.simulation.compiled.info, self.simulation.state
-        rows, columns, values = triplets_of(info, jacobian)
+        rows, columns, values = triplets_of_entries(info, jacobian)
         v = state.y[info.nq : info.nq + info.nv]
         lengths = np.where([row.unit == "rad" for row in info.rows], state.w[abi.LENGTH], 1.0)
         return float(np.linalg.norm(lengths * (np.bincount(rows, values * v[columns], info.m) - nu)))
@@ -260,10 +260,10 @@ class Changes:
     def _preparing(self) -> tuple[Callable[..., Any], ...]:
         """``prepare`` of model and law, on the parameters of the run."""
         modules = self.simulation.compiled.model, self.simulation.compiled.law_module
-        return tuple(direct(module.prepare, e.PREPARE, self.simulation.state.p) for module in modules)
+        return tuple(bind_arguments(module.prepare, e.PREPARE, self.simulation.state.p) for module in modules)
 
     @cached_property
     def _functions(self) -> tuple[Callable[..., Any], Callable[..., Any]]:
         """``masses`` and ``geometry`` on the arrays of the run; the latter takes the time."""
         (y, p, w), model = self.simulation.state[:3], self.simulation.compiled.model
-        return direct(model.masses, abi.MOVE, p, w), direct(model.geometry, abi.MEASURE, 0.0, y, p, w)
+        return bind_arguments(model.masses, abi.MOVE, p, w), bind_arguments(model.geometry, abi.MEASURE, 0.0, y, p, w)

@@ -194,9 +194,9 @@ class Events:
     def reason(self, code: int, state: State, t: float) -> str:
         """Return the reason for the end of a run at a time [s]: events accumulate, or a condition is undefined."""
         if code == abi.GATHERED:
-            return gathered(self._recent, self.accumulation or t)
+            return accumulation_sentence(self._recent, self.accumulation or t)
         assert isinstance(state, event_loop.EventState), "a run with events"
-        return undefined(self.watched.names[event_loop.undefined_event(state)], t)
+        return undefined_sentence(self.watched.names[event_loop.undefined_event(state)], t)
 
     def jump(self, state: State) -> str:
         """Return the sentence on a row that jumps or has a kink where a run failed; empty without one."""
@@ -205,13 +205,13 @@ class Events:
         return self._jump
 
 
-def gathered(names: Sequence[str], t: float) -> str:
+def accumulation_sentence(names: Sequence[str], t: float) -> str:
     """Return the reason for the end of a run whose events `names` accumulate at a time [s]."""
     events = " and ".join(f"'{name}'" for name in names)
     return f"events of {events} accumulate at t = {t:.13g} s: the model does not determine the motion after that"
 
 
-def undefined(name: str, t: float) -> str:
+def undefined_sentence(name: str, t: float) -> str:
     """Return the reason for the end of a run at an event with an undefined condition, at a time [s]."""
     return f"the condition of the event '{name}' is undefined at t = {t:.6g} s"
 
@@ -256,7 +256,7 @@ class EventRecord:
         return {"t": self.t, "name": self.name, "action": self.action, **state, **numbers}
 
 
-def stopped(outcome: Outcome) -> list[str]:
+def stop_notes(outcome: Outcome) -> list[str]:
     """Return a note on the event at which a run ended, if any."""
     names = [f"'{e.name}'" for e in outcome.happened if e.action == STOP and e.t == outcome.end]
     if not names or outcome.code != abi.DONE:
@@ -264,7 +264,7 @@ def stopped(outcome: Outcome) -> list[str]:
     return [f"stopped at t = {outcome.end:.13g} s by the event {' and '.join(names)}"]
 
 
-def brought_to_rest(outcome: Outcome) -> list[str]:
+def rest_notes(outcome: Outcome) -> list[str]:
     """Return a note on each gap that ever faster impacts have brought to rest, with the time that was left.
 
     A single impact without rebound accumulates nothing: its events say all.
@@ -277,7 +277,7 @@ def brought_to_rest(outcome: Outcome) -> list[str]:
     ]
 
 
-def struck_at_once(outcome: Outcome) -> list[str]:
+def impact_notes(outcome: Outcome) -> list[str]:
     """Return a note on the first impact at several gaps at once, if any."""
     hits = [event for event in outcome.happened if event.name.endswith(f".{HIT}") and event.impact is not None]
     for first, second in pairwise(hits):
@@ -298,7 +298,7 @@ def record_of(info: ModelInfo, event: Happening) -> EventRecord:
     if impact is None:
         return EventRecord(event.t, event.name, event.action, q, v)
     after = {c.name: float(x) for c, x in zip(info.velocities, impact.v, strict=True)}
-    signs = [-1.0] * info.m + [1.0] * len(impact.imposed)  # D^T lambda stands on the left of the equations of motion
+    signs = [-1.0] * info.m + [1.0] * len(impact.imposed)  # D^T lambda is on the left of the equations of motion
     names = [*(row.name for row in info.rows), *impact.imposed]
     bounded = (info.rows[i].name for i in info.bounded)
     closed, impulses = {f"{row.rpartition('.')[0]}.rate": row for row in bounded}, dict[str, float]()

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from symgen.compile.loopcode.padding import aligned, padded
 from symgen.compile.native.annotations import Record
 from symgen.run.layout import abi
-from symgen.run.layout.model_arrays import lengths_of
+from symgen.run.layout.model_arrays import marks_of_lengths
 from symgen.run.layout.records import Outputs, Sizes, Span, State
 from symgen.run.layout.scheme_records import KEPT
 
@@ -58,7 +58,7 @@ def model_sizes(compiled: CompiledModel) -> Sizes:
 def share_of(sizes: Sizes, datum: Sequence[float] = ()) -> Array:
     """Return 1 for elements of a state under error control, else 0: the work is controlled separately.
 
-    Behind them are the places that coordinates are measured from (`symgen.describe.facts.lengths.origin_of_sizes`).
+    After them are the places that coordinates are measured from (`symgen.describe.facts.lengths.origin_of_sizes`).
     """
     share = np.zeros(2 * sizes.width)
     share[sizes.width : sizes.width + len(datum)] = datum
@@ -70,7 +70,7 @@ def share_of(sizes: Sizes, datum: Sequence[float] = ()) -> Array:
 def metric_of(info: ModelInfo, sizes: Sizes) -> Array:
     """Return 1 for coordinates that are lengths, else 0; velocities: `symgen.run.layout.scales.settle_scales`."""
     metric = np.zeros(2 * sizes.width)
-    metric[: sizes.nq] = lengths_of(info)
+    metric[: sizes.nq] = marks_of_lengths(info)
     return metric
 
 
@@ -212,10 +212,10 @@ def with_memory(scheme: Record, name: str, array: NDArray[Any]) -> Any:
 
 def with_room(scheme: Record) -> Any:
     """Return a scheme's record with more room for the factors of the matrix that did not fit."""
-    from symgen.run.loops.sparse import enlarged
+    from symgen.run.loops.sparse import enlarge_pattern
 
     for plan, numbers in (("plan", "numbers"), ("filter_plan", "filter_numbers")):
         if hasattr(scheme, plan):
-            changed = enlarged(getattr(scheme, plan), getattr(scheme, numbers))
+            changed = enlarge_pattern(getattr(scheme, plan), getattr(scheme, numbers))
             scheme = scheme._replace(**dict(zip((plan, numbers), changed, strict=True)))
     return scheme

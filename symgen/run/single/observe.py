@@ -12,7 +12,7 @@ from symgen.run.layout.records import Observed, Outputs, Sizes
 
 
 @jit()
-def output(sizes: Sizes, outputs: Outputs, k: int, y: Array, w: Array) -> None:
+def put_output(sizes: Sizes, outputs: Outputs, k: int, y: Array, w: Array) -> None:
     """Set `y` and the angles in `w` to their values at an output."""
     for i in range(sizes.ny):
         y[i] = outputs.states[k, i]
@@ -51,7 +51,7 @@ def observe_rates(
     sizes, rates, confirm, accept = model
     y, rate = part(room, 0, sizes.ny), part(room, sizes.ny, sizes.ny)
     for k in range(count):
-        output(sizes, outputs, k, y, w)
+        put_output(sizes, outputs, k, y, w)
         accept(outputs.times[k], y, p, w, iw)  # updates the memory of a method: a partition, a basis
         if rates(outputs.times[k], y, p, w, iw, rate) != 0:
             confirm(outputs.times[k], y, p, w, iw, rate)
@@ -91,7 +91,7 @@ def observe_rows(
     ny, length = sizes.ny, observed.rows.shape[1]
     y, rate, row = part(room, 0, ny), part(room, ny, ny), part(room, 2 * ny, length)
     for k in range(count):
-        output(sizes, outputs, k, y, w)
+        put_output(sizes, outputs, k, y, w)
         for i in range(sizes.nv):
             rate[sizes.nq + i] = observed.accelerations[k, i]
         if k < observed.multipliers.shape[0]:  # a device has room for them only where they are requested

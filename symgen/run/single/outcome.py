@@ -128,9 +128,9 @@ class Motion:
 
     @cached_property
     def _rows(self) -> Array:
-        return self.observed(self.compiled.model.observe, self.compiled.info.observed)
+        return self.observe_motion(self.compiled.model.observe, self.compiled.info.observed)
 
-    def observed(self, function: Any, length: int, multipliers: Array | None = None) -> Array:
+    def observe_motion(self, function: Any, length: int, multipliers: Array | None = None) -> Array:
         """Return the values of a function of the motion at the outputs, shape (k, length).
 
         Parameters
@@ -181,7 +181,7 @@ class PrescribedMotion(Motion):
         """Accelerations and multipliers of the law in these states, even where they are prescribed."""
         return super()._rates
 
-    def measured(self) -> Array:
+    def measure_motion(self) -> Array:
         """Return the status of all states, shape of `status_columns`.
 
         Angles that count turns keep their values; where these are nan, they are followed from state to state.

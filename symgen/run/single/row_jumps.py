@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.run.breaks.motions import NEAR, jump_at
+from symgen.run.breaks.motions import NEAR, jump_at_time
 from symgen.run.layout import abi
 from symgen.run.loops.event_loop import EventState, beginning_of
 
@@ -82,7 +82,7 @@ class RowJumps:
             h = min(NEAR * self.until, gap / _APART)
             for i, row in enumerate(self.rows):
                 f = partial(_entry, at, self._switches + i)
-                kind, size = jump_at(f, place, h, (place - h, place + h), row.is_speed, scales)
+                kind, size = jump_at_time(f, place, h, (place - h, place + h), row.is_speed, scales)
                 if kind:
                     unit = row.unit if kind == "value" else f"{row.unit}/s"
                     return (

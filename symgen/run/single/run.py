@@ -17,7 +17,7 @@ from symgen.compile.native.machine import vector_width
 from symgen.compile.store.stats import seconds_in_cache
 from symgen.describe.bounds.advice import JUMPING
 from symgen.run.layout import abi
-from symgen.run.layout.model_arrays import triplets_of
+from symgen.run.layout.model_arrays import triplets_of_entries
 from symgen.run.loops.run_spec import RunSpec
 from symgen.run.loops.watch import iterations_in
 from symgen.run.single.outcome import Outcome, RankEvent
@@ -60,16 +60,16 @@ def integrate(
     Outcome
         After an interruption (KeyboardInterrupt) as well: with all results up to there and code `STOPPED`.
     """
-    return completed(Simulation(compiled, integrator, start, spec), progress)
+    return complete_run(Simulation(compiled, integrator, start, spec), progress)
 
 
-def completed(simulation: Simulation, progress: Progress | None = None) -> Outcome:
+def complete_run(simulation: Simulation, progress: Progress | None = None) -> Outcome:
     """Run to the end, as `integrate` does, and return the outcome."""
     start, spec = simulation.start, simulation.spec
     outputs = simulation.outputs(spec.times)
     if start.saved is not None:
         simulation.store_first(outputs)
-    simulation.warm(outputs)
+    simulation.compile_all(outputs)
     control, first = simulation.state.control, simulation.before[abi.EVALUATIONS]
     if spec.max_evaluations is not None:
         control[abi.STOP] = max(first + spec.max_evaluations, abi.AT_ONCE + 1)
@@ -148,7 +148,7 @@ def outcome_of(
         p=state.p,
         w=w,
         simulation=simulation,
-        held=simulation.changes.held(times),
+        held=simulation.changes.earlier_parameters(times),
         happened=() if events is None else tuple(events.happened),
         accumulation=None if events is None else events.accumulation,
     )
@@ -175,7 +175,7 @@ def reason_of(simulation: Simulation, code: int, end: float) -> str:
 def _shortest_row(compiled: CompiledModel, w: Array) -> str:
     """Return the name of the row on an angle that has lost most of its gradient."""
     info = compiled.info
-    rows, columns, values = triplets_of(info, compiled.section(w, "jacobian"))
+    rows, columns, values = triplets_of_entries(info, compiled.section(w, "jacobian"))
     squares = np.bincount(rows, values**2 * compiled.section(w, "gauge")[columns], info.m)
     left = squares * compiled.section(w, "row_weight")
     return min((left[i], row.name) for i, row in enumerate(info.rows) if row.unit == "rad")[1]

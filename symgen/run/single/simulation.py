@@ -14,7 +14,7 @@ from symgen.base.errors import InputError
 from symgen.base.ir.numerics import WARN
 from symgen.run.layout import abi
 from symgen.run.layout.probe import rate_functions
-from symgen.run.loops.frame_parts import store_behind
+from symgen.run.loops.frame_parts import store_after_reset
 from symgen.run.loops.watch import iterations_in
 from symgen.run.single.changes import Changes
 from symgen.run.single.events import event_state
@@ -71,9 +71,9 @@ class Simulation:
     span : Span
         End, steps and tolerances of the run.
     direct : bool
-        Whether `go` may take the shortest way, with the same results to the bit.
+        Whether `go_until` may take the shortest way, with the same results to the bit.
     snapshot : Snapshot
-        The memory of `state`, and a copy of it from the last call of `go`.
+        The memory of `state`, and a copy of it from the last call of `go_until`.
     before : Array of int
         Counts at the point where the run was continued: zeros for a new run.
     events : Events or None
@@ -131,13 +131,13 @@ class Simulation:
 
     def _watch(self, watched: Watched) -> None:
         """Look for events."""
-        from symgen.run.loops.event_loop import with_events
+        from symgen.run.loops.event_loop import loop_with_events
         from symgen.run.loops.searching import decide
         from symgen.run.single.events import Events
 
         rates, _ = rate_functions(self.compiled.law_module)
         functions = *self.setup.functions, watched.function, decide, rates
-        self.setup = replace(self.setup, loop=with_events(self.setup.loop), functions=functions)
+        self.setup = replace(self.setup, loop=loop_with_events(self.setup.loop), functions=functions)
         self.events = Events(self.compiled, watched, self.spec.until)
         if watched.bounded is not None or watched.effects is not None:
             from symgen.run.single.turn_of_run import TurnOfRun
@@ -162,7 +162,7 @@ class Simulation:
         self.restore(arrays)
         varying = {name for seam in self.spec.seams for name in seam.values}
         numbers = {q.name: float(x) for q, x in zip(info.parameters, p, strict=False) if q.name in info.inputs}
-        self.changes.give({name: x for name, x in numbers.items() if name not in varying})
+        self.changes.give_values({name: x for name, x in numbers.items() if name not in varying})
         if anew:
             state.control[abi.BEGUN] = abi.AFRESH
         self._shown = tuple(saved[name] for name in SHOWN)
@@ -171,7 +171,7 @@ class Simulation:
         self.before, self.iterations_before = state.control.copy(), iterations_in(state)
 
     def store_first(self, outputs: Outputs) -> None:
-        """Write the outputs up to the time of a continued run: the loop writes those behind it."""
+        """Write the outputs up to the time of a continued run: the loop writes those after it."""
         tiny = 0.0 if self.spec.adaptive else abi.SAME_TIME * self.setup.step
         control, out = self.state.control, 0
         while out < len(outputs.times) and outputs.times[out] <= self.state.clock[abi.TIME] + tiny:
@@ -212,10 +212,10 @@ class Simulation:
                 if not entry.has(self.scheme, self.span):
                     entry.take(self.scheme, self.span)
                 code = entry(float(until), float(pause), float(most))
-            ended = self._ended(code, until)
+            ended = self._note_end(code, until)
             if code == abi.MET:
                 now, count = self._clock[abi.TIME], self._counts[abi.OUTPUTS]
-                store_behind(outputs, count, now, self.same(now), self.state.y, self.state.w)
+                store_after_reset(outputs, count, now, self.same(now), self.state.y, self.state.w)
             if ended is not None:
                 return ended
 
@@ -241,27 +241,27 @@ class Simulation:
         if spec.seams is not self._seams:
             self._seam_at(spec.seams)
         self.spec, now, control = spec, self._clock[abi.TIME], self.state.control
-        behind = [seam for seam in spec.seams if not self.is_ahead(seam.t)]
-        control[abi.PASSED] = len(behind)
-        if len(behind) > 1 and behind[-2].skips:  # the run stands at a jump: it goes on behind it
-            self.state.clock[abi.TIME] = max(now, behind[-1].t)
-        self.changes.give({name: value for seam in behind for name, value in seam.values.items()})
+        passed = [seam for seam in spec.seams if not self.is_ahead(seam.t)]
+        control[abi.PASSED] = len(passed)
+        if len(passed) > 1 and passed[-2].skips:  # the run is at a jump: it goes on after it
+            self.state.clock[abi.TIME] = max(now, passed[-1].t)
+        self.changes.give_values({name: value for seam in passed for name, value in seam.values.items()})
         # a kink changes no number, but the history of multistep schemes ends there as well
-        if behind and now - behind[-1].t <= self.same(now) and control[abi.BEGUN] == 1:
+        if passed and now - passed[-1].t <= self.same(now) and control[abi.BEGUN] == 1:
             control[abi.BEGUN] = abi.AFRESH
 
     def _seam_at(self, seams: tuple[Seam, ...]) -> None:
         """Select the loop from seam to seam if any seams exist."""
         self._seams, (self._model, loop) = seams, self._whole
         if seams:
-            from symgen.run.loops.seams import with_seams, with_table
+            from symgen.run.loops.seams import arguments_with_table, loop_with_seams
 
-            self._model = with_table(self.compiled, self._model, loop, self.spec.adaptive, (seams,))
-            loop = with_seams(loop)
+            self._model = arguments_with_table(self.compiled, self._model, loop, self.spec.adaptive, (seams,))
+            loop = loop_with_seams(loop)
         self.setup, self._prepared = replace(self.setup, loop=loop), None
         self.__dict__.pop("_entry", None)
 
-    def go(self, until: float, pause: float, most: float | None = None, further: bool = False) -> int:
+    def go_until(self, until: float, pause: float, most: float | None = None, further: bool = False) -> int:
         """Continue as `enter` does, without outputs and by the shortest way, so that a step from Python is cheap.
 
         The state before is saved, see `go_back`; `further` goes on with a piece of the run that was left at a pause.
@@ -285,17 +285,17 @@ class Simulation:
                 entry.take(self.scheme, self.span)
             if (code := entry(until, pause, most)) >= 0 and self.events is None:
                 return code
-            if (ended := self._ended(code, until)) is not None:
+            if (ended := self._note_end(code, until)) is not None:
                 return ended
             snapshot.keep()  # the entry copies the state anew
 
     def go_back(self) -> None:
-        """Restore the state saved when `go` was last called, or entered its loop after an event."""
+        """Restore the state saved when `go_until` was last called, or entered its loop after an event."""
         self.scheme = self.snapshot.put_back(self.scheme)
         if self.events is not None:
             self.events.forget_after(self._clock[abi.TIME])
 
-    def _ended(self, code: int, until: float) -> int | None:
+    def _note_end(self, code: int, until: float) -> int | None:
         """Serve the request of a loop; return its end code, None where it has to be entered again."""
         if self.events is not None:
             state: Any = self.state  # an `EventState` where there are events
@@ -353,7 +353,7 @@ class Simulation:
         """Whether all saved data but passages are in one block of memory."""
         return not memory_fields(self.scheme)
 
-    def warm(self, outputs: Outputs) -> None:
+    def compile_all(self, outputs: Outputs) -> None:
         """Compile everything, so that only loops are timed.
 
         A loop that cannot be entered by its address is run with the stop flag set before its first step.

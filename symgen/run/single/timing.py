@@ -41,7 +41,7 @@ class Timed:
         return median(self.seconds) if self.seconds else self.outcome.run_seconds
 
 
-def timed(run: Callable[[], Outcome], repeat: int, at_least: float = 0.0, at_most: float = math.inf) -> Timed:
+def time_runs(run: Callable[[], Outcome], repeat: int, at_least: float = 0.0, at_most: float = math.inf) -> Timed:
     """Run once to warm up and `repeat` times for the clock.
 
     Parameters

@@ -56,7 +56,7 @@ def effects_of_runs(
     effects, events = what_changes(compiled, watched), len(watched.names)
     past = new_past(events, events + len(watched.switches), width, nw, until)
     functions = *rate_functions(compiled.law_module), watched.function
-    actions = _where(watched, RESET), _where(watched, STOP)
+    actions = _marks_of_action(watched, RESET), _marks_of_action(watched, STOP)
     return new_effects(effects, functions, actions, (effects.memory(width, nw), past), keeps)
 
 
@@ -85,7 +85,7 @@ def modes_of_runs(
     hits = [events[f"{name}.{HIT}"] if i >= rows.dry else -1 for i, name in enumerate(rows.names)]
     losses = [-1] * rows.dry + [-1 if place is None else place for place in rows.losses]
 
-    def rows_of(word: str) -> NDArray[np.int64]:
+    def rows_of_turn(word: str) -> NDArray[np.int64]:
         places = {f"{name}.{word}": i for i, name in enumerate(rows.names)}
         return np.array([places.get(name, -1) for name in watched.names], dtype=np.int64)
 
@@ -96,15 +96,15 @@ def modes_of_runs(
         choice=choice,
         strikes=new_strikes(effects, hits, losses, keeps),
         transitions=log,
-        choosing=_where(watched, MODE) | effects.resets,
-        breaks=rows_of(SLIP),
-        reverses=rows_of(REVERSE),
-        jams=rows_of(JAM),
-        leaves=rows_of(LEAVE),
+        choosing=_marks_of_action(watched, MODE) | effects.resets,
+        breaks=rows_of_turn(SLIP),
+        reverses=rows_of_turn(REVERSE),
+        jams=rows_of_turn(JAM),
+        leaves=rows_of_turn(LEAVE),
         renewed=np.zeros(1, dtype=np.int64),
     )
 
 
-def _where(watched: Watched, kind: str) -> NDArray[np.int64]:
+def _marks_of_action(watched: Watched, kind: str) -> NDArray[np.int64]:
     """Return 1 for events of an action, else 0."""
     return np.array([action == kind for action in watched.actions], dtype=np.int64)

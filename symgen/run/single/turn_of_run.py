@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.base.ir.program import MODE_NUMBERS
-from symgen.compile.loopcode.entry import direct
+from symgen.compile.loopcode.entry import bind_arguments
 from symgen.compile.loopcode.loop_instances import compiled_loop
 from symgen.compile.native import types
 from symgen.describe.bounds.bounded_modes import HIT, MODE, REST
@@ -62,7 +62,7 @@ def serve_resets(doing: float, effects: OfEffects, state: EventState) -> int:
 _loops: dict[str, Any] = {}
 
 
-def serving(modes: bool, effects: bool, pressed: bool) -> tuple[Any, Signature]:
+def serving_function(modes: bool, effects: bool, pressed: bool) -> tuple[Any, Signature]:
     """Return `serve_modes` or `serve_resets`, made at the first use, and its types.
 
     Parameters
@@ -289,8 +289,8 @@ class TurnOfRun:
     @cached_property
     def _entry(self) -> Callable[..., int]:
         rows, changes = self.rows, self.watched.effects is not None
-        function, signature = serving(rows is not None, changes, rows is not None and bool(rows.pressed))
-        return direct(function, types.FunctionType(signature), 0.0, self.memory, self.simulation.state)
+        function, signature = serving_function(rows is not None, changes, rows is not None and bool(rows.pressed))
+        return bind_arguments(function, types.FunctionType(signature), 0.0, self.memory, self.simulation.state)
 
 
 def add_resets_of(past: Past, chosen: NDArray[np.int64], t: float) -> None:

@@ -18,8 +18,14 @@ from symgen.compile.loopcode.exact import compiled_form, plain_form
 from symgen.compile.store.loaded_modules import plain_function_with_callees
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.manifold import stay
-from symgen.run.layout.model_arrays import entries_of, joints_of, lengths_of, spins_of, velocity_of
+from symgen.run.layout.manifold import turn_nothing
+from symgen.run.layout.model_arrays import (
+    entries_of,
+    joints_of_rows,
+    marks_of_lengths,
+    spins_of_bodies,
+    velocity_of_coordinate,
+)
 from symgen.run.layout.probe import Ready
 from symgen.run.layout.redundancy import choose_rows, room_of_choice
 from symgen.run.layout.start_records import Closing, Instant, Layout, StartConditions, Work, new_work
@@ -34,7 +40,7 @@ from symgen.run.starts.starting import (
     follow_nothing,
     observe_nothing,
     prepare_rows,
-    rate_nothing,
+    set_no_rates,
 )
 
 if TYPE_CHECKING:
@@ -51,7 +57,7 @@ _MANY = ContextVar("many_starts", default=False)
 
 
 @contextmanager
-def many_starts() -> Iterator[None]:
+def close_many_starts() -> Iterator[None]:
     """Close single starts by compiled code, with the same bits: where many are closed, loading it pays."""
     before = _MANY.set(True)
     try:
@@ -60,9 +66,9 @@ def many_starts() -> Iterator[None]:
         _MANY.reset(before)
 
 
-def layout_of(compiled: CompiledModel) -> Layout:
+def layout_of_starts(compiled: CompiledModel) -> Layout:
     """Return the layout of a model for starts at time 0 with nothing held and no branch set."""
-    info, joints = compiled.info, {name: k for k, name in enumerate(joints_of(compiled.info))}
+    info, joints = compiled.info, {name: k for k, name in enumerate(joints_of_rows(compiled.info))}
     numbers = (
         *(0.0, info.nq, info.nv, info.ny, info.m, info.windings),
         *(int(compiled.sparse and info.m * info.nv > decisions.LARGEST_DENSE), 0),
@@ -70,13 +76,13 @@ def layout_of(compiled: CompiledModel) -> Layout:
     )
     arrays = (
         *entries_of(info),
-        *(_marked(those, info.nv) for those in (info.massless, (), ())),
+        *(_mark_rows(those, info.nv) for those in (info.massless, (), ())),
         np.zeros(0, dtype=np.int64),
         np.array([(joints[row.joint], row.unit != "rad") for row in info.rows], dtype=np.int64).ravel(),
-        _marked(info.alone, info.m),
+        _mark_rows(info.alone, info.m),
         _switches(info),
-        np.array(spins_of(info), dtype=np.int64),
-        lengths_of(info),
+        np.array(spins_of_bodies(info), dtype=np.int64),
+        marks_of_lengths(info),
         np.zeros(info.nq),
         np.full(info.windings, np.nan),
     )
@@ -91,7 +97,7 @@ def _switches(info: ModelInfo) -> Integers:
     return places
 
 
-def _marked(those: Sequence[int], count: int) -> Integers:
+def _mark_rows(those: Sequence[int], count: int) -> Integers:
     """Return 1 for each number below `count` that is one of `those`, else 0."""
     return np.isin(np.arange(count), those).astype(np.int64)
 
@@ -101,18 +107,18 @@ def row_chooser(compiled: CompiledModel) -> Callable[[Array], bool]:
 
     Rows of too large mechanisms stay the same.
     """
-    info, layout = compiled.info, layout_of(compiled)
+    info, layout = compiled.info, layout_of_starts(compiled)
     room, choose = np.zeros(room_of_choice(info.m, info.nv)), compiled_form(choose_rows)
     if not len(room):
         return lambda w: False
 
-    def chosen(w: Array) -> bool:
+    def choose_rows_of(w: Array) -> bool:
         return bool(choose(layout, info.m - int(np.count_nonzero(compiled.section(w, "mask"))), 1, w, room))
 
-    return chosen
+    return choose_rows_of
 
 
-def one_row(y: Array, p: Array, w: Array) -> Instant:
+def as_one_row(y: Array, p: Array, w: Array) -> Instant:
     """Return the arrays of one start as matrices of one row."""
     return Instant(y[np.newaxis], p[np.newaxis], w[np.newaxis])
 
@@ -150,16 +156,16 @@ class Assembly:
     @cached_property
     def layout(self) -> Layout:
         """The layout of the model with the settings of this start."""
-        info, held, layout = self.compiled.info, self.held, layout_of(self.compiled)
+        info, held, layout = self.compiled.info, self.held, layout_of_starts(self.compiled)
         return layout._replace(
             t=self.t,
             # where all rows close loops or fix velocities, S is formed in doubtful positions alone
             ask_light=int(
                 self.ask_light and hasattr(self.compiled.law_module, "confirm") and not self.compiled.closes_all
             ),
-            unchanged=_marked(tuple(held.velocities), info.nv),
-            fixed=_marked(held.fixed, info.nv),
-            held=np.array([(i, velocity_of(i, info)) for i in held.coordinates], dtype=np.int64).ravel(),
+            unchanged=_mark_rows(tuple(held.velocities), info.nv),
+            fixed=_mark_rows(held.fixed, info.nv),
+            held=np.array([(i, velocity_of_coordinate(i, info)) for i in held.coordinates], dtype=np.int64).ravel(),
             datum=np.array(self.datum, dtype=np.float64) if len(self.datum) else layout.datum,
             branches=np.array(self.branches, dtype=np.float64) if len(self.branches) else layout.branches,
         )
@@ -190,8 +196,8 @@ class Assembly:
         held, velocities = self.held, v.copy()
         velocities[list(held.velocities)] = list(held.velocities.values())
         targets = np.array(held.targets, dtype=np.float64)
-        now = one_row(y, p, self.compiled.scratch())
-        conditions = StartConditions(*one_row(velocities, targets, np.zeros(e.N_SUMMARY)))
+        now = as_one_row(y, p, self.compiled.scratch())
+        conditions = StartConditions(*as_one_row(velocities, targets, np.zeros(e.N_SUMMARY)))
         self.close_all(now, conditions, *ALONE)
         return now.w[0], conditions.summary[0]
 
@@ -280,7 +286,7 @@ class Assembly:
         """Record the joint with the largest gap; refuse changed starts if `strict`."""
         info = self.compiled.info
         for r in np.flatnonzero(summaries[:, e.START] == e.OPEN):
-            joints, residual = joints_of(info), np.nan_to_num(self.compiled.section(ws[r], "residual"), nan=np.inf)
+            joints, residual = joints_of_rows(info), np.nan_to_num(self.compiled.section(ws[r], "residual"), nan=np.inf)
             open_by = {name: list[float]() for name in joints}
             for row, x in zip(info.rows, residual.tolist(), strict=True):
                 open_by[row.joint].append(x)
@@ -300,10 +306,10 @@ class Assembly:
         return (
             model.geometry,
             model.measure if layout.windings else follow_nothing,
-            model.move if layout.nq != layout.nv else stay,
-            model.spread if layout.sparse else stay,
+            model.move if layout.nq != layout.nv else turn_nothing,
+            model.spread if layout.sparse else turn_nothing,
             (solvers.iterated_change if held else solvers.sparse_change) if layout.sparse else solvers.dense_change,
             solvers.choose_turns if layout.windings else solvers.choose_no_turns,
-            law.rhs if layout.ask_light else rate_nothing,
+            law.rhs if layout.ask_light else set_no_rates,
             model.observe if held else observe_nothing,
         )

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import AssemblyError
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.model_arrays import lengths_of
+from symgen.run.layout.model_arrays import marks_of_lengths
 from symgen.run.starts import decisions
 from symgen.run.starts.assembler import Assembly
 from symgen.run.starts.held import Held
@@ -108,7 +108,7 @@ def state_scales(compiled: CompiledModel, w: Array, until: float) -> Array:
     """
     length = float(w[abi.LENGTH])
     speed = max(float(w[abi.SPEED]), length / until)
-    positions = np.where(lengths_of(compiled.info) == 1.0, length, 1.0)
+    positions = np.where(marks_of_lengths(compiled.info) == 1.0, length, 1.0)
     return np.concatenate([positions, speed * np.sqrt(compiled.section(w, "gauge"))])
 
 
@@ -202,7 +202,7 @@ def closed_start(
         notes=notes_of(held, summary, changes, info),
         changes=changes,
         light=bool(summary[e.LIGHT]),
-        warnings=moved_far(assembly, held, q, y, p, w, changes, moved),
+        warnings=far_moved_warning(assembly, held, q, y, p, w, changes, moved),
         t=assembly.t,
         datum=tuple(assembly.datum),
     )
@@ -236,7 +236,7 @@ def closed_state(
     return y, w, summary
 
 
-def moved_far(
+def far_moved_warning(
     start: Assembly,
     held: Held,
     q: Array,

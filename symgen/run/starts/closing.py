@@ -14,13 +14,13 @@ from symgen.compile.loopcode.exact import copy_numbers, exact
 from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.redundancy import choose_rows, farthest, is_off, weight_in_force
+from symgen.run.layout.redundancy import choose_rows, farthest_row, is_off, row_weight_in_force
 from symgen.run.layout.scales import (
     VANISHED,
     coarseness_of,
     extent_of,
     free_scale,
-    larger,
+    larger_number,
     row_weight,
     size_of_change,
     speed_of,
@@ -47,23 +47,25 @@ def close_positions(closing: Closing, layout: Layout, now: Instant, work: Work, 
         square = 0.0
         for i in range(layout.m):
             right[i] = -w[layout.residual + i]
-            square += (weight_in_force(layout, w, i) * right[i]) ** 2
-        size, length = math.sqrt(square), larger(w[abi.LENGTH], extent_of(layout, y))
+            square += (row_weight_in_force(layout, w, i) * right[i]) ** 2
+        size, length = math.sqrt(square), larger_number(w[abi.LENGTH], extent_of(layout, y))
         stalled = stalled + 1 if size > 0.5 * best else 0
         best = size if size < best else best
         if not math.isfinite(size) or stalled >= decisions.POSITION_STALLS:
             return False
         if layout.windings > 0:  # may overwrite the section of Phi
             closing.measure(layout.t, y, p, w)
-        resolved = larger(length, coarseness_of(layout, y))
+        resolved = larger_number(length, coarseness_of(layout, y))
         rounding = decisions.ROUNDING * resolved * (layout.m if layout.m > 1 else 1)
-        closed = larger(decisions.CLOSED * length, rounding)
+        closed = larger_number(decisions.CLOSED * length, rounding)
         if size <= rounding or (stalled >= decisions.CLOSED_STALLS and size < closed):
             return True
         closing.solve(closing.spread, layout, now, work)
         longest = size_of_change(layout, w, x)
         # far from closed, a full Newton step can turn bodies by several radians
-        _shift(closing, layout, y, w, x, decisions.LONGEST_STEP / larger(longest, decisions.LONGEST_STEP))
+        _shift_positions(
+            closing, layout, y, w, x, decisions.LONGEST_STEP / larger_number(longest, decisions.LONGEST_STEP)
+        )
     place_constraints(closing, layout, now, work, further)
     return False
 
@@ -77,7 +79,7 @@ def place_constraints(closing: Closing, layout: Layout, now: Instant, work: Work
 
 
 @exact()
-def _shift(closing: Closing, layout: Layout, y: Array, w: Array, change: Array, factor: float) -> None:
+def _shift_positions(closing: Closing, layout: Layout, y: Array, w: Array, change: Array, factor: float) -> None:
     """Move the coordinates by a multiple of a change of the velocities."""
     if layout.nq == layout.nv:
         for j in range(layout.nv):
@@ -103,7 +105,7 @@ def complete_velocities(closing: Closing, layout: Layout, now: Instant, work: Wo
         return int(e.ASSEMBLED)
     speed = speed_of(layout, w, v)
     for i in range(layout.m):  # of drivers
-        speed = larger(speed, weight_in_force(layout, w, i) * abs(w[layout.nu + i]))
+        speed = larger_number(speed, row_weight_in_force(layout, w, i) * abs(w[layout.nu + i]))
     _velocity_violation(layout, now, work)
     size = _correct_velocities(closing, layout, now, work)
     if size <= decisions.VELOCITIES_FIT * speed:
@@ -114,7 +116,7 @@ def complete_velocities(closing: Closing, layout: Layout, now: Instant, work: Wo
         return int(e.ASSEMBLED)
     heaviest = 0.0
     for j in range(n):
-        heaviest = larger(heaviest, w[mass + j] * w[layout.gauge + j])
+        heaviest = larger_number(heaviest, w[mass + j] * w[layout.gauge + j])
     for j in range(n):  # massless bodies give way first
         least = decisions.LEAST_MASS * (heaviest if heaviest > 0.0 else 1.0) / w[layout.gauge + j]
         weight = w[mass + j] if w[mass + j] > least else least
@@ -131,7 +133,7 @@ def _velocity_violation(layout: Layout, now: Instant, work: Work) -> float:
     multiply(layout, w, part(now.y, layout.nq, layout.nv), right)
     for i in range(layout.m):
         right[i] = w[layout.nu + i] - right[i]
-        square += (weight_in_force(layout, w, i) * right[i]) ** 2
+        square += (row_weight_in_force(layout, w, i) * right[i]) ** 2
     return math.sqrt(square)
 
 
@@ -155,9 +157,9 @@ def mask_redundant(closing: Closing, layout: Layout, now: Instant, work: Work, n
     """
     m, other = layout.m, Instant(work.y, now.p, work.w)
     weigh_rows(layout, now)
-    count = _mark(closing, layout, now, work)
+    count = _mask_dependent_rows(closing, layout, now, work)
     poor = m > 0 and layout.sparse == 0 and is_poor(_active_pivot(layout, now.w))
-    count = _dependent(layout, now.w, work) if poor else count
+    count = _count_dependent(layout, now.w, work) if poor else count
     alone, same = count, not poor
     for k in range(decisions.PROBES):
         for j in range(layout.nv):
@@ -165,27 +167,27 @@ def mask_redundant(closing: Closing, layout: Layout, now: Instant, work: Work, n
         if count == 0:
             break
         # a direction along the constraints, another one each time
-        _unseen(closing, layout, now, work, k + 1.0)
+        _find_free_direction(closing, layout, now, work, k + 1.0)
         size = size_of_change(layout, now.w, work.direction)
         if size < decisions.STANDSTILL:
             break
-        _copy(layout, now, other)
+        _copy_array(layout, now, other)
         for i in range(m):
             other.w[layout.mask + i] = 0.0
-        _shift(closing, layout, other.y, other.w, work.direction, decisions.PROBE_DISTANCE / size)
+        _shift_positions(closing, layout, other.y, other.w, work.direction, decisions.PROBE_DISTANCE / size)
         closed = close_positions(closing, layout, other, work, nothing)
-        near = _mark(closing, layout, other, work)
+        near = _mask_dependent_rows(closing, layout, other, work)
         if closed:
             for i in range(m):
                 same = same and (now.w[layout.mask + i] != 0.0 or other.w[layout.mask + i] == 0.0)
             if layout.sparse == 0 and is_poor(_active_pivot(layout, other.w)):
-                near, same = _dependent(layout, other.w, work), False
+                near, same = _count_dependent(layout, other.w, work), False
             count = near if near < count else count
-    return int(_masked(closing, layout, now, other, work, count, alone, same))
+    return int(_mask_rows(closing, layout, now, other, work, count, alone, same))
 
 
 @exact()
-def _mark(closing: Closing, layout: Layout, now: Instant, work: Work) -> int:
+def _mask_dependent_rows(closing: Closing, layout: Layout, now: Instant, work: Work) -> int:
     """Mask the rows in force that depend on others or have vanished at a position; return their number.
 
     Vanished rows take no part in the elimination, where rounding divided by rounding would decide.
@@ -209,16 +211,16 @@ def _mark(closing: Closing, layout: Layout, now: Instant, work: Work) -> int:
 
 
 @exact()
-def _dependent(layout: Layout, w: Array, work: Work) -> int:
+def _count_dependent(layout: Layout, w: Array, work: Work) -> int:
     """Return the number of rows in force that depend on others, where small pivots have amplified rounding."""
-    count = -farthest(layout, layout.nv, layout.m, SKIP, 1, w, work.numbers)
+    count = -farthest_row(layout, layout.nv, layout.m, SKIP, 1, w, work.numbers)
     for i in range(layout.m):
         count += 0 if is_off(layout, i, w) else 1
     return int(count)
 
 
 @exact()
-def _masked(
+def _mask_rows(
     closing: Closing, layout: Layout, now: Instant, other: Instant, work: Work, count: int, alone: int, same: bool
 ) -> int:
     """Mask `count` rows, chosen from those dependent at the start alone or from all; return their number."""
@@ -258,7 +260,7 @@ def _active_pivot(layout: Layout, w: Array) -> float:
 
 
 @exact()
-def _unseen(closing: Closing, layout: Layout, now: Instant, work: Work, seed: float) -> int:
+def _find_free_direction(closing: Closing, layout: Layout, now: Instant, work: Work, seed: float) -> int:
     """Set `work.direction` to a change of velocities with nonzero scale in the null space of D.
 
     Returns the index of its largest component relative to the scale.
@@ -289,7 +291,7 @@ def find_undetermined(closing: Closing, layout: Layout, now: Instant, work: Work
         work.scale[j] = free_scale(layout, now.w, j) if layout.massless[j] != 0 else 0.0
     if massless == 0:
         return -1
-    largest = _unseen(closing, layout, now, work, 1.0)
+    largest = _find_free_direction(closing, layout, now, work, 1.0)
     left = abs(work.direction[largest]) / free_scale(layout, now.w, largest)
     return largest if left > decisions.UNHELD else -1
 
@@ -298,7 +300,7 @@ def find_undetermined(closing: Closing, layout: Layout, now: Instant, work: Work
 def is_light(rhs: abi.Rhs, closing: Closing, layout: Layout, now: Instant, work: Work) -> bool:
     """Whether a pivot of S is suspiciously small although D D^T finds no row dependent; `now` is not changed."""
     other = Instant(work.y, now.p, work.w)
-    _copy(layout, now, other)
+    _copy_array(layout, now, other)
     for i in range(work.counters.shape[0]):
         work.counters[i] = 0
     if rhs(layout.t, other.y, other.p, other.w, work.counters, work.direction) == 0:
@@ -311,7 +313,7 @@ def is_light(rhs: abi.Rhs, closing: Closing, layout: Layout, now: Instant, work:
 
 
 @exact()
-def _copy(layout: Layout, now: Instant, other: Instant) -> None:
+def _copy_array(layout: Layout, now: Instant, other: Instant) -> None:
     """Copy state and scratch."""
     copy_numbers(now.y, other.y, layout.ny)
     copy_numbers(now.w, other.w, now.w.shape[0])

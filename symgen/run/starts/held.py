@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from symgen.run.layout.model_arrays import velocity_of
+from symgen.run.layout.model_arrays import velocity_of_coordinate
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import ModelInfo
@@ -57,10 +57,10 @@ class Held:
         items += [(f"{joints[k].name}.rate", f"{joints[k].unit}/s", x) for k, x in self.rates.items()]
         return ", ".join(f"{name} = {x:.6g} {unit}" for name, unit, x in items)
 
-    def described(self, info: ModelInfo) -> str:
+    def described_words(self, info: ModelInfo) -> str:
         """Return the coordinates and orientations that stay as described, in words."""
         bodies = {info.coordinates[first].name.rpartition(".")[0]: at for first, at in info.spins}
         euler = {i for first, _ in info.spins for i in range(first, first + 4)}
         places = [i for i in range(info.nq) if i not in euler and i not in self.coordinates]
-        names = [info.coordinates[i].name for i in places if velocity_of(i, info) in self.fixed]
+        names = [info.coordinates[i].name for i in places if velocity_of_coordinate(i, info) in self.fixed]
         return ", ".join([*names, *(f"{body}.orientation" for body, at in bodies.items() if at in self.fixed)])

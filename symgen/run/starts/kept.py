@@ -13,9 +13,9 @@ from symgen.compile.loopcode.entry import ArgumentBlock
 from symgen.compile.loopcode.exact import compiled_form
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.start_records import Instant, StartConditions
-from symgen.run.starts.assembler import ALONE, one_row
+from symgen.run.starts.assembler import ALONE, as_one_row
 from symgen.run.starts.starting import close_alone, close_rows
-from symgen.run.starts.tree_start import settle_row
+from symgen.run.starts.tree_start import settle_tree_row
 
 if TYPE_CHECKING:
     from symgen.run.starts.assembler import Assembly
@@ -42,7 +42,7 @@ class KeptStart:
     def __init__(self, assembly: Assembly, p: Array) -> None:
         self.assembly, held, info = assembly, assembly.held, assembly.compiled.info
         joints, work = assembly.memory()
-        self._now = one_row(np.zeros(info.ny), p.copy(), assembly.compiled.scratch())
+        self._now = as_one_row(np.zeros(info.ny), p.copy(), assembly.compiled.scratch())
         self._summary = np.zeros((1, e.N_SUMMARY))
         velocities, targets = np.zeros((1, info.nv)), np.zeros((1, len(held.targets)))
         self._conditions = StartConditions(velocities, targets, self._summary)
@@ -52,7 +52,7 @@ class KeptStart:
         *functions, observe = (compiled_form(function) for function in assembly.own)
         conditions = StartConditions(*(array.ravel() for array in self._conditions))
         self._arguments = ((assembly.layout, *functions), observe, joints), flat, conditions, work, *ALONE
-        self._close, self._calls = _bound(close_alone, self._arguments), 0
+        self._close, self._calls = _bind_functions(close_alone, self._arguments), 0
 
     def close(self, held: Held, y: Array, v: Array, p: Array) -> tuple[Array, Array]:
         """Make one state consistent in place, as `Assembly.close` does; `p` becomes the prepared parameters."""
@@ -66,7 +66,7 @@ class KeptStart:
         """Close a described state; return start and summary, in memory that the next call overwrites."""
         self._calls += 1
         if self._calls == MANY:
-            self._close = _bound(close_rows, self._arguments)
+            self._close = _bind_functions(close_rows, self._arguments)
         now, conditions, summary = self._now, self._conditions, self._summary
         now.y[0], now.p[0], now.w[0] = y, self._prepared.p, self._prepared.w
         conditions.velocities[0], conditions.targets[0] = velocities, targets
@@ -93,14 +93,14 @@ class KeptTree:
 
     def __init__(self, carried: Carried, of_bodies: Instant, p: Array) -> None:
         assembly, room = carried.assembly, carried.room(of_bodies)
-        now = one_row(np.zeros(assembly.compiled.info.ny), p.copy(), assembly.compiled.scratch())
+        now = as_one_row(np.zeros(assembly.compiled.info.ny), p.copy(), assembly.compiled.scratch())
         self._now, _, _ = assembly.prepare(now, ALONE[0], assembly.layout.m)
         self._of_bodies, self._w = Instant(*(array.copy() for array in of_bodies)), self._now.w.copy()
         self._alike = np.zeros(len(carried.carrying.spins))
         functions = (compiled_form(function) for function in assembly.own[:-1])
         tree = (assembly.layout, *functions), *carried.ends, carried.carrying
         arguments = tree, self._of_bodies, self._now, assembly.memory()[1], room, self._alike
-        self._settle = _bound(settle_row, arguments)
+        self._settle = _bind_functions(settle_tree_row, arguments)
 
     def settle(self, y: Array, w: Array) -> tuple[Array, Array, Array]:
         """Return state and scratch of the tree for a start of bodies, and the products of Euler parameters."""
@@ -112,7 +112,7 @@ class KeptTree:
         return now.y.copy(), now.w.copy(), self._alike
 
 
-def _bound(function: object, arguments: tuple[Any, ...]) -> Callable[[], int]:
+def _bind_functions(function: object, arguments: tuple[Any, ...]) -> Callable[[], int]:
     """Return a function of `exact` with its arguments, entered by its address where it is compiled."""
     code = compiled_form(function)
     block = ArgumentBlock.of(code, getattr(code, "signature", None), arguments)

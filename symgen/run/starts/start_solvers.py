@@ -19,7 +19,7 @@ from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
-from symgen.run.layout.redundancy import weight_in_force
+from symgen.run.layout.redundancy import row_weight_in_force
 from symgen.run.layout.scales import entry_of, free_scale, row_weight
 from symgen.run.layout.start_records import Instant, Layout, Work
 from symgen.run.starts import decisions
@@ -35,9 +35,9 @@ def dense_change(spread: abi.Move, layout: Layout, now: Instant, work: Work) -> 
     for k in range(layout.constants.shape[0]):
         row, column = entries[3 * k], entries[3 * k + 1]
         value = entry_of(layout, w, k) * scale[column]
-        numbers[row * n + column] = weight_in_force(layout, w, row) * value
+        numbers[row * n + column] = row_weight_in_force(layout, w, row) * value
     for i in range(m):
-        work.right[i] *= weight_in_force(layout, w, i)
+        work.right[i] *= row_weight_in_force(layout, w, i)
     rank = least_norm(numbers, m, n, work.right, x, part(numbers, m * n, m * min(m, n) + m + n), work.order)
     for j in range(n):
         x[j] *= scale[j]
@@ -74,7 +74,7 @@ def iterated_change(spread: abi.Move, layout: Layout, now: Instant, work: Work) 
     product = part(work.numbers, 2 * n, m)
     size = first = 0.0
     for i in range(m):
-        right[i] *= weight_in_force(layout, w, i)
+        right[i] *= row_weight_in_force(layout, w, i)
     for k in range(decisions.ITERATIONS_A_ROW * m + decisions.ITERATIONS_AT_LEAST):
         _multiply_transposed(layout, w, right, gradient)
         before, size = size, 0.0
@@ -90,7 +90,7 @@ def iterated_change(spread: abi.Move, layout: Layout, now: Instant, work: Work) 
         multiply(layout, w, gradient, product)
         square = 0.0
         for i in range(m):
-            product[i] *= weight_in_force(layout, w, i)
+            product[i] *= row_weight_in_force(layout, w, i)
             square += product[i] * product[i]
         for i in range(m):
             right[i] -= size / square * product[i]
@@ -115,7 +115,7 @@ def _multiply_transposed(layout: Layout, w: Array, y: Array, result: Array) -> N
         result[j] = 0.0
     for k in range(layout.constants.shape[0]):
         row = layout.entries[3 * k]
-        result[layout.entries[3 * k + 1]] += entry_of(layout, w, k) * (weight_in_force(layout, w, row) * y[row])
+        result[layout.entries[3 * k + 1]] += entry_of(layout, w, k) * (row_weight_in_force(layout, w, row) * y[row])
 
 
 @exact()
@@ -196,7 +196,7 @@ def least_norm_above(
     for i in range(m):
         right[i] = room[n + i]
     if rank < m:
-        _reduce(room, trapezoid, m, rank, right)
+        _reduce_rows(room, trapezoid, m, rank, right)
         for k in range(rank - 1, -1, -1):
             total = right[k]
             for j in range(k + 1, rank):
@@ -222,7 +222,7 @@ def least_norm_above(
 
 
 @exact()
-def _reduce(matrix: Array, at: int, m: int, n: int, right: Array) -> None:
+def _reduce_rows(matrix: Array, at: int, m: int, n: int, right: Array) -> None:
     """Reflect the columns of a matrix of full rank, m x n from index `at` on: leave R and Q^T right."""
     for k in range(n):
         square = 0.0

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import AssemblyError, InputError, fit_lines
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.model_arrays import joints_of
+from symgen.run.layout.model_arrays import joints_of_rows
 from symgen.run.layout.probe import Ready
 from symgen.run.starts import decisions
 from symgen.run.starts.held import Held
@@ -70,7 +70,7 @@ def warnings_of(
     names = {quantity.name for quantity in info.coordinates}
     limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED, "1": 0.5 * decisions.FAR_TURNED}
     far = [c for c in changes if c.name in names and abs(c.after - c.before) > limits[c.unit]]
-    moves, bodies = ([_listed(far)] if far else []), {c.name.rpartition(".")[0] for c in far}
+    moves, bodies = ([_list_changes(far)] if far else []), {c.name.rpartition(".")[0] for c in far}
     for name, size, unit in moved:  # of each body the coordinates, or else the first of its points
         if size > limits[unit] and name.partition(".")[0] not in bodies:
             bodies.add(name.partition(".")[0])
@@ -87,10 +87,10 @@ def notes_of(held: Held, summary: Array, changes: Sequence[StartChange], info: M
     positions = [change for change in changes if change.name in names]
     if held.coordinates or held.joints:
         own = {info.coordinates[i].name for i in held.coordinates}
-        follow = _listed([change for change in positions if change.name not in own])
+        follow = _list_changes([change for change in positions if change.name not in own])
         notes.append(f"the start holds {held.positions(info)}" + (f"; {follow}" if follow else ""))
     elif positions:
-        notes.append(f"initial positions were closed by the shortest changes: {_listed(positions)}")
+        notes.append(f"initial positions were closed by the shortest changes: {_list_changes(positions)}")
     if summary[e.START_VELOCITIES]:
         speeds = (change for change in changes if change.name not in names)
         largest = max(speeds, key=lambda change: abs(change.after - change.before), default=None)
@@ -101,12 +101,12 @@ def notes_of(held: Held, summary: Array, changes: Sequence[StartChange], info: M
     return tuple(notes)
 
 
-def opposite(joint: str) -> str:
+def opposite_sentence(joint: str) -> str:
     """Return the sentence about a joint whose axes are one line, but not one direction."""
     return f"the axes of joint '{joint}' point opposite ways at the start: they are taken for one line"
 
 
-def _listed(changes: Sequence[StartChange]) -> str:
+def _list_changes(changes: Sequence[StartChange]) -> str:
     """Return the first changes one by one, and the number of others."""
     first = fit_lines(len(changes), _LISTED)
     words = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:first])
@@ -153,7 +153,7 @@ def start_refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> 
             "closed; choose a value that bodies can reach from where they are described"
         )
     if code == e.OPEN:
-        return _stays_open(info, held or Held(), joints_of(info)[where], size)
+        return _stays_open(info, held or Held(), joints_of_rows(info)[where], size)
     if code == e.CONTRADICTION:
         speeds = held.speeds(info) if held else ""
         beside = f" together with {speeds}, which the start holds" if speeds else ""
@@ -161,9 +161,9 @@ def start_refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> 
             f"{info.name}: no velocities satisfy the constraints{beside}; drivers or conditions contradict each other"
         )
     if code == e.HALF_TURN:
-        return half_turn(info, joints_of(info)[where])
+        return half_turn(info, joints_of_rows(info)[where])
     if code == e.TURNED_OVER:
-        return turned_over(info, where)
+        return turned_over_error(info, where)
     reason = "given velocities contradicted by the constraints"
     if code == e.MOVED:
         reason = f"positions that closing moves by up to {float(summary[e.START_MOVED]):.3g}"
@@ -173,7 +173,7 @@ def start_refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> 
 def _stays_open(info: ModelInfo, held: Held, joint: str, size: float) -> AssemblyError:
     """Return the error where a joint stays open by a size, in the units of its rows."""
     units = " or ".join(dict.fromkeys(row.unit for row in info.rows if row.joint == joint))
-    described = held.described(info)
+    described = held.described_words(info)
     holds = [words for words in (held.positions(info), f"{described} as described" if described else "") if words]
     what = f" with {' and '.join(holds)} held" if holds else ""
     # joints and drivers may leave nothing free, so that a coordinate has one of a few values
@@ -195,7 +195,7 @@ def half_turn(info: ModelInfo, joint: str) -> AssemblyError:
     )
 
 
-def turned_over(info: ModelInfo, spin: int) -> AssemblyError:
+def turned_over_error(info: ModelInfo, spin: int) -> AssemblyError:
     """Return the error where joint coordinates turn over a body, one of those in `info.spins`."""
     body = info.coordinates[info.spins[spin][0]].name.rpartition(".")[0]
     return AssemblyError(

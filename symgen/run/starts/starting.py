@@ -13,7 +13,7 @@ from symgen.compile.loopcode.exact import copy_numbers, exact
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.scales import extent_of, free_scale, larger, measure_lengths, row_weight, speed_of
+from symgen.run.layout.scales import extent_of, free_scale, larger_number, measure_lengths, row_weight, speed_of
 from symgen.run.layout.start_records import (
     Closing,
     Instant,
@@ -72,7 +72,7 @@ def close_row(model: Holding, now: Instant, conditions: StartConditions, work: W
     ----------
     model : tuple
         First a `Layout`, then ``geometry``, ``measure``, ``move``, ``spread``, `solve`, `turns` and ``rhs``: emitted
-        ones (`symgen.run.layout.abi`) and two of `symgen.run.starts.start_solvers`. Behind
+        ones (`symgen.run.layout.abi`) and two of `symgen.run.starts.start_solvers`. After
         these ``observe``, and `symgen.run.starts.joint_starts.Joints`.
     now, conditions, work : Instant, StartConditions, Work
         See `symgen.run.layout.start_records`. The state holds the described coordinates and velocities of 0; parameters
@@ -96,7 +96,7 @@ def close_row(model: Holding, now: Instant, conditions: StartConditions, work: W
             if math.isfinite(layout.branches[i]):
                 w[abi.WINDING + i] = layout.branches[i]
     if code == e.ASSEMBLED:
-        code = _reach(closing, layout, now, conditions, work, joints, nothing)
+        code = _reach_positions(closing, layout, now, conditions, work, joints, nothing)
     h = layout.held.shape[0] // 2
     if code == e.OPEN and h > 0 and values == 0 and _close_at_once(closing, layout, now, conditions, work, nothing):
         if layout.windings > 0:
@@ -117,7 +117,7 @@ def close_row(model: Holding, now: Instant, conditions: StartConditions, work: W
             code = e.UNDETERMINED
     if code == e.ASSEMBLED:
         summary[e.REDUNDANT_ROWS] = mask_redundant(closing, layout, now, work, nothing)
-        w[abi.LENGTH] = larger(w[abi.LENGTH], extent_of(layout, y))
+        w[abi.LENGTH] = larger_number(w[abi.LENGTH], extent_of(layout, y))
         w[abi.SPEED] = speed_of(layout, w, part(y, layout.nq, layout.nv))
         if layout.ask_light != 0 and is_light(rhs, closing, layout, now, work):
             summary[e.LIGHT] = 1.0
@@ -141,7 +141,7 @@ def check_numbers(layout: Layout, now: Instant, summary: Array) -> int:
 
 
 @exact()
-def _reach(
+def _reach_positions(
     closing: Closing,
     layout: Layout,
     now: Instant,
@@ -176,7 +176,7 @@ def _reach(
             return int(e.OPEN)
         if k == 0:
             moved = away = 0.0
-            length = larger(now.w[abi.LENGTH], extent_of(layout, y))
+            length = larger_number(now.w[abi.LENGTH], extent_of(layout, y))
             for i in range(layout.nq):
                 change = abs(y[i] - first[i])
                 if change > moved and change > decisions.MOVED * (length if layout.lengths[i] != 0.0 else 1.0):
@@ -245,7 +245,7 @@ def _close_at_once(
         y[layout.held[2 * c]] = conditions.targets[c]
         work.scale[layout.held[2 * c + 1]] = 0.0
     closing.geometry(layout.t, y, now.p, w)
-    square, length = 0.0, larger(w[abi.LENGTH], extent_of(layout, y))
+    square, length = 0.0, larger_number(w[abi.LENGTH], extent_of(layout, y))
     for i in range(layout.m):
         square += (row_weight(layout, w, i) * w[layout.residual + i]) ** 2
     if math.sqrt(square) < decisions.CLOSED * length and close_positions(closing, layout, now, work, nothing):
@@ -353,6 +353,6 @@ def follow_nothing(t: float, y: Array, p: Array, w: Array) -> int:
 
 
 @exact(entry=True)
-def rate_nothing(t: float, y: Array, p: Array, w: Array, iw: Integers, ydot: Array) -> int:
+def set_no_rates(t: float, y: Array, p: Array, w: Array, iw: Integers, ydot: Array) -> int:
     """Replace the emitted ``rhs`` where light bodies are not looked for, so that it is not compiled."""
     return 0

@@ -58,7 +58,7 @@ Tree = tuple[StartModel, abi.Observe, abi.Observe, Carrying]
 
 
 @exact(entry=True, once=True)
-def settle_row(tree: Tree, of_bodies: Instant, now: Instant, work: Work, room: Array, alike: Array) -> int:
+def settle_tree_row(tree: Tree, of_bodies: Instant, now: Instant, work: Work, room: Array, alike: Array) -> int:
     """Map a start of bodies to the tree; return the number of redundant rows of its loops.
 
     Parameters
@@ -126,7 +126,7 @@ def settle_rows(
     Parameters
     ----------
     tree, of_bodies, of_tree, work, room, alike
-        As for `settle_row`.
+        As for `settle_tree_row`.
     selected, control : Array of int
         Rows to work on; memory shared with the watching thread.
     """
@@ -143,7 +143,7 @@ def settle_rows(
         r = selected[s]
         here = Instant(part(ys, r * ny, ny), part(ps, r * n_p, n_p), part(ws, r * nw, nw))
         now = Instant(part(yt, r * layout.ny, layout.ny), part(pt, r * np_t, np_t), part(wt, r * nw_t, nw_t))
-        settle_row(tree, here, now, work, room, part(alike, r * count, count))
+        settle_tree_row(tree, here, now, work, room, part(alike, r * count, count))
     return int(selected.shape[0])
 
 

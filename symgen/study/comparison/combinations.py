@@ -10,7 +10,7 @@ from symgen.base.errors import InputError
 from symgen.base.settings import COORDINATES, Settings
 from symgen.derive.methods import METHODS
 from symgen.run.integrators import INTEGRATORS
-from symgen.run.loops.integrator import adapts
+from symgen.run.loops.integrator import chooses_steps
 
 #: Default constant steps of a study, as multiples of the mechanism's own.
 STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)
@@ -114,7 +114,7 @@ class Combinations:
 
     def _settings_by_step(self, common: Settings, own: float) -> Iterator[Settings]:
         name = str(common.integrator)
-        if adapts(INTEGRATORS.get(name, "integrators"), common.options):
+        if chooses_steps(INTEGRATORS.get(name, "integrators"), common.options):
             for rtol in self.rtols or (RTOLS_AT if self.error_at else RTOLS):
                 yield replace(common, rtol=rtol, atol=rtol * ATOL_SHARE)
         else:

@@ -20,7 +20,7 @@ from symgen.describe.mechanism import Mechanism, with_largest_step
 from symgen.describe.parts.event_sections import RESET
 from symgen.run.planning.outputs import multiples, output_size
 from symgen.run.planning.plan import refuse_ends
-from symgen.run.planning.prepare import preparation
+from symgen.run.planning.prepare import find_preparation
 from symgen.study.comparison.combinations import Combinations
 from symgen.study.comparison.comparison_rows import Row, Trace
 from symgen.study.comparison.comparison_study import Study, save_csv
@@ -208,7 +208,7 @@ def compare_all(
         check_parameters(chosen.mechanism, runs.gradient)
         step, modes = chosen.mechanism.defaults.step, bool(chosen.mechanism.bounded)
         cases = [(law, s) for law in mechanisms for s in runs.settings(base, step, modes)]
-        runs_of_model = [preparation(mechanisms[law], s) for law, s in cases]  # raises errors before the first run
+        runs_of_model = [find_preparation(mechanisms[law], s) for law, s in cases]  # raises errors before the first run
         measures = (reference_by, records, tuple(runs.error_at), tuple(law for law, _ in cases), tuple(runs.gradient))
         works.append(ModelComparison(chosen, common, end, times, [s for _, s in cases], runs_of_model, *measures))
     ahead = jobs > 1 and cache_location().persistent  # else the code that another process compiles would be lost

@@ -19,7 +19,7 @@ from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.sensitivities import SCHEMES, Differentiated
 from symgen.run.layout import abi
 from symgen.run.planning.prepare import prepare
-from symgen.run.single.timing import timed
+from symgen.run.single.timing import time_runs
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
@@ -110,7 +110,7 @@ class Gradients:
             return None
         run = Differentiated(mechanism, settings, {name: name for name in self.slopes})
         run.integrate()  # compiles
-        outcome = timed(run.integrate, settings.repeat).outcome
+        outcome = time_runs(run.integrate, settings.repeat).outcome
         if outcome.interrupted:
             raise KeyboardInterrupt
         if outcome.code != abi.DONE:
@@ -157,5 +157,5 @@ class Gradients:
             if not chosen:
                 return None
             errors.append(best)
-            cost += sum(timed(run.integrate, settings.repeat).outcome.run_seconds for run in chosen)
+            cost += sum(time_runs(run.integrate, settings.repeat).outcome.run_seconds for run in chosen)
         return max(errors), cost

@@ -89,7 +89,7 @@ def rates_along_rows(mechanism: Mechanism, motion: Motion) -> Array:
     if not formulas or not len(motion.times):
         return np.zeros((len(motion.times), len(formulas)))
     side = compile_side(mechanism, motion.compiled, "rates", "Rates along rows with bounds", formulas)
-    return motion.observed(side.function, len(formulas))
+    return motion.observe_motion(side.function, len(formulas))
 
 
 def is_resting(rates: Array, scales: Array) -> NDArray[np.bool_]:
@@ -126,7 +126,7 @@ def contact_measures(mechanism: Mechanism, outcome: Outcome) -> BoundedRowMeasur
     impacts, dissipated = sum(name.endswith(f".{HIT}") for name in names), None
     if len(outcome.times):
         side = compile_side(mechanism, outcome.compiled, "losses", "Energy lost", [(LOSS, loss)])
-        dissipated = float(outcome.observed(side.function, 1)[-1, 0])
+        dissipated = float(outcome.observe_motion(side.function, 1)[-1, 0])
     return BoundedRowMeasures(len(names) - impacts, impacts, dissipated)
 
 

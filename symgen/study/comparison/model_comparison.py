@@ -19,7 +19,7 @@ from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
 from symgen.run.planning.plan import Plan, Purpose
 from symgen.run.planning.prepare import Assembled, Preparation, Prepared, prepare
-from symgen.run.single.timing import timed
+from symgen.run.single.timing import time_runs
 from symgen.study.comparison.combinations import words_of_variant
 from symgen.study.comparison.comparison_rows import add_ratios, check_entry, from_entry, to_entry
 from symgen.study.comparison.comparison_study import Study
@@ -245,10 +245,10 @@ class ModelComparison:
                 compile_all(run)
                 compiled.add(pair)
             show(words, 1.0 + i + PREPARATION * len(compiled))
-            runs = timed(run.integrate, settings.repeat, AT_LEAST, AT_MOST)
+            runs = time_runs(run.integrate, settings.repeat, AT_LEAST, AT_MOST)
             stopped = runs.outcome if runs.outcome.code in WATCHES else None
             if stopped is not None:  # a study measures what becomes of it
-                runs = timed(without_limits(run).integrate, settings.repeat, AT_LEAST, AT_MOST)
+                runs = time_runs(without_limits(run).integrate, settings.repeat, AT_LEAST, AT_MOST)
             if runs.outcome.interrupted:
                 raise KeyboardInterrupt
             variant = words_of_variant(settings, self.common)

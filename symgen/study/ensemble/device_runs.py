@@ -76,9 +76,9 @@ def can_compile_kernels() -> bool:
 
 def is_device_usable() -> bool:
     """Return whether there is a device with what it needs, or the simulator."""
-    from symgen.run.rows.device import simulated
+    from symgen.run.rows.device import is_simulated
 
-    if simulated():
+    if is_simulated():
         return True
     if not can_compile_kernels():
         return False
@@ -168,10 +168,10 @@ class DeviceRuns:
     def _kernel(self) -> Any:
         from numba import cuda
 
-        from symgen.run.rows.device import SIGNATURE, ForgivingMath, make_kernel, simulated
+        from symgen.run.rows.device import SIGNATURE, ForgivingMath, is_simulated, make_kernel
 
         law, model = self.compiled.law_module, self.compiled.model
-        if simulated():
+        if is_simulated():
             for module in (law, model):
                 vars(module)["math"] = ForgivingMath()
         return cuda.jit(SIGNATURE)(make_kernel(law, model, self.need))
@@ -221,9 +221,9 @@ class DeviceRuns:
         """
         from numba import cuda
 
-        from symgen.run.rows.device import simulated
+        from symgen.run.rows.device import is_simulated
 
-        if simulated():
+        if is_simulated():
             return 1 << 30
         context, device = cuda.current_context(), cuda.get_current_device()
         # local memory is there for every thread that could be resident
@@ -274,16 +274,16 @@ class DeviceRuns:
         """Run rows that fit into the device's memory; return their quantities and numbers."""
         from numba import cuda
 
-        from symgen.run.rows.device import DeviceResults, Starts, simulated
+        from symgen.run.rows.device import DeviceResults, Starts, is_simulated
 
         k = len(ys)
         inputs = [cuda.to_device(np.ascontiguousarray(array.T)) for array in (ys, ps, ws)]
         shapes = [(*shape, k) for name, shape in self.shapes.items() if name != "summary"]
         outputs = [cuda.device_array(shape, dtype=np.float64) for shape in shapes]
         outputs.append(cuda.to_device(np.ascontiguousarray(summary.T)))
-        block = min(BLOCK, k) if simulated() else BLOCK
+        block = min(BLOCK, k) if is_simulated() else BLOCK
         with warnings.catch_warnings():
-            if simulated():  # plain Python warns of what compiled code does in silence
+            if is_simulated():  # plain Python warns of what compiled code does in silence
                 warnings.simplefilter("ignore", RuntimeWarning)
             else:  # few runs leave the device idle, which is no fault
                 warnings.filterwarnings("ignore", message=".*Grid size.*")

@@ -13,8 +13,8 @@ import numpy as np
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import names_in_expression
 from symgen.describe.formulas.evaluate import dependent_parameters, parameter_values
-from symgen.run.breaks.motions import jump_of, names_of_motions
-from symgen.run.breaks.seams import merged, seams_of_motion
+from symgen.run.breaks.motions import jump_of_motion, motion_names
+from symgen.run.breaks.seams import merge_seams, seams_of_motion
 from symgen.run.loops.run_spec import Seam
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ class Driving:
         if not self.foreseen:
             return self.inputs.seams
         values = parameter_values(self.inputs.mechanism, self.inputs.settings.parameters)
-        return merged(self.inputs.seams, self.foreseen.seams(values, self.until))
+        return merge_seams(self.inputs.seams, self.foreseen.seams(values, self.until))
 
     @property
     def jumps(self) -> bool:
@@ -137,15 +137,15 @@ class Driving:
     def _seams_of(self, values: dict[str, float]) -> tuple[Seam, ...]:
         driven, read = self.inputs.driven, tuple(values[name] for name in self.moving)
         if self.moving and read not in self._jumps:
-            self._jumps[read] = jump_of(self.inputs.mechanism, values, self.until)
+            self._jumps[read] = jump_of_motion(self.inputs.mechanism, values, self.until)
         if (jump := self._jumps.get(read)) is not None:
             raise jump
         seams = () if driven is None else seams_of_motion(driven, values, self.until)
-        return merged(seams, self.foreseen.seams(values, self.until)) if self.foreseen else seams
+        return merge_seams(seams, self.foreseen.seams(values, self.until)) if self.foreseen else seams
 
 
 def read_by_motions(mechanism: Mechanism, varied: Container[str]) -> tuple[str, ...]:
     """Return the parameters that motions which may jump read, if some of them differ from row to row; else none."""
-    read, formulas = names_of_motions(mechanism), {name for name, _ in dependent_parameters(mechanism.parameters)}
+    read, formulas = motion_names(mechanism), {name for name, _ in dependent_parameters(mechanism.parameters)}
     parameters = tuple(p.name for p in mechanism.parameters if p.name in read)
     return parameters if any(name in varied or name in formulas for name in parameters) else ()

@@ -15,11 +15,11 @@ from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.compiled import CompiledModel
-from symgen.run.layout.model_arrays import joints_of
+from symgen.run.layout.model_arrays import joints_of_rows
 from symgen.run.layout.start_records import Instant, StartConditions
 from symgen.run.loops.integrator import Integrator
 from symgen.run.planning.tree import places_of_turns
-from symgen.run.planning.tree_starts import carried_of
+from symgen.run.planning.tree_starts import map_to_tree
 from symgen.run.single.new_state import span_of
 from symgen.run.starts.assembler import Assembly
 from symgen.study.ensemble.chunks import Chunk, Results, Rows
@@ -163,7 +163,7 @@ class RowKernel:
         if not self.recipe.sides:
             return
         closed = selected[summary[selected, e.START] == e.ASSEMBLED]
-        q, joints = ys[closed, : info.nq].T, joints_of(info)
+        q, joints = ys[closed, : info.nq].T, joints_of_rows(info)
         for side in reversed(self.recipe.sides):  # the first one is told
             rows = closed[side.cosine(q) < 0.0]
             summary[rows, e.START], summary[rows, e.START_WHERE] = e.HALF_TURN, joints.index(side.joint)
@@ -184,7 +184,7 @@ class RowKernel:
         other, tree = (None if module is None else module.load() for module in (code.other, code.tree))
         own, on_tree = tree or compiled, None
         if watch is not None and recipe.tree is not None:
-            on_tree = recipe.tree, carried_of(watch.mechanism, recipe.tree, compiled, own)
+            on_tree = recipe.tree, map_to_tree(watch.mechanism, recipe.tree, compiled, own)
         setup = integrator.setup(own, spec, own.scratch())
         if other is not None and recipe.target == "cuda":
             need, span = kernel_sizes(other, setup, spec.adaptive, recipe.sources), span_of(spec, setup)

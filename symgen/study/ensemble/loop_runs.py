@@ -18,15 +18,15 @@ from symgen.run.layout.records import Kept, Observed, RowChunk
 from symgen.run.layout.redundancy import room_of_choice
 from symgen.run.layout.start_records import Instant
 from symgen.run.loops.afresh import begin_afresh
-from symgen.run.loops.event_loop import with_events
-from symgen.run.loops.seams import preparing, seams_of, with_table
+from symgen.run.loops.event_loop import loop_with_events
+from symgen.run.loops.seams import arguments_with_table, preparing_functions, seams_of_loop
 from symgen.run.loops.searching import decide
 from symgen.run.rows.row_observers import observe_rows_between_seams, observe_rows_left
-from symgen.run.rows.rows import observe_no_coordinate, over_rows
+from symgen.run.rows.rows import observe_nothing_of_coordinates, over_rows
 from symgen.run.single.events import event_state
 from symgen.run.single.new_state import model_sizes, new_outputs, new_state, span_of
 from symgen.run.single.turn_memory import effects_of_runs, modes_of_runs
-from symgen.run.starts.assembler import layout_of
+from symgen.run.starts.assembler import layout_of_starts
 from symgen.run.starts.tree_start import TURNED_OVER, Carried
 
 if TYPE_CHECKING:
@@ -99,7 +99,7 @@ class LoopRuns:
             chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
         system, inner = (sizes, *setup.functions), self.integrator.loop(adaptive)
         if self.watched is not None:
-            system, inner = (*system, self.watched.function, decide, rates), with_events(inner)
+            system, inner = (*system, self.watched.function, decide, rates), loop_with_events(inner)
             state = event_state(self.watched, sizes, state)
             if out.events.shape[1]:
                 out.events[selected] = np.nan
@@ -124,7 +124,7 @@ class LoopRuns:
             pressed,
         )
         if recipe.seams:
-            system = with_table(compiled, system, inner, adaptive, rows.seams or ((),), alone=False)
+            system = arguments_with_table(compiled, system, inner, adaptive, rows.seams or ((),), alone=False)
         done = loop((system, observers, *further), setup.scheme, span, chunk, state, series)
         while control[e.EXAMINATION] == e.WAITS:
             self._examine_last_step(state)
@@ -148,8 +148,8 @@ class LoopRuns:
         observers, span, chunk, state, series = self._arguments(starts, selected, out, control)
         if not recipe.seams:
             return bool(observe_rows_left((0, observers), span, chunk, state, series, left) == len(selected))
-        seams = seams_of(self.compiled, recipe.spec.adaptive, rows.seams or ((),))
-        model = (0, seams, 0, *preparing(self.compiled)), observers
+        seams = seams_of_loop(self.compiled, recipe.spec.adaptive, rows.seams or ((),))
+        model = (0, seams, 0, *preparing_functions(self.compiled)), observers
         return bool(observe_rows_between_seams(model, span, chunk, state, series, left) == len(selected))
 
     def _arguments(
@@ -167,14 +167,14 @@ class LoopRuns:
         sources = {*self.picks[::2].tolist()}
         needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if self.width is None else set())
         observe = model.observe if self.width is None else model.bodies
-        observe = observe if e.JOINT in sources else observe_no_coordinate
+        observe = observe if e.JOINT in sources else observe_nothing_of_coordinates
         wants = (
             int(recipe.watch is not None and recipe.watch.ends),
             int(bool(sources & needs)),
             int(e.JOINT in sources),
         )
         masked = bool(np.any(compiled.section(starts.w.T, "mask")[:, selected]))
-        places = layout_of(compiled), np.zeros(room_of_choice(info.m, info.nv) if masked else 0)
+        places = layout_of_starts(compiled), np.zeros(room_of_choice(info.m, info.nv) if masked else 0)
         results = out.values.reshape(-1), out.summary.reshape(-1), out.events.reshape(-1)
         arrays = (selected, *(x.ravel() for x in starts), recipe.limits, self.picks, *results)
         chunk = RowChunk._make((*arrays, *wants, *places))

@@ -24,7 +24,7 @@ from symgen.result.signals import Signal
 from symgen.run.compiling.side import compile_side
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.loops.seams import preparing, seams_of
+from symgen.run.loops.seams import preparing_functions, seams_of_loop
 
 if TYPE_CHECKING:
     from symgen.base.vocabulary.expressions import Expr
@@ -180,18 +180,18 @@ class Measures:
         """
         from symgen.run.layout.records import Span
         from symgen.run.rows.row_measures import Left, measure_rows
-        from symgen.run.rows.rows import observe_no_coordinate
+        from symgen.run.rows.rows import observe_nothing_of_coordinates
 
         info, runs, n_times = compiled.info, len(ps), outputs.times.shape[1]
         y, rates, places = np.zeros(info.ny), np.zeros(info.ny), np.array(self.places, dtype=np.int64)
         first = columns.shape[1] - len(self.reads)
         left = Left(outputs.times, selected, columns, first, places, ps, ws, y, rates, np.zeros(ps.shape[1]))
-        seams = seams_of(compiled, outputs.adaptive, outputs.seams or ((),))
+        seams = seams_of_loop(compiled, outputs.adaptive, outputs.seams or ((),))
         span = Span._make((outputs.step, *(0.0 for _ in Span._fields[1:])))
-        changing = seams, span, *preparing(compiled)
+        changing = seams, span, *preparing_functions(compiled)
         numbers, (at, size) = np.zeros((runs, n_times, self.length)), info.sections["jacobian"]
         entries = np.zeros((runs if self.joints else 0, n_times, size))
-        function = self.function if self.length else observe_no_coordinate
+        function = self.function if self.length else observe_nothing_of_coordinates
         measure_rows((left, changing, function, compiled.model.geometry), numbers, at, entries)
         sides = [q for q in quantities if q.source == e.SIDE]
         column = {q.name: i for i, q in enumerate(sides)}

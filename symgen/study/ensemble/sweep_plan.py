@@ -22,10 +22,10 @@ from symgen.describe.formulas.evaluate import dependent_parameters, parameter_va
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.parts.event_sections import RECORD
 from symgen.run.breaks.motions import refuse_jumps
-from symgen.run.breaks.seams import Foreseen, foreseen_in_run, times_between
-from symgen.run.compiling.choices import LARGEST_STRAIGHT, on_tree
+from symgen.run.breaks.seams import Foreseen, foresee_in_run, times_between
+from symgen.run.compiling.choices import LARGEST_STRAIGHT, mechanism_on_tree
 from symgen.run.compiling.pipeline import compile_model
-from symgen.run.compiling.side import can_integrate, with_integrals
+from symgen.run.compiling.side import add_integrals, can_integrate
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.planning.automatic import AUTO, CONSTANT, EXPLICIT
 from symgen.run.planning.plan import Plan, Purpose, refuse_events
@@ -90,7 +90,7 @@ def make_ensemble(
         refuse_jumps(mechanism, plan.parameters, spec.until)
     kept_names, events = _quantities_and_events(mechanism, plan, quantities)
     acting = mechanism if target == "cpu" else structs.replace(mechanism, outputs=())  # others integrate no outputs
-    passed_times = foreseen_in_run(acting, events, spec.adaptive, plan.integrator.order, (0.0, spec.step))
+    passed_times = foresee_in_run(acting, events, spec.adaptive, plan.integrator.order, (0.0, spec.step))
     if target != "cpu" and not spec.adaptive:
         _check_jumps(target, passed_times, parameter_values(mechanism, plan.parameters), grid.names, spec.until)
     passed_places = discontinuities_of(acting)
@@ -124,7 +124,7 @@ def make_ensemble(
         strict=plan.settings.strict,
         code=run_code_identity(),
         target=target,
-        tree=on_tree(mechanism) if joint else None,
+        tree=mechanism_on_tree(mechanism) if joint else None,
         watch=watch,
         sides=tuple(side for side in sided_joints(mechanism) if side.held),
         seams=driving.jumps,
@@ -205,7 +205,7 @@ def _law_and_code(
     mechanism, joint = plan.mechanism, plan.coordinates == "joint"
 
     def add_sums(law: CompiledModel) -> CompiledModel:
-        return with_integrals(mechanism, law) if adds else law
+        return add_integrals(mechanism, law) if adds else law
 
     compiled, spare = add_sums(compiled), None
     pressed = any(row.pressed for row in mechanism.bounded)  # for which there is one solver

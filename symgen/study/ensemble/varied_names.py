@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from symgen.base.errors import InputError, suggest
 from symgen.describe.parts.holds import ORIENTATION, joint_quantity_names
-from symgen.run.layout.model_arrays import velocity_of
+from symgen.run.layout.model_arrays import velocity_of_coordinate
 from symgen.run.starts.held import Held
 
 if TYPE_CHECKING:
@@ -172,4 +172,4 @@ def _velocity_columns(name: str, info: ModelInfo) -> tuple[int, ...]:
     if what == ORIENTATION:
         at = next(at for first, at in info.spins if info.coordinates[first].name == f"{body}.e0")
         return at, at + 1, at + 2
-    return (velocity_of([q.name for q in info.coordinates].index(name), info),)
+    return (velocity_of_coordinate([q.name for q in info.coordinates].index(name), info),)

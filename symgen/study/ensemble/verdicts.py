@@ -15,7 +15,7 @@ from symgen.run.effects.applying import NO_VALUES
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.modes.refusals import names_in, refusal
-from symgen.run.single.events import gathered, undefined
+from symgen.run.single.events import accumulation_sentence, undefined_sentence
 from symgen.run.single.outcome import Ended, RankEvent
 from symgen.run.single.run import end_reason
 from symgen.run.starts.start_words import start_refusal
@@ -128,9 +128,9 @@ def _reason_of_events(row: Array, looked: EventNames, info: ModelInfo) -> str | 
     events = looked.events
     code, time, further = int(summary_column(row, "code")), float(summary_column(row, "end")), row[e.N_SUMMARY :]
     if code == abi.GATHERED:
-        return gathered(names_in(float(further[e.GATHERING]), events), float(further[e.ACCUMULATION]))
+        return accumulation_sentence(names_in(float(further[e.GATHERING]), events), float(further[e.ACCUMULATION]))
     if code == abi.UNDEFINED:
-        return undefined(events[int(further[e.IMPOSSIBLE_EVENT])], time)
+        return undefined_sentence(events[int(further[e.IMPOSSIBLE_EVENT])], time)
     if code == e.NO_MODES and looked.bounded is not None:
         failure, which, first, second = (float(x) for x in further[e.FAILURE : e.SECOND_NUMBER + 1])
         every = [] if looked.tree else [row.name for row in info.rows]

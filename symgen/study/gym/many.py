@@ -23,7 +23,7 @@ from symgen.describe.bounds.keys import all_families
 from symgen.result.stepping.meter import compile_formulas
 from symgen.run.layout import abi
 from symgen.run.layout.probe import rate_functions
-from symgen.run.loops.seams import preparing
+from symgen.run.loops.seams import preparing_functions
 from symgen.run.planning.prepare import prepare
 from symgen.run.planning.restarts import Restarts
 from symgen.run.rows.stepped_rows import Stepped, over_stepped
@@ -175,7 +175,7 @@ class _Rows:
         )
         system = simulation.sizes, *setup.functions
         formulas = *rate_functions(compiled.law_module), function, self.values.shape[1]
-        model = system, setup.loop, *preparing(compiled), formulas
+        model = system, setup.loop, *preparing_functions(compiled), formulas
         span = simulation.span._replace(end=math.inf, most=math.inf)
         nothing = simulation.outputs(np.zeros(0))
         return _Part(over_stepped(setup.loop), model, simulation.scheme, span, table, state, nothing)

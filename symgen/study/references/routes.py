@@ -31,7 +31,7 @@ from symgen.run.compiling.choices import straight_seconds
 from symgen.run.compiling.pipeline import straight_alone
 from symgen.run.layout import abi
 from symgen.run.layout.compiled import CompiledModel
-from symgen.run.planning.automatic import linearised
+from symgen.run.planning.automatic import linearise_start
 from symgen.run.planning.prepare import prepare
 from symgen.run.starts.assembly import Start
 from symgen.study.references.effort import LARGEST_IMPLICIT_REFERENCE, explicit_budget, implicit_budget
@@ -102,7 +102,7 @@ def _fitting_routes(mechanism: Mechanism, routes: tuple[Route, ...]) -> tuple[Ro
 
 def fastest_decay(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> float:
     """Return the fastest decay of the linearised motion at the start [1/s]; 0 where it cannot be computed."""
-    jacobian = linearised(mechanism, compiled, start)
+    jacobian = linearise_start(mechanism, compiled, start)
     if not np.all(np.isfinite(jacobian)):
         return 0.0
     return float(max(0.0, -np.linalg.eigvals(jacobian).real.min(initial=0.0)))

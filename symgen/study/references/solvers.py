@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from symgen.base.arguments import one_word_of
 from symgen.base.errors import SimulationError
 from symgen.describe.facts.kinks import compares_state, longest_step
-from symgen.run.breaks.seams import foreseen
+from symgen.run.breaks.seams import foresee_changes
 
 if TYPE_CHECKING:
     from symgen.study.references.independent import IndependentEquations
@@ -314,7 +314,7 @@ def integrate_in_parts(
     """
     motion, done = np.empty((len(times), len(y))), 0
     end = float(times[-1]) if len(times) else 0.0
-    seams = foreseen(equations.mechanism).seams(equations.parameters, end) if end else ()
+    seams = foresee_changes(equations.mechanism).seams(equations.parameters, end) if end else ()
     for first, last in pairwise([*([seam.t for seam in seams] or [0.0]), end]):
         upto = int(np.searchsorted(times, last, side="right"))
         own = times[done:upto]

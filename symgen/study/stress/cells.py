@@ -24,16 +24,16 @@ from symgen.result.points import Points
 from symgen.result.reruns.verification import verify_run
 from symgen.result.result import INTERRUPTED
 from symgen.run.compiling.choices import choose_coordinates
-from symgen.run.compiling.method_choice import for_coordinates
+from symgen.run.compiling.method_choice import choice_for_coordinates
 from symgen.run.compiling.pipeline import straight_alone
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
-from symgen.run.loops.integrator import adapts
+from symgen.run.loops.integrator import chooses_steps
 from symgen.run.planning.automatic import AUTO
 from symgen.run.planning.options import split_options
-from symgen.run.planning.prepare import preparation
+from symgen.run.planning.prepare import find_preparation
 from symgen.run.single.outcome import Outcome
-from symgen.run.starts.assembler import many_starts
+from symgen.run.starts.assembler import close_many_starts
 from symgen.study.references.effort import evaluation_budget, further_budget, least_evaluations, smallest_step
 from symgen.study.stress import cell_outcome as judged
 from symgen.study.stress import shared_by_cells as kept
@@ -89,7 +89,7 @@ class LimitTask(RunTask):
 def compute_cell(task: CellReference | RunTask) -> Fields:
     """Compute a cell; see the classes of tasks."""
     level = replace(task.level, mechanism=kept.shared_mechanism(task.level.mechanism))
-    with many_starts():
+    with close_many_starts():
         if isinstance(task, CellReference):
             return reference_of_cell(level, task.quick)
         task = replace(task, level=level)
@@ -128,7 +128,7 @@ def _run_cell(task: RunTask, searched: bool = False) -> Fields:
     level, method, motion = task.level, task.method, task.reference
     mechanism, settings = level.mechanism, _settings_of_cell(task)
     try:
-        ready = preparation(mechanism, _choose_shape(mechanism, settings))
+        ready = find_preparation(mechanism, _choose_shape(mechanism, settings))
         plan = ready.plan
         why = cells_without_reference(motion)
         if why is not None:
@@ -191,7 +191,7 @@ def _is_adaptive(integrator: str, options: Mapping[str, str | float]) -> bool:
     """Whether a run chooses its own first step."""
     if integrator == AUTO:
         return True
-    return adapts(INTEGRATORS.get(integrator, "integrator"), options)
+    return chooses_steps(INTEGRATORS.get(integrator, "integrator"), options)
 
 
 def _choose_shape(mechanism: Mechanism, settings: Settings) -> Settings:
@@ -202,7 +202,9 @@ def _choose_shape(mechanism: Mechanism, settings: Settings) -> Settings:
     coordinates = choose_coordinates(mechanism, settings.coordinates, "straight").name
     looped = coordinates == "absolute" and not straight_alone(mechanism)
     if looped and settings.method != AUTO:
-        choice = for_coordinates(mechanism, split_options(settings, INTEGRATORS.get(str(settings.integrator)))[0])
+        choice = choice_for_coordinates(
+            mechanism, split_options(settings, INTEGRATORS.get(str(settings.integrator)))[0]
+        )
         looped = is_loopable(choice.method, choice.options, choice.implicit)
     return replace(settings, coordinates=coordinates, shape="looped" if looped else "straight")
 
@@ -267,7 +269,7 @@ def _find_limit(task: LimitTask) -> Fields:
 def _smallest_singular_value(task: RunTask) -> float:
     """Return the smallest step within the budget of a search [s]; 0 where the pair is refused."""
     try:
-        plan = preparation(task.level.mechanism, _choose_shape(task.level.mechanism, _settings_of_cell(task))).plan
+        plan = find_preparation(task.level.mechanism, _choose_shape(task.level.mechanism, _settings_of_cell(task))).plan
     except (InputError, AssemblyError):
         return 0.0
     return smallest_step(plan, evaluation_budget(plan, task.level.mechanism, True, task.quick))

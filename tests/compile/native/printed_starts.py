@@ -27,7 +27,7 @@ DEFECTS = Path(__file__).resolve().parents[2] / "data" / "defects"
 #: Functions of the runtime that a start calls by their address.
 PASSED = (
     *(start_solvers.dense_change, start_solvers.choose_turns, start_solvers.choose_no_turns),
-    *(manifold.stay, starting.follow_nothing, starting.observe_nothing, starting.rate_nothing),
+    *(manifold.turn_nothing, starting.follow_nothing, starting.observe_nothing, starting.set_no_rates),
 )
 
 #: A mechanism: its name, or what a random one is made of (seed, space, doubled joint, contradicting velocities); how

@@ -14,7 +14,7 @@ from symgen.compile.native.binding import bind_functions
 from symgen.compile.native.c99 import c_functions
 from symgen.compile.native.folding import walk_statements
 from symgen.run.compiling.checked import checked_function
-from symgen.run.compiling.printed import meanings_of, source_of
+from symgen.run.compiling.printed import meanings_of_names, source_of_piece
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.probe import Ready
@@ -44,9 +44,9 @@ class Bound:
             owner, _, own = name.partition(".")
             return own if owner == "now" else f"{owner}_{own}" if owner in ("work", "conditions") else None
 
-        meanings = meanings_of(close_row, arguments, emitted, room)
+        meanings = meanings_of_names(close_row, arguments, emitted, room)
         passed = frozenset(f.key for f in emitted.values())
-        self.functions = bind_functions({"close_row": (source_of(close_row), meanings)}, passed)
+        self.functions = bind_functions({"close_row": (source_of_piece(close_row), meanings)}, passed)
         names = {f.name: f for f in emitted.values()}
         self.source, self.object = folder / "bound.c", folder / "bound.o"
         members = " ".join(

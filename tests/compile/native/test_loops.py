@@ -16,8 +16,8 @@ from symgen.compile.native.loops import read_loop
 from symgen.compile.native.types import float64
 from symgen.compile.store import jit as store
 from symgen.compile.store.paths import ENVIRONMENT_VARIABLE
-from symgen.run.loops.event_loop import with_events
-from symgen.run.loops.seams import with_seams
+from symgen.run.loops.event_loop import loop_with_events
+from symgen.run.loops.seams import loop_with_seams
 from symgen.run.rows.rows import over_rows
 
 from .twofold import process
@@ -45,9 +45,9 @@ LOOPS = [(scheme, name) for scheme, names in SCHEMES.items() for name in names]
 @pytest.mark.parametrize(("scheme", "name"), LOOPS)
 @pytest.mark.parametrize("events", [False, True])
 def test_every_loop_is_in_the_language(scheme, name, events):
-    loop = with_events(loop_of(scheme, name)) if events else loop_of(scheme, name)
+    loop = loop_with_events(loop_of(scheme, name)) if events else loop_of(scheme, name)
     read(loop)
-    read(with_seams(loop))
+    read(loop_with_seams(loop))
 
 
 @pytest.mark.fast(

@@ -15,8 +15,8 @@ from symgen.compile.store.emitted import NodesFunction
 from symgen.compile.store.loaded_modules import load_module
 from symgen.run.compiling.method_choice import choose_method
 from symgen.run.compiling.pipeline import compile_model
-from symgen.run.compiling.side import with_integrals
-from symgen.run.layout.right_hand_side import at_nodes
+from symgen.run.compiling.side import add_integrals
+from symgen.run.layout.right_hand_side import rates_at_nodes
 
 from .test_operations import HEAD, HUMP, INPUTS, OUTPUTS, SECOND, TABLE, printed, programs
 from .twofold import uncontracted, written
@@ -71,9 +71,9 @@ def test_random_programs(tmp_path_factory, program):
 @pytest.mark.parametrize("name", ["four-bar", "slider-crank", "spatial-slider-crank", "cam-follower", "engine"])
 def test_laws_of_mechanisms(name, method):
     model = symgen.load(name)
-    compiled = with_integrals(model.mechanism, compile_model(model.mechanism, choose_method(method)))
+    compiled = add_integrals(model.mechanism, compile_model(model.mechanism, choose_method(method)))
     start = model.assemble(compiled)
-    derive, there = at_nodes(compiled)
+    derive, there = rates_at_nodes(compiled)
     assert there == 1
     rng, n = np.random.default_rng(3), compiled.info.ny
     states = start.y[:n, np.newaxis] + 1e-3 * rng.standard_normal((n, NODES))
@@ -145,4 +145,4 @@ def test_other_code_has_no_such_form(tmp_path, body):
 @pytest.mark.parametrize("method", ["augmented-lagrangian", "null-space", "coordinate-partitioning"])
 def test_laws_that_iterate_are_evaluated_node_by_node(method):
     compiled = compile_model(symgen.load("four-bar").mechanism, choose_method(method))
-    assert at_nodes(compiled)[1] == 0
+    assert rates_at_nodes(compiled)[1] == 0

@@ -5,7 +5,7 @@ import ast
 import pytest
 from support.golden import LOOPED, MODELS, emitted, emitted_looped
 
-from symgen.run.compiling.looped import numbered
+from symgen.run.compiling.looped import number_kernels
 
 
 class Plain(ast.NodeTransformer):
@@ -72,7 +72,7 @@ def test_functions_of_straight_code_are_those_that_run(model):
 @pytest.mark.parametrize("model", LOOPED)
 def test_functions_of_looped_code_are_those_that_run(model):
     divided = emitted_looped(model, False)
-    names = numbered(divided)
+    names = number_kernels(divided)
     found = {names.get(stem, stem): stem for stem in divided}
     for stem, source in emitted_looped(model).items():
         parts = modules_of(found[stem], divided)
@@ -95,5 +95,5 @@ def test_a_law_with_a_metric_of_its_own_calls_the_models_functions_by_another_na
 
 def test_kernels_are_counted():
     one, two, form = ("joint_revolute_" + 16 * c for c in "012")
-    found = numbered(["model", one, f"form_01234567_{form}", two])
+    found = number_kernels(["model", one, f"form_01234567_{form}", two])
     assert list(found.values()) == ["joint_revolute", "form_joint_revolute", "joint_revolute_2"]

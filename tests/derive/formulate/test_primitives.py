@@ -10,7 +10,7 @@ import symgen
 from symgen.api import Model
 from symgen.base.errors import InputError
 from symgen.describe.files.validate import validate
-from symgen.run.compiling.choices import on_tree, operations
+from symgen.run.compiling.choices import count_rhs_operations, mechanism_on_tree
 
 TIGHT = {"integrator": "dop853", "rtol": 1e-12, "atol": 1e-13, "until": 1.0}
 AT = [[0.0, 0.0], [0.0, 0.0]]
@@ -106,8 +106,8 @@ def test_operations_of_a_rotor():
     counts = {}
     for where, (arm, _) in ARMS.items():
         mechanisms = [validate(arm(rotor), "file") for rotor in ("", "keys", "body")]
-        counts[where, "absolute"] = [operations(m) for m in mechanisms]
-        counts[where, "joint"] = [operations(on_tree(m)) for m in mechanisms]
+        counts[where, "absolute"] = [count_rhs_operations(m) for m in mechanisms]
+        counts[where, "joint"] = [count_rhs_operations(mechanism_on_tree(m)) for m in mechanisms]
     for none, keys, body in counts.values():
         # in the plane a body that its pin carries costs no more, as its rows are fixed: but for one sum with constants
         assert none <= keys <= body + 1
@@ -400,7 +400,7 @@ def test_a_start_by_the_place_of_a_point():
     )
     other = model(raw).simulate(**TIGHT, start={"tip.x": 1.0, "tip.y": -0.6}, coordinates="joint")
     assert other.joint_coordinates["tip.x"][0] == pytest.approx(1.0, abs=1e-12)
-    counts = [operations(validate(r, "file")) for r in (raw, planar_arm(""))]
+    counts = [count_rhs_operations(validate(r, "file")) for r in (raw, planar_arm(""))]
     assert counts[0] == counts[1]
 
 

@@ -20,7 +20,7 @@ from symgen.derive.lower.fixed_velocities import fixed_velocities
 from symgen.derive.lower.plans import cheapest_plan
 from symgen.derive.lower.scalar import ScalarNodes
 from symgen.derive.methods._base import multiplier_law
-from symgen.run.compiling.choices import on_tree
+from symgen.run.compiling.choices import mechanism_on_tree
 from symgen.run.planning.starts import parameter_values
 
 
@@ -154,7 +154,7 @@ ENTRIES = (
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_every_plan_gives_the_motion_of_the_dense_equations(name, coordinates):
     mechanism = symgen.load(name).mechanism
-    mechanism = on_tree(mechanism) if coordinates == "joint" else mechanism
+    mechanism = mechanism_on_tree(mechanism) if coordinates == "joint" else mechanism
     e = formulate(mechanism)
     plans = [
         SCHUR,
@@ -208,7 +208,7 @@ def closing(equations, free=()):
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_loops_are_closed_where_a_driver_leaves_no_choice_of_velocities(name, loops, coordinates):
     mechanism = symgen.load(name).mechanism
-    e = formulate(on_tree(mechanism) if coordinates == "joint" else mechanism)
+    e = formulate(mechanism_on_tree(mechanism) if coordinates == "joint" else mechanism)
     plan = closing(e)
     assert len(plan.loops) == loops
     assert len({c for each in (*plan.fixed, *plan.loops) for c in each.columns}) == (e.nv if loops else len(plan.fixed))

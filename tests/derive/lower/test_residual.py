@@ -23,7 +23,7 @@ def differentiated(name, coordinates, method, disturbance=0.01):
     run, _ = prepare_for_directions(load(name).mechanism, settings)
     model, start, rng = DirectedModel(run.compiled, LANES), run.start, np.random.default_rng(3)
     y = start.y + disturbance * rng.standard_normal(len(start.y))
-    y = model.longer(y, "y", rng.standard_normal((model.sizes["y"], LANES)))
+    y = model.room_with_directions(y, "y", rng.standard_normal((model.sizes["y"], LANES)))
     seeds = np.zeros((model.sizes["p"], LANES))
     own = len(run.compiled.info.parameters)
     seeds[:own] = rng.standard_normal((own, LANES)) * np.abs(start.p[:own, np.newaxis])
@@ -35,7 +35,7 @@ def values_and_directions(run, model, function, y, p, w):
     w, rates, counters = model.longer(w, "w"), model.longer(run.start.y * 0.0, "y"), np.zeros(40, dtype=np.int64)
     model.function(function).caller(abi.RHS.signature.arguments)(0.3, y, p, w, counters, rates)
     first, size = run.compiled.info.sections["multipliers"]
-    shown = model.shadow(rates, "y"), model.shadow(w, "w")[first : first + size]
+    shown = model.directions_after(rates, "y"), model.directions_after(w, "w")[first : first + size]
     return rates[: model.sizes["y"]], *shown, counters
 
 
@@ -71,7 +71,7 @@ def test_both_ways_have_the_same_derivatives(name, coordinates, method):
     arguments = *abi.RHS.signature.arguments, *[types.float64[::1]] * 4
     adjoint, counters = AdjointFunction(getattr(law, BY_RESIDUAL)).caller(arguments), np.zeros(40, dtype=np.int64)
     adjoint(0.3, *plain, counters, np.zeros(sizes["y"]), *bars, ends.copy())
-    inner = bars[0] @ model.shadow(y, "y") + bars[1] @ model.shadow(p, "p")
+    inner = bars[0] @ model.directions_after(y, "y") + bars[1] @ model.directions_after(p, "p")
     assert inner == pytest.approx(ends @ found[0][1], rel=1e-10)
 
 

@@ -5,7 +5,7 @@ import re
 from support.emitted import mechanism_of
 
 from symgen.compile.native.javascript_code import javascript_functions
-from symgen.run.compiling.checked import checked
+from symgen.run.compiling.checked import check_kernels
 from symgen.run.compiling.method_choice import choose_method
 from symgen.run.compiling.pipeline import compile_model
 
@@ -22,7 +22,7 @@ def test_arrays_of_tables_and_functions_have_names_of_their_own() -> None:
             "push": {"type": "force", "body": "ball", "force": [" + ".join(f"{name}(ball.x)" for name in names), 0.0]}
         },
     }
-    text = javascript_functions(checked(compile_model(mechanism_of(raw), choose_method("lagrange"))))
+    text = javascript_functions(check_kernels(compile_model(mechanism_of(raw), choose_method("lagrange"))))
     arrays = re.findall(r"^const (\w+) = \[", text, re.MULTILINE)
     defined = [*arrays, *re.findall(r"^function (\w+)\(", text, re.MULTILINE)]
     assert len(arrays) == 2 * len(names) and len(defined) > 3 * len(names)

@@ -18,7 +18,7 @@ from symgen.describe import catalogue
 from symgen.describe.files.load import load_mechanism
 from symgen.result.reading import symbolic_equations as reading
 from symgen.result.reading.symbolic_equations import SymbolicEquations
-from symgen.run.compiling.choices import on_tree
+from symgen.run.compiling.choices import mechanism_on_tree
 
 SMALL = ["four-bar", "driven-four-bar", "slider-crank", "pendulum", "heavy-top", "spherical-double-pendulum"]
 SMALL += ["rolling-disc", "free-rigid-body"]
@@ -91,7 +91,7 @@ def test_numbers_are_those_of_the_emitted_functions(name):
 
 @pytest.mark.parametrize("name", ["four-bar", "spherical-double-pendulum"])
 def test_numbers_are_those_of_the_emitted_functions_in_joint_coordinates(name):
-    agrees(on_tree(load_mechanism(name)))
+    agrees(mechanism_on_tree(load_mechanism(name)))
 
 
 @pytest.mark.slow_cases("everything")
@@ -104,7 +104,7 @@ def test_numbers_of_every_kind_and_of_tables(raw):
 @pytest.mark.parametrize(("name", "coordinates"), of_turn(product(catalogue.all_names(), ("absolute", "joint")), 3))
 def test_numbers_of_the_whole_catalogue(name, coordinates):
     mechanism = load_mechanism(name)
-    agrees(on_tree(mechanism) if coordinates == "joint" else mechanism)
+    agrees(mechanism_on_tree(mechanism) if coordinates == "joint" else mechanism)
 
 
 @pytest.mark.slow_cases("dry-four-bar-joint")
@@ -112,7 +112,7 @@ def test_numbers_of_the_whole_catalogue(name, coordinates):
 @pytest.mark.parametrize("name", [name for name in catalogue.all_names() if load_mechanism(name).bounded])
 def test_numbers_of_mechanisms_with_dry_friction_and_stops(name, coordinates):
     mechanism = load_mechanism(name)
-    agrees(on_tree(mechanism) if coordinates == "joint" else mechanism)
+    agrees(mechanism_on_tree(mechanism) if coordinates == "joint" else mechanism)
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
@@ -158,7 +158,7 @@ def test_shared_terms_of_a_free_body_are_not_called_as_its_velocities_are():
             "rod": {"type": "distance", "between": ["bob", "ball"], "at": ["centre", [0.3, 0.0, 0.0]], "length": 1.7},
         },
     }
-    mechanism = on_tree(mechanism_of(raw))
+    mechanism = mechanism_on_tree(mechanism_of(raw))
     equations = SymbolicEquations(mechanism)
     of_state = {*equations.q, *equations.v, *equations.parameters}
     assert "ball.vx" in of_state and not of_state & {s.name for s in equations.shared().definitions}

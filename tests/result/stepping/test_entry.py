@@ -69,8 +69,8 @@ def test_in_both_shapes_and_through_passages(name, method, integrator, shape):
 
 @pytest.mark.parametrize("integrator", ["rk4", "radau5"])
 def test_rows_are_chosen_anew_on_the_way(integrator, monkeypatch):
-    chosen, ended = [], Simulation._ended
-    monkeypatch.setattr(Simulation, "_ended", lambda self, code, t: chosen.append(code) or ended(self, code, t))
+    chosen, ended = [], Simulation._note_end
+    monkeypatch.setattr(Simulation, "_note_end", lambda self, code, t: chosen.append(code) or ended(self, code, t))
     sim, plain = both(
         DEFECTS / "two_pins_tilted.toml", method="lagrange", integrator=integrator, until=1.0, shape="straight"
     )

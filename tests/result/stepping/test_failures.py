@@ -118,7 +118,7 @@ def test_an_interrupt_between_a_failure_and_what_is_done_about_it_loses_no_state
     settings, _ = FAILING["explosion"]
     sim = four_bar.start(**settings)
     sim.step(0.01)
-    real = Simulation.go
+    real = Simulation.go_until
 
     def interrupted(self, *arguments):
         code = real(self, *arguments)
@@ -127,7 +127,7 @@ def test_an_interrupt_between_a_failure_and_what_is_done_about_it_loses_no_state
             raise KeyboardInterrupt
         return code
 
-    monkeypatch.setattr(Simulation, "go", interrupted)
+    monkeypatch.setattr(Simulation, "go_until", interrupted)
     with pytest.raises(KeyboardInterrupt):
         sim.step(20.0)
     assert 1 < sim.steps and np.all(np.isfinite(sim.state))

@@ -172,7 +172,7 @@ def test_what_an_input_is_told_is_not_set_as_well(model):
         sim.set(sidle=1.0)
     before = sim.save()
     with pytest.raises(InputError, match=r"expected (values for which every formula is finite|a finite number)"):
-        sim._loop.changes.give({"side": math.inf})
+        sim._loop.changes.give_values({"side": math.inf})
     np.testing.assert_array_equal(sim.save().arrays["p"], before.arrays["p"])
     sim.set({"stiffness": 10.0, "side": 2.0})
     assert sim.parameters["side"] == 2.0 and sim.parameters["stiffness"] == 10.0

@@ -37,7 +37,7 @@ def test_another_start_is_that_of_a_fresh_run(name, monkeypatch):
     sim.run(0.02)
     fresh = [model.start(start=start, **settings) for start in others]
     with monkeypatch.context() as once:
-        once.setattr(prepare, "preparation", None)  # nothing is planned or compiled anew
+        once.setattr(prepare, "find_preparation", None)  # nothing is planned or compiled anew
         for start, other in zip(others, fresh, strict=True):
             sim.reset(start)
             for array, expected in zip(sim.save().arrays.items(), other.save().arrays.items(), strict=True):

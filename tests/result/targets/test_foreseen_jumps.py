@@ -9,7 +9,7 @@ from fmpy import simulate_fmu
 from symgen.compile.loopcode.loop_instances import Instances
 from symgen.result.targets import Request
 from symgen.result.targets._c_model import CModel, sources
-from symgen.run.breaks.seams import foreseen_in_run
+from symgen.run.breaks.seams import foresee_in_run
 from symgen.run.layout import abi
 from symgen.run.printed.foreseen_run import FORESEEN, foresee_run
 from tests.result.targets.test_c_modes import DOOR, loaded, program_of, rows_of, transitions_of
@@ -110,7 +110,7 @@ def test_a_run_finds_the_seams_that_are_known_before_it(torque, stop, count, int
     model = loaded(DOOR.replace(STOP, stop) + numbers + force, tmp_path)
     integrator = integrator if stop else "dopri5"  # without rows with bounds, runs are printed by their names
     run = CModel.of(Request(model.mechanism, tmp_path / "c", integrator=integrator), "c").printed_run
-    foreseen = foreseen_in_run(model.mechanism, (), run.spec.adaptive, run.integrator.order, (0.0, run.spec.step))
+    foreseen = foresee_in_run(model.mechanism, (), run.spec.adaptive, run.integrator.order, (0.0, run.spec.step))
     places, p, passed = {q.name: i for i, q in enumerate(run.compiled.info.parameters)}, np.zeros(99), 0
     for begin, span, _, pace, _ in values_of(count):
         values = {"begin": begin, "span": span, "pace": pace}

@@ -15,12 +15,12 @@ from symgen.compile.native.annotations import Array, signature_from
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.table_functions import Table
-from symgen.run.breaks.coded_formulas import Formula, coded, value_at
+from symgen.run.breaks.coded_formulas import Formula, code_formula, coded_value_at
 
 
 def _over(formula: Formula, times: Array, out: Array) -> int:
     for i in range(times.shape[0]):
-        out[i] = value_at(formula, times[i])
+        out[i] = coded_value_at(formula, times[i])
     return 0
 
 
@@ -47,7 +47,7 @@ def assert_same_bits(e: Expr) -> None:
             return math.nan
 
     found = np.zeros(len(TIMES))
-    _over_loop(coded(e, TABLES).of(VALUES), TIMES, found)
+    _over_loop(code_formula(e, TABLES).of(VALUES), TIMES, found)
     expected = np.array([at(t) for t in TIMES.tolist()])
     np.testing.assert_array_equal(found.view(np.int64)[~np.isnan(found)], expected.view(np.int64)[~np.isnan(expected)])
     np.testing.assert_array_equal(np.isnan(found), np.isnan(expected))

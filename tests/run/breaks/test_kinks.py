@@ -16,8 +16,8 @@ from symgen.describe import catalogue
 from symgen.describe.facts.kinks import compares_state, discontinuities_of, jumps_in_time
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.parts.driven_mechanism import Jump
-from symgen.run.breaks.in_time import InTime, line_of
-from symgen.run.breaks.seams import Foreseen, merged, times_between
+from symgen.run.breaks.in_time import InTime, line_of_formula
+from symgen.run.breaks.seams import Foreseen, merge_seams, times_between
 from symgen.run.loops.run_spec import Seam
 from symgen.study.ensemble.parameter_sweep import sweep
 
@@ -174,7 +174,7 @@ def test_times_are_the_first_numbers_on_the_other_side(text: str) -> None:
     formulas, jump = InTime(symgen.load("pendulum").mechanism, {"w": 11.0}), _jump(text, (0.0,))
     found = formulas.crossings(jump, 3.5)
     for t in found:
-        sides = [formulas.at(jump.argument, x) > 0.0 for x in (math.nextafter(t, 0.0), t)]
+        sides = [formulas.value_at(jump.argument, x) > 0.0 for x in (math.nextafter(t, 0.0), t)]
         assert sides[0] != sides[1]
     parts = (*formulas.crossings(jump, 1.7), *formulas.crossings(jump, 3.5, 1.7))
     assert parts == found and len(found) >= 1
@@ -193,8 +193,8 @@ def test_a_kink_at_a_jump_ends_constant_steps_once() -> None:
 def test_kinks_and_jumps_end_pieces_together() -> None:
     jumps = (Seam(0.0, {"u": 1.0}), Seam(0.2, {"u": 3.0}), Seam(0.5, {"u": 2.0}))
     kinks = (Seam(0.0, {}), Seam(0.3, {}), Seam(0.5, {}), Seam(0.7, {}))
-    assert merged(jumps, kinks) == (*jumps[:2], kinks[1], jumps[2], kinks[3])
-    assert merged((), kinks) == kinks and merged(jumps, ()) == jumps
+    assert merge_seams(jumps, kinks) == (*jumps[:2], kinks[1], jumps[2], kinks[3])
+    assert merge_seams((), kinks) == kinks and merge_seams(jumps, ()) == jumps
 
 
 @pytest.mark.parametrize(
@@ -213,5 +213,5 @@ def test_straight_lines_are_those_for_all_parameters(text: str, line: tuple[floa
     """A run in other languages, whose parameters change, takes the same formulas for lines."""
     names = {name: name for name in ("t", "k", "c", "z")}
     argument = parse(text, FormulaNames("a formula", names, {}, {}), "here")
-    found = line_of(Jump(argument), {"k": 1.7, "c": 0.5, "z": 0.0})
+    found = line_of_formula(Jump(argument), {"k": 1.7, "c": 0.5, "z": 0.0})
     assert found == (None if line is None else pytest.approx(line, rel=1e-15))

@@ -17,7 +17,7 @@ from symgen.compile.loopcode.loop_instances import Instances
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.parts.driven_mechanism import Jump
 from symgen.run.breaks.in_time import InTime, new_search
-from symgen.run.breaks.seams import foreseen
+from symgen.run.breaks.seams import foresee_changes
 from symgen.run.loops.times_of_jumps import COUNT, search_curve
 from symgen.study.ensemble.parameter_sweep import sweep
 from symgen.study.ensemble.sweep_plan import make_ensemble
@@ -127,11 +127,13 @@ def called_with(f: Any, formula: Callable[[float], float], j: int, t: float) -> 
 def test_plateaus_are_not_searched(pushed: symgen.Model) -> None:
     """What stays where it is has a least value everywhere: looking for it between all looks would take seconds."""
     formulas = InTime(pushed.mechanism, {"at": AT})
-    (jump,) = (jump for jump in foreseen(pushed.mechanism).kinks if abs(formulas.at(jump.argument, 0.0)) > 1e6)
+    (jump,) = (
+        jump for jump in foresee_changes(pushed.mechanism).kinks if abs(formulas.value_at(jump.argument, 0.0)) > 1e6
+    )
 
     def counted(t: float) -> float:
         looks.append(t)
-        return formulas.at(jump.argument, t)
+        return formulas.value_at(jump.argument, t)
 
     looks, search = list[float](), new_search(jump, 10.0)
     Instances({"formula_at": called_with}, lambda copy, _: copy).of(search_curve)(search, counted, 0, 0.0, 10.0)

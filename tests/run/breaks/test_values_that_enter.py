@@ -67,7 +67,7 @@ def freewheel(tmp_path_factory: pytest.TempPathFactory) -> symgen.Model:
 @pytest.fixture
 def searched(monkeypatch: pytest.MonkeyPatch) -> Iterator[Counter[str]]:
     """Numbers of searches by the formula, and of its evaluations one by one."""
-    count, found, at = Counter[str](), Passing._found, InTime.at
+    count, found, at = Counter[str](), Passing._found, InTime.value_at
 
     def counted(self: Passing, formulas: InTime, until: float, first: float) -> tuple[tuple[float, ...], int]:
         count[to_text(self.jump.argument)] += 1
@@ -78,7 +78,7 @@ def searched(monkeypatch: pytest.MonkeyPatch) -> Iterator[Counter[str]]:
         return at(self, e, t)
 
     monkeypatch.setattr(Passing, "_found", counted)
-    monkeypatch.setattr(InTime, "at", looked)
+    monkeypatch.setattr(InTime, "value_at", looked)
     yield count
 
 

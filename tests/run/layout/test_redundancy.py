@@ -14,10 +14,10 @@ from symgen.api import Model
 from symgen.base.settings import Settings
 from symgen.compile.loopcode.exact import plain_form
 from symgen.describe import MechanismBuilder
-from symgen.run.layout.redundancy import choose_rows, farthest
+from symgen.run.layout.redundancy import choose_rows, farthest_row
 from symgen.run.planning.prepare import prepare
-from symgen.run.planning.tree_starts import carried_of
-from symgen.run.starts.assembler import ALONE, one_row
+from symgen.run.planning.tree_starts import map_to_tree
+from symgen.run.starts.assembler import ALONE, as_one_row
 from tests.verification.running import DEFECTS, off, raw, reference
 
 SETTINGS = (
@@ -104,7 +104,7 @@ def test_rows_that_are_off_stand_for_none_and_are_not_masked() -> None:
     choose(layout, 2, 0, w, room)
     assert np.count_nonzero(mask) == 2
     w[29] = 0.0
-    assert plain_form(farthest)(layout, 5, 4, 1e-12, 0, w, room) == 2
+    assert plain_form(farthest_row)(layout, 5, 4, 1e-12, 0, w, room) == 2
     choose(layout, 3, 0, w, room)
     assert list(mask[[0, 2]]) == [0.0, 0.0]
     assert sorted(mask[[1, 3]]) == [0.0, np.inf]
@@ -117,12 +117,12 @@ def test_rows_of_which_rounding_is_left_stand_for_none() -> None:
     model = symgen.load(DEFECTS / "flat_loop.toml")
     run = prepare(model.mechanism, settings).tree
     compiled, start = run.compiled, run.start
-    carried, bodies = carried_of(run.whole, run.mechanism, run.bodies, compiled), run.body_start
+    carried, bodies = map_to_tree(run.whole, run.mechanism, run.bodies, compiled), run.body_start
     rng = np.random.default_rng(5)
     for _ in range(100):  # as other processors may round
         y, nq, w = bodies.y.copy(), run.bodies.info.nq, compiled.scratch()
         y[:nq] += rng.uniform(-2e-16, 2e-16, nq)
-        carried.settle(one_row(y, bodies.p, bodies.w), one_row(start.y.copy(), start.p.copy(), w), *ALONE)
+        carried.settle(as_one_row(y, bodies.p, bodies.w), as_one_row(start.y.copy(), start.p.copy(), w), *ALONE)
         kept = compiled.section(w, "mask") == 0.0
         assert (compiled.rank(w), len(compiled.redundant(w)), kept.sum()) == (2, 3, 2)
         assert np.linalg.svd(compiled.jacobian(w)[kept], compute_uv=False)[-1] > 0.05

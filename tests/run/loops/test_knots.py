@@ -18,7 +18,7 @@ import symgen
 from symgen.describe import catalogue
 from symgen.describe.facts.kinks import Discontinuity
 from symgen.describe.table_functions import Table
-from symgen.run.compiling.events import switch_of
+from symgen.run.compiling.events import switch_of_event
 from symgen.study.ensemble.parameter_sweep import sweep
 
 #: Force over position, linear between points; constant beyond them.
@@ -300,6 +300,6 @@ def test_points_that_bend_nothing_are_passed() -> None:
     counts = []
     for y in (smooth, spiked):
         table = Table("t", tuple(x), tuple(y), "cubic")
-        counts.append(len(switch_of(Discontinuity(table.x[0], table), 1e-8).points))
+        counts.append(len(switch_of_event(Discontinuity(table.x[0], table), 1e-8).points))
     # straight lines begin at both ends; the waves of a spline beside a spike fall by 3.7 from point to point
     assert counts[0] == 2 and 5 <= counts[1] <= 60

@@ -12,7 +12,7 @@ def test_the_search_is_in_the_language_of_emitted_code():
     """`read` raises where a function, or one that it calls, is outside."""
     function = searching.decide.read(abi.DECIDE.signature.arguments)
     called = {f.name: f for f in function.called}
-    assert called.keys() >= {"look", "keep", "give_back", "take_in", "candidate", "settle_bracket", "concealed"}
+    assert called.keys() >= {"look", "keep", "give_back", "take_values", "candidate", "settle_bracket", "concealed"}
     hidden = {f.name: f for f in called["concealed"].called}["hidden"]
     between = {f.name: f for f in hidden.called}["dip_between"]
     assert "dip" in {f.name for f in between.called}

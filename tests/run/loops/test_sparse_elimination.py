@@ -39,8 +39,8 @@ class Solver:
     def factorise(self, matrix):
         """Return the skipped pivots; room grows as the loops let it."""
         sources = np.append(matrix[self.rows, self.columns], 1.0)
-        while (skipped := sparse.prepare(self.plan, sources, np.ones(1), self.numbers)) < 0:
-            self.plan, self.numbers = sparse.enlarged(self.plan, self.numbers)
+        while (skipped := sparse.prepare_pattern(self.plan, sources, np.ones(1), self.numbers)) < 0:
+            self.plan, self.numbers = sparse.enlarge_pattern(self.plan, self.numbers)
         return skipped
 
     def solve(self, right):

@@ -24,7 +24,7 @@ def test_a_scheme_without_an_attempt_diverges() -> None:
 
 
 def test_a_run_without_events_finds_none_and_steps_as_proposed() -> None:
-    assert unbound.located(None, None, None, 1.0, 1.0, frame_parts.SEEK) == frame_parts.NOTHING
+    assert unbound.locate_event(None, None, None, 1.0, 1.0, frame_parts.SEEK) == frame_parts.NOTHING
     assert unbound.prepare_search(None, None, frame_parts.LOOK) == frame_parts.NOTHING
     assert unbound.step_to_point(None, None, 0.25) == 0.25
     assert not unbound.is_astray(None, None, True)
@@ -32,9 +32,9 @@ def test_a_run_without_events_finds_none_and_steps_as_proposed() -> None:
 
 
 def test_a_row_without_modes_and_seams_goes_on() -> None:
-    assert unbound.begin_choice((), None, None) == unbound.resumed(None) == abi.DONE
+    assert unbound.begin_choice((), None, None) == unbound.resume_code(None) == abi.DONE
     assert unbound.take_change((), None, None) == abi.UNPREPARED
-    assert not unbound.waits(abi.MET, (), None, None)
+    assert not unbound.waits_for_caller(abi.MET, (), None, None)
     assert unbound.next_time((), None) == unbound.next_rest(0.0, None, NONE) == math.inf
     further = object()
     assert unbound.effects_alone(further) is further and unbound.system_of_steps(further) is further

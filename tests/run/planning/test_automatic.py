@@ -18,7 +18,7 @@ from symgen.result import points
 from symgen.run.compiling.linearised import compile_growth
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
-from symgen.run.planning.automatic import STIFF_RATIO, Facts, automatic_choice, facts_of, linearised
+from symgen.run.planning.automatic import STIFF_RATIO, Facts, automatic_choice, facts_of_plan, linearise_start
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import make_plan, prepare
 from symgen.run.starts.assembly import state_scales
@@ -48,7 +48,7 @@ def settled(name, method="auto", integrator="auto"):
 
 def gathered(mechanism):
     run = prepare(mechanism, Settings(method="lagrange", integrator="dop853"), Purpose.STATE)
-    return facts_of(mechanism, run.compiled, run.start, run.spec.until)
+    return facts_of_plan(mechanism, run.compiled, run.start, run.spec.until)
 
 
 @pytest.mark.slow_cases("wiper-dop853-words1")
@@ -135,7 +135,7 @@ def test_derivatives_of_the_motion_are_those_of_differences(name):
     mechanism = stiff_model().mechanism if name == "stiff" else load(name).mechanism
     run = prepare(mechanism, Settings(method="lagrange", integrator="dop853"))
     compiled, start = run.compiled, run.start
-    found, rate = linearised(mechanism, compiled, start), Ready(compiled.law_module.rhs, abi.RHS)
+    found, rate = linearise_start(mechanism, compiled, start), Ready(compiled.law_module.rhs, abi.RHS)
     differences = np.zeros_like(found)
     for j, size in enumerate(state_scales(compiled, start.w, run.spec.until)):
         ends = []
@@ -153,7 +153,7 @@ def test_what_cannot_decay_needs_no_derivatives():
     mechanism = load("four-bar").mechanism
     run = prepare(mechanism, Settings(method="lagrange", integrator="dop853"))
     assert compile_growth(mechanism, run.compiled) is None
-    assert not linearised(mechanism, run.compiled, run.start).any()
+    assert not linearise_start(mechanism, run.compiled, run.start).any()
 
 
 # -- the check ---------------------------------------------------------------------------------------------------------

@@ -10,8 +10,8 @@ import symgen
 from symgen import Settings
 from symgen.base.ir.program import BY_PIVOTS
 from symgen.run.compiling import closing
-from symgen.run.compiling.choices import on_tree
-from symgen.run.compiling.closing import at_start, free_velocities
+from symgen.run.compiling.choices import mechanism_on_tree
+from symgen.run.compiling.closing import choice_at_start, free_velocities
 from symgen.run.compiling.folders import folder_of
 from symgen.run.compiling.method_choice import choose_method
 from symgen.run.compiling.pipeline import compile_model
@@ -78,7 +78,7 @@ def names_of(mechanism):
 )
 def test_loops_of_the_catalogue_leave_the_crank_free(name, free, most, coordinates):
     mechanism, joint = symgen.load(name).mechanism, coordinates == "joint"
-    assert names_of(on_tree(mechanism) if joint else mechanism) == free
+    assert names_of(mechanism_on_tree(mechanism) if joint else mechanism) == free
     operations = prepare(mechanism, Settings(coordinates=coordinates)).compiled.law.operations
     assert operations["rhs"] <= most[joint] < operations[BY_PIVOTS]
 
@@ -88,7 +88,7 @@ def test_loops_of_the_catalogue_leave_the_crank_free(name, free, most, coordinat
 def test_nothing_is_chosen_where_drivers_decide_or_no_loop_has_two_rows(name):
     mechanism, choice = symgen.load(name).mechanism, choose_method("lagrange")
     assert free_velocities(mechanism) == ()
-    assert at_start(mechanism, choice) == choice
+    assert choice_at_start(mechanism, choice) == choice
 
 
 def test_a_start_with_another_choice_has_another_module_of_the_same_model(linkage):

@@ -15,7 +15,7 @@ from symgen.cli import main
 from symgen.derive.methods import METHODS
 from symgen.describe import catalogue
 from symgen.result import judge
-from symgen.run.layout.right_hand_side import at_nodes
+from symgen.run.layout.right_hand_side import rates_at_nodes
 from symgen.run.planning.prepare import make_plan, prepare
 from symgen.study.ensemble.sweep_plan import make_ensemble
 
@@ -76,7 +76,7 @@ def test_a_stiff_stop_is_met_by_default():
 def test_picard_is_the_default_of_laws_that_have_vectors(method):
     four_bar = symgen.load("four-bar")
     own = METHODS.get(method).default_integrator
-    assert own == ("picard" if at_nodes(four_bar.compile(method))[1] else "dop853")
+    assert own == ("picard" if rates_at_nodes(four_bar.compile(method))[1] else "dop853")
     assert make_plan(four_bar.mechanism, Settings(method=method)).integrator.name == own
 
 

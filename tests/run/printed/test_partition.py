@@ -7,21 +7,21 @@ from support.emitted import mechanism_of
 from symgen import Settings, load
 from symgen.compile.loopcode.exact import compiled_form
 from symgen.run.compiling.printed import PrintedEvents
-from symgen.run.effects.stepping import passes
+from symgen.run.effects.stepping import passes_event
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare
 from symgen.run.printed import exchanged_steps as steps
 from symgen.run.printed import partition
 from symgen.run.printed.exchanged_run import ASK, COMPLETE, HANDLE, HAPPENED, OVER, QUIET
 from symgen.run.printed.partition_tables import count_states, new_partition, tables_of
-from symgen.run.starts.assembler import layout_of
+from symgen.run.starts.assembler import layout_of_starts
 
 
 def partitioned(mechanism):
     """Return a prepared mechanism, its partition, and the arguments of its functions before and behind a state."""
     run = prepare(mechanism, Settings(shape="straight"), Purpose.STATE)
     compiled, start = run.compiled, run.start
-    layout, tables = layout_of(compiled), tables_of(compiled, start.w, False)
+    layout, tables = layout_of_starts(compiled), tables_of(compiled, start.w, False)
     part = new_partition(layout, tables)
     return run, tables, (layout, compiled_form(compiled.model.geometry), tables), (start.p, start.w.copy(), part)
 
@@ -96,6 +96,6 @@ def test_events_of_an_importer_are_noted_handled_and_end_the_motion():
     ("direction", "rising", "falling"), [(0, True, True), (1, True, False), (-1, False, True), (2, False, False)]
 )
 def test_an_event_happens_in_its_direction(direction, rising, falling):
-    happens = passes.plain
+    happens = passes_event.plain
     assert (happens(direction, -1.0, 0.0), happens(direction, 1.0, 0.0)) == (rising, falling)
     assert not happens(direction, 0.0, 1.0) and not happens(direction, 1.0, float("nan"))

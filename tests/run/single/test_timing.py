@@ -42,7 +42,7 @@ def _replaced(monkeypatch):
 )
 def test_a_run_is_repeated_as_often_as_noise_asks_for(seconds, repeat, runs):
     clock = Clock(*seconds)
-    found = timing.timed(clock, repeat, 0.05, 10.0)
+    found = timing.time_runs(clock, repeat, 0.05, 10.0)
     assert clock.count == runs
     assert found.outcome.run_seconds == seconds[0 if runs == 1 else -1]
     assert (found.spread is None) == (len(found.seconds) < 2)
@@ -50,5 +50,5 @@ def test_a_run_is_repeated_as_often_as_noise_asks_for(seconds, repeat, runs):
 
 
 def test_an_interruption_keeps_what_was_whole():
-    found = timing.timed(Clock(3.0, 2.0, 2.5, interrupted=3), 5)
+    found = timing.time_runs(Clock(3.0, 2.0, 2.5, interrupted=3), 5)
     assert found.outcome.interrupted and found.outcome.run_seconds == 2.0 and found.seconds == (2.0,)

@@ -12,7 +12,7 @@ import symgen
 from symgen.base.errors import InputError
 from symgen.derive.methods import METHODS
 from symgen.describe.catalogue import raw
-from symgen.run.compiling.choices import choose_coordinates, on_tree
+from symgen.run.compiling.choices import choose_coordinates, mechanism_on_tree
 from symgen.run.compiling.method_choice import choose_method
 from symgen.run.compiling.pipeline import compile_model
 from symgen.run.integrators import INTEGRATORS
@@ -125,7 +125,7 @@ def test_auto_takes_the_coordinates_with_fewer_operations(name):
     mechanism = symgen.load(name).mechanism
     choice = choose_method("direct-correction", {"weight": "mass"})
     of_bodies, of_joints = (
-        compile_model(each, choice).law.operations["rhs"] for each in (mechanism, on_tree(mechanism))
+        compile_model(each, choice).law.operations["rhs"] for each in (mechanism, mechanism_on_tree(mechanism))
     )
     taken = choose_coordinates(mechanism, "auto", "straight").name
     assert taken == ("joint" if of_joints < of_bodies else "absolute")
@@ -246,5 +246,5 @@ def test_parallel_cranks_stay_parallel_through_flat_positions_at_all_tolerances(
 def test_every_run_of_a_description_takes_the_same_tree():
     """Its digest and numbers are computed once then, which a warm call would otherwise pay for."""
     mechanism = symgen.load("four-bar").mechanism
-    tree = on_tree(mechanism)
-    assert on_tree(mechanism) is tree and tree.topology is not None
+    tree = mechanism_on_tree(mechanism)
+    assert mechanism_on_tree(mechanism) is tree and tree.topology is not None

@@ -16,7 +16,7 @@ from symgen.base.errors import AssemblyError, InputError
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.start_records import Instant, StartConditions
 from symgen.run.starts import decisions
-from symgen.run.starts.assembler import ALONE, Assembly, one_row
+from symgen.run.starts.assembler import ALONE, Assembly, as_one_row
 from symgen.run.starts.held import Held
 from symgen.study.ensemble.chunks import make_rows
 
@@ -48,7 +48,7 @@ def one_by_one(compiled, rows, p, targets, held):
         assembly = Assembly(compiled, Held(dict.fromkeys(held, 0.0)), ask_light=True)
         y, summary = np.zeros(compiled.info.ny), np.zeros((1, e.N_SUMMARY))
         y[: compiled.info.nq] = rows.q[i]
-        state = one_row(y, p[i].copy(), compiled.scratch())
+        state = as_one_row(y, p[i].copy(), compiled.scratch())
         assembly.close_all(state, StartConditions(rows.v[i : i + 1].copy(), targets[i : i + 1].copy(), summary), *ALONE)
         found.append((*state, summary))
     return tuple(np.concatenate(part) for part in zip(*found, strict=True))

@@ -116,7 +116,7 @@ def as_a_device_asks() -> None:
 
             return launch
 
-    plain_jit, compiled = cuda.jit, device._compiled
+    plain_jit, compiled = cuda.jit, device._compile_kernel
 
     def jit(*words, **options):
         if words and isinstance(words[0], numba.core.typing.Signature):
@@ -136,7 +136,7 @@ def as_a_device_asks() -> None:
         made = compiled(copy, original)
         return made if hasattr(original, "viewing") else Strict(made, copy.__name__)
 
-    cuda.jit, device._compiled = jit, strict
+    cuda.jit, device._compile_kernel = jit, strict
 
 
 def launched(sweep) -> bool:

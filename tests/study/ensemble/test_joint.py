@@ -124,7 +124,7 @@ def test_targets_without_joint_coordinates_say_so():
 def test_rows_with_resets_share_what_is_the_same_for_all(monkeypatch):
     """Events are compiled, effects for bodies as well, and a start is carried once and not for each row."""
     calls = []
-    for module, name in ((events, "effects_of"), (kernel, "compile_events"), (tree_starts, "carrying_of")):
+    for module, name in ((events, "effects_of_events"), (kernel, "compile_events"), (tree_starts, "carried_motion")):
         original = getattr(module, name)
 
         def counted(*arguments, name=name, original=original):
@@ -137,4 +137,4 @@ def test_rows_with_resets_share_what_is_the_same_for_all(monkeypatch):
     kept = ("crank.ax", "event")
     found = symgen.sweep(model, {"crank.omega": [1.0, 2.0, 3.0]}, quantities=kept, jobs=1, **asked)
     np.testing.assert_array_equal(found["event.blow.count"], 1.0)
-    assert sorted(calls) == ["carrying_of", "compile_events", "effects_of"]
+    assert sorted(calls) == ["carried_motion", "compile_events", "effects_of_events"]

@@ -8,7 +8,7 @@ from support.emitted import mechanism_of
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.run.breaks.seams import foreseen
+from symgen.run.breaks.seams import foresee_changes
 from symgen.study.ensemble.lines import table_lines
 from symgen.study.stress.bench import Base
 from symgen.study.stress.families import singular_passage
@@ -102,7 +102,7 @@ def test_pieces_are_those_asked_for_whatever_other_threads_ask():
         def __setitem__(self, key, value):
             pass
 
-    known = foreseen(pushed(PUSH, at=0.123, long=1.0).mechanism)
+    known = foresee_changes(pushed(PUSH, at=0.123, long=1.0).mechanism)
     other = replace(known, latest=Forgetful())
     for values in ({"at": 0.2, "long": 0.1}, {"at": 0.5, "long": 0.1}):
         assert other.seams(values, 1.0) == known.seams(values, 1.0) != ()

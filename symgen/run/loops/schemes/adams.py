@@ -20,7 +20,7 @@ from symgen.compile.loopcode.vectors import combine, copied, weigh
 from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
 from symgen.run.layout.records import ModelSystem, Run, Span
-from symgen.run.layout.scales import weights_of, with_work
+from symgen.run.layout.scales import error_with_work, weights_of
 from symgen.run.layout.scheme_records import MULTISTEP, Multistep
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import evaluate
@@ -50,10 +50,10 @@ def lagrange_integrals(
 
 
 @called
-def classical(system: ModelSystem, run: Run, t: float, h: float, stage: Array, rate: Array) -> int:
+def classical_step(system: ModelSystem, run: Run, t: float, h: float, stage: Array, rate: Array) -> int:
     """Set ``run.trial`` by one step of the classical Runge-Kutta scheme; return its evaluations."""
     width, y, out = system.sizes.width, run.y, run.trial
-    for i in range(width):  # the newest derivative stands first
+    for i in range(width):  # the newest derivative is the first
         out[i] = y[i] + h / 6.0 * run.memory[i]
         rate[i] = run.memory[i]
     for s in range(3):
@@ -124,7 +124,7 @@ def attempt(
             spare = part(run.room, 2 * width, width)
             run.control[abi.EVALUATIONS] += extrapolated_step(system, run, t, h, predicted, rate, spare)
         else:
-            run.control[abi.EVALUATIONS] += classical(system, run, t, h, predicted, rate)
+            run.control[abi.EVALUATIONS] += classical_step(system, run, t, h, predicted, rate)
         return 0.0
     coefficients = part(run.room, 3 * width, 2 * DEPTH)
     times = part(run.room, 3 * width + 2 * DEPTH, DEPTH + 1)
@@ -148,7 +148,7 @@ def attempt(
         predicted[i] -= run.trial[i]
     total = weigh(width, predicted, weights_of(span, run), run.y, run.trial, span.rtol, span.atol)
     work = system.sizes.nq + system.sizes.nv
-    return 0.1 * with_work(system.sizes, span, run, predicted[work], math.sqrt(total / system.sizes.controlled))
+    return 0.1 * error_with_work(system.sizes, span, run, predicted[work], math.sqrt(total / system.sizes.controlled))
 
 
 def refuse(run: Run) -> None:
@@ -171,7 +171,7 @@ def renew(system: ModelSystem, scheme: Multistep, span: Span, run: Run, t: float
 
 
 def memory(width: int) -> tuple[int, int]:
-    """Return the lengths of a history, and of the working memory of a step behind the trial state."""
+    """Return the lengths of a history, and of the working memory of a step after the trial state."""
     return DEPTH * (width + 1), 3 * width + 3 * DEPTH + 1
 
 

@@ -1,6 +1,6 @@
 """Explicit Runge-Kutta runs that keep their stages, and the adjoint of such a run, step by step backwards.
 
-Behind the scheme's own memory lies the number of records, then the records: of each step its end, its length, the
+The scheme's own memory is followed by the number of records and the records: of each step its end, its length, the
 corrections of its state, the accepted state, and the rates of all stages. The first record of a part of a run is where
 it begins: it has no stages. With these the states at stages are sums, so the adjoint evaluates nothing but adjoints.
 """
@@ -29,8 +29,8 @@ from symgen.run.loops.schemes.explicit import renew as set_first_stage
 #: Positions in the head of the memory: number of records, rounds of corrections before a step, steps that are kept,
 #: number of angles that count turns; then its length.
 RECORDS, ROUNDS, KEPT_STEPS, TURNING, HEAD = 0, 1, 2, 3, 8
-#: Positions in a record: time [s], step [s], rounds of corrections, angles that count turns; the state stands behind a
-#: multiple of so many numbers, which vectors are.
+#: Positions in a record: time [s], step [s], rounds of corrections, angles that count turns; the state begins at a
+#: multiple of so many numbers, the length of vectors.
 TIME, STEP, CORRECTIONS, ANGLES, _ALIGNED = 0, 1, 2, 3, 8
 #: Adjoint of ``rhs``: adjoints of y, p, w and ydot follow its arguments.
 Rates = Callable[[float, Array, Array, Array, Integers, Array, Array, Array, Array, Array], int]
@@ -54,7 +54,7 @@ class Transposed(Record):
     Attributes
     ----------
     start, column, value : Array
-        Row s has the coefficients of the rate at stage s in all later stages, and in the end of the step behind them;
+        Row s has the coefficients of the rate at stage s in all later stages, and in the end of the step after them;
         then a row of ones for all stages.
     """
 
@@ -63,7 +63,7 @@ class Transposed(Record):
     value: Array
 
 
-def transposed(scheme: TableauRecord) -> Transposed:
+def transpose_tableau(scheme: TableauRecord) -> Transposed:
     """Return the coefficients of a tableau by columns."""
     stages, start, column, value = int(scheme.stages), [0], list[int](), list[float]()
     first, columns, values = (x.tolist() for x in (scheme.start, scheme.column, scheme.value))
@@ -106,7 +106,7 @@ def keep_forward(system: ModelSystem, scheme: TableauRecord, run: Run, t: float,
     run.memory[memory + KEPT_STEPS] = run.control[abi.STEPS]
 
 
-def attempt_constant(
+def attempt_recorded(
     system: ModelSystem,
     scheme: TableauRecord,
     span: Span,
@@ -156,7 +156,7 @@ def prepare_adaptive(system: ModelSystem, scheme: TableauRecord, span: Span, run
 
 
 constant = loop(
-    __name__, "constant", TABLEAU, **CONSTANT_PARTS | {"attempt": attempt_constant, "renew": renew_constant}
+    __name__, "constant", TABLEAU, **CONSTANT_PARTS | {"attempt": attempt_recorded, "renew": renew_constant}
 )
 adaptive = loop(
     __name__,
@@ -204,7 +204,7 @@ def undo_rounds(
         corrections.three(t, y, p, w, iw, y_bar, p_bar, w_bar)
 
 
-def backward(
+def carry_adjoint_back(
     rates: Rates,
     corrections: Corrections,
     scheme: TableauRecord,
@@ -237,7 +237,7 @@ def backward(
     p, w, iw : Array
         As of the run; the scratch is changed.
     bars : Array
-        Adjoints of the state, the parameters and the scratch one behind the other; changed.
+        Adjoints of the state, the parameters and the scratch one after the other; changed.
     room : Array
         Working memory of (stages + 4) states.
     """
@@ -303,8 +303,10 @@ def backward(
     return 0
 
 
-_SIGNATURE = signature_from(backward)
+_SIGNATURE = signature_from(carry_adjoint_back)
 #: Without corrections their place is that of an unused number.
 _UNCORRECTED = types.int64(RATES, types.int64, *_SIGNATURE.arguments[2:])
-back_through = compiled_loop(__name__, "back_through", backward, _UNCORRECTED)
-back_through_corrected = compiled_loop(__name__, "back_through_corrected", backward, _SIGNATURE, undo=undo_rounds)
+back_through = compiled_loop(__name__, "back_through", carry_adjoint_back, _UNCORRECTED)
+back_through_corrected = compiled_loop(
+    __name__, "back_through_corrected", carry_adjoint_back, _SIGNATURE, undo=undo_rounds
+)

@@ -31,7 +31,7 @@ from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import weigh
 from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
-from symgen.run.layout.manifold import advance
+from symgen.run.layout.manifold import advance_coordinates
 from symgen.run.layout.records import ModelSystem, Run, Sizes, Span
 from symgen.run.layout.redundancy import leave_out_rest
 from symgen.run.layout.scales import weights_of
@@ -47,12 +47,12 @@ _MOST_ITERATIONS = 20
 ADAPTIVE = False
 
 
-def in_state(sizes: Sizes, i: int) -> int:
-    """Return the index in the state of the element with rate i: velocities, then the states behind the work."""
+def index_in_state(sizes: Sizes, i: int) -> int:
+    """Return the index in the state of the element with rate i: velocities, then the states after the work."""
     return sizes.nq + i if i < sizes.nv else sizes.nq + i + 1
 
 
-def in_unknowns(sizes: Sizes, i: int) -> int:
+def index_of_unknown(sizes: Sizes, i: int) -> int:
     """Return the index in k of rate i of v and z."""
     return sizes.nq + i if i < sizes.nv else sizes.unknowns - sizes.states - sizes.nv + i
 
@@ -73,12 +73,12 @@ def prepare(system: ModelSystem, scheme: Alpha, span: Span, run: Run) -> None:
         run.trial[i] = run.y[i] + probe * beginning[i]
     evaluate(system, run, t + probe, run.trial, ahead)
     for i in range(count):
-        at = in_state(sizes, i)
+        at = index_in_state(sizes, i)
         a0[i] = beginning[at] + (scheme.alpha_m - scheme.alpha_f) * h * (ahead[at] - beginning[at]) / probe
     evaluate(system, run, t, run.y, beginning)
     run.control[abi.EVALUATIONS] += 3
     for i in range(count):
-        k[in_unknowns(sizes, i)] = beginning[in_state(sizes, i)]
+        k[index_of_unknown(sizes, i)] = beginning[index_in_state(sizes, i)]
     for c in range(sizes.m):
         k[first + c] = run.w[sizes.multipliers + c]
     if ADAPTIVE:
@@ -87,7 +87,7 @@ def prepare(system: ModelSystem, scheme: Alpha, span: Span, run: Run) -> None:
 
 
 @called
-def move(system: ModelSystem, scheme: Alpha, run: Run, h: float, k: Array, a1: Array, change: Array) -> None:
+def move_state(system: ModelSystem, scheme: Alpha, run: Run, h: float, k: Array, a1: Array, change: Array) -> None:
     """Set ``run.trial`` and a1 from v1' and z1' in `k`, and `change` to the displacements.
 
     With adaptive steps a0 for this step follows a1.
@@ -99,16 +99,16 @@ def move(system: ModelSystem, scheme: Alpha, run: Run, h: float, k: Array, a1: A
         ratio, kept = h / run.memory[n + 2 * count + sizes.width], a0
         a0 = part(a1, count, count)
         for i in range(count):
-            at = in_state(sizes, i)
+            at = index_in_state(sizes, i)
             a0[i] = beginning[at] + ratio * (kept[i] - beginning[at])
     for i in range(count):
-        at = in_state(sizes, i)
-        rate = (1.0 - alpha_f) * k[in_unknowns(sizes, i)] + alpha_f * beginning[at]
+        at = index_in_state(sizes, i)
+        rate = (1.0 - alpha_f) * k[index_of_unknown(sizes, i)] + alpha_f * beginning[at]
         a1[i] = (rate - alpha_m * a0[i]) / (1.0 - alpha_m)
         if i < sizes.nv:
             change[i] = h * run.y[at] + h * h * ((0.5 - beta) * a0[i] + beta * a1[i])
         run.trial[at] = run.y[at] + h * ((1.0 - gamma) * a0[i] + gamma * a1[i])
-    advance(system, run, change, run.trial)
+    advance_coordinates(system, run, change, run.trial)
 
 
 @called
@@ -128,7 +128,7 @@ def attempt(
     by_velocity, by_position = h * scheme.gamma * ratio, h * h * scheme.beta * ratio
     last, fresh, end = math.inf, True, 0
     for _ in range(_MOST_ITERATIONS):
-        move(system, scheme, run, h, k, a1, change)
+        move_state(system, scheme, run, h, k, a1, change)
         for i in range(nv):
             k[i] = run.trial[nq + i]
         if fresh:
@@ -136,7 +136,7 @@ def attempt(
             multiply_sources(scheme.plan, scheme.slopes)
             turn_rows(scheme.plan, scheme.slopes, change)
             factors[0], factors[1], factors[2], factors[3] = 1.0, by_velocity, by_position, -by_position
-            if sparse.prepare(scheme.plan, scheme.slopes, factors, scheme.numbers) < 0:
+            if sparse.prepare_pattern(scheme.plan, scheme.slopes, factors, scheme.numbers) < 0:
                 return TOO_LARGE
             run.control[abi.JACOBIANS] += 1
             fresh = False
@@ -166,7 +166,7 @@ def attempt(
     if end <= 0:
         return DIVERGED
     settled = is_settled(part(k, first, sizes.m), part(change, nv, sizes.m))
-    move(system, scheme, run, h, k, a1, change)
+    move_state(system, scheme, run, h, k, a1, change)
     if not settled:  # the work is that of the last multipliers
         system.residual(following, run.trial, k, run.p, run.w, right)
         run.control[abi.EVALUATIONS] += 1
@@ -195,19 +195,19 @@ def alpha_step_error(system: ModelSystem, scheme: Alpha, span: Span, run: Run, f
     by_position, by_velocity = 1.0 / 6.0 - 0.5 * theta - scheme.beta, 0.5 * theta * theta - 1.0 / 12.0
     run.control[abi.ORDER] = 3
     for i in range(count):
-        change[in_unknowns(sizes, i) - nq] = a1[i] - a0[i]
-    filtered(system, scheme, run, following)
+        change[index_of_unknown(sizes, i) - nq] = a1[i] - a0[i]
+    filter_change(system, scheme, run, following)
     for i in range(nq, width):
         moved[i] = 0.0
     for i in range(count):
-        j = in_unknowns(sizes, i) - nq
+        j = index_of_unknown(sizes, i) - nq
         turn[i] = change[j]
         change[j] = change[j] - h / steps[1] * before[i] if steps[1] > 0.0 else 0.0
     if steps[1] > 0.0:
-        filtered(system, scheme, run, following)
+        filter_change(system, scheme, run, following)
         for i in range(count):
-            turned = change[in_unknowns(sizes, i) - nq]
-            moved[in_state(sizes, i)] = h * h * by_velocity * turned * 2.0 / (h + steps[1])
+            turned = change[index_of_unknown(sizes, i) - nq]
+            moved[index_in_state(sizes, i)] = h * h * by_velocity * turned * 2.0 / (h + steps[1])
     for i in range(nv):
         right[i] = h * h * by_position * turn[i]
     shift_positions(system, scheme, run, h, right, moved)
@@ -218,17 +218,17 @@ def alpha_step_error(system: ModelSystem, scheme: Alpha, span: Span, run: Run, f
 
 
 @called
-def filtered(system: ModelSystem, scheme: Alpha, run: Run, following: float) -> None:
+def filter_change(system: ModelSystem, scheme: Alpha, run: Run, following: float) -> None:
     """Replace a change of v' and z' by J^-1 M times it: residuals, 0 at the end of a step, are linear in both."""
     sizes, nq, n = system.sizes, system.sizes.nq, system.sizes.unknowns
     k, right, change = part(run.room, 0, n), part(run.room, n, n), part(run.room, 2 * n, n)
     for i in range(sizes.nv + sizes.states):
-        j = in_unknowns(sizes, i)
+        j = index_of_unknown(sizes, i)
         k[j] += change[j - nq]
     system.residual(following, run.trial, k, run.p, run.w, right)
     run.control[abi.EVALUATIONS] += 1
     for i in range(sizes.nv + sizes.states):
-        j = in_unknowns(sizes, i)
+        j = index_of_unknown(sizes, i)
         k[j] -= change[j - nq]
     for i in range(nq + sizes.nv, n - sizes.states):
         right[i] = 0.0
@@ -242,7 +242,7 @@ def shift_positions(system: ModelSystem, scheme: Alpha, run: Run, h: float, off:
     a1, a0 = part(run.room, 3 * n, nv), part(run.room, 3 * n + count, nv)
     for i in range(nv):
         off[i] += h * run.y[system.sizes.nq + i] + h * h * ((0.5 - scheme.beta) * a0[i] + scheme.beta * a1[i])
-    advance(system, run, off, moved)
+    advance_coordinates(system, run, off, moved)
 
 
 def renew(system: ModelSystem, scheme: Alpha, span: Span, run: Run, t: float, changed: bool) -> None:
@@ -272,7 +272,7 @@ def renew(system: ModelSystem, scheme: Alpha, span: Span, run: Run, t: float, ch
 
 
 def memory(width: int, count: int, unknowns: int) -> tuple[int, int]:
-    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state.
+    """Return the lengths of the memory of a run, and of the working memory of a step after the trial state.
 
     `count` is the number of velocities and states of the file.
     """

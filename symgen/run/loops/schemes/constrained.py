@@ -33,13 +33,13 @@ def carry_slopes(scheme: ConstrainedStages | PartitionedStages) -> None:
         scheme.slopes[i] = scheme.slopes[count + i]
 
 
-def factorised(scheme: ConstrainedStages | PartitionedStages, factors: Array) -> bool:
+def factorise_stage(scheme: ConstrainedStages | PartitionedStages, factors: Array) -> bool:
     """Factorise ``[M D^T; E 0]``; return whether its factors had room."""
     factors[0] = 1.0
-    return sparse.prepare(scheme.plan, scheme.slopes, factors, scheme.numbers) >= 0
+    return sparse.prepare_pattern(scheme.plan, scheme.slopes, factors, scheme.numbers) >= 0
 
 
-def solved(
+def solve_stage(
     system: ModelSystem, scheme: ConstrainedStages | PartitionedStages, run: Run, right: Array, x: Array
 ) -> None:
     """Solve for accelerations and multipliers x; multipliers of redundant rows are 0."""
@@ -68,7 +68,7 @@ def step_parts(sizes: Sizes, room: Array) -> Any:
     sizes : Sizes
         Sizes of the model.
     room : Array
-        Working memory behind the trial state, see `memory`.
+        Working memory after the trial state, see `memory`.
 
     Returns
     -------
@@ -91,6 +91,6 @@ def step_parts(sizes: Sizes, room: Array) -> Any:
 
 
 def memory(width: int, nv: int, m: int, unknowns: int, stages: int) -> tuple[int, int]:
-    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state."""
+    """Return the lengths of the memory of a run, and of the working memory of a step after the trial state."""
     n = nv + m
     return n, 2 + 3 * n + 2 * unknowns + m + (stages + 2) * (nv + width)

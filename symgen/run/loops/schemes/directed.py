@@ -1,8 +1,8 @@
 """Adaptive runs with directions that keep the error of these, estimated from the stages of their accepted steps.
 
-Directions have no weight in the choice of steps. Where the state hardly moves, its steps are too long for them, which
-their own embedded estimates show. Behind the scheme's own memory lie the numbers of elements of the state and of
-directions, then of each direction the largest element, the largest error of a step and the end of that step, for
+Directions have no weight in the choice of steps. Where the state hardly moves, steps are too long for the directions,
+as their own embedded estimates show. The scheme's own memory is followed by the numbers of elements of the state and
+of directions, then by the largest element of each direction, the largest error of a step and the end of that step, for
 coordinates, velocities and auxiliary states.
 """
 

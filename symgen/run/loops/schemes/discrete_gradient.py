@@ -23,12 +23,12 @@ from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import copied
 from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
-from symgen.run.layout.manifold import advance
+from symgen.run.layout.manifold import advance_coordinates
 from symgen.run.layout.records import ModelSystem, Run, Span
 from symgen.run.layout.scheme_records import CONSTRAINED, ConstrainedStages
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import DIVERGED, TOO_LARGE
-from symgen.run.loops.schemes.constrained import auxiliary_rates, factorised, slopes_at, solved, step_parts
+from symgen.run.loops.schemes.constrained import auxiliary_rates, factorise_stage, slopes_at, solve_stage, step_parts
 from symgen.run.loops.schemes.rattle import prepare, renew
 
 _MOST_ITERATIONS = 50
@@ -58,7 +58,7 @@ def follow_path(system: ModelSystem, run: Run, share: float, h: float, moved: Ar
         moved[i] = share * h * y[sizes.nq + i]
     for i in range(first, sizes.ny):
         y[i] = run.y[i] + share * h * rates[i - first]
-    advance(system, run, moved, y)
+    advance_coordinates(system, run, moved, y)
 
 
 @called
@@ -97,7 +97,7 @@ def attempt(
             follow_path(system, run, 0.5, h, moved, rates, held)
             slopes_at(system, scheme, run, t + 0.5 * h, held, k, 0)
             slopes_at(system, scheme, run, following, run.trial, k, 1)
-            if not factorised(scheme, factors):
+            if not factorise_stage(scheme, factors):
                 return TOO_LARGE
             run.control[abi.JACOBIANS] += 1
             fresh = False
@@ -126,7 +126,7 @@ def attempt(
             drift += (h * (now[i] - rates[i]) / (1.0 + abs(run.y[first + i]))) ** 2 if 0 < i <= sizes.states else 0.0
             rates[i] = now[i]
         run.control[abi.EVALUATIONS] += _NODES + 1
-        solved(system, scheme, run, right, change)
+        solve_stage(system, scheme, run, right, change)
         run.control[abi.NEWTON_ITERATIONS] += 1
         size, total = 0.0, 0.0
         for i in range(nv + m):

@@ -15,10 +15,10 @@ from symgen.compile.loopcode.vectors import combine, copied, follow, total, weig
 from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
 from symgen.run.layout.records import ModelSystem, Outputs, Run, Span
-from symgen.run.layout.scales import weights_of, with_work
+from symgen.run.layout.scales import error_with_work, weights_of
 from symgen.run.layout.scheme_records import TABLEAU, PartitionedStages, TableauRecord
 from symgen.run.loops.frame import loop
-from symgen.run.loops.frame_parts import correct, evaluate, store
+from symgen.run.loops.frame_parts import correct, evaluate, store_output
 from symgen.run.loops.search_records import N_INSIDE
 from symgen.run.loops.watch import keep_maxima
 
@@ -112,13 +112,13 @@ def attempt(
         first, second = second, weigh(width, error, share, run.y, new, span.rtol, span.atol)
         before, done = done, abs(error[work])
     if scheme.estimates == 1:
-        return with_work(system.sizes, span, run, done, math.sqrt(second / count))
+        return error_with_work(system.sizes, span, run, done, math.sqrt(second / count))
     size = 0.0
     if first != 0.0:
         size = float(first) / math.sqrt((first + 0.01 * second) * count)  # two estimates are combined as Hairer does
     if before != 0.0:
         done = before * before / math.sqrt(before * before + 0.01 * done * done)
-        size = with_work(system.sizes, span, run, done, size)
+        size = error_with_work(system.sizes, span, run, done, size)
     allowed = run.clock[abi.ALLOWED]
     if allowed > 0.0 and _SETTLED * allowed < 1.0 and run.control[abi.IN_ZONE] == 0:
         least = h / (_GROWTH * allowed * run.clock[abi.STEP])
@@ -142,7 +142,7 @@ def renew(
 
 
 @called
-def interpolate(
+def interpolate_explicit_step(
     system: ModelSystem,
     scheme: TableauRecord,
     span: Span,
@@ -170,7 +170,7 @@ def interpolate(
         read_stages(width, scheme, x, h, run.y, stages, tables, new)
         correct(system, run, outputs.times[out], new, True)
         keep_maxima(system.sizes, run, new)
-        store(system.sizes, run.w, outputs, out, new)
+        store_output(system.sizes, run.w, outputs, out, new)
         out += 1
     run.control[abi.OUTPUTS] = out
     for i in range(abi.N_STATUS):
@@ -180,7 +180,7 @@ def interpolate(
 
 
 @called
-def inside(
+def inside_explicit_step(
     system: ModelSystem, scheme: TableauRecord, run: Run, t: float, following: float, h: float, i: int, y: Array
 ) -> float:
     """Set `y` to the state at inner point i of a good attempt by its dense output; return its part of the step."""
@@ -229,8 +229,8 @@ def read_stages(
     combine(width, h, 0, scheme.nodes.shape[0], scheme.count, weights, stages, y, new)
 
 
-def room(width: int, scheme: TableauRecord, windings: int) -> int:
-    """Return the working memory of a step behind the trial state; `windings` angles count turns."""
+def explicit_room(width: int, scheme: TableauRecord, windings: int) -> int:
+    """Return the working memory of a step after the trial state; `windings` angles count turns."""
     if not scheme.degree:
         return int(scheme.stages) * width
     return 3 * width + 2 * len(scheme.dense) // int(scheme.degree) + windings
@@ -240,7 +240,7 @@ def room(width: int, scheme: TableauRecord, windings: int) -> int:
 CONSTANT_PARTS = {"attempt": attempt_constant}
 ADAPTIVE_PARTS = {
     **{"ADAPTIVE": True, "DENSE": True, "prepare": prepare, "attempt": attempt},
-    **{"renew": renew, "interpolate": interpolate, "inside": inside},
+    **{"renew": renew, "interpolate": interpolate_explicit_step, "inside": inside_explicit_step},
 }
 
 constant = loop(__name__, "constant", TABLEAU, **CONSTANT_PARTS)

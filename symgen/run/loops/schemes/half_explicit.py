@@ -1,7 +1,7 @@
 """Half-explicit Runge-Kutta schemes: forces of stage i are those at its beginning, its multipliers close the next one.
 
 ``V_(i+1) = v + h sum_j a_ij V'_j`` with ``M V'_i = f_i - D_i^T lambda_i`` and ``D_(i+1) V_(i+1) = nu_(i+1)``, the state
-behind the last stage being the end of the step. Positions come first, as they need velocities of earlier stages only;
+after the last stage being the end of the step. Positions come first, as they need velocities of earlier stages only;
 bodies in space turn by exponentials (`symgen.run.loops.schemes.lie`), so that Euler parameters keep their length and
 stages meet the constraints of the state.
 """
@@ -12,7 +12,7 @@ from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import copied
 from symgen.run.layout import abi
-from symgen.run.layout.manifold import advance
+from symgen.run.layout.manifold import advance_coordinates
 from symgen.run.layout.records import ModelSystem, Run, Span
 from symgen.run.layout.scheme_records import CONSTRAINED, ConstrainedStages
 from symgen.run.loops.frame import loop
@@ -20,9 +20,9 @@ from symgen.run.loops.frame_parts import TOO_LARGE
 from symgen.run.loops.schemes.constrained import (
     auxiliary_rates,
     carry_slopes,
-    factorised,
+    factorise_stage,
     slopes_at,
-    solved,
+    solve_stage,
     step_parts,
 )
 from symgen.run.loops.schemes.lie import exponential_rate
@@ -72,14 +72,14 @@ def attempt(
                 moved[i] += factor * turning[j * nv + i]
                 if j < s:
                     run.trial[nq + i] += factor * rates[j * width + nq + i]
-        advance(system, run, moved, run.trial)
+        advance_coordinates(system, run, moved, run.trial)
         slopes_at(system, scheme, run, after, run.trial, k, 1)
         system.residual(after, run.trial, k, run.p, run.w, rest)
         for c in range(m):
             right[nv + c] = -rest[n + c] / reach
-        if not factorised(scheme, factors):
+        if not factorise_stage(scheme, factors):
             return TOO_LARGE
-        solved(system, scheme, run, right, x)
+        solve_stage(system, scheme, run, right, x)
         for i in range(nv):
             k[nq + i] = rates[s * width + nq + i] = x[i]
             run.trial[nq + i] += reach * x[i]

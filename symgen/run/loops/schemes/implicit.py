@@ -19,7 +19,7 @@ from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
 from symgen.run.layout.records import ModelSystem, Run, Span
 from symgen.run.layout.redundancy import leave_out_rest
-from symgen.run.layout.scales import weights_of, with_work
+from symgen.run.layout.scales import error_with_work, weights_of
 from symgen.run.layout.scheme_records import STAGES, Stages
 from symgen.run.loops import sparse
 from symgen.run.loops.frame import loop
@@ -104,7 +104,7 @@ def is_rounding(
 ) -> bool:
     """Return whether the residuals `right` of some stages are rounding of their terms, as with stiff forces."""
     n, count = system.sizes.unknowns, scheme.entries.shape[0] // 2
-    # columns behind those of q and v are the file's own states, which stand behind the work in a state
+    # columns after those of q and v are the file's own states, which follow the work in a state
     first, tail = system.sizes.nq + system.sizes.nv, n - system.sizes.states
     for s in range(low, high):
         stage_state(system, scheme, run, h, s, k, rates)
@@ -149,7 +149,7 @@ def factorise_stages(
         system.tangent(t + scheme.c[s] * h, run.trial, part(k, s * n, n), run.p, run.w, slopes)
         for j in range(low, high):
             factors[1 + (s - low) * (high - low) + j - low] = h * scheme.a[s * s_count + j]
-    if sparse.prepare(scheme.plan, scheme.slopes, factors, scheme.numbers) < 0:
+    if sparse.prepare_pattern(scheme.plan, scheme.slopes, factors, scheme.numbers) < 0:
         return False
     run.control[abi.JACOBIANS] += 1
     return True
@@ -304,7 +304,7 @@ def step_error(
             ):
                 right[scheme.entries[e]] += scheme.slopes[e] * change[scheme.entries[count + e]]
         factors[0], factors[1] = 1.0, h * scheme.filtered
-        if sparse.prepare(scheme.filter_plan, scheme.slopes, factors, scheme.filter_numbers) < 0:
+        if sparse.prepare_pattern(scheme.filter_plan, scheme.slopes, factors, scheme.filter_numbers) < 0:
             return TOO_LARGE
         solve(scheme.filter_plan, scheme.filter_numbers, right, change)
     for i in range(tail, n):
@@ -324,7 +324,7 @@ def step_error(
     error = math.sqrt(weigh(sizes.width, change, share, run.y, run.trial, span.rtol, span.atol) / sizes.controlled)
     # the work enters no rate, so it needs no filter; where every coordinate is driven nothing else is integrated, since
     # constraints in every stage make the other estimates 0
-    return with_work(system.sizes, span, run, change[first], error)
+    return error_with_work(system.sizes, span, run, change[first], error)
 
 
 def renew(system: ModelSystem, scheme: Stages, span: Span, run: Run, t: float, changed: bool) -> None:
@@ -333,7 +333,7 @@ def renew(system: ModelSystem, scheme: Stages, span: Span, run: Run, t: float, c
 
 
 def memory(width: int, unknowns: int, more: int, stages: int, together: bool) -> tuple[int, int]:
-    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state.
+    """Return the lengths of the memory of a run, and of the working memory of a step after the trial state.
 
     The memory holds the unknowns at the beginning of a step, and rates of `more` auxiliary states.
     """

@@ -13,7 +13,7 @@ from symgen.compile.loopcode.padding import padded
 from symgen.compile.loopcode.vectors import total
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
-from symgen.run.layout.manifold import advance
+from symgen.run.layout.manifold import advance_coordinates
 from symgen.run.layout.records import ModelSystem, Run, Span
 from symgen.run.layout.scheme_records import ROTATIONS, Rotations
 from symgen.run.loops.frame import loop
@@ -49,7 +49,7 @@ def attempt(
     for s in range(tableau.stages + 1):
         low, high = tableau.start[s], tableau.start[s + 1]
         total(width, h, low, high, tableau.column, tableau.value, stages, moved)
-        advance(system, run, moved, trial)
+        advance_coordinates(system, run, moved, trial)
         for i in range(nq, ny):
             trial[i] = y[i] + moved[nv + i - nq]
         if s < tableau.stages:
@@ -67,8 +67,8 @@ def stage_width(nq: int, nv: int, ny: int) -> int:
     return padded(ny - nq + nv)
 
 
-def room(width: int, stage: int, stages: int) -> int:
-    """Return the working memory of a step behind the trial state."""
+def lie_room(width: int, stage: int, stages: int) -> int:
+    """Return the working memory of a step after the trial state."""
     return width + (1 + stages) * stage
 
 

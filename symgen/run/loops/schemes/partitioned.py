@@ -15,18 +15,18 @@ from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import weigh
 from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
-from symgen.run.layout.manifold import advance
+from symgen.run.layout.manifold import advance_coordinates
 from symgen.run.layout.records import ModelSystem, Run, Span
-from symgen.run.layout.scales import weights_of, with_work
+from symgen.run.layout.scales import error_with_work, weights_of
 from symgen.run.layout.scheme_records import PARTITIONED, PartitionedStages
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import TOO_LARGE, evaluate
 from symgen.run.loops.schemes.constrained import (
     auxiliary_rates,
     carry_slopes,
-    factorised,
+    factorise_stage,
     slopes_at,
-    solved,
+    solve_stage,
     step_parts,
 )
 from symgen.run.loops.schemes.explicit import prepare, renew
@@ -49,7 +49,7 @@ def combine_stages(
             moved[i] += factor * turning[j * nv + i]
         for i in range(nq, sizes.ny):
             y[i] += factor * run.memory[j * width + i]
-    advance(system, run, moved, y)
+    advance_coordinates(system, run, moved, y)
 
 
 @called
@@ -86,9 +86,9 @@ def follow_stages(
         system.residual(after, run.trial, k, run.p, run.w, rest)
         for c in range(m):
             right[nv + c] = -rest[n + c] / reach
-        if not factorised(scheme, factors):
+        if not factorise_stage(scheme, factors):
             return False
-        solved(system, scheme, run, right, x)
+        solve_stage(system, scheme, run, right, x)
         for i in range(nv):
             k[nq + i] = run.memory[s * width + nq + i] = x[i]
         for c in range(m):
@@ -106,7 +106,7 @@ def follow_stages(
 
 
 @called
-def attempt_constant(
+def attempt_partitioned(
     system: ModelSystem,
     scheme: PartitionedStages,
     span: Span,
@@ -154,9 +154,9 @@ def attempt(
         right[i] = 0.0
     for c in range(m):
         right[nv + c] = -rest[n + c]
-    if not factorised(scheme, factors):
+    if not factorise_stage(scheme, factors):
         return TOO_LARGE
-    solved(system, scheme, run, right, x)
+    solve_stage(system, scheme, run, right, x)
     run.control[abi.JACOBIANS] += 1
     for i in range(sizes.ny):
         other[i] = run.trial[i] - other[i]
@@ -166,15 +166,15 @@ def attempt(
         other[i] = 0.0
     share = weights_of(span, run)
     error = math.sqrt(weigh(width, other, share, run.y, run.trial, span.rtol, span.atol) / sizes.controlled)
-    return with_work(system.sizes, span, run, abs(other[first]), error)
+    return error_with_work(system.sizes, span, run, abs(other[first]), error)
 
 
 def memory(width: int, nv: int, m: int, unknowns: int, stages: int) -> tuple[int, int]:
-    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state."""
+    """Return the lengths of the memory of a run, and of the working memory of a step after the trial state."""
     return (stages + 1) * width, 2 + 2 * (nv + m) + 2 * unknowns + m + width + (stages + 2) * nv
 
 
 _PARTS: dict[str, Any] = {"prepare": prepare, "renew": renew}
 _FUNCTIONS = "turn", "residual", "tangent"
-constant = loop(__name__, "constant", PARTITIONED, *_FUNCTIONS, attempt=attempt_constant, **_PARTS)
+constant = loop(__name__, "constant", PARTITIONED, *_FUNCTIONS, attempt=attempt_partitioned, **_PARTS)
 adaptive = loop(__name__, "adaptive", PARTITIONED, *_FUNCTIONS, ADAPTIVE=True, attempt=attempt, **_PARTS)

@@ -23,7 +23,7 @@ from symgen.compile.native.annotations import Array
 from symgen.compile.native.types import NODES
 from symgen.run.layout import abi
 from symgen.run.layout.records import ModelSystem, Run, Sizes, Span
-from symgen.run.layout.scales import still, weights_of
+from symgen.run.layout.scales import tolerance_at_rest, weights_of
 from symgen.run.layout.scheme_records import NODES as SCHEME
 from symgen.run.layout.scheme_records import Nodes
 from symgen.run.loops.frame import loop
@@ -48,7 +48,12 @@ from symgen.run.loops.schemes.picard_memory import (
     WEIGHED,
     WIDE,
 )
-from symgen.run.loops.schemes.picard_outputs import as_one_step, inside, interpolate, one_by_one
+from symgen.run.loops.schemes.picard_outputs import (
+    evaluate_one_by_one,
+    inside_wide_step,
+    interpolate_wide_step,
+    run_of_one_step,
+)
 
 #: As in the frame: whether steps follow the error estimate.
 ADAPTIVE = False
@@ -106,7 +111,7 @@ def step_rests(sizes: Sizes, span: Span, run: Run, ends: Array) -> bool:
     share, largest = weights_of(span, run), 0.0
     for i in range(sizes.nq, sizes.nq + sizes.nv):
         largest = max(largest, share[i] * max(abs(run.y[i]), abs(ends[i * NODES + NODES - 1])))
-    return bool(largest <= still(span))
+    return bool(largest <= tolerance_at_rest(span))
 
 
 def begin_nodes(
@@ -181,7 +186,7 @@ def attempt(
             weights[sizes.nq + sizes.nv] = 0.0  # the work of what rests is rounding
         odd = 0
         if alone:
-            one_by_one(system, run, times, states, after)
+            evaluate_one_by_one(system, run, times, states, after)
         else:
             odd = scheme.derive(times, states, run.p, run.w, after)
         iterations += 1
@@ -250,7 +255,7 @@ def step_across(
     """Try a step across a singular position, where iterations diverge, by `dop853`; return its error."""
     width, tableau = system.sizes.width, scheme.tableau
     begin_polynomial(system, run, t)
-    one = as_one_step(system, tableau, run)
+    one = run_of_one_step(system, tableau, run)
     copied(width, part(run.memory, NODES, width), one.memory)
     error = one_step(system, tableau, span, one, t, following, h, False)
     run.control[abi.ORDER] = NODES
@@ -264,12 +269,12 @@ def refuse(run: Run) -> None:
         run.memory[STALE] = 1.0
 
 
-def shrunk(span: Span, run: Run, error: float) -> float:
+def shrunk_picard_step(span: Span, run: Run, error: float) -> float:
     """Return the next step over a refused one."""
     return float(run.room[RATIO])
 
 
-def grown(span: Span, run: Run, h: float, error: float) -> float:
+def grown_picard_step(span: Span, run: Run, h: float, error: float) -> float:
     """Return the next step over an accepted one."""
     return float(run.room[RATIO])
 
@@ -316,12 +321,18 @@ def renew(system: ModelSystem, scheme: Nodes, span: Span, run: Run, t: float, ch
     run.memory[STEP], run.memory[SINGLE] = run.clock[abi.STEP], run.room[ALONE]
 
 
-_PARTS: dict[str, Any] = {"prepare": prepare, "attempt": attempt, "renew": renew, "inside": inside}
+_PARTS: dict[str, Any] = {"prepare": prepare, "attempt": attempt, "renew": renew, "inside": inside_wide_step}
 
 constant = loop(__name__, "constant", SCHEME, **_PARTS)
 adaptive = loop(
     *(__name__, "adaptive", SCHEME),
-    **{**_PARTS, "interpolate": interpolate, "refuse": refuse, "shrunk": shrunk, "grown": grown},
+    **{
+        **_PARTS,
+        "interpolate": interpolate_wide_step,
+        "refuse": refuse,
+        "shrunk_step": shrunk_picard_step,
+        "grown_step": grown_picard_step,
+    },
     ADAPTIVE=True,
     DENSE=True,
 )

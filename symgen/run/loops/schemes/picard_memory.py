@@ -32,6 +32,6 @@ def memory(width: int) -> int:
     return NODES + width + 2 * NODES * width
 
 
-def room(width: int, windings: int) -> int:
-    """Return the working memory of a step behind the trial state; `windings` angles count turns."""
+def picard_room(width: int, windings: int) -> int:
+    """Return the working memory of a step after the trial state; `windings` angles count turns."""
     return WIDE + ENDS * width + abi.N_STATUS + windings

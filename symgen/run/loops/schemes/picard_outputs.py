@@ -11,7 +11,7 @@ from symgen.compile.native.types import NODES
 from symgen.run.layout import abi
 from symgen.run.layout.records import ModelSystem, Outputs, Run, Span
 from symgen.run.layout.scheme_records import Nodes, TableauRecord
-from symgen.run.loops.frame_parts import correct, evaluate, store
+from symgen.run.loops.frame_parts import correct, evaluate, store_output
 from symgen.run.loops.schemes.explicit import complete_stages, read_stages
 from symgen.run.loops.schemes.picard_memory import (
     ACROSS,
@@ -37,7 +37,7 @@ from symgen.run.loops.watch import keep_maxima
 
 
 @called
-def one_by_one(system: ModelSystem, run: Run, times: Array, states: Array, rates: Array) -> None:
+def evaluate_one_by_one(system: ModelSystem, run: Run, times: Array, states: Array, rates: Array) -> None:
     """Evaluate the right-hand side at one node after another."""
     n, width = system.sizes.ny, system.sizes.width
     y, rate = part(run.room, WIDE + STATE * width, width), part(run.room, WIDE + RATE * width, width)
@@ -52,7 +52,7 @@ def one_by_one(system: ModelSystem, run: Run, times: Array, states: Array, rates
 
 
 @viewing
-def as_one_step(system: ModelSystem, tableau: TableauRecord, run: Run) -> Run:
+def run_of_one_step(system: ModelSystem, tableau: TableauRecord, run: Run) -> Run:
     """Return the run with the stages of a step across a singular position for its memory."""
     width = system.sizes.width
     stages = part(run.room, WIDE + STATES * width, tableau.nodes.shape[0] * width)
@@ -62,7 +62,7 @@ def as_one_step(system: ModelSystem, tableau: TableauRecord, run: Run) -> Run:
 
 
 @called
-def interpolate(
+def interpolate_wide_step(
     system: ModelSystem, scheme: Nodes, span: Span, run: Run, outputs: Outputs, t: float, following: float, h: float
 ) -> None:
     """Write the outputs inside a step, each corrected; the status at the end of the step is restored.
@@ -74,13 +74,13 @@ def interpolate(
     states, new = part(run.room, WIDE + STATES * width, size), part(run.room, WIDE + STATE * width, width)
     places, once = part(run.room, PARTS_OF_STEP, NODES), part(run.room, ONCE, TERMS * NODES)
     twice, terms, coefficients = part(run.room, TWICE, TERMS * NODES), POINTS, WIDE + COEFFICIENTS * width
-    windings, behind = outputs.status.shape[1] - abi.N_STATUS, WIDE + ENDS * width
-    before, angles = part(run.room, behind, abi.N_STATUS), part(run.room, behind + abi.N_STATUS, windings)
+    windings, place = outputs.status.shape[1] - abi.N_STATUS, WIDE + ENDS * width
+    before, angles = part(run.room, place, abi.N_STATUS), part(run.room, place + abi.N_STATUS, windings)
     for i in range(abi.N_STATUS):
         before[i] = run.w[i]
     for i in range(windings):
         angles[i] = run.w[abi.WINDING + i]
-    one, across = as_one_step(system, scheme.tableau, run), run.room[ADRIFT] == ACROSS
+    one, across = run_of_one_step(system, scheme.tableau, run), run.room[ADRIFT] == ACROSS
     if across:
         complete_stages(system, scheme.tableau, run, one.memory, one.room, t, following, h)
     elif run.room[COARSE] != 0.0:
@@ -107,7 +107,7 @@ def interpolate(
                     new[i] = states[i * NODES + k]
             correct(system, run, outputs.times[out], new, True)
             keep_maxima(system.sizes, run, new)
-            store(system.sizes, run.w, outputs, out, new)
+            store_output(system.sizes, run.w, outputs, out, new)
             out += 1
     run.control[abi.OUTPUTS] = out
     for i in range(abi.N_STATUS):
@@ -116,7 +116,7 @@ def interpolate(
         run.w[abi.WINDING + i] = angles[i]
 
 
-def inside(
+def inside_wide_step(
     system: ModelSystem, scheme: Nodes, run: Run, t: float, following: float, h: float, i: int, y: Array
 ) -> float:
     """Set `y` to the state at a node inside a good attempt, and return its part of the step; 0 without nodes."""
@@ -140,6 +140,6 @@ def refine_rates(system: ModelSystem, scheme: Nodes, run: Run, t: float, h: floa
     for k in range(NODES):
         times[k] = t + scheme.middle[PLACES + k] * h
     if scheme.vector == 0 or scheme.derive(times, states, run.p, run.w, more) != 0:
-        one_by_one(system, run, times, states, more)
+        evaluate_one_by_one(system, run, times, states, more)
     run.control[abi.EVALUATIONS] += NODES
     refine(rows, scheme.dense, part(run.room, coefficients, 2 * size), more, refined)

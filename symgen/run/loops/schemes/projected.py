@@ -20,7 +20,7 @@ from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
-from symgen.run.layout.manifold import advance
+from symgen.run.layout.manifold import advance_coordinates
 from symgen.run.layout.records import ModelSystem, Run, Span
 from symgen.run.layout.scheme_records import PROJECTION, Projection
 from symgen.run.loops import sparse
@@ -34,7 +34,7 @@ _LEAST_PENALTY = 1e3
 
 
 @called
-def lead(
+def factorise_trial(
     system: ModelSystem, scheme: Projection, run: Run, t: float, h: float, penalty: float, k: Array, shift: Array
 ) -> bool:
     """Factorise W at the trial state; return whether its factors had room."""
@@ -43,7 +43,7 @@ def lead(
     factors[0], factors[1], factors[2], factors[3], factors[4] = 1.0, 0.5 * h, quarter, -quarter, quarter * penalty
     multiply_sources(scheme.plan, scheme.slopes)
     turn_rows(scheme.plan, scheme.slopes, shift)
-    return sparse.prepare(scheme.plan, scheme.slopes, factors, scheme.numbers) >= 0
+    return sparse.prepare_pattern(scheme.plan, scheme.slopes, factors, scheme.numbers) >= 0
 
 
 @called
@@ -145,7 +145,7 @@ def attempt(
         shift[i] = h * run.y[nq + i] + 0.5 * h * h * run.memory[nq + i]
     for i in range(nv, count):
         shift[i] = 0.5 * h * h * run.memory[nq + 1 + i]
-    advance(system, run, shift, run.trial)
+    advance_coordinates(system, run, shift, run.trial)
     for c in range(m):
         held[c] = k[first + c] = run.memory[width + c]
     last, fresh, converged = math.inf, True, False
@@ -160,7 +160,7 @@ def attempt(
         system.residual(following, run.trial, k, run.p, run.w, rest)
         run.control[abi.EVALUATIONS] += 2
         if fresh:
-            if not lead(system, scheme, run, following, h, penalty, k, shift):
+            if not factorise_trial(system, scheme, run, following, h, penalty, k, shift):
                 return TOO_LARGE
             run.control[abi.JACOBIANS] += 1
             fresh = False
@@ -177,7 +177,7 @@ def attempt(
         for i in range(nv, count):  # of any unit
             shift[i] -= change[i]
             moved += (run.w[abi.LENGTH] * 2.0 / h * change[i] / (1.0 + abs(run.trial[nq + 1 + i]))) ** 2
-        advance(system, run, shift, run.trial)
+        advance_coordinates(system, run, shift, run.trial)
         for i in range(nq):
             total += (run.scales[i] * run.trial[i]) ** 2
         for c in range(m):
@@ -193,7 +193,7 @@ def attempt(
     if not converged:
         return DIVERGED
     complete_trial(system, run, h, shift, k)
-    if not lead(system, scheme, run, following, h, penalty, k, shift):
+    if not factorise_trial(system, scheme, run, following, h, penalty, k, shift):
         return TOO_LARGE
     project(system, scheme, run, following, h, penalty, k, rest, right, change)
     # multipliers of the iteration belong to accelerations before their projection, of order 1: rates of auxiliary
@@ -220,7 +220,7 @@ def renew(system: ModelSystem, scheme: Projection, span: Span, run: Run, t: floa
 
 
 def memory(width: int, count: int, m: int, unknowns: int) -> tuple[int, int]:
-    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state.
+    """Return the lengths of the memory of a run, and of the working memory of a step after the trial state.
 
     `count` is the number of velocities and states of the file.
     """

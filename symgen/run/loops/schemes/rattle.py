@@ -21,7 +21,7 @@ from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import copied
 from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
-from symgen.run.layout.manifold import advance
+from symgen.run.layout.manifold import advance_coordinates
 from symgen.run.layout.records import ModelSystem, Run, Sizes, Span
 from symgen.run.layout.scheme_records import CONSTRAINED, ConstrainedStages
 from symgen.run.loops.frame import loop
@@ -29,9 +29,9 @@ from symgen.run.loops.frame_parts import DIVERGED, TOO_LARGE
 from symgen.run.loops.schemes.constrained import (
     auxiliary_rates,
     carry_slopes,
-    factorised,
+    factorise_stage,
     slopes_at,
-    solved,
+    solve_stage,
     step_parts,
 )
 
@@ -85,11 +85,11 @@ def attempt(
             k[nq + i] = x[i]
         for c in range(m):
             k[first + c] = x[nv + c]
-        advance(system, run, moved, run.trial)
+        advance_coordinates(system, run, moved, run.trial)
         if fresh:
             slopes_at(system, scheme, run, t, held, k, 0)
             slopes_at(system, scheme, run, following, run.trial, k, 1)
-            if not factorised(scheme, factors):
+            if not factorise_stage(scheme, factors):
                 return TOO_LARGE
             run.control[abi.JACOBIANS] += 1
             fresh = False
@@ -103,7 +103,7 @@ def attempt(
             if scheme.nonholonomic[c] > 0.0:
                 right[nv + c] += rest[first + c] / h
         run.control[abi.EVALUATIONS] += 2
-        solved(system, scheme, run, right, change)
+        solve_stage(system, scheme, run, right, change)
         run.control[abi.NEWTON_ITERATIONS] += 1
         for i in range(nv + m):
             x[i] -= change[i]
@@ -122,12 +122,12 @@ def attempt(
     for i in range(nv):
         run.trial[nq + i] = run.y[nq + i] + 0.5 * h * x[i]
         moved[i] = h * run.trial[nq + i]
-    advance(system, run, moved, run.trial)
+    advance_coordinates(system, run, moved, run.trial)
     for i in range(n):
         k[i] = 0.0
     slopes_at(system, scheme, run, following, run.trial, k, 1)
     carry_slopes(scheme)
-    if not factorised(scheme, factors):
+    if not factorise_stage(scheme, factors):
         return TOO_LARGE
     run.control[abi.JACOBIANS] += 1
     system.residual(following, run.trial, k, run.p, run.w, rest)
@@ -135,7 +135,7 @@ def attempt(
         right[i] = -rest[nq + i]
     for c in range(m):
         right[nv + c] = -2.0 / h * rest[n + c]
-    solved(system, scheme, run, right, x)
+    solve_stage(system, scheme, run, right, x)
     for i in range(nv):
         k[nq + i] = x[i]
     for c in range(m):

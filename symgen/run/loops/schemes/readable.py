@@ -1,8 +1,8 @@
 """Explicit Runge-Kutta runs with adaptive steps whose last step can be read when it is over.
 
-Programs that ask for one output after the other have several in one step. Behind the scheme's own memory lies what
-reading needs: the state before the step, its stages, its end, parameters and the scratch of emitted functions. These
-are copies, as the run may have changed its modes or inputs since, and no reading leaves a trace in it.
+Programs that ask for one output after the other have several in one step. The scheme's own memory is
+followed by what reading needs: the state before the step, its stages, its end, parameters and the scratch of emitted
+functions. These are copies: the run may have changed its modes or inputs since, and reading must not change the run.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from symgen.run.layout.records import ModelSystem, Outputs, Run, Span, State, Sy
 from symgen.run.layout.scheme_records import TABLEAU, TableauRecord
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import correct as correct_plainly
-from symgen.run.loops.frame_parts import store
+from symgen.run.loops.frame_parts import store_output
 from symgen.run.loops.schemes.explicit import ADAPTIVE_PARTS, complete_stages, read_stages
 from symgen.run.loops.schemes.explicit import attempt as try_step
 from symgen.run.loops.schemes.explicit import prepare as begin_scheme
@@ -106,7 +106,7 @@ def read_within_step(model: System, scheme: TableauRecord, state: State, outputs
         state.control[abi.KNOWN], memory[stages + COMPLETE] = known, 1.0
     read_stages(width, scheme, (t - begin) / h, h, before, of_step, tables, new)
     correct_plainly(system, run, t, new, True)
-    store(sizes, w, outputs, 0, new)
+    store_output(sizes, w, outputs, 0, new)
     return 1
 
 

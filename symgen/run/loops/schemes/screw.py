@@ -18,7 +18,7 @@ from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import total
 from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
-from symgen.run.layout.manifold import advance
+from symgen.run.layout.manifold import advance_coordinates
 from symgen.run.layout.records import ModelSystem, Run, Span
 from symgen.run.layout.scheme_records import SCREWS, Screws
 from symgen.run.loops.frame import loop
@@ -38,7 +38,7 @@ def rotate_vector(q: Array, e: int, x: Array, at: int, sign: float, result: Arra
 
 
 @called
-def displaced(u: Array, j: int, result: Array) -> None:
+def displace_point(u: Array, j: int, result: Array) -> None:
     """Write V(theta) rho, the displacement along a screw, to `result`; theta is at index j of `u`, rho before it."""
     a, b, c = u[j], u[j + 1], u[j + 2]
     x, y, z = u[j - 3], u[j - 2], u[j - 1]
@@ -87,12 +87,12 @@ def attempt(
             change[i], twist[i] = moved[i], y[nq + i] + moved[nv + i]
         for b in range(0, bodies.shape[0], 2):
             e, j = bodies[b], bodies[b + 1]
-            displaced(moved, j, way)
+            displace_point(moved, j, way)
             rotate_vector(y, e, way, 0, 1.0, change, j - 3)
             rotate_vector(y, e, y, nq + j - 3, -1.0, twist, j - 3)
             for i in range(3):
                 twist[j - 3 + i] += moved[nv + j - 3 + i]
-        advance(system, run, change, trial)
+        advance_coordinates(system, run, change, trial)
         for i in range(nv):
             trial[nq + i] = twist[i]
         for i in range(nq + nv, ny):

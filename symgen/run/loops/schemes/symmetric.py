@@ -36,7 +36,7 @@ _AWAY = 0.28867513459481287
 
 
 @called
-def moved(system: ModelSystem, run: Run, y: Array) -> None:
+def move_along_constraints(system: ModelSystem, run: Run, y: Array) -> None:
     """Apply the section ``change`` to the positions of a state."""
     sizes = system.sizes
     if sizes.nq == sizes.nv:
@@ -95,7 +95,7 @@ def attempt(
         if share > 0.0:
             scheme.geometry(t, run.y, run.p, w)
             set_change(system, scheme, run, share, gaps)
-            moved(system, run, begun)
+            move_along_constraints(system, run, begun)
             set_change(system, scheme, run, share, slips)
             for j in range(nv):
                 begun[nq + j] += w[sizes.change + j]
@@ -117,7 +117,7 @@ def attempt(
         for j in range(nv):
             w[sizes.change + j] = shift[j]
             run.trial[nq + j] += thrust[j]
-        moved(system, run, run.trial)
+        move_along_constraints(system, run, run.trial)
         scheme.geometry(following, run.trial, run.p, w)
         for c in range(m):
             if scheme.nonholonomic[c] == 0.0:
@@ -152,7 +152,7 @@ def renew(system: ModelSystem, scheme: Symmetric, span: Span, run: Run, t: float
 
 
 def memory(width: int, nv: int, m: int) -> tuple[int, int]:
-    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state."""
+    """Return the lengths of the memory of a run, and of the working memory of a step after the trial state."""
     length = 1 + 2 * width + 2 * m + 2 * nv
     return length, length + 3 * width
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from symgen.compile.loopcode.bare import part
 from symgen.run.layout import abi
-from symgen.run.layout.manifold import advance
+from symgen.run.layout.manifold import advance_coordinates
 from symgen.run.layout.records import ModelSystem, Run, Span
 from symgen.run.layout.scheme_records import ROTATIONS, Rotations
 from symgen.run.loops.frame import loop
@@ -24,7 +24,7 @@ def attempt(
         run.trial[i] = run.y[i] + h * rate[i]
     for i in range(nv):
         moved[i] = h * run.trial[nq + i]
-    advance(system, run, moved, run.trial)
+    advance_coordinates(system, run, moved, run.trial)
     return 0.0
 
 
