@@ -145,7 +145,7 @@ class PrintedRun:
         """Return emitted functions by their identity; `named` has all that the text has, by name."""
         law, model = self.compiled.law_module, self.compiled.model
         places = {
-            **dict.fromkeys(("prepareModel", "prepare_model"), model.prepare),  # the latter name is that of C
+            **dict.fromkeys(("prepareModel", "prepare_model"), model.prepare),  # C uses the latter name
             **dict.fromkeys(("prepareLaw", "prepare_law"), law.prepare),
             **{"rhs": law.rhs, "accept": law.accept, "confirm": getattr(law, "confirm", None)},
             **{"geometry": model.geometry, "bodies": getattr(model, "bodies", None)},
