@@ -69,7 +69,7 @@ def test_a_file_that_is_no_journal_is_refused_and_left_alone(cli, tmp_path):
 
 @pytest.mark.slow
 def test_an_interrupted_study_writes_the_report_of_what_is_done(cli, tmp_path, monkeypatch):
-    calls = interrupt(monkeypatch, module, "timed", 3)
+    calls = interrupt(monkeypatch, module, "time_runs", 3)
     report, journal = tmp_path / "report.html", tmp_path / "rows.journal"
     arguments = ("compare", "pendulum", *WITHIN, "--repeat", "1", "-o", report, "--json", "--journal", journal)
     code, out, err = cli(*arguments)
@@ -87,7 +87,7 @@ def test_rows_of_an_earlier_study_are_shown_where_preparing_is_interrupted(cli, 
     def never(*_):
         return {}, True
 
-    interrupt(monkeypatch, module, "timed", 3)
+    interrupt(monkeypatch, module, "time_runs", 3)
     first = json.loads(cli(*arguments, "--jobs", "1")[1])
     monkeypatch.setattr(whole, "run_cells", never)
     code, out, err = cli(*arguments, "--jobs", "2")

@@ -176,7 +176,7 @@ def test_what_the_start_warns_of_is_in_every_row_and_said_once(capsys):
 
 
 def test_an_interrupted_study_keeps_its_rows(monkeypatch):
-    interrupt(monkeypatch, module, "timed", 3)
+    interrupt(monkeypatch, module, "time_runs", 3)
     study = symgen.compare("pendulum", ["direct-correction"], ["rk4"], [4e-2, 2e-2, 1e-2, 5e-3], until=0.5, repeat=1)
     assert study.interrupted and len(study.rows) == 2
     assert study.to_json()["reference"]["how"] == "Jacobi's elliptic functions"

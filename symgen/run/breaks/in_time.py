@@ -237,7 +237,7 @@ class InTime:
 
 @compute_once
 def _passings(mechanism: Mechanism) -> dict[Jump, Passing]:
-    """Return what is known of the jumps of a mechanism, so far nothing."""
+    """Return an empty table of the passages known for each jump of a mechanism."""
     return {}
 
 

@@ -113,7 +113,7 @@ def jump_at_time(
     t, h : float
         The time, and the larger distance of evaluations from it [s].
     extent : pair of float
-        Begin and end of the range whose values and slopes say what is negligible [s].
+        Begin and end of the range by whose values and slopes changes are judged negligible [s].
     value_alone : bool
         Whether the slope may jump.
     scales : pair of float

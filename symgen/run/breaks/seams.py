@@ -300,7 +300,7 @@ def times_between(
 def _passages_in(
     passing: Iterable[tuple[Jump, int]], mechanism: Mechanism, values: Mapping[str, float], until: float
 ) -> tuple[list[tuple[float, int]], bool]:
-    """Return times at which formulas pass levels, each with what the passage is, and whether none are left out."""
+    """Return times at which formulas pass levels, each with its kind of passage, and whether the list is complete."""
     formulas, passages, whole = InTime(mechanism, values), list[tuple[float, int]](), True
     for jump, kind in passing:
         try:

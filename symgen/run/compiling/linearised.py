@@ -133,7 +133,7 @@ def compile_linearised(mechanism: Mechanism, compiled: CompiledModel, by: tuple[
     Parameters
     ----------
     mechanism : Mechanism
-        The mechanism, with its tree where the state is that of joints.
+        The mechanism, with its tree where the state has joint coordinates.
     compiled : CompiledModel
         The model whose ``p`` and ``w`` it reads.
     by : tuple of str

@@ -130,7 +130,7 @@ def generate(
     return generate_in_stages(stages_of(mechanism, choices, shape, target, whole))
 
 
-# -- what is refused ---------------------------------------------------------------------------------------------------
+# -- refusals ----------------------------------------------------------------------------------------------------------
 
 
 def refuse_loops(mechanism: Mechanism) -> None:

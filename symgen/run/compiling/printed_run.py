@@ -145,7 +145,7 @@ class PrintedRun:
         """Return emitted functions by their identity; `named` has all that the text has, by name."""
         law, model = self.compiled.law_module, self.compiled.model
         places = {
-            **dict.fromkeys(("prepareModel", "prepare_model"), model.prepare),  # the latter name is that of C
+            **dict.fromkeys(("prepareModel", "prepare_model"), model.prepare),  # C uses the latter name
             **dict.fromkeys(("prepareLaw", "prepare_law"), law.prepare),
             **{"rhs": law.rhs, "accept": law.accept, "confirm": getattr(law, "confirm", None)},
             **{"geometry": model.geometry, "bodies": getattr(model, "bodies", None)},
@@ -172,7 +172,7 @@ class PrintedRun:
             "start_run": (start, (model, limits, chunk, state, visible)),
             "advance_run": (advance, (None, model, scheme, span, chunk, state, outputs, visible)),
         }
-        return self._read(functions, emitted)
+        return self._functions_with_meanings(functions, emitted)
 
     def exchange_entries(
         self, named: Mapping[str, lang.Function]
@@ -186,13 +186,13 @@ class PrintedRun:
             "indicate_run": (indicate, (None, y, model, state, values)),
             "exchange_run": (serve, (None, None, model, span, chunk, state, visible, exchange)),
         }
-        return self._read(functions, emitted)
+        return self._functions_with_meanings(functions, emitted)
 
     def reset_entries(self, named: Mapping[str, lang.Function]) -> dict[str, tuple[lang.Function, dict[str, Meaning]]]:
         """Return ``reset_run(event, t, y)``; see `symgen.run.printed.kept_reset`."""
         model, _, _, _, state, _, visible, _ = self._arguments
         functions = {"reset_run": (kept_reset(*self._recipe), (None, None, visible.y.copy(), model, state))}
-        return self._read(functions, self.emitted_functions(named))
+        return self._functions_with_meanings(functions, self.emitted_functions(named))
 
     def foresight_entries(
         self, named: Mapping[str, lang.Function]
@@ -200,9 +200,9 @@ class PrintedRun:
         """Return ``foresee_run(is_start, t)``; see `symgen.run.printed.foreseen_run`."""
         state, function = self._arguments[4], foreseen_run(self.watched is not None)
         functions = {"foresee_run": (function, (None, None, self._foresight, self._seams, state))}
-        return self._read(functions, self.emitted_functions(named))
+        return self._functions_with_meanings(functions, self.emitted_functions(named))
 
-    def _read(
+    def _functions_with_meanings(
         self, functions: Mapping[str, tuple[Any, tuple[Any, ...]]], emitted: dict[int, lang.Function]
     ) -> dict[str, tuple[lang.Function, dict[str, Meaning]]]:
         """Return functions by name with the meanings of their parameters, for the arguments beside them."""

@@ -194,7 +194,7 @@ def _plain_outcome(part: DirectedPart, integrator: Integrator, start: Start, spe
             array[: sizes[name]] = state[name][: sizes[name]]
         elif name in ("iw", "clock", "gauges", "control", "passages"):
             array[:] = state[name]
-    # what a scheme keeps of past steps has another layout
+    # a scheme's memory of past steps has another layout
     simulation.state.control[abi.BEGUN] = abi.AFRESH
     return replace(
         outcome,

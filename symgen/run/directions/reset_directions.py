@@ -34,7 +34,7 @@ _AT_START = 8.0
 
 
 def events_at_start(spec: RunSpec, model: DirectedModel, start: Start) -> list[str]:
-    """Return what is in doubt since events that act are where the run starts, and directions move these.
+    """Return the doubts about events that act where the run starts, and that directions move.
 
     Parameters
     ----------

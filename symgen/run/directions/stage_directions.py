@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Newton iterations at most, and the correction of stages, over their size, at which these are those of the step.
+#: Newton iterations at most, and the relative correction of stages below which they count as those of the step.
 _ITERATIONS, _SAME = 10, 1e-11
 
 

@@ -47,7 +47,7 @@ class Transfer:
     Parameters
     ----------
     moments : Moments
-        The code; its last direction is that of the motion.
+        The code; its last direction is the motion.
     spec : RunSpec
         Of the run.
     consistent : bool
@@ -273,7 +273,7 @@ class Transfer:
     ) -> None:
         """Doubt directions in which a row moves that has come to rest here, or a gap that is closed at the start."""
         k, w, info = len(names), after.w, self.compiled.info
-        if len(passage.numbers) == 1:  # the row of the event rests by what the event is
+        if len(passage.numbers) == 1:  # the event itself says that its row rests
             own = self._name_of_switch(passage)[1:-1].rpartition(".")[0]
             rests = rests & np.array([name != own for name in names])
         rows, which = directions[k : 2 * k][rests], np.array(names)[rests]

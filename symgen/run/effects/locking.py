@@ -27,7 +27,7 @@ LockModel = tuple[Layout, abi.Measure, Integers, float]
 
 
 class LockWork(Record):
-    """Working memory, and what is found.
+    """Working memory and results.
 
     Attributes
     ----------

@@ -118,7 +118,7 @@ def store_before(kept: KeptEffect, y: Array) -> None:
 
 
 def store_state_after(kept: KeptEffect, now: Instant, first: int, work: EffectWork) -> None:
-    """Keep what an effect has changed; `first` is the place of the velocities in the state."""
+    """Keep the changes of an effect; the velocities begin at `first` in the state."""
     for i in range(kept.w.shape[0]):
         kept.w[i] = now.w[i]
     for j in range(kept.v.shape[0]):

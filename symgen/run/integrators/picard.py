@@ -66,7 +66,7 @@ def coefficients() -> Coefficients:
     between = np.cos(np.pi * (np.arange(NODES, 0, -1) - 0.5) / NODES)
     every = np.concatenate([points[1:], between, points[:1]])
     through_all = np.linalg.inv(legendre.legvander(every, len(every) - 1))
-    # that of degree 16 has no integral over a whole step, and is far below the last of the nodes
+    # the polynomial of degree 16 has no integral over a whole step, and is far below the last node
     dense = np.concatenate(
         [legendre.legvander(between, NODES).ravel("F"), through_all[:-1, NODES : 2 * NODES].T.ravel()]
     )

@@ -1,4 +1,4 @@
-"""Schemes that begin afresh: what they keep of past steps is forgotten, from compiled loops and from Python alike."""
+"""Schemes that begin afresh: they forget past steps, when called from compiled loops or from Python."""
 
 from __future__ import annotations
 

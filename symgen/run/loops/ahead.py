@@ -170,7 +170,7 @@ def step_ahead(model: System, scheme: Record, span: Span, state: State, outputs:
         for which in range(a.head[PASSES]):
             begin_pass(a, run, k, which, prepare, prepare_law)
             if a.head[ADAPTIVE] != 0 and run.control[abi.BEGUN] == 1:
-                # what the scheme keeps of the last rates has directions as well
+                # the scheme's memory of the last rates has directions as well
                 evaluate(ModelSystem(*system), run, run.clock[abi.TIME], run.y, run.memory)
             code = loop(system, scheme, part_of_step(span, until, span.step), state, outputs)
             if code != abi.DONE:

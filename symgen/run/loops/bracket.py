@@ -131,7 +131,7 @@ def take_values(hunt: A, n: int, h: float, following: float, search: int) -> int
         if hunt[INSIDE] > 0.0:
             slopes_of_forces(hunt, n)
         return 0
-    # where a function may have dipped, the bracket ends, so that what is before that point is examined as well
+    # the bracket ends where a function may have dipped, so that the search examines the motion before that point too
     inside = 1 if h == hunt[HIGH] or hunt[PROBING] != 0.0 else 0
     hunt[PROBING] = 0.0
     for k in range(n):

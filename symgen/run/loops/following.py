@@ -114,7 +114,7 @@ class Stand(Record):
 class Followed(Record):
     """Output of the loop: states, accelerations and status, one row for each time.
 
-    The status is that of `symgen.run.single.outcome.Motion`.
+    For the status see `symgen.run.single.outcome.Motion`.
     """
 
     states: Matrix

@@ -109,7 +109,7 @@ def last_resolution(span: Span) -> float:
     return abi.END_TIME * abs(span.until) if ADAPTIVE else time_resolution(span)
 
 
-def end_run(system: ModelSystem, span: Span, run: EventRun, outputs: Outputs) -> None:
+def move_to_end(system: ModelSystem, span: Span, run: EventRun, outputs: Outputs) -> None:
     """Have a run that has ended by some roundings before its end be there, with the outputs up to it."""
     out = run.control[abi.OUTPUTS]
     while out < outputs.times.shape[0] and outputs.times[out] <= span.until:
@@ -315,7 +315,7 @@ def integrate(model: System, scheme: Record, span: Span, state: State, outputs: 
         t, search = following, NOTHING
         phi, drift, energy = run.gauges[abi.MAX_PHI], run.gauges[abi.MAX_DRIFT], run.gauges[abi.MAX_ENERGY]
     if ADAPTIVE and t < span.until:
-        end_run(system, span, run, outputs)
+        move_to_end(system, span, run, outputs)
     return abi.DONE
 
 

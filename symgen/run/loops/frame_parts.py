@@ -32,7 +32,7 @@ DIVERGED, TOO_LARGE = -1.0, -2.0
 #: anew; the motion is held at such a switch, which it crosses to and fro; the step is too long to show its events; a
 #: condition is undefined.
 NOTHING, SEEK, TAKE, MEET, CROWD, RESTART, HOLD, DIVIDE, FAIL = range(9)
-#: Test of a step that is not good enough: whether its error is that of a switch inside, which is then sought.
+#: Test of a step that is not good enough: whether a switch inside causes its error; if so, the loop seeks the switch.
 DOUBT = FAIL + 1
 #: Other work for events: find the side of each on which a run begins; save the memory of emitted functions at the
 #: beginning of a step; restore it.

@@ -31,7 +31,7 @@ class Pattern:
     nq, nv, m, unknowns : int
         Sizes.
     rows, columns : Array of int64
-        Equation and unknown of each number; columns from `unknowns` on are those of q and v. Numbers of the
+        Equation and unknown of each number; columns from `unknowns` on belong to q and v. Numbers of the
         same place are summed.
     spins : Array of int64
         First indices in v of the angular velocities of bodies in space.

@@ -86,7 +86,8 @@ def meets_singularity(run: Run) -> bool:
 def is_stuck(span: Span, run: Run, t: float) -> bool:
     """Return whether an adaptive run has taken, or at its present rate would take, too many attempts.
 
-    The rate is that of a window of attempts as long as all before it: a passage with many attempts does not decide it.
+    The rate is taken over a window of attempts as long as all before it, so that no single passage with many attempts
+    decides.
     """
     attempts, mark = run.control[abi.STEPS] + run.control[abi.REJECTED], run.control[abi.MARKED]
     if attempts - mark < (_NEAR if run.control[abi.IN_ZONE] == 1 else max(_WINDOW, mark)):
@@ -198,7 +199,7 @@ def watch(sizes: Sizes, run: Run, y: Array, t: float) -> int:
     # energies are no more exact than the rounding of their terms
     limit, rounding = gauges[abi.LIMIT_ENERGY], NEGLIGIBLE * (w[abi.KINETIC] + abs(w[abi.POTENTIAL]))
     excess, way = abs(error) - rounding, NO_WAY * length
-    # where nothing moves the work is that of rounding
+    # where nothing moves, rounding alone does work
     if fastest > LEAST_SPEED * speed and excess > limit * max(gauges[abi.ENERGY_SCALE], way * gauges[abi.FORCE]):
         # large works cancel where a body is at rest: the energy in motion is at least that over the least displacement
         gauges[abi.FORCE] = max(gauges[abi.FORCE], force_of_step(sizes, run, y, before))

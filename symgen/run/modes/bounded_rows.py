@@ -121,7 +121,7 @@ class Choice(Record):
     forces, scale : Array, shapes (k,)
         Forces at rest; sizes of forces that rounding of a force at rest is relative to.
     matrix, rest_of : Array, shapes (k k,)
-        G, and what is left of it.
+        G, and its remainder.
     depth : Array, shape (1,)
         Largest depth of an open gap below zero, over the mechanism's length.
     jam : Array, shape (1,)

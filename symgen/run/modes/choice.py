@@ -85,7 +85,7 @@ def read_rows(t: float, c: Choice, y: Array, p: Array, w: Array) -> int:
 
 @exact(entry=True)
 def find_fault(c: Choice, w: Array) -> int:
-    """Return what is out of range at rows that have been read, and name the first such row."""
+    """Return the kind of number that is out of range at rows that have been read, and name the first such row."""
     for i in range(c.dry, c.count):
         if not (c.value[i] >= -c.depth[0] * row_scale(c, w, i, abi.LENGTH) or is_kept_shut(c, w, i)):
             c.named[0] = i

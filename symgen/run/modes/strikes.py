@@ -73,7 +73,7 @@ class Strikes(Record):
     left : Array, shape (rows,)
         Time until the impacts of a gap that comes to rest would have accumulated [s], else nan.
     struck, rested : KeptEffect
-        The latest impact; what has brought gaps to rest where impacts accumulate.
+        The latest impact; impulses that have brought gaps to rest where impacts accumulate.
     """
 
     effects: OfEffects
@@ -248,7 +248,7 @@ def end_of_flights(t: float, c: Choice, s: Strikes) -> float:
 
 @exact()
 def come_to_rest(t: float, c: Choice, s: Strikes, end: float, now: Instant) -> int:
-    """Bring the gaps that push to rest: what is left of their rates is taken by another impact."""
+    """Bring the gaps that push to rest: another impact takes the rest of their rates."""
     choose_events(c, s, False)
     for i in range(c.dry, c.count):
         if s.active[i] != 0:

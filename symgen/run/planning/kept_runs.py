@@ -49,7 +49,7 @@ def whole_run(
 def _passages(run: Prepared, compiled: CompiledModel) -> Passages | None:
     """Return the passages of a run that finds their times; None where these are known before it.
 
-    Times at which inputs jump are those of the values that the run has been prepared with.
+    The values that the run has been prepared with determine the times at which inputs jump.
     """
     spec, plan = run.spec, run.plan
     grid = 0.0, spec.step

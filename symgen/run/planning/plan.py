@@ -348,7 +348,7 @@ def refuse_ends(where: str, mechanism: Mechanism, s: Settings) -> None:
 
 
 def refuse_events(where: str, mechanism: Mechanism, s: Settings) -> None:
-    """Refuse events where runs do not look for them, bounded rows too; what is only recorded changes nothing.
+    """Refuse events, and bounded rows, where runs do not look for them; events that are only recorded change nothing.
 
     Raises
     ------

@@ -62,7 +62,7 @@ class Assembled:
     compiled, start : CompiledModel, Start
         In the coordinates of the state.
     tree : TreeRun or None
-        The map from joints to bodies where the state is that of joints.
+        The map from joints to bodies where the state has joint coordinates.
     closed : bool
         Whether the start satisfies the constraints; False only for `Purpose.DESCRIBED`.
     """

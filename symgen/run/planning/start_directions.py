@@ -221,7 +221,7 @@ class StartDirections:
     def _closed(self) -> tuple[Array, NDArray[np.bool_]]:
         """Directions of coordinates: the described ones, and the shortest change that keeps loops closed.
 
-        With these whether what is not held moves where others would close the loops as well.
+        With these, whether coordinates that are not held move although others would close the loops as well.
         """
         info, motion, p = self.info, self._turning, self.parameters(self.compiled)
         q, _ = described_start(self.run.plan.mechanism, self.duals)

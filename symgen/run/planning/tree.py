@@ -36,7 +36,7 @@ Array = NDArray[np.float64]
 
 #: What both descriptions of a motion measure alike, taken over from the run.
 _SCALES = (abi.LENGTH, abi.SPEED, abi.MEAN_MASS)
-#: Places of bodies after a change of parameters, beside their size or that of the mechanism: what is rounding.
+#: Differences of bodies' places after a change of parameters, over the size of bodies or mechanism, that are rounding.
 MOVED = 1e-12
 #: What is kept of bodies for a run that goes on: state, parameters, scratch, and the rank at the start of the tree.
 BODIES = ("body_y", "body_p", "body_w", "tree_rank")

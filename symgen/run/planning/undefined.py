@@ -46,7 +46,7 @@ def undefined_at_end(mechanism: Mechanism, outcome: Outcome) -> str:
     limited = [(f"{kind} '{part.name}'", *pair) for kind, part in parts for pair in formulas_with_domain(part)]
     if not limited:
         return ""
-    # a whole formula with a value has left aside what is undefined in it
+    # a whole formula with a value does not use its undefined parts
     formulas = [pair for label, whole, e in limited for pair in ((label, whole), (f"{to_text(e)} of {label}", e))]
     side = compile_side(mechanism, outcome.compiled, "undefined", "Formulas with limits", formulas)
     y, before = outcome.states[-1], outcome.states[-2:][0]

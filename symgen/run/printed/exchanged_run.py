@@ -224,7 +224,7 @@ def handle_event(
     known = run.clock[abi.TIME] == t and run.hunt[records.NOTED] > 0.0
     if not known and numbers[CHANGED] == 0:
         code = look_at_events(system, run, t)
-    elif not known:  # what a jump of inputs brings about is a choice, no passage
+    elif not known:  # a jump of inputs leads to a choice, to no passage
         copied(system.sizes.width, run.y, run.trial)
         correct(system, run, t, run.trial, False)
         run.clock[abi.TIME], run.hunt[records.NOTED] = t, 0.0
@@ -269,7 +269,7 @@ def exchange_run(
     t : float
         Time of the importer [s].
     model, span, chunk, state, visible
-        As for `symgen.run.printed.kept_run.advance_run`; what is visible is the importer's state, which events change.
+        As for `symgen.run.printed.kept_run.advance_run`; the visible state is the importer's, which events change.
     exchange : Exchange
         Times, written.
 

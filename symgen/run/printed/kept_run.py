@@ -164,7 +164,7 @@ def let_rows_go(model: System, state: EventState) -> None:
 
 
 def start_run(model: System, limits: Array, chunk: RowChunk, state: EventState, visible: Visible) -> int:
-    """Forget the run before: what is shown is the start of another one.
+    """Forget the previous run: the state shown is the start of another one.
 
     Parameters
     ----------
@@ -289,7 +289,7 @@ def advance_run(
     Returns
     -------
     int
-        `REACHED`, `ENDED` or `FAILED`; where a run ends, what is shown is the last state from which it goes on.
+        `REACHED`, `ENDED` or `FAILED`; where a run ends, it shows the last state from which it can go on.
     """
     observers = model[1]
     control, clock, numbers, until = state.control, state.clock, visible.numbers, span.until
@@ -401,7 +401,7 @@ def kept_run(loop: RuntimeFunction, traits: Traits) -> KeptLoops:
     Parameters
     ----------
     loop : compiled loop
-        From `symgen.run.loops.frame.loop`; one with adaptive steps is that of `symgen.run.loops.schemes.readable`.
+        From `symgen.run.loops.frame.loop`; one with adaptive steps is from `symgen.run.loops.schemes.readable`.
     traits : Traits
         What the run has.
     """
@@ -423,7 +423,7 @@ def kept_run(loop: RuntimeFunction, traits: Traits) -> KeptLoops:
 def recipe_of(loop: RuntimeFunction, traits: Traits) -> tuple[str, dict[str, Any], Any, types.Kind]:
     """Return a name of functions around the loop of a scheme, meanings of names, the loop between seams and the model.
 
-    Parameters are those of `kept_run`.
+    Parameters as for `kept_run`.
     """
     (module, own, scheme, *functions), parts = frame.RECIPES[loop]
     meanings = {**parts, **traits.meanings}

@@ -94,7 +94,7 @@ class Partition(Record):
 
 
 def tables_of(compiled: CompiledModel, w: Array, is_moded: bool) -> PartitionTables:
-    """Return what is partitioned of a model, with the ranks of its rows at the scratch of a start."""
+    """Return the parts of a model that are partitioned, with the ranks of its rows at the scratch of a start."""
     info, rows, switches = compiled.info, compiled.jacobian(w), layout_of_starts(compiled).switches
     holonomic = [i for i, row in enumerate(info.rows) if row.holonomic]
     rows[list(info.switchable)] = 0.0  # states of an importer are those that are independent in all modes

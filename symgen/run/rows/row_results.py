@@ -150,7 +150,7 @@ def end_run(
     model : tuple
         Its sizes, and the functions called at outputs.
     chunk, state, series
-        As for `run_rows`; `state` is that of the run at its end.
+        As for `run_rows`; `state` is the state of the run at its end.
     """
     sizes, nw, count = model[0], state.w.shape[0], state.control[abi.OUTPUTS]
     summarise(code, state, part(chunk.summary, r * e.N_SUMMARY, e.N_SUMMARY))

@@ -304,7 +304,7 @@ def carry_adjoint_back(
 
 
 _SIGNATURE = signature_from(carry_adjoint_back)
-#: Without corrections their place is that of an unused number.
+#: Without corrections an unused number takes their place.
 _UNCORRECTED = types.int64(RATES, types.int64, *_SIGNATURE.arguments[2:])
 back_through = compiled_loop(__name__, "back_through", carry_adjoint_back, _UNCORRECTED)
 back_through_corrected = compiled_loop(

@@ -167,7 +167,7 @@ def attempt(
         return DIVERGED
     settled = is_settled(part(k, first, sizes.m), part(change, nv, sizes.m))
     move_state(system, scheme, run, h, k, a1, change)
-    if not settled:  # the work is that of the last multipliers
+    if not settled:  # the last multipliers give the work
         system.residual(following, run.trial, k, run.p, run.w, right)
         run.control[abi.EVALUATIONS] += 1
     for i in range(sizes.ny - first):

@@ -69,7 +69,7 @@ _FIRST_GROWTH = 3.0
 #: A step is slow whose changes fall by more than the root of the first, and whose rates have coefficients of degree 5
 #: and 6 below the root of the second, over the tolerance: stiffness bounds it, not the motion.
 _SLOW, _SMOOTH = 0.008, 1.0
-#: Factor of the estimate, so that errors over the tolerance are those of `dop853`.
+#: Factor of the estimate, chosen so that errors over the tolerance agree with `dop853`.
 STRICT = 10.0
 #: Outputs use more rates where the last coefficients of rates, over the tolerance, are more than this.
 _LEFT_OUT = 12.0

@@ -1,4 +1,4 @@
-"""Memory of Picard's iteration: what a run keeps between steps, and the working memory of a step."""
+"""Memory of Picard's iteration: numbers that a run keeps between steps, and the working memory of a step."""
 
 from __future__ import annotations
 

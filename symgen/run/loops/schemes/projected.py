@@ -203,7 +203,7 @@ def attempt(
     for i in range(first, sizes.ny):
         if i == first or i > first + sizes.states:
             run.trial[i] = run.y[i] + 0.5 * h * (run.memory[i] + rate[i])
-    for i in range(nv):  # the accelerations are those of the projection
+    for i in range(nv):  # the projection gives the accelerations
         rate[nq + i] = k[nq + i]
     return 0.0
 
