@@ -1,4 +1,4 @@
-"""A push from an unstable rest: it is kept where the start is near it, and left where the search came to it by chance."""
+"""A push from an unstable rest: it is kept where the start is near it, and left where a search came to it by chance."""
 
 import math
 
