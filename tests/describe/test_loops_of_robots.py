@@ -12,7 +12,7 @@ from symgen.api import Model
 from symgen.describe.files.validate import validate
 from symgen.describe.formats import Import, format_of, read_robot
 from symgen.describe.parts.topology import count_empty_ends, spanning_tree, state_names
-from symgen.run.compiling.choices import on_tree
+from symgen.run.compiling.choices import mechanism_on_tree
 
 LINKS = "".join(
     f'<link name="{name}"><inertial><origin xyz="{centre}"/><mass value="1"/>'
@@ -99,7 +99,7 @@ def test_connect_keeps_the_tree_of_a_file(tmp_path: Path) -> None:
     read = imported(tmp_path, FOOT, "foot.xml")
     assert [name for name, joint in read.raw["joints"].items() if joint.get("cut")] == ["equality0"]
     mechanism = model_of(read).mechanism
-    tree = on_tree(mechanism).topology
+    tree = mechanism_on_tree(mechanism).topology
     assert tree is not None and tree.cut == ("equality0",)
     functions = model_of(read).functions(coordinates="joint")
     q, _ = functions.start

@@ -23,6 +23,7 @@ from symgen.analyses.rest.equilibria import (
     stability_in_motion,
     value_of_coordinate,
 )
+from symgen.analyses.rest.pushed import sink_on
 from symgen.analyses.rest.settle import Settled, settle_position
 from symgen.analyses.rest.steady import at_rest, named_states
 from symgen.analyses.state.moving_drivers import note_on_moving_drivers, refuse_moving_drivers
@@ -233,7 +234,7 @@ def rest_from(mechanism: Mechanism, settings: Settings) -> Equilibrium:
         if subject.closed:  # it is the tree that cannot start there, as in a run
             raise
     settled = find_equilibrium(subject)
-    rest = judge_equilibrium(settled)
+    settled, rest = sink_on(subject, settled, judge_equilibrium(settled))
     refuse_impossible_mode(settled.subject, rest.y, rest.lam)
     return _add_notes(mechanism, settings, _rests_of_bodies(mechanism, settings, subject, (rest,)), (settled,))[0]
 

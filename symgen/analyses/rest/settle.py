@@ -211,7 +211,7 @@ class Settled:
     steps: int
 
 
-def settle_position(subject: Subject, y: Array, held: Sequence[tuple[str, float]] = ()) -> Settled:
+def settle_position(subject: Subject, y: Array, held: Sequence[tuple[str, float]] = (), near: float = NEAR) -> Settled:
     """Return a position where all forces balance.
 
     Parameters
@@ -222,17 +222,19 @@ def settle_position(subject: Subject, y: Array, held: Sequence[tuple[str, float]
         A state; its velocities are kept.
     held : sequence of (str, float)
         Coordinates held at a value by a force of their own, whose multiplier comes last.
+    near : float
+        Length of the longest step of Newton's method that is taken; from further away steps go downhill.
 
     Raises
     ------
     AnalysisError
         If no equilibrium is found.
     """
-    statics, y, lam, steps = search_equilibrium(DenseStatics(subject, held), y)
+    statics, y, lam, steps = search_equilibrium(DenseStatics(subject, held), y, near)
     return Settled(statics.subject, y, lam, steps)
 
 
-def search_equilibrium(statics: S, y: Array) -> tuple[S, Array, Array, int]:
+def search_equilibrium(statics: S, y: Array, near: float = NEAR) -> tuple[S, Array, Array, int]:
     """Return a static problem at an equilibrium, the state there, its multipliers, and the steps taken.
 
     Where forces have no potential, such as a controller's, downhill may lead nowhere: Newton's method alone follows.
@@ -248,7 +250,7 @@ def search_equilibrium(statics: S, y: Array) -> tuple[S, Array, Array, int]:
         with suppress(AnalysisError):
             return _search_by_load_steps(statics, y)
     try:
-        return _search_from(statics, y, NEAR)
+        return _search_from(statics, y, near)
     except AnalysisError as error:
         try:
             return _search_from(statics, y, np.inf)
@@ -258,7 +260,7 @@ def search_equilibrium(statics: S, y: Array) -> tuple[S, Array, Array, int]:
 
 def _search_from(statics: S, y: Array, near: float) -> tuple[S, Array, Array, int]:
     """Return the same; steps of Newton's method up to `near` are taken, else those downhill."""
-    statics, y, steps = _close_nearly(statics, y)
+    statics, y, steps = close_nearly(statics, y)
     nothing = statics.all_multipliers(None)
     force, gaps = statics.forces(y, nothing)
     _, rows, stiffness = statics.derivatives(y, nothing)
@@ -285,7 +287,7 @@ def _search_from(statics: S, y: Array, near: float) -> tuple[S, Array, Array, in
             return statics, y, statics.all_multipliers(work), step
         if error < best:
             before, best = (y, work), error
-        way = _newton_step(statics, motion, solver_with_rows(stiffness, rows), (force, gaps), near)
+        way = newton_step(statics, motion, solver_with_rows(stiffness, rows), (force, gaps), near)
         if way is None and good:
             return statics, y, lam, step
         if way is None:
@@ -302,7 +304,7 @@ def _search_from(statics: S, y: Array, near: float) -> tuple[S, Array, Array, in
 
 def _search_by_load_steps(statics: S, y: Array) -> tuple[S, Array, Array, int]:
     """Return the same by load steps: what is not balanced at first is taken away part by part, by Newton's method."""
-    statics, y, steps = _close_nearly(statics, y)
+    statics, y, steps = close_nearly(statics, y)
     force, gaps = statics.forces(y, statics.all_multipliers(None))
     _, rows, stiffness = statics.derivatives(y, statics.all_multipliers(None))
     solve = solver_with_rows(unit_stiffness(stiffness), rows)
@@ -319,7 +321,7 @@ def _search_by_load_steps(statics: S, y: Array) -> tuple[S, Array, Array, int]:
             motion, rows, stiffness = now.derivatives(state[0], now.all_multipliers(state[1]))
             solve = solver_with_rows(stiffness, rows)
             change, more = (np.full(1, np.inf), work) if solve is None else solve((1.0 - share) * first - force, -gaps)
-            long = _length_of_step(now, motion, change) if np.all(np.isfinite(change)) else np.inf
+            long = length_of_step(now, motion, change) if np.all(np.isfinite(change)) else np.inf
             if not long <= REACH:
                 break
             state = now.move_state(state[0], motion @ change), state[1] + more
@@ -337,7 +339,7 @@ def _search_by_load_steps(statics: S, y: Array) -> tuple[S, Array, Array, int]:
     raise AnalysisError("no equilibrium was found from this start by load steps")
 
 
-def _close_nearly(statics: S, y: Array) -> tuple[S, Array, int]:
+def close_nearly(statics: S, y: Array) -> tuple[S, Array, int]:
     """Return a position that is nearly closed, and the steps taken: each the shortest one.
 
     Where rows depend on each other, as those of links in one line, everything is moved a little.
@@ -350,7 +352,7 @@ def _close_nearly(statics: S, y: Array) -> tuple[S, Array, int]:
         if solve is not None and np.linalg.norm(gaps) <= OPENED:
             return statics, y, step
         change = np.full(len(force), np.inf) if solve is None else solve(np.zeros(len(force)), -gaps)[0]
-        long = _length_of_step(statics, motion, change)
+        long = length_of_step(statics, motion, change)
         if not long < SINGULAR:
             change, long = ASTRAY * rng.standard_normal(len(force)), 1.0
         y = statics.move_state(y, motion @ (min(1.0, REACH / max(long, 1e-300)) * change))
@@ -358,20 +360,21 @@ def _close_nearly(statics: S, y: Array) -> tuple[S, Array, int]:
     raise AnalysisError("no equilibrium was found from this start: it cannot be closed; another start may do")
 
 
-def _length_of_step(statics: DenseStatics | Sparse, motion: Any, change: Array) -> float:
+def length_of_step(statics: DenseStatics | Sparse, motion: Any, change: Array) -> float:
+    """Return the largest change of a coordinate in a step, in lengths of the mechanism and radians."""
     if not np.all(np.isfinite(change)):
         return np.inf
     return float((np.abs(motion @ change) / statics.lengths).max(initial=0.0))
 
 
-def _newton_step(
+def newton_step(
     statics: DenseStatics | Sparse, motion: object, solve: Solver | None, right: tuple[Array, Array], near: float
 ) -> tuple[Array, Array] | None:
     """Return the step of Newton's method, or as much of it as a step may be long, where it is shorter than `near`."""
     if solve is None:
         return None
     change, more = solve(-right[0], -right[1])
-    long = _length_of_step(statics, motion, change)
+    long = length_of_step(statics, motion, change)
     part = min(1.0, REACH / max(long, 1e-300))
     return (part * change, part * more) if long < near else None
 
@@ -389,7 +392,7 @@ def _downhill_step(
         solve = solver_with_rows(stiffness + shift * even, rows)
         if solve is not None:
             change, more = solve(-force, -gaps)
-            long = _length_of_step(statics, motion, change)
+            long = length_of_step(statics, motion, change)
             steep = float(change @ ((stiffness + shift * even) @ change)) if long <= REACH else 0.0
             if steep > 0.0:
                 then, opened = statics.forces(

@@ -54,7 +54,7 @@ def _are_same(numbers: Array, axis: int) -> NDArray[np.bool_]:
 
 
 def _size_of_each_quantity(sweep: Sweep) -> Array:
-    """Return for each quantity the largest absolute value among the quantities of its unit."""
+    """Return for each quantity the largest absolute value among all quantities of its unit."""
     largest = np.abs(sweep.values).max(axis=(0, 2), initial=0.0)
     units = [q.unit for q in sweep.ensemble.recipe.kept]
     of_unit = {unit: max(x for x, own in zip(largest, units, strict=True) if own == unit) for unit in units}
