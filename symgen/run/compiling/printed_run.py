@@ -224,7 +224,8 @@ class PrintedRun:
         watched, rows = self.watched, self._rows
         pressed = rows is not None and bool(rows.pressed)
         changes = watched is not None and watched.effects is not None
-        traits = Traits(watched is not None, changes, rows is not None, pressed, self._has_seams)
+        corners = watched is not None and bool(watched.corners)
+        traits = Traits(watched is not None, changes, rows is not None, pressed, self._has_seams, corners)
         return readable.adaptive if self.spec.adaptive else self.integrator.loop(False), traits
 
     @property
@@ -233,7 +234,7 @@ class PrintedRun:
 
     @cached_property
     def _decide(self) -> Any:
-        return deciding(_NOTES)
+        return deciding(_NOTES, self.watched is not None and bool(self.watched.corners))
 
     def _hunt(self, watched: Watched, hunt: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the data of events with room for few notes, as all are taken before the next step."""

@@ -165,6 +165,10 @@ class Watched:
         Rows whose forces have bounds.
     of_forces : tuple of int
         Numbers of the functions that depend on accelerations or forces, whose rates count these as constant.
+    corners : tuple of int
+        Numbers of the events at which gaps of closed stops pass corners.
+    missed : float
+        Fraction of a step by which a corner may be missed.
     """
 
     names: tuple[str, ...]
@@ -179,6 +183,8 @@ class Watched:
     adaptive: bool = True
     bounded: BoundedRows | None = None
     of_forces: tuple[int, ...] = ()
+    corners: tuple[int, ...] = ()
+    missed: float = 0.0
 
 
 @dataclass(frozen=True)

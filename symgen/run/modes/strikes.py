@@ -23,6 +23,7 @@ from symgen.run.effects.resets import KeptEffect, OfEffects, new_kept_effect
 from symgen.run.layout import abi
 from symgen.run.layout.scales import larger
 from symgen.run.layout.start_records import Instant
+from symgen.run.loops.search_records import CORNER, COUNT, FIRED, GRAIN, MARGIN, N_HEAD, SIDE
 from symgen.run.modes.bounded_rows import (
     NO_IMPULSES,
     NOT_APPLIED,
@@ -52,6 +53,10 @@ _RESOLVED = 2e-15
 #: the last two, the least change of the latter, and the end behind it.
 _COUNT, _LAST, _BETTER, _LEAST, _BEST = range(5)
 OF_SERIES = 5
+#: Largest number of doublings of the time in which a state passes a corner, and that time over the resolution of time.
+_DOUBLINGS, _PASSING = 24, 4.0
+#: Least time of which that resolution is a part [s].
+_EARLY = 1e-3
 
 
 class Strikes(Record):
@@ -119,6 +124,52 @@ def new_strikes(effects: OfEffects, hits: Sequence[int], losses: Sequence[int], 
         struck=new_kept_effect(effects.model[0], effects.work, keeps),
         rested=new_kept_effect(effects.model[0], effects.work, keeps),
     )
+
+
+@exact()
+def is_passed(hunt: Array, n: int, k: int) -> bool:
+    """Return whether the latest step has ended before a corner that it passes."""
+    at = N_HEAD
+    return bool(hunt[at + MARGIN * n + k] == float(CORNER) and hunt[at + FIRED * n + k] != 0.0)
+
+
+@exact(entry=True)
+def pass_corners(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, iw: Integers, hunt: Array) -> int:
+    """Move a state on from before corners of closed gaps until rounding no longer hides that it is past them.
+
+    It moves with its velocities, which the rows of the gaps change past the corners: all rows are off, and gaps that
+    are closed stay so until an impact or a choice of modes opens them. A state whose velocities do not take it there
+    stays where it is. Returns the number of corners.
+    """
+    n, found, work = int(hunt[COUNT]), 0, s.effects.past.out
+    for k in range(n):
+        found += 1 if is_passed(hunt, n, k) else 0
+    if found == 0:
+        return 0
+    for i in range(w.shape[0]):
+        c.w[i] = w[i]
+    for i in range(y.shape[0]):
+        c.y[i] = y[i]
+    for i in range(iw.shape[0]):
+        c.iw[i] = iw[i]
+    if c.rates(t, c.y, p, c.w, c.iw, c.rate) != 0:
+        c.confirm(t, c.y, p, c.w, c.iw, c.rate)
+    step, ahead = _PASSING * abi.RESOLVED_TIME * larger(t, _EARLY), False
+    for _ in range(_DOUBLINGS):
+        if not ahead:
+            for i in range(y.shape[0]):
+                c.y[i] = y[i] + (step * c.rate[i] if i < c.layout.nq else 0.0)
+            s.effects.happens(t, c.y, p, w, c.rate, work)
+            ahead = True
+            for k in range(n):
+                far = 2.0 * hunt[N_HEAD + GRAIN * n + k]
+                ahead = ahead and not (is_passed(hunt, n, k) and hunt[N_HEAD + SIDE * n + k] * work[k] <= far)
+            step *= 2.0
+    if ahead:
+        for i in range(c.layout.nq):
+            y[i] = c.y[i]
+    put_off(c, w)
+    return found
 
 
 @exact(entry=True)

@@ -21,7 +21,7 @@ from symgen.run.layout.start_records import Instant
 from symgen.run.loops import search_records as records
 from symgen.run.loops.afresh import begin_afresh
 from symgen.run.loops.event_loop import EventState
-from symgen.run.loops.unbound import gather_impacts, keep_after, keep_before, meet_impacts
+from symgen.run.loops.unbound import gather_impacts, keep_after, keep_before, meet_corners, meet_impacts
 from symgen.run.loops.watch import remember_rank
 from symgen.run.modes.agreement import choose_pressed
 from symgen.run.modes.bounded_rows import (
@@ -43,7 +43,7 @@ from symgen.run.modes.bounded_rows import (
     put_off,
 )
 from symgen.run.modes.choice import choose_modes, find_fault, follow_modes, look_anew, measure_margins, read_rows
-from symgen.run.modes.strikes import Strikes, find_struck, forget_passed, gather, strike
+from symgen.run.modes.strikes import Strikes, find_struck, forget_passed, gather, pass_corners, strike
 from symgen.run.modes.transition_log import HIT, Transitions, log_changes, log_transition, remember_modes
 
 _K = types.int64[::1]
@@ -170,6 +170,12 @@ def rest_gaps(t: float, modes: OfModes, state: EventState) -> int:
     return int(code)
 
 
+def pass_gaps(modes: OfModes, state: EventState) -> None:
+    """Take the state of a run past the corners of closed gaps before which a step has ended."""
+    t = state.clock[abi.TIME]
+    pass_corners(t, modes.choice, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt)
+
+
 # -- modes -------------------------------------------------------------------------------------------------------------
 
 
@@ -294,6 +300,7 @@ def take_turn(code: int, modes: OfModes, state: EventState) -> int:
         return int(ended)
     if jammed >= 0:
         return int(refuse_fault(JAMMED, float(jammed), 1.0, math.nan, modes))
+    meet_corners(modes, state)
     if chooses and choose_here(modes, state) != abi.DONE:
         return int(e.NO_MODES)
     return int(ended)
@@ -318,6 +325,7 @@ STRIKING = Meanings(
     gather_impacts=rest_gaps,
     change_state=apply_resets,
 )
+CORNERED = Meanings("runs with corners of gaps", meet_corners=pass_gaps)
 PRESSED = Meanings("runs with bounds that depend on reactions", choose_modes=choose_pressed)
 #: Type of what follows the functions of a model, where events change a run, and where rows have bounds.
 FURTHER = {"effects": record_type(OfEffects), "modes": record_type(OfModes)}

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.describe.bounds.bounded_modes import HIT, JAM, LEAVE, REVERSE, SLIP
+from symgen.describe.facts.corners import row_of_corner
 from symgen.describe.parts.event_sections import RECORD, STOP
 from symgen.run.effects.effects import Impact
 from symgen.run.layout import abi
@@ -47,6 +48,7 @@ def event_state(watched: Watched, sizes: Sizes, state: State) -> event_loop.Even
     columns[searching.ACTION, events:] = [(searching.ANEW, searching.EXAMINE)[x.holds] for x in watched.switches]
     columns[searching.OF_FORCES, list(watched.of_forces)] = 1.0
     columns[searching.MARGIN, :events], columns[searching.ROW, :events] = margins_of(watched)
+    columns[searching.MISSED, list(watched.corners)] = watched.missed
     columns[searching.MISSED, events:] = [switch.missed for switch in watched.switches]
     columns[searching.PERIOD, events:] = [switch.period for switch in watched.switches]
     sizes_of_tables = [len(switch.points) for switch in watched.switches]
@@ -66,6 +68,9 @@ def margins_of(watched: Watched) -> tuple[list[int], list[int]]:
     """Return of which kind of margin each event is, 0 for others, and the number of its bounded row."""
     rows = () if watched.bounded is None else watched.bounded.names
     found = {f"{name}.{word}": (kind, i) for i, name in enumerate(rows) for word, kind in _MARGINS.items()}
+    found |= {
+        watched.names[k]: (searching.CORNER, rows.index(row_of_corner(watched.names[k]))) for k in watched.corners
+    }
     kinds = [found.get(name, (0, 0)) for name in watched.names]
     return [kind for kind, _ in kinds], [row for _, row in kinds]
 
