@@ -153,13 +153,6 @@ def meet_impacts(t: float, modes: Record, state: State) -> int:
     return UNCHANGED
 
 
-def meet_corners(modes: Record, state: State) -> None:
-    """Do nothing: no gap has corners.
-
-    ``docs/late-names.md`` says who means it when.
-    """
-
-
 def gather_impacts(t: float, modes: Record, state: State) -> int:
     """Return `SAME`: a run without gaps has no impacts that accumulate.
 

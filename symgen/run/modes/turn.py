@@ -21,7 +21,7 @@ from symgen.run.layout.start_records import Instant
 from symgen.run.loops import search_records as records
 from symgen.run.loops.afresh import begin_afresh
 from symgen.run.loops.event_loop import EventState
-from symgen.run.loops.unbound import gather_impacts, keep_after, keep_before, meet_corners, meet_impacts
+from symgen.run.loops.unbound import gather_impacts, keep_after, keep_before, meet_impacts
 from symgen.run.loops.watch import remember_rank
 from symgen.run.modes.agreement import choose_pressed
 from symgen.run.modes.bounded_rows import (
@@ -158,6 +158,16 @@ def strike_gaps(t: float, modes: OfModes, state: EventState) -> int:
     return SAME
 
 
+def strike_past_corners(t: float, modes: OfModes, state: EventState) -> int:
+    """Take the state past the corners of gaps before which a step has ended, and do what `strike_gaps` does."""
+    c = modes.choice
+    if state.hunt[records.NOTED] > 0.0:  # other choices are at no event
+        passed = pass_corners(t, c, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt)
+        if passed > 0 and read_rows(t, c, state.y, state.p, state.w) != SAME:
+            return OUT_OF_RANGE
+    return int(strike_gaps(t, modes, state))
+
+
 def rest_gaps(t: float, modes: OfModes, state: EventState) -> int:
     """Bring gaps to rest whose impacts accumulate; return `OTHERS` where any are, else `SAME`, or another code."""
     c, s = modes.choice, modes.strikes
@@ -168,12 +178,6 @@ def rest_gaps(t: float, modes: OfModes, state: EventState) -> int:
         if read_rows(t, c, state.y, state.p, state.w) != SAME:
             code = OUT_OF_RANGE
     return int(code)
-
-
-def pass_gaps(modes: OfModes, state: EventState) -> None:
-    """Take the state of a run past the corners of closed gaps before which a step has ended."""
-    t = state.clock[abi.TIME]
-    pass_corners(t, modes.choice, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt)
 
 
 # -- modes -------------------------------------------------------------------------------------------------------------
@@ -300,7 +304,6 @@ def take_turn(code: int, modes: OfModes, state: EventState) -> int:
         return int(ended)
     if jammed >= 0:
         return int(refuse_fault(JAMMED, float(jammed), 1.0, math.nan, modes))
-    meet_corners(modes, state)
     if chooses and choose_here(modes, state) != abi.DONE:
         return int(e.NO_MODES)
     return int(ended)
@@ -325,7 +328,7 @@ STRIKING = Meanings(
     gather_impacts=rest_gaps,
     change_state=apply_resets,
 )
-CORNERED = Meanings("runs with corners of gaps", meet_corners=pass_gaps)
+CORNERED = Meanings("runs with corners of gaps", meet_impacts=strike_past_corners)
 PRESSED = Meanings("runs with bounds that depend on reactions", choose_modes=choose_pressed)
 #: Type of what follows the functions of a model, where events change a run, and where rows have bounds.
 FURTHER = {"effects": record_type(OfEffects), "modes": record_type(OfModes)}

@@ -234,7 +234,8 @@ def over_rows(
         signature = types.int64(model, *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
         meanings: dict[str, Any] = {**(EVENTS if events else {}), **(EFFECTS if effects else {})}
         meanings |= (MODES if modes else {}) | (turn.PRESSED if pressed else {})
-        meanings |= (turn.STRIKING if effects and modes else {}) | (turn.CORNERED if corners else {})
+        meanings |= turn.STRIKING if effects and modes else {}
+        meanings |= turn.CORNERED if corners else {}
         meanings |= MODES_BETWEEN_SEAMS if modes and seams else {}
         meanings |= (SEAMED if seams else {}) | (_EXAMINED if examined else {})
         compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)
