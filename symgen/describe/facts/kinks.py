@@ -188,11 +188,6 @@ def kink_expressions(formula: Expr) -> tuple[Expr, ...]:
     return tuple(dict.fromkeys(x for e, _ in _calls_with_efforts(formula) for x in _zero_at_kinks(e)))
 
 
-def calls_in(formula: Expr) -> Iterator[Call]:
-    """Yield the calls of functions in a formula."""
-    return (e for e, _ in _calls_with_efforts(formula))
-
-
 def _zero_at_kinks(e: Call) -> tuple[Expr, ...]:
     """Return the expressions that are 0 where a call jumps or has a kink.
 

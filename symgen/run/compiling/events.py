@@ -13,7 +13,7 @@ from symgen.base.vocabulary.measures import GROUND, Spin
 from symgen.describe.bounds.bounded_modes import measure_derivative, mode_events, one_sided_rows, two_sided_rows
 from symgen.describe.bounds.by_reaction import reaction_components, rows_bounded_by_reactions
 from symgen.describe.bounds.losses import places_of_losses
-from symgen.describe.facts.corners import corner_events
+from symgen.describe.facts.corners import corner_events, rows_that_turn
 from symgen.describe.facts.kinks import KINKS, Discontinuity, changes_in_time, discontinuities_of, rows_with_kinks
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Event, Mechanism, Rotor, SpatialBody
@@ -72,6 +72,7 @@ def compile_events(
         adaptive=rtol is not None,
         bounded=bounded_rows(mechanism, compiled),
         corners=corners,
+        turns=rows_that_turn(mechanism),
         missed=0.0 if rtol is None else rtol,
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -239,7 +239,7 @@ class PrintedRun:
     def _hunt(self, watched: Watched, hunt: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the data of events with room for few notes, as all are taken before the next step."""
         width = self.compiled.info.ny
-        if watched.switches:  # whose points stand behind the notes
+        if watched.switches or watched.corners:  # whose points stand behind the notes
             return hunt
         first = notes_at(len(watched.names), width, len(self.compiled.scratch()))
         return hunt[: first + (_NOTES + 2 * len(watched.names)) * (2 + width)].copy()
@@ -276,7 +276,9 @@ class PrintedRun:
         rates = rate_functions(compiled.law_module)
         model: tuple[Any, ...] = (sizes, *setup.functions)
         if watched is not None:
-            state = event_state(watched, sizes, state)
+            # corrections of stops with smooth gaps are examined in runs by themselves
+            examined = watched if watched.corners else replace(watched, turns=())
+            state = event_state(examined, sizes, state)
             state = state._replace(hunt=self._hunt(watched, state.hunt))
             model = *model, watched.function, self._decide, rates[0]
         if self._has_seams:

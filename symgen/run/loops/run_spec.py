@@ -167,6 +167,8 @@ class Watched:
         Numbers of the functions that depend on accelerations or forces, whose rates count these as constant.
     corners : tuple of int
         Numbers of the events at which gaps of closed stops pass corners.
+    turns : tuple of int
+        Numbers of the rows with bounds whose gaps are formulas, which may turn sharply.
     missed : float
         Fraction of a step by which a corner may be missed.
     """
@@ -184,6 +186,7 @@ class Watched:
     bounded: BoundedRows | None = None
     of_forces: tuple[int, ...] = ()
     corners: tuple[int, ...] = ()
+    turns: tuple[int, ...] = ()
     missed: float = 0.0
 
 
