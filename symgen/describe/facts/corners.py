@@ -38,13 +38,20 @@ def _zero_at_corners(mechanism: Mechanism, row: EndStop) -> Iterator[Expr]:
             yield zero
 
 
-def rows_that_turn(mechanism: Mechanism) -> tuple[int, ...]:
-    """Return the numbers of the rows with bounds whose gaps are formulas, so that their rows may turn sharply."""
-    return tuple(
-        i
-        for i, row in enumerate(mechanism.bounded)
-        if isinstance(row, EndStop) and isinstance(row.measure, FormulaMeasure)
-    )
+def rows_that_turn(mechanism: Mechanism, corrected: bool) -> tuple[int, ...]:
+    """Return the numbers of the rows with bounds that may turn sharply within a step.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    corrected : bool
+        Whether velocities are corrected after each step, so that a correction above its error tells any sharp turn;
+        otherwise only gaps with corners count, as other methods leave rates of closed gaps.
+    """
+    formulas = [(i, row.measure) for i, row in enumerate(mechanism.bounded) if isinstance(row, EndStop)]
+    own = [(i, measure.of) for i, measure in formulas if isinstance(measure, FormulaMeasure)]
+    return tuple(i for i, of in own if corrected or kink_expressions(of))
 
 
 def row_of_corner(name: str) -> str:

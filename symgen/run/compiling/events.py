@@ -25,6 +25,8 @@ from symgen.run.single.row_jumps import RowJumps
 
 Array = NDArray[np.float64]
 
+#: The method that corrects velocities after each step, up to its error.
+CORRECTING = "direct-correction"
 #: Sign of the change of a switching function at its event, 0 for both.
 DIRECTIONS = {"rising": 1, "falling": -1, "any": 0}
 
@@ -72,7 +74,7 @@ def compile_events(
         adaptive=rtol is not None,
         bounded=bounded_rows(mechanism, compiled),
         corners=corners,
-        turns=rows_that_turn(mechanism),
+        turns=rows_that_turn(mechanism, corrected=compiled.law.method == CORRECTING),
         missed=0.0 if rtol is None else rtol,
     )
 

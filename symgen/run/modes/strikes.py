@@ -25,6 +25,7 @@ from symgen.run.layout.scales import larger
 from symgen.run.layout.start_records import Instant
 from symgen.run.loops.search_records import CORNER, COUNT, FIRED, GRAIN, MARGIN, N_HEAD, SIDE
 from symgen.run.modes.bounded_rows import (
+    HELD,
     NO_IMPULSES,
     NOT_APPLIED,
     NOT_FINITE,
@@ -35,8 +36,10 @@ from symgen.run.modes.bounded_rows import (
     Choice,
     is_held,
     is_shut,
+    open_rows,
     put_off,
     row_scale,
+    sign_of,
 )
 from symgen.run.modes.box import solve_box
 from symgen.run.modes.choice import probe
@@ -55,6 +58,8 @@ _COUNT, _LAST, _BETTER, _LEAST, _BEST = range(5)
 OF_SERIES = 5
 #: Largest number of doublings of the time in which a state passes a corner, and that time over the resolution of time.
 _DOUBLINGS, _PASSING = 24, 4.0
+#: A start lies on a corner below this part of the size of its terms.
+_GRAIN = 1e-13
 #: Least time of which that resolution is a part [s].
 _EARLY = 1e-3
 
@@ -170,6 +175,32 @@ def pass_corners(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, 
             y[i] = c.y[i]
     put_off(c, w)
     return found
+
+
+@exact(entry=True)
+def begin_at_corners(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, iw: Integers, hunt: Array) -> int:
+    """Move a start on that lies on corners of closed gaps, as `pass_corners` does; return the number of corners.
+
+    Rows have been read. A start has no modes: gaps that touch count as closed.
+    """
+    n, at, work, found = int(hunt[COUNT]), N_HEAD, s.effects.past.out, 0
+    for i in range(c.dry, c.count):
+        w[c.first + MODE_NUMBERS * i + HELD] = 1.0 if is_shut(c, w, i) else 0.0
+    accelerate_in_force(t, c, Instant(y, p, w), iw)
+    s.effects.happens(t, y, p, w, c.rate, work)
+    for k in range(n):
+        if hunt[at + MARGIN * n + k] == float(CORNER):
+            grain = _GRAIN * work[2 * n + k]
+            lies = abs(work[k]) <= grain and abs(work[n + k]) > 0.0
+            hunt[at + FIRED * n + k] = 1.0 if lies else 0.0
+            hunt[at + SIDE * n + k], hunt[at + GRAIN * n + k] = sign_of(work[n + k]), grain
+    found = pass_corners(t, c, s, y, p, w, iw, hunt)
+    for k in range(n):
+        if hunt[at + MARGIN * n + k] == float(CORNER):
+            hunt[at + FIRED * n + k] = 0.0
+    if found == 0:
+        open_rows(c, w)
+    return int(found)
 
 
 @exact(entry=True)

@@ -43,7 +43,7 @@ from symgen.run.modes.bounded_rows import (
     put_off,
 )
 from symgen.run.modes.choice import choose_modes, find_fault, follow_modes, look_anew, measure_margins, read_rows
-from symgen.run.modes.strikes import Strikes, find_struck, forget_passed, gather, pass_corners, strike
+from symgen.run.modes.strikes import Strikes, begin_at_corners, find_struck, forget_passed, gather, pass_corners, strike
 from symgen.run.modes.transition_log import HIT, Transitions, log_changes, log_transition, remember_modes
 
 _K = types.int64[::1]
@@ -160,11 +160,13 @@ def strike_gaps(t: float, modes: OfModes, state: EventState) -> int:
 
 def strike_past_corners(t: float, modes: OfModes, state: EventState) -> int:
     """Take the state past the corners of gaps before which a step has ended, and do what `strike_gaps` does."""
-    c = modes.choice
-    if state.hunt[records.NOTED] > 0.0:  # other choices are at no event
+    c, passed = modes.choice, 0
+    if state.control[abi.BEGUN] == 0:
+        passed = begin_at_corners(t, c, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt)
+    elif state.hunt[records.NOTED] > 0.0:  # other choices are at no event
         passed = pass_corners(t, c, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt)
-        if passed > 0 and read_rows(t, c, state.y, state.p, state.w) != SAME:
-            return OUT_OF_RANGE
+    if passed > 0 and read_rows(t, c, state.y, state.p, state.w) != SAME:
+        return OUT_OF_RANGE
     return int(strike_gaps(t, modes, state))
 
 
