@@ -184,11 +184,10 @@ class Reader(TableValues):
             self.returned.add(value.type)
             return [lang.Return(value)]
         if isinstance(node, ast.If):
-            test = without_constants(node.test, self.globals)
-            if isinstance(test, bool):
-                return list(self.statements(node.body if test else node.orelse))
-            node = ast.If(test, node.body, node.orelse)
-            return [lang.If(self.truth(node.test), self.read_inner(node.body), self.read_inner(node.orelse))]
+            condition = without_constants(node.test, self.globals)
+            if isinstance(condition, bool):
+                return list(self.statements(node.body if condition else node.orelse))
+            return [lang.If(self.truth(condition), self.read_inner(node.body), self.read_inner(node.orelse))]
         if isinstance(node, ast.While) and not node.orelse:
             test = self.truth(node.test)
             return [lang.While(test, self.read_inner(node.body, loop=True))]

@@ -145,14 +145,14 @@ class Discontinuity:
 
 
 def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
-    """Return jumps and kinks of formulas that depend on the state, gaps of stops among them, each argument once.
+    """Return jumps and kinks of formulas that depend on the state, each argument once for each table.
 
     Comparisons and `sign` jump; `abs`, `min`, `max` and tables at their points have kinks. An integrand acts on
-    nothing, so that no other error shows a dip of it between two evaluations. ``s`` and ``rate`` of forces
-    are readings of their measures.
+    nothing, so that no other error shows a dip of it between two evaluations, nor of the gap of an open stop. ``s`` and
+    ``rate`` of forces are readings of their measures.
     """
     formulas = *integrands_of_run(mechanism), _bound_formulas(mechanism)
-    gaps = tuple((row.measure, row.value) for row in one_sided_rows(mechanism))
+    gaps = tuple(row.place for row in one_sided_rows(mechanism))
     tables, plain = _tables_with_halts(mechanism), {p.name for p in mechanism.parameters} | {"t"}
     own = {
         _effort_formula_of_run(Name("rate"), row.effort) for row in two_sided_rows(mechanism)
