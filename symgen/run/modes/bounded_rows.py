@@ -57,6 +57,8 @@ JAMMED, REDUNDANT, DISAGREED, SHARED = range(6, 10)
 NOT_APPLIED, NO_IMPULSES = 10, 11
 #: What is out of range: a gap, a restitution, a bound in motion that is 0 beside one at rest, other bounds.
 NEGATIVE_GAP, NO_RESTITUTION, NO_BOUND_IN_MOTION, NO_BOUNDS = range(12, 16)
+#: Both pieces of a gap push at a corner.
+TWO_PIECES = 16
 
 
 class Choice(Record):

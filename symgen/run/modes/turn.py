@@ -39,11 +39,13 @@ from symgen.run.modes.bounded_rows import (
     SHARED,
     SIGN,
     TOUCHING,
+    TWO_PIECES,
     Choice,
     put_off,
 )
 from symgen.run.modes.choice import choose_modes, find_fault, follow_modes, look_anew, measure_margins, read_rows
-from symgen.run.modes.strikes import Strikes, begin_at_corners, find_struck, forget_passed, gather, pass_corners, strike
+from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_corners
+from symgen.run.modes.strikes import Strikes, find_struck, forget_passed, gather, strike
 from symgen.run.modes.transition_log import HIT, Transitions, log_changes, log_transition, remember_modes
 
 _K = types.int64[::1]
@@ -167,7 +169,10 @@ def strike_past_corners(t: float, modes: OfModes, state: EventState) -> int:
         passed = pass_corners(t, c, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt)
     if passed > 0 and read_rows(t, c, state.y, state.p, state.w) != SAME:
         return OUT_OF_RANGE
-    return int(strike_gaps(t, modes, state))
+    code = int(strike_gaps(t, modes, state))
+    if code == SAME and passed > 0 and find_both_pieces(t, c, modes.strikes, state.y, state.p, state.w, state.hunt) > 0:
+        code = TWO_PIECES
+    return code
 
 
 def rest_gaps(t: float, modes: OfModes, state: EventState) -> int:
