@@ -8,6 +8,7 @@ compiles such a function.
 from __future__ import annotations
 
 import ast
+from collections.abc import Mapping
 from typing import Any
 
 from symgen.compile.native import language as lang
@@ -64,6 +65,38 @@ def statements_without_docstring(tree: ast.FunctionDef) -> list[ast.stmt]:
     """Return the statements of a function without its docstring."""
     first = tree.body[0]
     return tree.body[1:] if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) else tree.body
+
+
+def without_constants(test: ast.expr, names: Mapping[str, Any]) -> ast.expr | bool:
+    """Return a condition without the truth values that are constants of the module, or its own truth value.
+
+    Parameters
+    ----------
+    test : expr
+        The condition.
+    names : mapping
+        Global names with their values.
+    """
+    if isinstance(test, ast.Name) and isinstance(names.get(test.id), bool):
+        return bool(names[test.id])
+    if isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not):
+        inner = without_constants(test.operand, names)
+        return not inner if isinstance(inner, bool) else test
+    if not isinstance(test, ast.BoolOp):
+        return test
+    decisive, left = isinstance(test.op, ast.Or), list[ast.expr]()
+    for part in test.values:
+        value = without_constants(part, names)
+        if value is decisive and not left:
+            return decisive
+        if not isinstance(value, bool):
+            left.append(value)
+        elif value is decisive:  # parts before it may be undefined
+            left.append(part)
+            break
+    if not left:
+        return not decisive
+    return left[0] if len(left) == 1 else ast.BoolOp(test.op, left)
 
 
 class Reader(TableValues):
@@ -151,7 +184,10 @@ class Reader(TableValues):
             self.returned.add(value.type)
             return [lang.Return(value)]
         if isinstance(node, ast.If):
-            return [lang.If(self.truth(node.test), self.read_inner(node.body), self.read_inner(node.orelse))]
+            condition = without_constants(node.test, self.globals)
+            if isinstance(condition, bool):
+                return list(self.statements(node.body if condition else node.orelse))
+            return [lang.If(self.truth(condition), self.read_inner(node.body), self.read_inner(node.orelse))]
         if isinstance(node, ast.While) and not node.orelse:
             test = self.truth(node.test)
             return [lang.While(test, self.read_inner(node.body, loop=True))]

@@ -148,16 +148,20 @@ def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
     """Return jumps and kinks of formulas that depend on the state, each argument once for each table.
 
     Comparisons and `sign` jump; `abs`, `min`, `max` and tables at their points have kinks. An integrand acts on
-    nothing, so that no other error shows a dip of it between two evaluations. ``s`` and ``rate`` of forces
-    are readings of their measures.
+    nothing, so that no other error shows a dip of it between two evaluations, nor of the gap of an open stop. ``s`` and
+    ``rate`` of forces are readings of their measures.
     """
     formulas = *integrands_of_run(mechanism), _bound_formulas(mechanism)
+    gaps = tuple(row.place for row in one_sided_rows(mechanism))
     tables, plain = _tables_with_halts(mechanism), {p.name for p in mechanism.parameters} | {"t"}
     own = {
         _effort_formula_of_run(Name("rate"), row.effort) for row in two_sided_rows(mechanism)
     }  # modes change where these are 0
     jumping = dict[tuple[Expr, Table | None], bool]()
-    for e, effort in _calls_with_efforts(*formulas) if _may_switch(formulas) else ():
+    found = list(_calls_with_efforts(*formulas)) if _may_switch(formulas) else []
+    acting = len(found)
+    found += _calls_with_efforts(gaps) if _may_switch(gaps) else ()
+    for i, (e, effort) in enumerate(found):
         table = tables.get(table_of(e.function) or "")
         if e.function not in _COMPARED and table is None:
             continue
@@ -166,7 +170,8 @@ def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
         if argument in own:
             continue
         if any(readings_in(argument)) or not set(names_in_expression(argument)) <= plain:
-            jumping[argument, table] = jumping.get((argument, table), False) or e.function in _SIDES
+            jumps = i < acting and e.function in _SIDES  # a gap is continuous
+            jumping[argument, table] = jumping.get((argument, table), False) or jumps
     held = dict.fromkeys((e, None) for row in rows_with_kinks(mechanism) for e in row.switches)
     for key in held:
         jumping.setdefault(key, False)

@@ -13,6 +13,7 @@ from symgen.base.vocabulary.measures import GROUND, Spin
 from symgen.describe.bounds.bounded_modes import measure_derivative, mode_events, one_sided_rows, two_sided_rows
 from symgen.describe.bounds.by_reaction import reaction_components, rows_bounded_by_reactions
 from symgen.describe.bounds.losses import places_of_losses
+from symgen.describe.facts.corners import corner_events, rows_that_turn
 from symgen.describe.facts.kinks import KINKS, Discontinuity, changes_in_time, discontinuities_of, rows_with_kinks
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Event, Mechanism, Rotor, SpatialBody
@@ -24,6 +25,8 @@ from symgen.run.single.row_jumps import RowJumps
 
 Array = NDArray[np.float64]
 
+#: The method that corrects velocities after each step, up to its error.
+CORRECTING = "direct-correction"
 #: Sign of the change of a switching function at its event, 0 for both.
 DIRECTIONS = {"rising": 1, "falling": -1, "any": 0}
 
@@ -49,12 +52,14 @@ def compile_events(
         In either, rows that change are examined there.
     """
     passed = tuple(x for x in discontinuities_of(mechanism) if rtol is not None or x.holds)
-    events = (*events, *mode_events(mechanism))
+    first = len(events) + len(mode_events(mechanism))
+    events = (*events, *mode_events(mechanism), *corner_events(mechanism))
+    corners = tuple(range(first, len(events)))
     if not (events or passed):
         return None
     functions = [(f"{event.name}: {event.text}", event.when) for event in events]
     functions += [(to_text(x.argument), x.argument) for x in passed]
-    side = compile_side(mechanism, compiled, "events", "Switching functions", functions, 1, bool(passed))
+    side = compile_side(mechanism, compiled, "events", "Switching functions", functions, 1, bool(passed or corners))
     return Watched(
         names=tuple(event.name for event in events),
         directions=tuple(DIRECTIONS[event.direction] for event in events),
@@ -68,6 +73,9 @@ def compile_events(
         rows=row_jumps(mechanism, compiled) if any(x.holds for x in passed) else None,
         adaptive=rtol is not None,
         bounded=bounded_rows(mechanism, compiled),
+        corners=corners,
+        turns=rows_that_turn(mechanism, corrected=compiled.law.method == CORRECTING),
+        missed=0.0 if rtol is None else rtol,
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -227,7 +227,8 @@ class PrintedRun:
         watched, rows = self.watched, self._rows
         pressed = rows is not None and bool(rows.pressed)
         changes = watched is not None and watched.effects is not None
-        traits = Traits(watched is not None, changes, rows is not None, pressed, self._has_seams)
+        corners = watched is not None and bool(watched.corners)
+        traits = Traits(watched is not None, changes, rows is not None, pressed, self._has_seams, corners)
         return readable.adaptive if self.spec.adaptive else self.integrator.loop(False), traits
 
     @property
@@ -236,12 +237,12 @@ class PrintedRun:
 
     @cached_property
     def _decide(self) -> Any:
-        return deciding(_NOTES)
+        return deciding(_NOTES, self.watched is not None and bool(self.watched.corners))
 
     def _search_record(self, watched: Watched, hunt: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the data of events with room for few notes, as all are taken before the next step."""
         width = self.compiled.info.ny
-        if watched.switches:  # whose points follow the notes
+        if watched.switches or watched.corners:  # whose points follow the notes
             return hunt
         first = notes_at(len(watched.names), width, len(self.compiled.scratch()))
         return hunt[: first + (_NOTES + 2 * len(watched.names)) * (2 + width)].copy()
@@ -278,7 +279,9 @@ class PrintedRun:
         rates = rate_functions(compiled.law_module)
         model: tuple[Any, ...] = (sizes, *setup.functions)
         if watched is not None:
-            state = event_state(watched, sizes, state)
+            # corrections of stops with smooth gaps are examined in runs by themselves
+            examined = watched if watched.corners else replace(watched, turns=())
+            state = event_state(examined, sizes, state)
             state = state._replace(hunt=self._search_record(watched, state.hunt))
             model = *model, watched.function, self._decide, rates[0]
         if self._has_seams:

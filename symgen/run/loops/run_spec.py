@@ -168,6 +168,12 @@ class Watched:
         Rows whose forces have bounds.
     of_forces : tuple of int
         Numbers of the functions that depend on accelerations or forces, whose rates count these as constant.
+    corners : tuple of int
+        Numbers of the events at which gaps of closed stops pass corners.
+    turns : tuple of int
+        Numbers of the rows with bounds whose gaps are formulas, which may turn sharply.
+    missed : float
+        Fraction of a step by which a corner may be missed.
     """
 
     names: tuple[str, ...]
@@ -182,6 +188,9 @@ class Watched:
     adaptive: bool = True
     bounded: BoundedRows | None = None
     of_forces: tuple[int, ...] = ()
+    corners: tuple[int, ...] = ()
+    turns: tuple[int, ...] = ()
+    missed: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -49,8 +49,11 @@ MEASURE, PACE, ASLEEP = range(31, 34)
 #: ... the largest slope in the last steps, 0 where it is unknown, g and g' at inner points of the step, and the output
 #: of the emitted function at its end.
 STEEPEST, G_INSIDE, D_INSIDE, AT_END = 34, 35, 35 + N_INSIDE, 35 + 2 * N_INSIDE
-#: Kinds of margins: of a force to its bound, of a gap, of a rate, of a part of a reaction.
-FORCE, GAP, RATE, PART = range(1, 5)
+#: Kinds of margins: of a force to its bound, of a gap, of a rate, of a part of a reaction; of a closed row, what is
+#: 0 at a corner of its gap.
+FORCE, GAP, RATE, PART, CORNER = range(1, 6)
+#: Whether gaps have corners; otherwise none are sought.
+CORNERS = False
 N_HEAD, N_COLUMNS, N_VALUES = SPREAD + N_INSIDE + 2, AT_END + 3, 3
 #: A state and its rate, another state, and rates at the beginning and at the end of the step.
 N_STATES = 5

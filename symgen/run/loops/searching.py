@@ -16,6 +16,7 @@ from __future__ import annotations
 from types import FunctionType
 from typing import Any
 
+from symgen.compile.loopcode.loop_instances import Instances
 from symgen.compile.store.emitted import plain
 from symgen.run.layout import abi
 from symgen.run.loops.bracket import action_of_passages, move_bracket, note_events, settle_bracket, take_values
@@ -44,6 +45,7 @@ from symgen.run.loops.search_records import (
     BEFORE,
     BEGINNING,
     BLUR,
+    CORNERS,
     D_END,
     D_START,
     DIRECTION,
@@ -81,7 +83,7 @@ from symgen.run.loops.search_records import (
     WHOLE,
     WHOLE_STEP,
 )
-from symgen.run.loops.switching import candidate, is_at_end, is_sought, side_of
+from symgen.run.loops.switching import candidate, is_at_end, is_corner, is_sought, passes_corner, side_of
 from symgen.run.loops.table_points import SHORT_OF, aim, arrive, ends_near, is_before, switch_values
 
 A = Any
@@ -134,6 +136,10 @@ def look(hunt: A, n: int) -> int:
         g, rate, side = hunt[out + k], hunt[out + n + k], hunt[at + SIDE * n + k]
         if hunt[at + POINTS * n + k] > 0.0:
             arrive(hunt, n, k, 0.0)
+            continue
+        if CORNERS and is_corner(hunt, n, k) == 1:  # a row that comes into force passes none
+            hunt[at + SIDE * n + k], hunt[at + GRAZING * n + k] = side_of(g, side_of(rate, 1.0)), 0.0
+            hunt[at + G_START * n + k], hunt[at + D_START * n + k] = g, rate
             continue
         if hunt[at + MARGIN * n + k] != 0.0:
             put_to_sleep(hunt, n, k)
@@ -270,7 +276,11 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
         return DIVIDE
     if search == TAKE:
         return int(ended(hunt, n, notes, following, width, y))
-    if search == DOUBT and action_of_passages(hunt, n, G_HIGH, NOTE) < ANEW:
+    if (
+        search == DOUBT
+        and action_of_passages(hunt, n, G_HIGH, NOTE) < ANEW
+        and not (CORNERS and passes_corner(hunt, n) == 1)
+    ):
         return NOTHING
     while True:
         high = hunt[HIGH]
@@ -281,7 +291,9 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
                 hunt[DOING], hunt[TRY] = BEFORE, SHORT_OF * hunt[LOW]
                 return TAKE
             enclosed = 1 if high - hunt[LOW] <= hunt[BLUR] or hunt[ROUNDS] >= _MOST_ROUNDS else near
-            if enclosed == 0 and hunt[ROUNDS] > 0.0 and h == high and there >= high:
+            if CORNERS and passes_corner(hunt, n) == 1:
+                near = 0
+            elif enclosed == 0 and hunt[ROUNDS] > 0.0 and h == high and there >= high:
                 enclosed = is_at_end(hunt, n)
             if enclosed == 0:
                 hunt[TRY] = candidate(hunt, n)
@@ -295,6 +307,8 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
                 if search == NOTHING and near == 1:
                     return int(ended(hunt, n, notes, following, width, y))
                 hunt[DOING], hunt[TRY] = TO_EVENT, high
+                if CORNERS and hunt[LOW] > 0.0 and passes_corner(hunt, n) == 1:
+                    hunt[TRY] = hunt[LOW]
                 return TAKE
             if h != high:
                 hunt[TRY] = high
@@ -320,10 +334,28 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
     return TAKE
 
 
-def deciding(notes: int) -> A:
-    """Return `decide` with room for fewer notes than `NOTES`, for a caller that takes them after each step."""
-    names: dict[str, Any] = {**globals(), "NOTES": notes}
-    for name in ("ended", "decide"):
-        code = getattr(names[name], "py_func", names[name]).__code__
-        names[name] = plain(FunctionType(code, names, name))
-    return names["decide"]
+def deciding(notes: int, corners: bool) -> A:
+    """Return `decide` for a caller that takes notes after each step.
+
+    Parameters
+    ----------
+    notes : int
+        Room for notes, less than `NOTES`.
+    corners : bool
+        Whether gaps have corners.
+    """
+    return _instance({"NOTES": notes, "CORNERS": True} if corners else {"NOTES": notes}, "decide")
+
+
+def _instance(meanings: dict[str, Any], name: str) -> A:
+    """Return `decide` with other meanings of names."""
+
+    def compiled(copy: FunctionType, original: object) -> A:
+        copy.__name__ = copy.__qualname__ = name if original is decide else f"{copy.__name__}{name[len('decide') :]}"
+        return plain(copy)
+
+    return Instances(meanings, compiled).of(decide)
+
+
+#: The same where gaps have corners.
+decide_at_corners = _instance({"CORNERS": True}, "decide_at_corners")

@@ -12,6 +12,8 @@ from symgen.run.loops.search_records import (
     ANEW,
     ASLEEP,
     BLUR,
+    CORNER,
+    CORNERS,
     D_HIGH,
     D_LOW,
     D_START,
@@ -19,9 +21,11 @@ from symgen.run.loops.search_records import (
     G_HIGH,
     G_LOW,
     G_START,
+    GRAIN,
     GRAZING,
     HIGH,
     LOCAL,
+    MARGIN,
     N_COLUMNS,
     N_HEAD,
     ROUNDS,
@@ -147,6 +151,21 @@ def passes(hunt: A, n: int, k: int, column: int) -> int:
 
 
 @plain
+def is_corner(hunt: A, n: int, k: int) -> int:
+    """Return 1 for what is 0 at a corner of the gap of a closed row."""
+    return 1 if hunt[N_HEAD + MARGIN * n + k] == float(CORNER) else 0
+
+
+@plain
+def passes_corner(hunt: A, n: int) -> int:
+    """Return 1 where the bracket passes a corner: a step ends before it, where the row holds that is in force."""
+    for k in range(n):
+        if is_corner(hunt, n, k) == 1 and passes(hunt, n, k, G_HIGH) == 1:
+            return 1
+    return 0
+
+
+@plain
 def beyond_low(hunt: A, n: int, k: int, otherwise: float) -> float:
     """Return the fraction of the bracket at which g leaves its side, by values and rates up to its beginning.
 
@@ -232,6 +251,10 @@ def taken_for(hunt: A, n: int, k: int, h: float) -> float:
     at, g = N_HEAD, hunt[N_HEAD + N_COLUMNS * n + k]
     if hunt[at + ASLEEP * n + k] > 0.0:
         return float(g + hunt[at + ASLEEP * n + k])
+    if CORNERS and is_corner(hunt, n, k) == 1:
+        # within its rounding formulas may be those behind the corner
+        grain, touches = hunt[at + GRAIN * n + k], abs(g) <= hunt[at + GRAIN * n + k]
+        return float(-hunt[at + SIDE * n + k] * grain if touches and abs(hunt[at + G_START * n + k]) > grain else g)
     before = abs(hunt[at + G_START * n + k])
     near = h * abs(hunt[at + D_START * n + k]) < 4.0 * before and abs(g) < 8.0 * before
     return float(hunt[at + SIDE * n + k] * before) if near and hunt[at + GRAZING * n + k] != 0.0 else float(g)

@@ -17,6 +17,7 @@ from symgen.run.loops.search_records import (
     ANEW,
     ARGUMENT,
     ARGUMENT_START,
+    CORNERS,
     CURVE,
     D_INSIDE,
     D_START,
@@ -43,7 +44,7 @@ from symgen.run.loops.search_records import (
     TABLES,
     WAY,
 )
-from symgen.run.loops.switching import is_finite, passes
+from symgen.run.loops.switching import is_corner, is_finite, passes
 
 A = Any
 #: Distances below this fraction of that between two points are 0.
@@ -58,6 +59,8 @@ _MOST = 1e6
 _FAR = 1e300
 #: A switch below this fraction of the size of its terms keeps its side.
 _ROUNDING = 1e-13
+#: What a corner passes within this multiple of the resolution of time is rounding too.
+_UNRESOLVED = 16.0
 
 
 @plain
@@ -211,7 +214,7 @@ def aim(hunt: A, n: int, h: float) -> int:
     first, least = 2.0 * h, _LEAST * h
     hunt[REACH] = h
     for k in range(n):
-        if hunt[N_HEAD + ACTION * n + k] < float(ANEW):
+        if hunt[N_HEAD + ACTION * n + k] < float(ANEW) and not (CORNERS and is_corner(hunt, n, k) == 1):
             continue
         curve = hunt[N_HEAD + CURVE * n + k]
         if hunt[N_HEAD + POINTS * n + k] == 0.0:
@@ -219,7 +222,10 @@ def aim(hunt: A, n: int, h: float) -> int:
             for turning in range(2):
                 t = time_to(-g, d, curve, turning)
                 if t > 0.0 and t < 2.0 * h:
-                    t = SHORT_OF * t if t > short(hunt, n, k) else t + through(hunt, n, k) + 2.0 * hunt[RESOLUTION]
+                    if CORNERS and is_corner(hunt, n, k) == 1:  # the step that passes it is ended before it
+                        t = SHORT_OF * t if t > short(hunt, n, k) else t + 0.5 * short(hunt, n, k)
+                    else:
+                        t = SHORT_OF * t if t > short(hunt, n, k) else t + through(hunt, n, k) + 2.0 * hunt[RESOLUTION]
                     first = min(first, t)
             continue
         enter(hunt, n, k, h)
@@ -246,6 +252,10 @@ def switch_values(hunt: A, n: int, h: float, search: int) -> int:
     """Set the effective values of switches: those within rounding of zero, or undefined, stay on the same side."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     for k in range(n):
+        if CORNERS and is_corner(hunt, n, k) == 1:
+            # no step that begins farther from a corner passes it within the resolution of time
+            least = _UNRESOLVED * hunt[RESOLUTION] * abs(hunt[out + n + k])
+            hunt[at + GRAIN * n + k] = _ROUNDING * hunt[out + 2 * n + k] + (least if is_finite(least) == 1 else 0.0)
         if hunt[at + ACTION * n + k] < float(ANEW):
             continue
         if hunt[at + POINTS * n + k] > 0.0:

@@ -60,6 +60,8 @@ NOT_APPLIED, NO_IMPULSES = 10, 11
 NEGATIVE_GAP, NO_RESTITUTION, NO_BOUND_IN_MOTION, NO_BOUNDS = range(12, 16)
 #: Code of an impact at a gap whose rate joints and drivers determine: nothing can change it.
 IMMOVABLE = 16
+#: Both pieces of a gap push at a corner.
+TWO_PIECES = 17
 
 
 class Choice(Record):

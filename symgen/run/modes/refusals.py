@@ -24,6 +24,7 @@ from symgen.run.modes.bounded_rows import (
     NOT_FINITE,
     REDUNDANT,
     SHARED,
+    TWO_PIECES,
 )
 
 if TYPE_CHECKING:
@@ -87,6 +88,12 @@ SENTENCES = {
         "a rate of {first:.6g} at t = {t:.6g} s that joints{drivers} determine",
     ),
     NO_IMPULSES: Sentence("{gaps}", "impulses that can be found", "none of {names} at t = {t:.6g} s"),
+    TWO_PIECES: Sentence(
+        "{kind} {name}",
+        "a gap of which one piece pushes at a corner",
+        "two at t = {t:.6g} s",
+        "a stop for each piece",
+    ),
     NOT_APPLIED: Sentence(
         "{hits}: reset", "velocities that the joints and each other allow", "others at t = {t:.6g} s"
     ),

@@ -39,6 +39,7 @@ from symgen.run.modes.bounded_rows import (
     SHARED,
     SIGN,
     TOUCHING,
+    TWO_PIECES,
     Choice,
     switch_off,
 )
@@ -51,6 +52,7 @@ from symgen.run.modes.choice import (
     measure_margins,
     read_rows,
 )
+from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_corners
 from symgen.run.modes.strikes import Strikes, find_struck, forget_passed, gather, strike
 from symgen.run.modes.transition_log import HIT, Transitions, log_changes, log_transition, remember_modes
 
@@ -164,6 +166,21 @@ def strike_gaps(t: float, modes: OfModes, state: EventState) -> int:
         return OUT_OF_RANGE
     forget_passed(c, state.w)
     return SAME
+
+
+def strike_past_corners(t: float, modes: OfModes, state: EventState) -> int:
+    """Take the state past the corners of gaps before which a step has ended, and do what `strike_gaps` does."""
+    c, passed = modes.choice, 0
+    if state.control[abi.BEGUN] == 0:
+        passed = begin_at_corners(t, c, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt)
+    elif state.hunt[records.NOTED] > 0.0:  # other choices are at no event
+        passed = pass_corners(t, c, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt)
+    if passed > 0 and read_rows(t, c, state.y, state.p, state.w) != SAME:
+        return OUT_OF_RANGE
+    code = int(strike_gaps(t, modes, state))
+    if code == SAME and passed > 0 and find_both_pieces(t, c, modes.strikes, state.y, state.p, state.w, state.hunt) > 0:
+        code = TWO_PIECES
+    return code
 
 
 def rest_gaps(t: float, modes: OfModes, state: EventState) -> int:
@@ -337,6 +354,7 @@ STRIKING = Meanings(
     gather_impacts=rest_gaps,
     change_state=apply_resets,
 )
+CORNERED = Meanings("runs with corners of gaps", meet_impacts=strike_past_corners)
 PRESSED = Meanings("runs with bounds that depend on reactions", choose_modes=choose_pressed)
 #: Type of what follows the functions of a model, where events change a run, and where rows have bounds.
 FURTHER = {"effects": record_type(OfEffects), "modes": record_type(OfModes)}

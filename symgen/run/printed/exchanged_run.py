@@ -330,6 +330,7 @@ _RESTING = Meanings(
     rest_lost_gaps=rest_gaps_in_flight,
 )
 _SEAMED = Meanings("FMUs for model exchange with seams", next_time=next_seam, pass_seams=pass_due_seams)
+_CORNERED = Meanings("FMUs for model exchange with corners of gaps", CORNERS=True)
 
 
 def exchanged_run(loop: RuntimeFunction, traits: Traits) -> tuple[Any, Any]:
@@ -338,7 +339,7 @@ def exchanged_run(loop: RuntimeFunction, traits: Traits) -> tuple[Any, Any]:
     if key not in _loops:
         name, meanings, _, model = recipe_of(loop, traits)
         meanings |= _RESTING if traits.effects else {}
-        meanings |= _SEAMED if traits.seams else {}
+        meanings |= (_SEAMED if traits.seams else {}) | (_CORNERED if traits.corners else {})
         indicate = types.int64(_F, _A, model, EVENT_STATE, _A)
         exchange = types.int64(_K, _F, model, SPAN, CHUNK, EVENT_STATE, VISIBLE, EXCHANGE)
         _loops[key] = (

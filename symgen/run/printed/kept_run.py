@@ -344,9 +344,9 @@ class Traits(NamedTuple):
 
     Attributes
     ----------
-    events, effects, modes, pressed, seams : bool
+    events, effects, modes, pressed, seams, corners : bool
         Switching functions; events that change a run, or gaps that strike; rows with bounds, and bounds that depend on
-        reactions; formulas that jump or have kinks over time.
+        reactions; formulas that jump or have kinks over time; gaps with corners.
     """
 
     events: bool
@@ -354,6 +354,7 @@ class Traits(NamedTuple):
     modes: bool
     pressed: bool
     seams: bool
+    corners: bool = False
 
     @property
     def meanings(self) -> dict[str, Any]:
@@ -363,6 +364,7 @@ class Traits(NamedTuple):
             meanings |= MEANINGS | rows.EVENTS
         if self.modes:
             meanings |= rows.MODES | _OF_ROWS | (turn.STRIKING if self.effects else {})
+            meanings |= turn.CORNERED if self.corners else {}
             meanings |= (turn.PRESSED if self.pressed else {}) | (_OF_ROWS_BETWEEN_SEAMS if self.seams else {})
         elif self.effects:
             meanings |= rows.EFFECTS

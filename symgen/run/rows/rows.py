@@ -209,6 +209,7 @@ def over_rows(
     examined: bool = False,
     modes: bool = False,
     pressed: bool = False,
+    corners: bool = False,
 ) -> Any:
     """Return the loop over many runs around that over a single run, made at the first use.
 
@@ -216,14 +217,15 @@ def over_rows(
     ----------
     loop : compiled loop
         From `symgen.run.loops.frame.loop`.
-    events, seams, effects, examined, modes, pressed : bool
+    events, seams, effects, examined, modes, pressed, corners : bool
         Whether rows have switching functions, seams of parameters, events that change a run, constraints that may jump,
-        bounded rows, and bounds that depend on reactions.
+        bounded rows, bounds that depend on reactions, and gaps with corners.
     """
-    key = loop, events, seams, effects, examined, modes, pressed
+    key = loop, events, seams, effects, examined, modes, pressed, corners
     if key not in _loops:
         name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}" + "_with_events" * events + "_with_seams" * seams
         name += "_with_effects" * effects + "_examined" * examined + "_with_modes" * modes + "_pressed" * pressed
+        name += "_at_corners" * corners
         inner = loop_with_events(loop) if events else loop
         inner = loop_with_seams(inner) if seams else inner
         args = signature_of(inner).arguments
@@ -233,6 +235,7 @@ def over_rows(
         meanings: dict[str, Any] = {**(EVENTS if events else {}), **(EFFECTS if effects else {})}
         meanings |= (MODES if modes else {}) | (turn.PRESSED if pressed else {})
         meanings |= turn.STRIKING if effects and modes else {}
+        meanings |= turn.CORNERED if corners else {}
         meanings |= MODES_BETWEEN_SEAMS if modes and seams else {}
         meanings |= (SEAMED if seams else {}) | (_EXAMINED if examined else {})
         compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)

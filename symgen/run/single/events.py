@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.ir.program import MODE_NUMBERS
 from symgen.describe.bounds.bounded_modes import HIT, JAM, LEAVE, REVERSE, SLIP
+from symgen.describe.facts.corners import row_of_corner
 from symgen.describe.parts.event_sections import RECORD, STOP
 from symgen.run.effects.effects import Impact
 from symgen.run.layout import abi
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
     from symgen.run.layout.records import Sizes, State
     from symgen.run.loops.run_spec import Watched
+    from symgen.run.modes.bounded_rows import Choice
     from symgen.run.single.outcome import Outcome
     from symgen.run.single.turn_of_run import TurnOfRun
 
@@ -36,10 +39,11 @@ def event_state(watched: Watched, sizes: Sizes, state: State) -> event_loop.Even
     noted = events + sum(switch.holds for switch in watched.switches)
     tables = first + ((searching.NOTES + 2 * noted) * (2 + sizes.width) if noted else 0)
     beginning = tables + len(points)
-    hunt = np.zeros(beginning + (0 if watched.rows is None else 1 + 2 * sizes.width))
+    examined = watched.rows is not None or (watched.turns and watched.adaptive)
+    hunt = np.zeros(beginning + (1 + 2 * sizes.width if examined else 0))
     hunt[searching.COUNT], hunt[searching.NEEDS_RATES] = n, watched.needs_rates
     hunt[searching.TABLES], hunt[tables:beginning] = tables, points
-    hunt[searching.BEGINNING] = 0 if watched.rows is None else beginning
+    hunt[searching.BEGINNING] = beginning if examined else 0
     hunt[searching.REACH] = 0.0 if watched.adaptive else np.inf
     columns = hunt[searching.N_HEAD :][: searching.N_COLUMNS * n].reshape(-1, n)
     columns[searching.DIRECTION, :events] = watched.directions
@@ -47,6 +51,7 @@ def event_state(watched: Watched, sizes: Sizes, state: State) -> event_loop.Even
     columns[searching.ACTION, events:] = [(searching.ANEW, searching.EXAMINE)[x.holds] for x in watched.switches]
     columns[searching.OF_FORCES, list(watched.of_forces)] = 1.0
     columns[searching.MARGIN, :events], columns[searching.ROW, :events] = margins_of(watched)
+    columns[searching.MISSED, list(watched.corners)] = watched.missed
     columns[searching.MISSED, events:] = [switch.missed for switch in watched.switches]
     columns[searching.PERIOD, events:] = [switch.period for switch in watched.switches]
     sizes_of_tables = [len(switch.points) for switch in watched.switches]
@@ -66,6 +71,9 @@ def margins_of(watched: Watched) -> tuple[list[int], list[int]]:
     """Return of which kind of margin each event is, 0 for others, and the number of its bounded row."""
     rows = () if watched.bounded is None else watched.bounded.names
     found = {f"{name}.{word}": (kind, i) for i, name in enumerate(rows) for word, kind in _MARGINS.items()}
+    found |= {
+        watched.names[k]: (searching.CORNER, rows.index(row_of_corner(watched.names[k]))) for k in watched.corners
+    }
     kinds = [found.get(name, (0, 0)) for name in watched.names]
     return [kind for kind, _ in kinds], [row for _, row in kinds]
 
@@ -189,7 +197,31 @@ class Events:
         """Return whether a row jumps or has a kink in the last step, and store the sentence on it."""
         rows = self.watched.rows
         self._jump = "" if rows is None else rows.sentence(self.compiled, state)
+        if not self._jump and self.watched.turns and self.turn is not None:
+            self._jump = self._turned_stop(state, self.turn.memory.choice)
         return bool(self._jump)
+
+    def _turned_stop(self, state: event_loop.EventState, choice: Choice) -> str:
+        """Return the sentence on the closed stop whose row has turned within the last step; empty without one."""
+        watched, rows, hunt, info = self.watched, self.watched.bounded, state.hunt, self.compiled.info
+        most = event_loop.FAR * watched.missed * state.w[abi.SPEED]
+        if rows is None or not (watched.adaptive and hunt[searching.SPED] > most):
+            return ""
+        t, width = float(state.clock[abi.TIME]), len(state.y)
+        y = hunt[int(hunt[searching.BEGINNING]) + 1 + width :][:width]
+        with np.errstate(all="ignore"):
+            values = rows.state(t, y.copy(), state.p, state.w.copy(), np.zeros(width))
+        held = state.w[choice.first :][: MODE_NUMBERS * len(rows.names) : MODE_NUMBERS] != 0.0
+        rates = np.where(held, np.abs(values[len(rows.names) :][: len(rows.names)]), -1.0)
+        rates[[i for i in range(len(rows.names)) if i not in watched.turns]] = -1.0
+        i = int(np.argmax(rates))
+        if not rates[i] > 0.0:
+            return ""
+        unit = info.rows[info.bounded[i]].unit
+        return (
+            f"the gap of {rows.names[i]} turns sharply at t = {t:.6g} s: the closed stop would change its rate by "
+            f"{rates[i]:.6g} {unit}/s without an impact; corners of abs, min, max and conditions are impacts"
+        )
 
     def reason(self, code: int, state: State, t: float) -> str:
         """Return the reason for the end of a run at a time [s]: events accumulate, or a condition is undefined."""

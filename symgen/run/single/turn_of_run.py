@@ -28,7 +28,17 @@ from symgen.run.layout import ensemble_abi as e
 from symgen.run.loops.event_loop import EVENT_STATE, EventState
 from symgen.run.modes.bounded_rows import NOT_APPLIED, SIGN
 from symgen.run.modes.refusals import names_in, refusal
-from symgen.run.modes.turn import FURTHER, PRESSED, STRIKING, OfModes, begin_modes, open_rows_of, take_resets, take_turn
+from symgen.run.modes.turn import (
+    CORNERED,
+    FURTHER,
+    PRESSED,
+    STRIKING,
+    OfModes,
+    begin_modes,
+    open_rows_of,
+    take_resets,
+    take_turn,
+)
 from symgen.run.single.events import Happening
 from symgen.run.single.turn_memory import WORDS, effects_of_runs, modes_of_runs, what_changes
 
@@ -62,18 +72,21 @@ def serve_resets(doing: float, effects: OfEffects, state: EventState) -> int:
 _loops: dict[str, Any] = {}
 
 
-def serving_function(modes: bool, effects: bool, pressed: bool) -> tuple[Any, Signature]:
+def serving_function(modes: bool, effects: bool, pressed: bool, corners: bool) -> tuple[Any, Signature]:
     """Return `serve_modes` or `serve_resets`, made at the first use, and its types.
 
     Parameters
     ----------
-    modes, effects, pressed : bool
-        Whether rows have bounds, events change the run or gaps strike, and bounds depend on reactions.
+    modes, effects, pressed, corners : bool
+        Whether rows have bounds, events change the run or gaps strike, bounds depend on reactions, and gaps have
+        corners.
     """
     name = "serve_modes" * modes + "_and_resets" * (modes and effects) + "_pressed" * pressed + "serve" * (not modes)
+    name += "_at_corners" * corners
     signature = types.int64(types.float64, FURTHER["modes" if modes else "effects"], EVENT_STATE)
     if name not in _loops:
         meanings = {**KEEPING, **(STRIKING if modes and effects else {}), **(PRESSED if pressed else {})}
+        meanings |= CORNERED if corners else {}
         source = serve_modes if modes else serve_resets
         name_of_loop = f"compiled_{name}"  # it is found by its name, as all loops are
         _loops[name] = globals()[name_of_loop] = compiled_loop(__name__, name_of_loop, source, signature, **meanings)
@@ -289,7 +302,8 @@ class TurnOfRun:
     @cached_property
     def _entry(self) -> Callable[..., int]:
         rows, changes = self.rows, self.watched.effects is not None
-        function, signature = serving_function(rows is not None, changes, rows is not None and bool(rows.pressed))
+        pressed, corners = rows is not None and bool(rows.pressed), bool(self.watched.corners)
+        function, signature = serving_function(rows is not None, changes, pressed, corners)
         return bind_arguments(function, types.FunctionType(signature), 0.0, self.memory, self.simulation.state)
 
 

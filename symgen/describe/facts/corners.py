@@ -1,0 +1,60 @@
+"""Corners of gaps: where the formula of a gap has a kink over the state, the row of a closed stop turns.
+
+A corner is an event of a closed stop alone. While it is open, corners are switches as those of other formulas are
+(`symgen.describe.facts.kinks`): its gap is not smooth there, and pushes nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from symgen.base.vocabulary.expressions import ONE, Expr, call, names_in_expression, readings_in
+from symgen.base.vocabulary.measures import FormulaMeasure
+from symgen.describe.bounds.bounded_modes import MODE
+from symgen.describe.bounds.end_stop import EndStop
+from symgen.describe.facts.kinks import kink_expressions
+from symgen.describe.mechanism import Event, Mechanism
+
+#: Last word of the names of these events, before a number where a gap has several.
+CORNER = "corner"
+
+
+def corner_events(mechanism: Mechanism) -> Iterator[Event]:
+    """Yield the events at which gaps of closed stops pass corners; their functions are 1 while a stop is open."""
+    for row in mechanism.bounded:
+        if isinstance(row, EndStop):
+            closed = row.is_closed_formula()
+            for number, zero in enumerate(_zero_at_corners(mechanism, row)):
+                when = call("add", call("mul", closed, zero), call("sub", ONE, closed))
+                yield Event(f"{row.name}.{CORNER}{number or ''}", when, "any", MODE, (), "corner of a closed gap")
+
+
+def _zero_at_corners(mechanism: Mechanism, row: EndStop) -> Iterator[Expr]:
+    """Yield what is 0 at the corners of a gap that the state passes; those over time alone are seams."""
+    plain = {p.name for p in mechanism.parameters} | {"t"}
+    of = row.measure.of if isinstance(row.measure, FormulaMeasure) else row.value
+    for zero in dict.fromkeys((*kink_expressions(of), *kink_expressions(row.value))):
+        if any(readings_in(zero)) or not set(names_in_expression(zero)) <= plain:
+            yield zero
+
+
+def rows_that_turn(mechanism: Mechanism, corrected: bool) -> tuple[int, ...]:
+    """Return the numbers of the rows with bounds that may turn sharply within a step.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    corrected : bool
+        Whether velocities are corrected after each step, so that a correction above its error tells any sharp turn;
+        otherwise only gaps with corners count, as other methods leave rates of closed gaps.
+    """
+    formulas = [(i, row.measure) for i, row in enumerate(mechanism.bounded) if isinstance(row, EndStop)]
+    own = [(i, measure.of) for i, measure in formulas if isinstance(measure, FormulaMeasure)]
+    return tuple(i for i, of in own if corrected or kink_expressions(of))
+
+
+def row_of_corner(name: str) -> str:
+    """Return the row of an event at a corner by its name; empty for other events."""
+    row, _, word = name.rpartition(".")
+    return row if word.rstrip("0123456789") == CORNER else ""
