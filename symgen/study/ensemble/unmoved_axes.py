@@ -42,9 +42,15 @@ def unmoved_axes(sweep: Sweep) -> Iterator[str]:
         names = [name for name, x in axis.values.items() if np.ptp(x) > 0.0 and not name.startswith("method.")]
         if not names or len(names) < len(axis.values):
             continue
-        first = values.take([0], axis=i)
-        if np.all(np.abs(values - first) <= SAME * sizes[:, None]) and np.all(_are_same(others, i)):
+        each = (values[..., k, :] for k in range(len(kept)))  # one after the other: sweeps may be large
+        same = all(_differ_by(x, i) <= SAME * size for x, size in zip(each, sizes, strict=True))
+        if same and np.all(_are_same(others, i)):
             yield unmoved_sentence(names, "that this sweep keeps")
+
+
+def _differ_by(numbers: Array, axis: int) -> float:
+    """Return the largest difference from the first row along an axis."""
+    return float(np.abs(numbers - numbers.take([0], axis=axis)).max(initial=0.0))
 
 
 def _are_same(numbers: Array, axis: int) -> NDArray[np.bool_]:
