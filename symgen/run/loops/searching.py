@@ -209,6 +209,13 @@ def ended(hunt: A, n: int, notes: int, following: float, width: int, y: A) -> in
     """Return the action at the end of a step that ends at a passage."""
     action = action_of_passages(hunt, n, G_HIGH, NOTE)
     note_events(hunt, n, notes, following, width, y)
+    if CORNERS and passes_corner(hunt, n) == 1:
+        if following - hunt[SINCE] > _HEAP * following:
+            hunt[SINCE], hunt[PASSED] = following, 0.0
+        hunt[PASSED] += 1.0
+        if hunt[PASSED] > _CROWDED:  # to and fro, as in a valley in which two pieces push
+            settle_bracket(hunt, n, 0)
+            return HOLD
     if action >= ANEW:
         if following - hunt[SINCE] > _HEAP * following:
             hunt[SINCE], hunt[PASSED] = following, 0.0
