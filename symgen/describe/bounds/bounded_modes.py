@@ -63,6 +63,12 @@ def equals_whole_number(number: Expr, value: int) -> Expr:
     return call("max", ZERO, call("sub", ONE, call("abs", call("sub", number, Number(float(value))))))
 
 
+def formula_of_closed(row: BoundedRow) -> Expr:
+    """Return the formula that is 1 where a one-sided row is closed, else 0."""
+    held, limit = name_of_number(row, "held"), name_of_number(row, "limit")
+    return call("add", held, call("mul", call("sub", ONE, held), limit))
+
+
 def measure_derivative(row: BoundedRow, order: int = 1) -> Reading:
     """Return a derivative of the measure."""
     return Reading(f"{row.name}{'.rate' * order}", row.measure, order)

@@ -18,6 +18,7 @@ from symgen.describe.bounds.bounded_modes import (
     MODE,
     bounds_from_carried_force,
     effort_in_force,
+    formula_of_closed,
     measure_derivative,
     name_of_number,
     unit_of_effort,
@@ -141,11 +142,6 @@ class EndStop(GapStop, frozen=True):
         """Return the rate of the gap after an impact, the law of impacts: ``-e u`` for a rate u below 0, else 0."""
         return call("mul", call("mul", Number(0.5), self.restitution), call("sub", call("abs", rate), rate))
 
-    def is_closed_formula(self) -> Expr:
-        """Return the formula that is 1 where the stop is closed, else 0."""
-        held, limit = name_of_number(self, "held"), name_of_number(self, "limit")
-        return call("add", held, call("mul", call("sub", ONE, held), limit))
-
     def events(self, beside: Sequence[BoundedRow]) -> tuple[Event, ...]:
         """Return the events at which the stop closes or opens.
 
@@ -155,7 +151,7 @@ class EndStop(GapStop, frozen=True):
         """
         held, sign, limit = (name_of_number(self, number) for number in ("held", "sign", "limit"))
         pulling = sum_of_terms(effort_in_force(self), limit, *bounds_from_carried_force(self, beside))
-        closed, rate = self.is_closed_formula(), measure_derivative(self)
+        closed, rate = formula_of_closed(self), measure_derivative(self)
         open_gap = call("add", call("mul", call("sub", ONE, closed), self.place[1]), closed)
         pushing = call("add", call("mul", held, pulling), call("sub", ONE, held))
         after = call("mul", call("sub", ONE, call("mul", sign, sign)), self.rebound(rate))
@@ -169,7 +165,7 @@ class EndStop(GapStop, frozen=True):
         force: Expr = effort_in_force(self)
         if any(not row.one_sided and row.along == self.along for row in beside):
             force = call("mul", Number(0.5), call("add", force, call("abs", force)))
-        yield Output(f"{self.name}.mode", self.is_closed_formula(), "")
+        yield Output(f"{self.name}.mode", formula_of_closed(self), "")
         yield Output(f"{self.name}.force", force, unit_of_effort(self))
 
     def facts(self) -> dict[str, Any]:

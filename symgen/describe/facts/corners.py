@@ -10,8 +10,8 @@ from collections.abc import Iterator
 
 from symgen.base.vocabulary.expressions import ONE, Expr, call, names_in_expression, readings_in
 from symgen.base.vocabulary.measures import FormulaMeasure
-from symgen.describe.bounds.bounded_modes import MODE
-from symgen.describe.bounds.end_stop import EndStop
+from symgen.describe.bounded import BoundedRow
+from symgen.describe.bounds.bounded_modes import MODE, formula_of_closed
 from symgen.describe.facts.kinks import kink_expressions
 from symgen.describe.mechanism import Event, Mechanism
 
@@ -22,18 +22,18 @@ CORNER = "corner"
 def corner_events(mechanism: Mechanism) -> Iterator[Event]:
     """Yield the events at which gaps of closed stops pass corners; their functions are 1 while a stop is open."""
     for row in mechanism.bounded:
-        if isinstance(row, EndStop):
-            closed = row.is_closed_formula()
+        if row.one_sided:
+            closed = formula_of_closed(row)
             for number, zero in enumerate(_zero_at_corners(mechanism, row)):
                 when = call("add", call("mul", closed, zero), call("sub", ONE, closed))
                 yield Event(f"{row.name}.{CORNER}{number or ''}", when, "any", MODE, (), "corner of a closed gap")
 
 
-def _zero_at_corners(mechanism: Mechanism, row: EndStop) -> Iterator[Expr]:
+def _zero_at_corners(mechanism: Mechanism, row: BoundedRow) -> Iterator[Expr]:
     """Yield what is 0 at the corners of a gap that the state passes; those over time alone are seams."""
     plain = {p.name for p in mechanism.parameters} | {"t"}
-    of = row.measure.of if isinstance(row.measure, FormulaMeasure) else row.value
-    for zero in dict.fromkeys((*kink_expressions(of), *kink_expressions(row.value))):
+    of = row.measure.of if isinstance(row.measure, FormulaMeasure) else row.held.value
+    for zero in dict.fromkeys((*kink_expressions(of), *kink_expressions(row.held.value))):
         if any(readings_in(zero)) or not set(names_in_expression(zero)) <= plain:
             yield zero
 
@@ -49,7 +49,7 @@ def rows_that_turn(mechanism: Mechanism, corrected: bool) -> tuple[int, ...]:
         Whether velocities are corrected after each step, so that a correction above its error tells any sharp turn;
         otherwise only gaps with corners count, as other methods leave rates of closed gaps.
     """
-    formulas = [(i, row.measure) for i, row in enumerate(mechanism.bounded) if isinstance(row, EndStop)]
+    formulas = [(i, row.measure) for i, row in enumerate(mechanism.bounded) if row.one_sided]
     own = [(i, measure.of) for i, measure in formulas if isinstance(measure, FormulaMeasure)]
     return tuple(i for i, of in own if corrected or kink_expressions(of))
 

@@ -32,7 +32,8 @@ def differentiated(name, coordinates, method, disturbance=0.01):
 
 def values_and_directions(run, model, function, y, p, w):
     """Return rates, their directions and those of the multipliers, and the counters."""
-    w, rates, counters = model.longer(w, "w"), model.longer(run.start.y * 0.0, "y"), np.zeros(40, dtype=np.int64)
+    w, rates = model.room_with_directions(w, "w"), model.room_with_directions(run.start.y * 0.0, "y")
+    counters = np.zeros(40, dtype=np.int64)
     model.function(function).caller(abi.RHS.signature.arguments)(0.3, y, p, w, counters, rates)
     first, size = run.compiled.info.sections["multipliers"]
     shown = model.directions_after(rates, "y"), model.directions_after(w, "w")[first : first + size]
