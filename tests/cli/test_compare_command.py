@@ -101,12 +101,12 @@ import signal, sys, time
 from symgen.cli import main
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs inherit it ignored
 from symgen.study.comparison import model_comparison
-real = model_comparison.timed
+real = model_comparison.time_runs
 def slow(*arguments):
     found = real(*arguments)
     time.sleep(0.3)
     return found
-model_comparison.timed = slow
+model_comparison.time_runs = slow
 sys.exit(main(sys.argv[1:]))
 """
 

@@ -30,7 +30,7 @@ class Named(np.ndarray[Any, Any]):
     _places: dict[str, int | slice | list[int]]
 
     @classmethod
-    def from_columns(cls, array: Array, names: tuple[str, ...], units: tuple[str, ...]) -> Named:
+    def of(cls, array: Array, names: tuple[str, ...], units: tuple[str, ...]) -> Named:
         """Return a view of `array`."""
         if not array.shape == (len(names),) == (len(units),):
             raise ValueError(f"{len(names)} names and {len(units)} units for an array {array.shape}")

@@ -186,4 +186,4 @@ def _read_only_view(y: np.ndarray, first: int, quantities: Iterable[Quantity]) -
     """Return a named view of a part of the state."""
     quantities = tuple(quantities)
     names, units = tuple(q.name for q in quantities), tuple(q.unit for q in quantities)
-    return Named.from_columns(y[first : first + len(names)], names, units)
+    return Named.of(y[first : first + len(names)], names, units)
