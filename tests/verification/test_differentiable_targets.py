@@ -79,7 +79,7 @@ def numbers(value):
 
 
 def apart(value, exact, name=""):
-    """The largest error of a number over the largest one of its row, or of all where a row is 0.
+    """The largest error of a number over the largest one of its row, or of all where a row is 0 or the rounding of one.
 
     A violation of the rows is rounding by itself: its error counts in metres and radians.
     """
@@ -89,7 +89,7 @@ def apart(value, exact, name=""):
     return (
         off.max()
         if name == "violation"
-        else (off / np.where(rows > 0.0, rows, max(1.0, size.max(initial=0.0)))).max(initial=0.0)
+        else (off / np.where(rows > 1e-25, rows, max(1.0, size.max(initial=0.0)))).max(initial=0.0)
     )
 
 
