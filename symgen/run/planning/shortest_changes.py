@@ -17,6 +17,8 @@ Array = NDArray[np.float64]
 
 #: Part of the largest direction that a row may be violated by at the closed start: rounding of the solution.
 _ROUNDING = 1e-8
+#: Part of the largest violation from which a row is named: rounding must not choose among equal rows.
+_NEARLY_LARGEST = 1.0 - 1e-6
 #: Part of the largest singular value below which a direction is none.
 NONE = 1e-10
 
@@ -96,10 +98,8 @@ def shortest_solution(
     sizes = np.maximum(np.abs(rest).max(initial=0.0, axis=0), np.abs(right).max(initial=0.0, axis=0))
     wrong = left > _ROUNDING * np.maximum(sizes, 1e-300)
     if np.any(wrong):
-        i, k = map(
-            int,
-            np.unravel_index(int(np.argmax(np.where(wrong, left / np.maximum(sizes, 1e-300), 0.0))), left.shape),
-        )
+        missed = np.where(wrong, left / np.maximum(sizes, 1e-300), 0.0)
+        i, k = np.argwhere(missed >= _NEARLY_LARGEST * missed.max())[0]
         raise InputError(
             f"sensitivities '{directions[k].name}'",
             "a number in whose direction the mechanism stays closed",
