@@ -177,8 +177,8 @@ def test_the_same_studies_give_the_same_page(text):
         "import sys; sys.path.insert(0, 'tests')\n"
         "from study.report.test_pages import STUDIES, comparison_report, html_report\n"
         "import hashlib\n"
-        "report = comparison_report(STUDIES, \"symgen compare four-bar 'a & b' -o report.html\", [('Steps', '1 < 2')])\n"
-        "page = html_report(report)\n"
+        "made = comparison_report(STUDIES, \"symgen compare four-bar 'a & b' -o report.html\", [('Steps', '1 < 2')])\n"
+        "page = html_report(made)\n"
         "print(hashlib.sha256(page.encode()).hexdigest())"
     )
     import hashlib
