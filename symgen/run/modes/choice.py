@@ -138,18 +138,31 @@ def find_mobility(c: Choice) -> int:
     return int(c.count)
 
 
-@exact(entry=True)
-def accelerate(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
-    """Write the accelerations of coordinates with all rows off and efforts of the signs of ``trial`` to ``out``.
-
-    A coordinate whose bounds depend on a reaction, or are 0 for a time, may be ``pushed`` by a force of -1.
-    """
+@exact()
+def copy_state(c: Choice, y: Array, w: Array, iw: Integers) -> None:
+    """Copy a state and its scratch, in which modes may be tried."""
     for i in range(w.shape[0]):
         c.w[i] = w[i]
     for i in range(y.shape[0]):
         c.y[i] = y[i]
     for i in range(iw.shape[0]):
         c.iw[i] = iw[i]
+
+
+@exact()
+def write_rates(t: float, c: Choice, p: Array) -> None:
+    """Write the rates of the copied state to ``rate``."""
+    if c.rates(t, c.y, p, c.w, c.iw, c.rate) != 0:
+        c.confirm(t, c.y, p, c.w, c.iw, c.rate)
+
+
+@exact(entry=True)
+def accelerate(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
+    """Write the accelerations of coordinates with all rows off and efforts of the signs of ``trial`` to ``out``.
+
+    A coordinate whose bounds depend on a reaction, or are 0 for a time, may be ``pushed`` by a force of -1.
+    """
+    copy_state(c, y, w, iw)
     for i in range(c.count):
         at = c.first + MODE_NUMBERS * i
         c.w[at + HELD] = c.w[at + CONSTANT] = c.w[at + LIMIT] = c.w[at + EFFORT] = 0.0
@@ -158,8 +171,7 @@ def accelerate(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, 
         c.w[c.first + MODE_NUMBERS * c.pushed[0] + EFFORT] = 1.0
     if c.w[abi.STEP_STATUS] == 0.0:  # of laws whose gains follow the step, before the first one
         c.w[abi.STEP_STATUS] = c.step[0]
-    if c.rates(t, c.y, p, c.w, c.iw, c.rate) != 0:
-        c.confirm(t, c.y, p, c.w, c.iw, c.rate)
+    write_rates(t, c, p)
     control[abi.EVALUATIONS] += 1
     c.accelerations(t, c.y, p, c.w, c.rate, c.out)
     for i in range(c.count):

@@ -14,6 +14,7 @@ from symgen.run.layout.scales import larger_number
 from symgen.run.layout.start_records import Instant
 from symgen.run.loops.search_records import CORNER, COUNT, D_START, FIRED, GRAIN, MARGIN, N_HEAD, ROW, SIDE
 from symgen.run.modes.bounded_rows import HELD, STILL, Choice, is_shut, open_rows, row_scale, sign_of_number, switch_off
+from symgen.run.modes.choice import copy_state, write_rates
 from symgen.run.modes.strikes import Strikes, accelerate_in_force
 
 #: Largest number of doublings of the time in which a state passes a corner, and that time over the resolution of time.
@@ -44,14 +45,8 @@ def pass_corners(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, 
         found += 1 if is_passed(hunt, n, k) else 0
     if found == 0:
         return 0
-    for i in range(w.shape[0]):
-        c.w[i] = w[i]
-    for i in range(y.shape[0]):
-        c.y[i] = y[i]
-    for i in range(iw.shape[0]):
-        c.iw[i] = iw[i]
-    if c.rates(t, c.y, p, c.w, c.iw, c.rate) != 0:
-        c.confirm(t, c.y, p, c.w, c.iw, c.rate)
+    copy_state(c, y, w, iw)
+    write_rates(t, c, p)
     step, ahead = _PASSING * abi.RESOLVED_TIME * larger_number(t, _EARLY), False
     for _ in range(_DOUBLINGS):
         if not ahead:

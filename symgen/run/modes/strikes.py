@@ -38,7 +38,7 @@ from symgen.run.modes.bounded_rows import (
     switch_off,
 )
 from symgen.run.modes.box import solve_box
-from symgen.run.modes.choice import probe
+from symgen.run.modes.choice import copy_state, probe, write_rates
 
 #: Impulses below this part of the largest are rounding.
 _NOTHING = 1e-12
@@ -376,14 +376,8 @@ def end_lost_flights(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arr
 @exact()
 def accelerate_in_force(t: float, c: Choice, now: Instant, iw: Integers) -> None:
     """Write the accelerations of coordinates and gaps in the present modes to ``out``."""
-    for i in range(c.w.shape[0]):
-        c.w[i] = now.w[i]
-    for i in range(c.y.shape[0]):
-        c.y[i] = now.y[i]
-    for i in range(iw.shape[0]):
-        c.iw[i] = iw[i]
-    if c.rates(t, c.y, now.p, c.w, c.iw, c.rate) != 0:
-        c.confirm(t, c.y, now.p, c.w, c.iw, c.rate)
+    copy_state(c, now.y, now.w, iw)
+    write_rates(t, c, now.p)
     c.accelerations(t, c.y, now.p, c.w, c.rate, c.out)
 
 

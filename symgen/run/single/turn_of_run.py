@@ -233,11 +233,8 @@ class TurnOfRun:
         if np.isnan(resets.kept.energy[0]):
             return
         impact = self._impact(np.flatnonzero(resets.chosen).tolist(), resets.kept)
-        names, energy, happened = (
-            {self.watched.names[k] for k in np.flatnonzero(resets.chosen)},
-            impact.energy,
-            self._happened,
-        )
+        names = {self.watched.names[k] for k in np.flatnonzero(resets.chosen)}
+        energy, happened = impact.energy, self._happened
         first = len(happened)
         while first > 0 and happened[first - 1].t == now:
             first -= 1

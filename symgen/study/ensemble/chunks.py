@@ -63,10 +63,6 @@ class Rows:
         for name, values in self.method.items():
             p[: len(self), places[name]] = values
 
-    def method_parameters_of(self, r: int) -> dict[str, float]:
-        """Return the method's parameters of a run that vary."""
-        return {name: float(values[r]) for name, values in self.method.items()}
-
     def seams_of(self, r: int) -> tuple[Seam, ...]:
         """Return the seams of a run."""
         return self.seams[r if len(self.seams) > 1 else 0] if self.seams else ()
