@@ -62,7 +62,7 @@ def free_and_held(
     left, _, right = np.linalg.svd(jacobian_at(compiled, t, y, p, w)[active])
     moving, holding = np.abs(right[-1]), np.abs(left[:, -1])
     farthest = np.zeros(MOST_NAMED, dtype=np.int64)
-    name_jumps.plain(moving, len(moving), farthest)
+    name_jumps(moving, len(moving), farthest)
     joints = dict.fromkeys(info.rows[i].joint for i in active[holding > _HOLDS * holding.max()])
     kinds = {joint.name: joint.kind for joint in mechanism.joints}
     names = moving_names(info)
