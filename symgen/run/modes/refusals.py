@@ -87,7 +87,7 @@ SENTENCES = {
         "an impact that can change the rate of the gap",
         "a rate of {first:.6g} at t = {t:.6g} s that joints{drivers} determine",
     ),
-    NO_IMPULSES: Sentence("{gaps}", "impulses that can be found", "none of {names} at t = {t:.6g} s"),
+    NO_IMPULSES: Sentence("{gaps}", "an impact after which no gap closes", "none of {names} at t = {t:.6g} s"),
     TWO_PIECES: Sentence(
         "{kind} {name}",
         "a gap of which one piece pushes at a corner",

@@ -37,7 +37,7 @@ from symgen.run.modes.bounded_rows import (
     row_scale,
     switch_off,
 )
-from symgen.run.modes.box import solve_box
+from symgen.run.modes.box import INCONSISTENT, magnitude_of, solve_box
 from symgen.run.modes.choice import copy_state, probe, write_rates
 
 #: Impulses below this part of the largest are rounding.
@@ -151,7 +151,7 @@ def find_struck(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers,
 
 @exact()
 def find_active(c: Choice, s: Strikes) -> int:
-    """Find the rows that push at the impact; return their number, -1 where there are no impulses."""
+    """Find the rows that push at the impact; return their number, -1 where no impulses keep all gaps from closing."""
     k, n, box, most, count = c.count, c.at_rest[0], c.box, 0.0, 0
     for r in range(n):
         i = c.rest[r]
@@ -162,6 +162,8 @@ def find_active(c: Choice, s: Strikes) -> int:
     if solve_box(n, box) != 0:
         return -1
     for r in range(n):
+        if box.left[r] < -INCONSISTENT * magnitude_of(n, r, box):  # as of a body between two stops that meet
+            return -1
         most = larger_number(most, abs(box.forces[r]))
     for i in range(k):
         s.active[i] = 0
