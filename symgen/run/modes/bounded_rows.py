@@ -62,6 +62,10 @@ NEGATIVE_GAP, NO_RESTITUTION, NO_BOUND_IN_MOTION, NO_BOUNDS = range(12, 16)
 IMMOVABLE = 16
 #: Both pieces of a gap push at a corner.
 TWO_PIECES = 17
+#: A formula of a row is no number at the end of a run, or just behind it.
+NO_NUMBER = 18
+#: Gaps leave what lies between them no way to move: of opposed ones that meet, none opens.
+CONTRARY = 19
 
 
 class Choice(Record):

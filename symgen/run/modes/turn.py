@@ -24,6 +24,7 @@ from symgen.run.loops.unbound import gather_impacts, keep_after, keep_before, me
 from symgen.run.loops.watch import remember_rank
 from symgen.run.modes.agreement import choose_pressed
 from symgen.run.modes.bounded_rows import (
+    CONTRARY,
     DEEP,
     IMMOVABLE,
     JAMMED,
@@ -53,6 +54,7 @@ from symgen.run.modes.choice import (
     read_rows,
 )
 from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_corners
+from symgen.run.modes.ends import find_undefined
 from symgen.run.modes.strikes import Strikes, find_struck, forget_passed, gather, strike
 from symgen.run.modes.transition_log import HIT, Transitions, log_changes, log_transition, remember_modes
 
@@ -105,6 +107,14 @@ def set_of(numbers: Integers, count: int) -> float:
     return total
 
 
+def dry_at_rest(c: Choice) -> int:
+    """Return the number of rows with two bounds among those at rest, of which they come first."""
+    count = 0
+    for r in range(c.at_rest[0]):
+        count += 1 if c.pushes[c.rest[r]] == 0 else 0
+    return count
+
+
 def refuse_fault(code: int, which: float, first: float, second: float, modes: OfModes) -> int:
     """Keep why there are no modes, with rows and numbers of the sentence; return `NO_MODES`."""
     ends = modes.strikes.effects.ends
@@ -125,6 +135,8 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
         which = set_of(c.named, c.count + 1)
     elif code == NO_IMPULSES:
         which = set_of(c.rest, c.at_rest[0])
+    elif code == CONTRARY:
+        which = set_of(c.rest, c.at_rest[0]) - set_of(c.rest, dry_at_rest(c))
     elif code == NOT_APPLIED:
         which, power = 0.0, 1.0
         for i in range(c.count):
@@ -139,6 +151,14 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
     elif code == IMMOVABLE:
         first = c.speed[row]
     return refuse_fault(code, which, first, second, modes)
+
+
+def look_ahead(code: int, modes: OfModes, state: EventState) -> int:
+    """Return the code of a run whose step has failed, `NO_MODES` where a formula of a row is no number behind it."""
+    c, t, step = modes.choice, state.clock[abi.TIME], state.clock[abi.STEP] if code == abi.NOT_FINITE else 0.0
+    if find_undefined(t, step, c, state.y, state.p, state.w, state.iw) == SAME:
+        return code
+    return refuse_modes(OUT_OF_RANGE, modes, state)
 
 
 # -- impacts -----------------------------------------------------------------------------------------------------------
@@ -292,7 +312,7 @@ def take_turn(code: int, modes: OfModes, state: EventState) -> int:
     Parameters
     ----------
     code : int
-        End code of the loop; nothing happens but where it is `MET`.
+        End code of the loop; nothing happens but where it is `MET`, and where a step has failed.
     modes : OfModes
         Rows with bounds.
     state : State
@@ -304,6 +324,8 @@ def take_turn(code: int, modes: OfModes, state: EventState) -> int:
         `MET` to go on, or the code of the end of the run: `DONE` where an event ends it, `GATHERED` where resets
         accumulate, `IMPOSSIBLE` where one cannot be, `NO_MODES` where modes are not determined.
     """
+    if code == abi.TINY_STEP or code == abi.NOT_FINITE:
+        return look_ahead(code, modes, state)
     if code != abi.MET:
         return code
     c, effects, hunt, t = modes.choice, modes.strikes.effects, state.hunt, state.clock[abi.TIME]

@@ -51,14 +51,14 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 #: What is asked for: modes where a run begins or inputs have changed; the same after all rows were taken out of force,
-#: as gaps may strike; what happens at the events noted.
-BEGIN, BEGIN_OPEN, MEET = range(3)
+#: as gaps may strike; what happens at the events noted; why a step has failed.
+BEGIN, BEGIN_OPEN, MEET, END = range(4)
 
 
 def serve_modes(doing: float, modes: OfModes, state: EventState) -> int:
     """Begin in modes, or do what happens at events; see `take_turn`."""
-    if doing == float(MEET):
-        return int(take_turn(abi.MET, modes, state))
+    if doing >= float(MEET):
+        return int(take_turn(abi.MET if doing == float(MEET) else int(doing) - END, modes, state))
     if doing == float(BEGIN_OPEN):
         open_rows_of(modes, state)
     return int(begin_modes(modes, state))
@@ -155,6 +155,17 @@ class TurnOfRun:
             past[:] = [event for event in past if event.t != here.t or event.action != MODE]
             self._note(before, here)
         return {abi.DONE: abi.MET, abi.MET: abi.DONE}.get(code, code)
+
+    def explain_end(self, code: int) -> None:
+        """Look for the reason why a step has failed, by the code of the loop.
+
+        Raises
+        ------
+        InputError
+            If a formula of a row is no number behind the present time.
+        """
+        if self.rows is not None:
+            self._serve(END + code)
 
     def _serve(self, doing: int) -> int:
         """Enter the compiled turn; return its code, `MET` to go on, unless it is refused."""

@@ -114,15 +114,19 @@ def complete_velocities(closing: Closing, layout: Layout, now: Instant, work: Wo
             scale[j] = 0.0 if layout.unchanged[j] != 0 else free_scale(layout, w, j)
         _correct_velocities(closing, layout, now, work)
         return int(e.ASSEMBLED)
-    heaviest = 0.0
-    for j in range(n):
-        heaviest = larger_number(heaviest, w[mass + j] * w[layout.gauge + j])
-    for j in range(n):  # massless bodies give way first
-        least = decisions.LEAST_MASS * (heaviest if heaviest > 0.0 else 1.0) / w[layout.gauge + j]
-        weight = w[mass + j] if w[mass + j] > least else least
-        scale[j] = 0.0 if layout.unchanged[j] != 0 else 1.0 / math.sqrt(weight)
-    for _ in range(2):
-        size = _correct_velocities(closing, layout, now, work)
+    if closing.masses.places.shape[0] > 0:
+        closing.project(closing.formulas, closing.masses, layout, now, work)
+        size = _velocity_violation(layout, now, work)
+    else:
+        heaviest = 0.0
+        for j in range(n):
+            heaviest = larger_number(heaviest, w[mass + j] * w[layout.gauge + j])
+        for j in range(n):  # massless bodies give way first
+            least = decisions.LEAST_MASS * (heaviest if heaviest > 0.0 else 1.0) / w[layout.gauge + j]
+            weight = w[mass + j] if w[mass + j] > least else least
+            scale[j] = 0.0 if layout.unchanged[j] != 0 else 1.0 / math.sqrt(weight)
+        for _ in range(2):
+            size = _correct_velocities(closing, layout, now, work)
     return int(e.PROJECTED if size <= decisions.VELOCITIES_CONTRADICT * speed else e.CONTRADICTION)
 
 
