@@ -99,8 +99,9 @@ def times_at(rows: Sequence[Row], rounds: Rounds, errors: Sequence[float]) -> tu
             ratios = [a / b for a, b in pairs if a is not None and b is not None]
             own = [x for x in column if x is not None]
             reason = "" if own else _reason_of_absence([rows[i] for i in lines[method, integrator]], error)
-            times, multiples = _quartiles_of_values(own), _quartiles_of_values(ratios)
-            table.append(TimeAtError(error, method, integrator, *times, *multiples, reason=reason))
+            middle, low, high = _quartiles_of_values(own)
+            ratio, least, most = _quartiles_of_values(ratios)
+            table.append(TimeAtError(error, method, integrator, middle, low, high, ratio, least, most, reason))
     return tuple(table)
 
 
