@@ -135,7 +135,7 @@ def _seconds_by_stage(run: Prepared, outcome: Outcome, run_spread: float) -> Sec
     """Return what the run took, stage by stage; on a tree code of bodies and of the tree has been derived."""
     derived = (outcome.compiled,) if run.tree is None else (outcome.compiled, run.compiled)
     derive, emit = sum(code.derive_seconds for code in derived), sum(code.emit_seconds for code in derived)
-    return Seconds(derive, emit, outcome.compile_seconds, outcome.run_seconds, run_spread)
+    return Seconds(derive, emit, outcome.compile_seconds, outcome.cpu_seconds, run_spread)
 
 
 def _judge_outcome(

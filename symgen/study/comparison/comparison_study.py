@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 BEYOND = "+ exceeded a limit of a run; measured to its end without limits"
 #: Meaning of the mark of a row on the front.
 FRONT = "^ on the front: no other row is both faster and more accurate"
+#: Meaning of the mark of a run time that is `Row.disturbed`.
+LOADED = "! other work had the processor for long, twice: the time on the wall was above 1.5 times the processor time"
 #: In place of the spread of run times, where each was measured once.
 ONE_RUN = "one run: no spread"
 
@@ -141,7 +143,7 @@ class Study:
 
     @property
     def ratio_spreads(self) -> tuple[float, float] | None:
-        """Median and largest spread of cost ratios, as fractions of the ratios; None without ratios."""
+        """Median and largest ± of cost ratios, as fractions of the ratios; None without ratios."""
         shares = [r.cost_ratio_spread / r.cost_ratio for r in self.rows if r.cost_ratio_spread and r.cost_ratio]
         return (median(shares), max(shares)) if shares else None
 
