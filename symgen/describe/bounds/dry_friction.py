@@ -121,6 +121,11 @@ class Friction(Bounds, frozen=True):
     changing: bool = False
 
     @property
+    def label(self) -> str:
+        """The name, which no other row has."""
+        return self.name
+
+    @property
     def row(self) -> str:
         """Name of the row that is in force at rest."""
         return f"{self.name}.friction"

@@ -78,6 +78,11 @@ class GapStop(Bounds, frozen=True):
     unit: str
 
     @property
+    def label(self) -> str:
+        """The name, which no other row has unless it is another piece of the gap."""
+        return self.name
+
+    @property
     def row(self) -> str:
         """Name of the row that is in force where the stop is closed; of its force where it gives way."""
         return f"{self.label}.stop"

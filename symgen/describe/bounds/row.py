@@ -16,11 +16,6 @@ class Bounds(msgspec.Struct, frozen=True):
     one_sided: ClassVar[bool] = False
 
     @property
-    def label(self) -> str:
-        """The name of the row, as no other one has it."""
-        return str(self.name)
-
-    @property
     def reversed(self) -> bool:
         """Whether its measure is the coordinate with the other sign."""
         return False
