@@ -11,7 +11,7 @@ from symgen.compile.loopcode.exact import compiled_form, exact
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout import abi
 from symgen.run.layout.records import Span
-from symgen.run.layout.redundancy import room_of_choice
+from symgen.run.layout.redundancy import LARGEST, room_of_choice
 from symgen.run.layout.start_records import Layout
 from symgen.run.modes.box import Box, new_box
 from symgen.run.starts.assembler import layout_of_starts
@@ -142,6 +142,10 @@ class Choice(Record):
         Arguments of emitted functions.
     room : Array
         Working memory of the choice of independent rows.
+    moved : Array, shape (k,)
+        Gaps that a start has put to 0, before that; else 0.
+    rows, right, shift, space, order : Array, Array of int64
+        Working memory of `symgen.run.modes.placing`; empty without gaps, and for large mechanisms.
     """
 
     layout: Layout
@@ -204,6 +208,12 @@ class Choice(Record):
     out: Array
     room: Array
     iw: Integers
+    moved: Array
+    rows: Array
+    right: Array
+    shift: Array
+    space: Array
+    order: Integers
 
 
 def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any], width: int, nw: int) -> Choice:
@@ -233,6 +243,8 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         return np.isin(np.arange(k), these).astype(np.int64)
 
     numbers = np.zeros
+    small = k > rows.dry and info.m * info.nv <= LARGEST
+    m, n = (info.m, info.nv) if small else (0, 0)
     return Choice(
         layout=layout_of_starts(compiled),
         rates=compiled_form(rates[0]),
@@ -294,6 +306,12 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         out=numbers(max(states, 1)),
         room=numbers(room_of_choice(info.m, info.nv)),
         iw=flags(abi.N_COUNTERS),
+        moved=numbers(k),
+        rows=numbers(m * n),
+        right=numbers(m),
+        shift=numbers(n),
+        space=numbers(m * min(m, n) + m + n if m else 0),
+        order=flags(m),
     )
 
 

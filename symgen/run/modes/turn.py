@@ -22,7 +22,7 @@ from symgen.run.layout.start_records import Instant
 from symgen.run.loops import search_records as records
 from symgen.run.loops.afresh import begin_afresh
 from symgen.run.loops.event_loop import EventState
-from symgen.run.loops.unbound import gather_impacts, keep_after, keep_before, meet_impacts
+from symgen.run.loops.unbound import gather_impacts, keep_after, keep_before, lay_gaps, meet_impacts
 from symgen.run.loops.watch import remember_rank
 from symgen.run.modes.agreement import choose_pressed
 from symgen.run.modes.bounded_rows import (
@@ -57,6 +57,7 @@ from symgen.run.modes.choice import (
 )
 from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_corners
 from symgen.run.modes.ends import find_undefined
+from symgen.run.modes.placing import put_gaps
 from symgen.run.modes.strikes import Strikes, find_struck, forget_passed, gather, strike
 from symgen.run.modes.transition_log import (
     HIT,
@@ -228,6 +229,11 @@ def rest_gaps(t: float, modes: OfModes, state: EventState) -> int:
     return int(code)
 
 
+def put_gaps_to_zero(t: float, modes: OfModes, state: EventState) -> int:
+    """Put the gaps that are closed at a start to 0; return their number."""
+    return int(put_gaps(t, modes.choice, state.y, state.p, state.w, state.iw))
+
+
 # -- modes -------------------------------------------------------------------------------------------------------------
 
 
@@ -279,11 +285,12 @@ def choose_here(modes: OfModes, state: EventState) -> int:
             code = take_chosen(modes, state)
     if code != SAME:
         return int(refuse_modes(code, modes, state))
-    if not starts:  # a start has modes, and no change of them
-        if PIECES:
-            log_changes_in_pieces(t, c, state.w, modes.transitions)
-        else:
-            log_changes(t, c, state.w, modes.transitions)
+    if starts:
+        lay_gaps(t, modes, state)
+    elif PIECES:  # a start has modes, and no change of them
+        log_changes_in_pieces(t, c, state.w, modes.transitions)
+    else:
+        log_changes(t, c, state.w, modes.transitions)
     return int(abi.DONE)
 
 
@@ -389,6 +396,7 @@ def change_state(last: int, effects: OfEffects, state: EventState) -> int:
 STRIKING = Meanings(
     "runs with bounded rows, of which gaps strike or events change the state",
     meet_impacts=strike_gaps,
+    lay_gaps=put_gaps_to_zero,
     gather_impacts=rest_gaps,
     change_state=apply_resets,
 )
