@@ -48,7 +48,7 @@ def test_rows_without_a_resolved_error_are_no_points():
 
 def test_a_line_without_a_time_says_which_way_to_go():
     rows = [*line("lagrange", [1e-3, 1e-5]), made.row("penalty", 1e-3, None, 1.0, status="failed", reason="")]
-    rows += line("baumgarte", [1e-6]) + [made.row("baumgarte", 1e-4, 1e-12, 1.0, below_reference=True)]
+    rows += [*line("baumgarte", [1e-6]), made.row("baumgarte", 1e-4, 1e-12, 1.0, below_reference=True)]
     seconds = [[1.0] * len(rows)]
     fine, failed, floor = times_at(rows, seconds, [1e-7])
     assert fine.reason == "its smallest error is 1e-05 m; finer steps reach it"
