@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
+    from symgen.study.comparison.across import Across
     from symgen.study.comparison.compare_models import Study
     from symgen.study.comparison.comparison_rows import Row
     from symgen.study.ensemble.sweep_study import Sweep
@@ -305,6 +306,22 @@ def _cells_of_row(row: Row, on_front: bool) -> tuple[str, ...]:
         *("" if x is None else f"{x:.1e}" for x in (row.relative_error, row.velocity_error, row.reaction_error)),
         "" if row.relative_violation is None else f"{row.relative_violation:.1e}",
     )
+
+
+def show_across(lines: Sequence[Across]) -> None:
+    """Print the statistic of methods over several mechanisms."""
+    if not lines:
+        return
+    headings = "method", "integrator", "mechanisms", "error of lagrange / error", "95 %", "time / lagrange", "of time"
+    cells = [
+        (
+            *(x.method, x.integrator, str(x.mechanisms), "" if x.error is None else f"{x.error:.3g}"),
+            *(_quartiles_cell(x.error_low, x.error_high, 1.0), "" if x.time is None else f"{x.time:.3g}"),
+            _quartiles_cell(x.time_low, x.time_high, 1.0),
+        )
+        for x in lines
+    ]
+    show_rows(make_console(), headings, cells, headings[:2], "medians over the mechanisms, with intervals", first=2)
 
 
 def show_stress(study: Stress) -> None:

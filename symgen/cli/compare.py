@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import ExitStack
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -134,6 +135,7 @@ def command(
     from symgen.api import load
     from symgen.base.memory import processor_count
     from symgen.cli._progress import Lines
+    from symgen.study.comparison.across import across_mechanisms
     from symgen.study.comparison.combinations import Combinations
     from symgen.study.comparison.compare_models import compare_all, save_csv
     from symgen.study.comparison.comparison_study import check_columns_of_rows, plot_rows
@@ -164,12 +166,14 @@ def command(
     _note_left_out(unused, runs.left_out)
     if as_json:
         tables = [study.to_json() for study in studies]
-        write_json(tables[0] if len(models) == 1 else {"studies": tables})
+        across = [asdict(line) for line in across_mechanisms(studies)]
+        write_json(tables[0] if len(models) == 1 else {"studies": tables, "across": across})
     else:
-        from symgen.cli._tables import show_study
+        from symgen.cli._tables import show_across, show_study
 
         for study in studies:
             show_study(study)
+        show_across(across_mechanisms(studies))
 
     def write_report(file: Path) -> None:
         from symgen.study.report.comparison_report import comparison_report

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from symgen.describe.bounds.keys import nouns_of_families
 from symgen.describe.bounds.smooth import WITH_LAWS
+from symgen.study.comparison.across import across_mechanisms
 from symgen.study.comparison.comparison_rows import YARDSTICK, Row
 from symgen.study.comparison.comparison_study import BEYOND, FRONT, LOADED, ONE_RUN, Study
 from symgen.study.machine_class import machine_class, version_list
@@ -102,7 +103,33 @@ def _section_across_mechanisms(studies: Sequence[Study]) -> Section:
     tables = [DocumentTable("Error [m].", ("method", *names), errors)]
     if any(x != words.NONE for row in ratios for x in row[1:]):
         tables.append(DocumentTable(f"Run time as a multiple of that of {YARDSTICK}.", ("method", *names), ratios))
+    tables += _table_across_mechanisms(studies)
     return Section("Side by side", (f"One row a method: {text}.",), tables=tuple(tables))
+
+
+def _table_across_mechanisms(studies: Sequence[Study]) -> list[DocumentTable]:
+    """Return the statistic of methods over all mechanisms."""
+    rows = tuple(
+        (
+            *(x.method, x.integrator, str(x.mechanisms)),
+            *(words.ratio_in_words(x.error), words.range_in_words(x.error_low, x.error_high)),
+            *(words.ratio_in_words(x.error_mean), words.ratio_in_words(x.time)),
+            *(words.range_in_words(x.time_low, x.time_high), words.ratio_in_words(x.time_mean)),
+        )
+        for x in across_mechanisms(studies)
+    )
+    if not rows:
+        return []
+    headings = (
+        *("method", "integrator", "mechanisms", f"error of {YARDSTICK} / error", "95 %", "mean", f"× {YARDSTICK}"),
+        *("95 %", "mean"),
+    )
+    caption = (
+        f"Over all mechanisms: error of {YARDSTICK} over the error of the method at equal constant steps, above 1 "
+        "where the method is better, and run time as a multiple at equal settings; medians with intervals of 95 %, "
+        "and geometric means."
+    )
+    return [DocumentTable(caption, headings, rows, words=2)]
 
 
 def _error_cell(row: Row | None) -> str | TableCell:

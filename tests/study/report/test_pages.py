@@ -156,7 +156,7 @@ def test_every_row_stands_in_the_tables(page):
         part = whole.split(title)[1].split("All rows of")[0]
         assert part.count("step 0.001 s") >= 8 and "failed: the state is no longer finite" in part
     tables = page.all("table")
-    assert len(tables) == 2 + 2 * 4 + 2
+    assert len(tables) == 3 + 2 * 4 + 2
     assert len([a for a in page.all("div") if a.get("class") == "scroll"]) == len(tables)
 
 
