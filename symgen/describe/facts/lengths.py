@@ -66,7 +66,8 @@ def origin_of_sizes(mechanism: Mechanism, numbers: Numbers) -> list[Any]:
     if point is None:
         point = next((body.position for body in mechanism.bodies), ())
     place = [numbers.value(e, f"{mechanism.name}: points of the ground") for e in point]
-    return [x for body in mechanism.bodies for x in (*place, *[0.0] * (len(body.coordinates) - len(place)))]
+    moving = (body for body in mechanism.bodies if body.carried is None)
+    return [x for body in moving for x in (*place, *[0.0] * (len(body.coordinates) - len(place)))]
 
 
 def _points_on_ground(mechanism: Mechanism) -> Iterator[tuple[Expr, ...]]:
