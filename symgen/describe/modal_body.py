@@ -10,6 +10,7 @@ from symgen.base.vocabulary.expressions import Expr
 MOST_MODES, MANY_MODES = 40, 20
 #: Prefixes of the coordinates of modes, their velocities and their accelerations.
 COORDINATE, SPEED, ACCELERATION = "m", "vm", "am"
+PREFIXES = COORDINATE, SPEED, ACCELERATION
 UNITS_OF_MODES = {COORDINATE: "m", SPEED: "m/s"}
 
 Numbers = tuple[float, ...]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
@@ -105,7 +105,7 @@ def reduced(
     nodes: object,
     M: object,
     K: object,
-    interfaces: Mapping[str, Sequence[int]] | None = None,
+    interfaces: Mapping[str, object] | None = None,
     inner: int = 0,
     rows: Mapping[str, object] | None = None,
     outline: object = None,

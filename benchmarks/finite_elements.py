@@ -1,6 +1,7 @@
-"""Small finite elements of our own: quadratic squares and cubes of any shape, and frames of straight bars.
+"""Small finite elements: quadratic squares and cubes of any shape, and frames of straight bars.
 
-Nothing here is symgen's: tests compare modal bodies with what these meshes do.
+The catalogue's lever is made of them, and tests compare modal bodies with what these meshes do. Nothing here is
+symgen's own.
 """
 
 from __future__ import annotations
@@ -27,11 +28,27 @@ class Mesh:
     start: NDArray[np.int64]
     end: NDArray[np.int64]
     density: Any  # of one component; None for frames
+    cells: tuple[NDArray[np.int64], ...] = ()  # nodes of each element of a solid
+    law: Array | None = None  # stresses of a solid from strains, in the plane times its thickness
 
     @property
     def ends(self) -> dict[str, NDArray[np.int64]]:
         """Both ends as interfaces."""
         return {"root": self.start, "tip": self.end}
+
+    def stress(self, cell: int, at: tuple[float, ...], along: Array) -> Array:
+        """Return a row over all unknowns: the normal stress along a direction, at local coordinates of an element."""
+        assert self.law is not None, "frames have no stress here"
+        nodes, d = self.cells[cell], self.x.shape[1]
+        lagrange = [_quadratic(s) for s in at]
+        slopes = np.array([_outer([lagrange[j][i == j] for j in range(d)]) for i in range(d)])
+        b = _strains(np.linalg.solve(slopes @ self.x[nodes], slopes))
+        pairs = ((0, 0), (1, 1), (0, 1)) if d == 2 else ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))
+        t = along / np.linalg.norm(along)
+        both = np.array([t[i] * t[j] * (1.0 if i == j else 2.0) for i, j in pairs])
+        row = np.zeros(d * len(self.x))
+        row[(nodes[:, None] * d + np.arange(d)).ravel()] = both @ self.law @ b
+        return row
 
 
 def _quadratic(s: float) -> tuple[Array, Array]:
@@ -67,9 +84,10 @@ def solid(
             * np.block([[law, np.zeros((3, 3))], [np.zeros((3, 3)), np.eye(3) * (0.5 - poisson)]])
         )
     rho = density * (thick if d == 2 else 1.0)
-    rows, columns, stiff, heavy, plain = [], [], [], [], []
+    rows, columns, stiff, heavy, plain, cells = [], [], [], [], [], []
     for cell in product(*(range(c) for c in counts)):
         nodes = number[tuple(slice(2 * c, 2 * c + 3) for c in cell)].ravel()
+        cells.append(nodes)
         k, m = np.zeros((d * len(nodes),) * 2), np.zeros((len(nodes),) * 2)
         for at in product(range(3), repeat=d):
             lagrange = [_quadratic(float(points[i])) for i in at]
@@ -96,6 +114,8 @@ def solid(
         number[0].ravel(),
         number[-1].ravel(),
         sparse.csc_array((values, (i, j)), shape=(len(x),) * 2),
+        tuple(cells),
+        law / (thick if d == 2 else 1.0),
     )
 
 
@@ -145,12 +165,11 @@ def bar_frame(
         away = places[i + 1] - places[i]
         length = float(np.linalg.norm(away))
         ke, me = _bar_in_space(length, young, area, inertia, density, torsion, shear)
-        turn = _axes_along(away)
+        axes = _axes_along(away)
+        turn: Any = np.kron(np.eye(4), axes)
         if d == 2:
             keep = [0, 1, 5, 6, 7, 11]
-            ke, me, turn = ke[np.ix_(keep, keep)], me[np.ix_(keep, keep)], np.kron(np.eye(2), np.array(_plane(turn)))
-        else:
-            turn = np.kron(np.eye(4), turn)
+            ke, me, turn = ke[np.ix_(keep, keep)], me[np.ix_(keep, keep)], np.kron(np.eye(2), _plane(axes))
         own = np.arange(u * i, u * (i + 2))
         k[np.ix_(own, own)] += turn.T @ ke @ turn
         m[np.ix_(own, own)] += turn.T @ me @ turn
@@ -201,92 +220,3 @@ def _bar_in_space(
         k[np.ix_(places, places)] += young * inertia / length**3 * bend
         m[np.ix_(places, places)] += mass / 420 * heavy
     return k, m
-
-
-class MeshMotion:
-    """d'Alembert on all nodes of a mesh: J^T M (J q'' + b) = J^T F - K m, with no integral of shapes.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        A solid.
-    shapes : Array, shape (n d, k)
-        Modes.
-    """
-
-    def __init__(self, mesh: Mesh, shapes: Array) -> None:
-        n, d = mesh.x.shape
-        heavy = np.asarray(mesh.density.sum(axis=0)).ravel()
-        self.centre = heavy @ mesh.x / heavy.sum()
-        self.x, self.d, self.mass = mesh.x - self.centre, d, sparse.csr_array(mesh.mass)
-        self.psi, self.k = shapes.reshape(n, d, -1), shapes.shape[1]
-        self.springs = np.diag(shapes.T @ (mesh.stiffness @ shapes))
-        self.turns = 1 if d == 2 else 3
-
-    def axes(self, q: Array) -> Array:
-        """Return the rotation matrix of the floating frame."""
-        if self.d == 2:
-            return np.array([[np.cos(q[2]), -np.sin(q[2])], [np.sin(q[2]), np.cos(q[2])]])
-        a, b, c, d = q[3:7]
-        return np.array(
-            [
-                [a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)],
-                [2 * (b * c + a * d), a * a - b * b + c * c - d * d, 2 * (c * d - a * b)],
-                [2 * (b * d - a * c), 2 * (c * d + a * b), a * a - b * b - c * c + d * d],
-            ]
-        )
-
-    def at_nodes(self, q: Array, v: Array) -> tuple[Array, Array, Array]:
-        """Return places of nodes, J and b of their accelerations J v' + b, rows node by node."""
-        axes, n = self.axes(q), len(self.x)
-        m, dm, w = q[len(q) - self.k :], v[len(v) - self.k :], v[self.d : self.d + self.turns]
-        u, du = self.x + self.psi @ m, self.psi @ dm
-        j = np.zeros((n, self.d, len(v)))
-        j[:, :, : self.d] = np.eye(self.d)
-        if self.d == 2:
-            left = np.array([[0.0, -1.0], [1.0, 0.0]])
-            j[:, :, 2] = u @ (axes @ left).T
-            b = -(w[0] ** 2) * (u @ axes.T) + 2 * w[0] * (du @ (axes @ left).T)
-        else:
-            for a in range(3):
-                j[:, :, 3 + a] = np.cross(np.eye(3)[a], u) @ axes.T
-            b = (np.cross(w, np.cross(w, u)) + 2 * np.cross(w, du)) @ axes.T
-        j[:, :, self.d + self.turns :] = np.einsum("ab,nbk->nak", axes, self.psi)
-        return q[: self.d] + u @ axes.T, j.reshape(n * self.d, -1), b.ravel()
-
-    def momenta(self, q: Array, v: Array) -> tuple[Array, Array, float]:
-        """Return momentum, angular momentum about the origin, and kinetic plus strain energy of the mesh."""
-        x, j, _ = self.at_nodes(q, v)
-        speed = j @ v
-        p = (self.mass @ speed).reshape(-1, self.d)
-        h = (
-            np.atleast_1d(np.cross(x, p).sum(axis=0))
-            if self.d == 3
-            else np.array([np.sum(x[:, 0] * p[:, 1] - x[:, 1] * p[:, 0])])
-        )
-        m = q[len(q) - self.k :]
-        return p.sum(axis=0), h, float(0.5 * speed @ (self.mass @ speed) + 0.5 * self.springs @ m**2)
-
-    def q_rates(self, q: Array, v: Array) -> Array:
-        """Return q'."""
-        if self.d == 2:
-            return v
-        a, b, c, d = q[3:7]
-        g = 0.5 * np.array([[-b, a, d, -c], [-c, -d, a, b], [-d, c, -b, a]])
-        return np.concatenate([v[:3], g.T @ v[3:6], v[6:]])
-
-    def rate(
-        self, y: Array, gravity: Array, held: Callable[[Array, Array], tuple[Array, Array]] | None = None
-    ) -> Array:
-        """Return (q', v'); `held` gives rows D and gamma of D v' = gamma."""
-        nv = self.d + self.turns + self.k
-        q, v = y[:-nv], y[-nv:]
-        _, j, b = self.at_nodes(q, v)
-        weighed = self.mass @ j
-        springs = np.concatenate([np.zeros(nv - self.k), self.springs * q[len(q) - self.k :]])
-        m, f = j.T @ weighed, weighed.T @ (np.tile(gravity, len(self.x)) - b) - springs
-        if held is None:
-            return np.concatenate([self.q_rates(q, v), np.linalg.solve(m, f)])
-        rows, gamma = held(q, v)
-        whole = np.block([[m, rows.T], [rows, np.zeros((len(rows),) * 2)]])
-        return np.concatenate([self.q_rates(q, v), np.linalg.solve(whole, np.concatenate([f, gamma]))[:nv]])
