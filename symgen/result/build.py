@@ -149,6 +149,11 @@ def _judge_outcome(
 
         doubt = warning_on_bending(mechanism, values, outcome.states[:, : outcome.compiled.info.nq])
         verdict = verdict if doubt is None else replace(verdict, status=UNVERIFIED, reason=doubt)
+    if verdict.status != FAILED and mechanism.has_modal_bodies:
+        from symgen.result.modal_limits import warning_on_modes
+
+        doubt = warning_on_modes(mechanism, values, outcome)
+        verdict = verdict if doubt is None else replace(verdict, status=UNVERIFIED, reason=doubt)
     if verdict.status == FAILED and (undefined := undefined_at_end(mechanism, outcome)):
         verdict = replace(verdict, reason=f"{str(verdict.reason).partition('; ')[0]}: {undefined}")
     if verdict.status == FAILED and (locked := dead_centre_at_end(mechanism, outcome)):

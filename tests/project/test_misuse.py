@@ -172,6 +172,13 @@ def built(name="a", **keys):
     return symgen.MechanismBuilder(name).body("b", **{"mass": 1, "inertia": 1, **keys})
 
 
+def reducing(argument):
+    """Reductions of a bar of two nodes with one argument."""
+    nodes, k = np.array([[0.0, 0.0], [1.0, 0.0]]), np.kron([[1.0, -1.0], [-1.0, 1.0]], np.diag([1.0, 0.0]))
+    good = {"nodes": nodes, "M": np.eye(4), "K": k, "inner": 1}
+    return lambda x, v: symgen.reduced(**(good | {argument: v}))
+
+
 def rows():
     """Rows of everything else: label, call on the fixtures, sentence."""
     vy = {"bob.vy": [1.0]}
@@ -195,6 +202,16 @@ def rows():
         "compare": lambda x, v: symgen.compare(x.model, progress=v),
     }.items():
         yield from each(f"progress of {name}", (3, "yes", []), call, "progress: expected a function")
+    for argument, sentence in (
+        ("nodes", "nodes: expected places of two nodes or more"),
+        ("M", "M: expected a"),
+        ("K", "K: expected a"),
+        ("interfaces", "interfaces: expected a dictionary of names and lists of nodes"),
+        ("inner", "inner: expected a whole number"),
+        ("rows", "rows: expected a dictionary of names and rows"),
+        ("outline", "outline: expected a list of lines"),
+    ):
+        yield from each(f"reduced {argument}", (3.5, "a", Thing()), reducing(argument), sentence)
     # analyses: the pendulum is not driven, but what is wrong with an argument is said first
     times = ["x", True, {"a": 1}, Thing(), 1j]
     yield from each("kinematics", times, lambda x, v: x.model.kinematics(v), "kinematics: times: expected a")
@@ -529,7 +546,7 @@ def test_no_function_with_arguments_is_left_out():
     """Every public name that can be called, and every method of a public class that takes something, has rows."""
     tested = {
         *"load simulate compare sweep Model Settings MechanismBuilder Mechanism.body Mechanism.joint_named".split(),
-        *"list_methods list_integrators load_plugin write_report".split(),
+        *"list_methods list_integrators load_plugin write_report reduced".split(),
         *(
             f"Model.{n}"
             for n in "parameters compile equations_in generate draw assemble simulate start functions frame".split()

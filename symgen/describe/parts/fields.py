@@ -113,6 +113,9 @@ Held = Annotated[
 JointStart = Annotated[
     dict[str, float | str], Meta(description="a table of the joint's coordinates at the start, such as { angle = 0.5 }")
 ]
+ModeStart = Annotated[
+    dict[str, float | str], Meta(description="a table of modes at the start, such as { m1 = 0.002, vm1 = 0.1 }")
+]
 Condition = Annotated[
     str, Meta(description="a condition such as 'ball.y < 0.1', or an expression that passes through zero")
 ]
