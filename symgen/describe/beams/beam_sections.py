@@ -9,7 +9,6 @@ from typing import Any
 import msgspec
 
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, call, difference, literal_of, product, sum_of_terms
-from symgen.describe.forces.beam import StrainTimes
 from symgen.describe.formulas.formula_text import file_value
 from symgen.describe.parts.fields import (
     Across,
@@ -23,6 +22,7 @@ from symgen.describe.parts.fields import (
     value_in_words,
 )
 from symgen.describe.parts.scope import Scope
+from symgen.describe.parts.strain_times import StrainTimes
 
 
 class ProfileSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -12,25 +12,8 @@ from symgen.base.vocabulary.measures import Angle, Component, Direction, Dot, Fl
 from symgen.describe.mechanism import Body, Force
 from symgen.describe.parts.fields import Across, AxisPair, BodyPair, DirectionPair, PointPair, Scalar, value_in_words
 from symgen.describe.parts.scope import Scope
+from symgen.describe.parts.strain_times import StrainTimes
 from symgen.describe.parts.triads import make_triads, triad_from_directions
-
-
-class StrainTimes(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """Damping of a beam by strain: the time by which each stress follows its own strain.
-
-    Parameters
-    ----------
-    axial, shear, bending : scalar
-        Times of stretch, shear and bending [s]; 0 by default. Where shear is rigid the ends move across the beam by
-        bending alone, and its time damps that too.
-    torsion : scalar
-        In space, of twist [s]; 0 by default.
-    """
-
-    axial: Scalar = 0.0
-    shear: Scalar = 0.0
-    bending: Scalar = 0.0
-    torsion: Scalar = 0.0
 
 
 class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
