@@ -188,5 +188,5 @@ SOLVE, PROJECT, TURNS = function_type(Solve), function_type(Project), function_t
 #: A model for `symgen.run.starts.starting.close_row`: its layout, what a `Closing` has, choice of turns and
 #: ``rhs``.
 StartModel = tuple[
-    *(Layout, MassTable, abi.Measure, abi.Measure, abi.Move, abi.Move, Solve, abi.Observe, Project, Turns, abi.Rhs)
+    Layout, MassTable, abi.Measure, abi.Measure, abi.Move, abi.Move, Solve, abi.Observe, Project, Turns, abi.Rhs
 ]
