@@ -15,7 +15,7 @@ from symgen.describe.bounds.losses import places_of_losses
 from symgen.describe.facts.corners import corner_events, rows_that_turn
 from symgen.describe.facts.kinks import KINKS, Discontinuity, changes_in_time, discontinuities_of, rows_with_kinks
 from symgen.describe.formulas.formula_text import to_text
-from symgen.describe.mechanism import Event, Mechanism
+from symgen.describe.mechanism import Event, Mechanism, ModeEvent
 from symgen.run.compiling.masses import entries_of_masses, formulas_of_masses
 from symgen.run.compiling.side import compile_side
 from symgen.run.effects.effects import Effect, Effects
@@ -64,6 +64,8 @@ def compile_events(
         names=tuple(event.name for event in events),
         directions=tuple(DIRECTIONS[event.direction] for event in events),
         actions=tuple(event.action for event in events),
+        words=tuple(event.word if isinstance(event, ModeEvent) else "" for event in events),
+        owners=tuple(event.row if isinstance(event, ModeEvent) else -1 for event in events),
         function=side.function,
         needs_rates="ydot" in side.reads or bool(mechanism.bounded),  # which leave multipliers in w
         of_forces=tuple(i for i in range(len(functions)) if i in side.of_forces),
@@ -85,10 +87,10 @@ def bounded_rows(mechanism: Mechanism, compiled: CompiledModel) -> BoundedRows |
     if not every:
         return None
     state = [row.place for row in every]
-    state += [(f"rate of {row.name}", measure_derivative(row)) for row in every]
+    state += [(f"rate of {row.label}", measure_derivative(row)) for row in every]
     state += [row.numbers[k] for k in range(2) for row in held]  # bounds at rest, then those in motion
     state += [row.numbers[0] for row in pushing]
-    rates = [(f"second derivative of {row.name}", measure_derivative(row, 2)) for row in every]
+    rates = [(f"second derivative of {row.label}", measure_derivative(row, 2)) for row in every]
     pressed, forces = rows_bounded_by_reactions(mechanism), list[tuple[str, Expr]]()
     for row in pressed:
         forces += zip((f"{row.name}, reaction {k}" for k in range(2)), (*reaction_components(row), ZERO), strict=False)
@@ -116,6 +118,7 @@ def bounded_names(mechanism: Mechanism) -> BoundedNames:
         len(two_sided_rows(mechanism)),
         tuple(i for i, row in enumerate(every) if row.pressed),
         tuple(joint.name for joint in mechanism.joints if joint.kind == "driver"),
+        tuple(i for i in range(1, len(every)) if every[i].one_sided and every[i].name == every[i - 1].name),
     )
 
 

@@ -23,7 +23,7 @@ from symgen.run.compiling.events import DIRECTIONS, effects_of_events
 from symgen.run.compiling.side import compile_side
 from symgen.run.effects.applying import apply_effects
 from symgen.run.effects.effects import Effects
-from symgen.run.effects.locking import DEPENDENT, find_lock, new_lock_work
+from symgen.run.effects.locking import find_lock, new_lock_work
 from symgen.run.effects.stepping import find_rates, new_step_work, take_step, take_steps
 from symgen.run.layout import abi
 from symgen.run.layout.ensemble_abi import N_SUMMARY
@@ -339,12 +339,12 @@ class Printed:
         """Add ``foresee_run(is_start, t)``, which finds the jumps of a run, see `symgen.run.printed.foreseen_run`."""
         self.entries.update(run.foresight_entries(self.emitted))
 
-    def add_lock(self, compiled: CompiledModel, drivers: Collection[str], dependent: float = DEPENDENT) -> None:
-        """Add ``find_lock(t, y)``, see `symgen.run.effects.locking`, for these joints."""
+    def add_lock(self, compiled: CompiledModel, drivers: Collection[str], redundant: int) -> None:
+        """Add ``find_lock(t, y)``, see `symgen.run.effects.locking`, for these joints and this number of rows."""
         layout, geometry = layout_of_starts(compiled), compiled.model.geometry
         driven = np.array([int(row.joint in drivers) for row in compiled.info.rows], dtype=np.int64)
         now = Instant(np.zeros(compiled.info.ny), np.zeros(1), compiled.scratch())
-        arguments = (layout, geometry, driven, dependent), None, now, new_lock_work(layout)
+        arguments = (layout, geometry, driven, redundant), None, now, new_lock_work(layout)
         emitted = {id(geometry): self.emitted["geometry"]}
         self.entries["find_lock"] = (
             source_of_piece(find_lock),

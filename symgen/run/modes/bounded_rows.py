@@ -60,6 +60,8 @@ NOT_APPLIED, NO_IMPULSES = 10, 11
 NEGATIVE_GAP, NO_RESTITUTION, NO_BOUND_IN_MOTION, NO_BOUNDS = range(12, 16)
 #: Code of an impact at a gap whose rate joints and drivers determine: nothing can change it.
 IMMOVABLE = 16
+#: What `Choice.pushes` has of rows that are further pieces of the gap of the row before them.
+FURTHER_PIECE = 2
 #: Both pieces of a gap push at a corner.
 TWO_PIECES = 17
 #: A formula of a row is no number at the end of a run, or just behind it.
@@ -91,7 +93,7 @@ class Choice(Record):
     place_of : Array of int64, shape (m,)
         For each constraint row its number among the rows with bounds, -1 for others.
     pushes : Array of int64, shape (k,)
-        1 for one-sided rows, which come last, else 0.
+        1 for one-sided rows, which come last, or `FURTHER_PIECE`, else 0.
     starting : Array of int64, shape (k,)
         1 for coordinates at rest with a sign that have just broken loose; others with a sign come to rest.
     begins : Array of int64, shape (1,)
@@ -258,7 +260,7 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         changes=int(rows.changes),
         angular=np.array([info.rows[i].unit == "rad" for i in info.bounded], dtype=np.int64),
         place_of=places,
-        pushes=(np.arange(k) >= rows.dry).astype(np.int64),
+        pushes=(np.arange(k) >= rows.dry).astype(np.int64) + (FURTHER_PIECE - 1) * marks(rows.pieces),
         starting=flags(),
         begins=flags(1),
         let_go=np.full(k, np.nan),

@@ -120,8 +120,8 @@ def fixed_words(rows: BoundedNames) -> dict[str, str]:
 
 
 def names_in(which: float, names: Sequence[str]) -> list[str]:
-    """Return the names whose powers of 2 are in a sum."""
-    return [name for i, name in enumerate(names) if int(which) >> i & 1]
+    """Return the names whose powers of 2 are in a sum, each once."""
+    return list(dict.fromkeys(name for i, name in enumerate(names) if int(which) >> i & 1))
 
 
 def hits_of(names: Sequence[str]) -> str:

@@ -8,6 +8,8 @@ sweeps, C, FMUs and pages call these functions; single runs make sentences of th
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import Any
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.loop_instances import Meanings, called
@@ -57,7 +59,18 @@ from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_co
 from symgen.run.modes.ends import find_undefined
 from symgen.run.modes.placing import put_gaps
 from symgen.run.modes.strikes import Strikes, find_struck, forget_passed, gather, strike
-from symgen.run.modes.transition_log import HIT, Transitions, log_changes, log_transition, remember_modes
+from symgen.run.modes.transition_log import (
+    HIT,
+    Transitions,
+    is_struck_before,
+    log_changes,
+    log_changes_in_pieces,
+    log_transition,
+    remember_modes,
+)
+
+#: Whether gaps have several pieces, which are one in the log.
+PIECES = False
 
 
 class OfModes(Record):
@@ -181,7 +194,7 @@ def strike_gaps(t: float, modes: OfModes, state: EventState) -> int:
     else:
         begin_afresh(state)
     for i in range(c.count):
-        if s.active[i] != 0:
+        if s.active[i] != 0 and not (PIECES and is_struck_before(c, s.active, i)):
             log_transition(t, modes.transitions, i, HIT)
     if read_rows(t, c, state.y, state.p, state.w) != SAME:
         return OUT_OF_RANGE
@@ -274,7 +287,9 @@ def choose_here(modes: OfModes, state: EventState) -> int:
         return int(refuse_modes(code, modes, state))
     if starts:
         lay_gaps(t, modes, state)
-    else:  # a start has modes, and no change of them
+    elif PIECES:  # a start has modes, and no change of them
+        log_changes_in_pieces(t, c, state.w, modes.transitions)
+    else:
         log_changes(t, c, state.w, modes.transitions)
     return int(abi.DONE)
 
@@ -387,5 +402,24 @@ STRIKING = Meanings(
 )
 CORNERED = Meanings("runs with corners of gaps", meet_impacts=strike_past_corners)
 PRESSED = Meanings("runs with bounds that depend on reactions", choose_modes=choose_pressed)
+IN_PIECES = Meanings("runs with gaps of several pieces", PIECES=True)
+#: Meanings for what a run's rows with bounds have (`symgen.run.loops.run_spec.Watched.turning`).
+TURNING = {"pressed": PRESSED, "corners": CORNERED, "pieces": IN_PIECES}
 #: Type of what follows the functions of a model, where events change a run, and where rows have bounds.
 FURTHER = {"effects": record_type(OfEffects), "modes": record_type(OfModes)}
+
+
+def meanings_of_turn(strikes: bool, turning: Sequence[str]) -> dict[str, Any]:
+    """Return the meanings of names in the turns of a run with bounded rows.
+
+    Parameters
+    ----------
+    strikes : bool
+        Whether events change the run, or gaps strike.
+    turning : sequence of str
+        Keys of `TURNING`.
+    """
+    meanings: dict[str, Any] = dict(STRIKING) if strikes else {}
+    for kind in turning:
+        meanings |= TURNING[kind]
+    return meanings
