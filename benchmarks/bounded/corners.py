@@ -30,7 +30,7 @@ def cornered(kind: str, seed: int) -> Drawn:
     state = mechanism.tree.at(0.0, mechanism.u, mechanism.v)
     name, k = list(mechanism.bodies.items())[-1]
     centre, place = Point(k, np.zeros(3)), state.places[k]
-    level = round(float(place[1]) - float(rng.uniform(0.05, 0.4)), 4)
+    level = round(float(place[1]) - float(rng.uniform(0.01, 0.15)), 4)
     foot = round(float(place[0]) + float(rng.uniform(-0.15, 0.15)), 4)
     slope = round(float(rng.choice([-1.0, 1.0]) * rng.uniform(0.2, 1.5)), 4)
     e = float(rng.choice([0.0, 0.0, 0.3, 0.7]))
@@ -41,9 +41,9 @@ def cornered(kind: str, seed: int) -> Drawn:
     # the least of two heights is over both pieces, the largest over one of them
     gap = f"{raised[0]} - {'min' if edge else 'max'}(0.0, {raised[1]})"
     if edge:
-        rows.append(Bounded("ground", flat, lower=0.0, restitution=e, pieces=(flat, tilted)))
+        rows.append(Bounded("hill", flat, lower=0.0, restitution=e, pieces=(flat, tilted)))
     else:
-        rows += [Bounded("ground", piece, lower=0.0, restitution=e) for piece in (flat, tilted)]
-    raw = {**mechanism.raw, "stops": {"ground": {"gap": gap, "restitution": e}}}
+        rows += [Bounded("hill", piece, lower=0.0, restitution=e) for piece in (flat, tilted)]
+    raw = {**mechanism.raw, "stops": {"hill": {"gap": gap, "restitution": e}}}
     features = (mechanism.features - {"rope", "floor", "winch", "rising floor"}) | {"edge" if edge else "valley"}
     return replace(mechanism, raw=raw, rows=tuple(rows), features=frozenset(features))
