@@ -55,7 +55,7 @@ class Impulse(Record):
 
 
 def sizes_of_impulse(n: int, k: int) -> tuple[int, ...]:
-    """Return the lengths of all arrays of a problem with `n` velocities and up to `k` rows, except `order`."""
+    """Return the lengths of the arrays of numbers of a problem with `n` velocities and up to `k` rows."""
     most = max(n, k)
     return n * n, k * n, k, n, k, n, k, n, n * n, most * max(n, 1), most, most, most * min(most, n) + 2 * most
 
