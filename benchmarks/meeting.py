@@ -18,6 +18,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import symgen
+from benchmarks.finite_elements import solid
 from symgen.base.errors import SymgenError
 from symgen.cli import main
 
@@ -79,6 +80,17 @@ _HOOK = (
 )
 _ROPE = '[stops.rope]\ngap = "1.0 - sqrt(pole.tip.x**2 + (pole.tip.y + 0.1)**2)"'
 _RAMP = '[stops.ramp]\ngap = "cart.x - 0.1 - 0.02*max(0.0, 0.3 - pole.tip.x)"'
+#: A bar whose file stands beside the mechanism's.
+_MODAL = """[bodies.bar]
+type = "modal"
+file = "bar.npz"
+damping = 1e-3
+position = [0.1, 0.0]
+[joints.clamp]
+type = "rigid"
+between = ["cart", "bar.root"]
+at = ["centre", [0.0, 0.0]]
+"""
 _BEAM = "start = [0.1, 0.3]\nend = [0.6, 0.3]\nelements = 2\naxial = 1e3\nbending = 1.0\nmass = 0.2\nrotary = 1e-3"
 _STOP = "stop = { lower = -2.2, upper = -1.0, restitution = 0.3 }"
 _TABLE = 'x = [-2.0, -1.0, 0.0, 1.0, 2.0]\ny = [-60.0, -30.0, 0.0, 30.0, 65.0]\ninterpolation = "cubic"'
@@ -125,6 +137,7 @@ FEATURES: Mapping[str, str] = {
         f"[forces.blade]\n{_BLADE}\naxial = 1e4\nbending = 10.0"
     ),
     "beam": cart(more=f'[beams.bar]\n{_BEAM}\nclamp = "ground"'),
+    "modal body": cart(more=_MODAL),
 }
 
 #: Takes a file and a folder; returns "" where it is done, and else the sentence.
@@ -275,6 +288,9 @@ def cell(feature: str, place: str) -> str:
     """Return ``+``, or the sentence that refuses a feature in a place."""
     with tempfile.TemporaryDirectory() as folder:
         (file := Path(folder) / "cart.toml").write_text(FEATURES[feature], encoding="utf-8")
+        if "bar.npz" in FEATURES[feature]:
+            bar = solid((0.4, 0.02), (4, 1), young=1e8, thick=0.02)
+            symgen.reduced(bar.x, bar.mass, bar.stiffness, bar.ends).save(Path(folder) / "bar.npz")
         return PLACES[place](file, Path(folder)).replace(f"{folder}/", "") or "+"
 
 

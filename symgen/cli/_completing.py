@@ -20,8 +20,9 @@ from symgen.base.errors import SymgenError
 from symgen.base.settings import COORDINATES, SHAPES
 from symgen.describe import catalogue
 from symgen.describe.files.origins import Source
-from symgen.describe.modal.modal_file import ModalFile, is_modal, read_modal_file, with_whole_paths
+from symgen.describe.modal.modal_file import ModalFile, read_modal_file, with_whole_paths
 from symgen.describe.modal_body import COORDINATE, PREFIXES, SPEED, mode_names
+from symgen.describe.parts.bodies import is_modal
 
 #: Files above this size in bytes are not read at a key press.
 LARGEST = 1_000_000

@@ -23,9 +23,9 @@ from symgen.base.vocabulary.expressions import (
 )
 from symgen.base.vocabulary.measures import Effort, FormulaMeasure
 from symgen.describe.mechanism import AnyBody, Body, Force, Hold, SpatialBody
-from symgen.describe.modal.modal_file import ModalFile, find_modal_file, is_modal, read_modal_file
+from symgen.describe.modal.modal_file import ModalFile, find_modal_file, read_modal_file
 from symgen.describe.modal_body import COORDINATE, SPEED, Carried, Modal
-from symgen.describe.parts.bodies import optional_vector, read_orientation
+from symgen.describe.parts.bodies import is_modal, optional_vector, read_orientation
 from symgen.describe.parts.collected import Errors
 from symgen.describe.parts.fields import Held, ModeStart, Scalar, Text, Vector, read_table
 from symgen.describe.parts.scope import Scope

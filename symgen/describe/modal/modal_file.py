@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 
 from symgen.base.errors import InputError, quote, suggest
 from symgen.describe.modal_body import MOST_MODES, InterfaceLoad, Matrix, ModalRow, Numbers, Outline
+from symgen.describe.parts.bodies import is_modal
 
 #: End of the name, and version of the content.
 SUFFIX, VERSION = ".npz", 1
@@ -121,11 +122,6 @@ def with_whole_paths(raw: Mapping[str, Any], source: str) -> dict[str, Any]:
         if is_modal(table) and isinstance(table.get("file"), str)
     }
     return {**raw, "bodies": {**bodies, **tables}} if tables else dict(raw)
-
-
-def is_modal(table: object) -> bool:
-    """Whether a table describes a modal body."""
-    return isinstance(table, Mapping) and table.get("type") == "modal"
 
 
 def read_modal_file(where: str, path: str) -> ModalFile:

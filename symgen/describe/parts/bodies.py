@@ -25,6 +25,11 @@ if TYPE_CHECKING:
 Tensor = tuple[Expr, Expr, Expr, Expr, Expr, Expr]
 
 
+def is_modal(table: object) -> bool:
+    """Whether the table of a body describes a modal one, which `symgen.describe.modal` reads."""
+    return isinstance(table, Mapping) and table.get("type") == "modal"
+
+
 def planar_body(scope: Scope, raw: object) -> Body:
     """Return the planar body that a table describes."""
     section = read_table(BodySection, _without_shape(raw), scope.where(""))
