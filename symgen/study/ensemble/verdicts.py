@@ -133,9 +133,9 @@ def _reason_of_events(row: Array, looked: EventNames, info: ModelInfo) -> str | 
     if code == abi.GATHERED:
         return accumulation_sentence(names_in(float(further[e.GATHERING]), events), float(further[e.ACCUMULATION]))
     if code == abi.UNDEFINED:
-        every, k = (*events, *looked.further), further[e.IMPOSSIBLE_EVENT] if len(further) else np.nan
-        if k < len(every):
-            return undefined_sentence(every[int(k)], time)
+        watched, k = (*events, *looked.further), further[e.IMPOSSIBLE_EVENT] if len(further) else np.nan
+        if k < len(watched):
+            return undefined_sentence(watched[int(k)], time)
         return f"{abi.REASONS[code]} at t = {time:.6g} s"
     if code == e.NO_MODES and looked.bounded is not None:
         failure, which, first, second = (float(x) for x in further[e.FAILURE : e.SECOND_NUMBER + 1])
