@@ -78,7 +78,7 @@ _HOOK = (
     'mass = 0.0\ninertia = 0.0\nposition = ["0.1 + 2*size*sin(0.4)", "-2*size*cos(0.4)"]\npoints = { a = [0.0, 0.0] }'
 )
 _ROPE = '[stops.rope]\ngap = "1.0 - sqrt(pole.tip.x**2 + (pole.tip.y + 0.1)**2)"'
-_RAMP = '[stops.ramp]\ngap = "cart.x - 0.1 - 0.02*max(0.0, 0.3 - pole.tip.x)"'
+_RAMP = '[stops.ramp]\ngap = "cart.x - 0.1 + 0.02*max(0.0, 0.3 - pole.tip.x)"'
 _BEAM = "start = [0.1, 0.3]\nend = [0.6, 0.3]\nelements = 2\naxial = 1e3\nbending = 1.0\nmass = 0.2\nrotary = 1e-3"
 _STOP = "stop = { lower = -2.2, upper = -1.0, restitution = 0.3 }"
 _TABLE = 'x = [-2.0, -1.0, 0.0, 1.0, 2.0]\ny = [-60.0, -30.0, 0.0, 30.0, 65.0]\ninterpolation = "cubic"'
