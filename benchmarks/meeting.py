@@ -79,7 +79,7 @@ _HOOK = (
     'mass = 0.0\ninertia = 0.0\nposition = ["0.1 + 2*size*sin(0.4)", "-2*size*cos(0.4)"]\npoints = { a = [0.0, 0.0] }'
 )
 _ROPE = '[stops.rope]\ngap = "1.0 - sqrt(pole.tip.x**2 + (pole.tip.y + 0.1)**2)"'
-_RAMP = '[stops.ramp]\ngap = "cart.x - 0.1 - 0.02*max(0.0, 0.3 - pole.tip.x)"'
+_RAMP = '[stops.ramp]\ngap = "cart.x - 0.1 + 0.02*max(0.0, 0.3 - pole.tip.x)"'
 #: A bar whose file stands beside the mechanism's.
 _MODAL = """[bodies.bar]
 type = "modal"

@@ -36,7 +36,7 @@ COLOURS = {"ok": "green", "unverified": "yellow", "failed": "red"}
 def make_console() -> Console:
     """Return a console on standard output; where that is no terminal, wide enough that no figure is cut."""
     wide = Console(highlight=False, markup=False)
-    return wide if wide.is_terminal else Console(highlight=False, markup=False, width=200)
+    return wide if wide.is_terminal else Console(highlight=False, markup=False, width=240)
 
 
 def show_rows(
