@@ -79,6 +79,7 @@ _HOOK = (
     'mass = 0.0\ninertia = 0.0\nposition = ["0.1 + 2*size*sin(0.4)", "-2*size*cos(0.4)"]\npoints = { a = [0.0, 0.0] }'
 )
 _ROPE = '[stops.rope]\ngap = "1.0 - sqrt(pole.tip.x**2 + (pole.tip.y + 0.1)**2)"'
+_RAMP = '[stops.ramp]\ngap = "cart.x - 0.1 - 0.02*max(0.0, 0.3 - pole.tip.x)"'
 #: A bar whose file stands beside the mechanism's.
 _MODAL = """[bodies.bar]
 type = "modal"
@@ -125,6 +126,12 @@ FEATURES: Mapping[str, str] = {
     "stop, moving": cart(more='[stops.wall]\ngap = "0.2 - 0.02*t - cart.x"'),
     "friction and stop": cart(pin=f"friction = {{ sliding = 0.3 }}\n{_STOP}"),
     "rope": cart(more=_ROPE),
+    "corner in a gap": cart(more=_RAMP),
+    "rotor and stop": cart(pin="rotor_inertia = 1e-3\ngear_ratio = 10.0\nstop = { lower = -1.2, restitution = 0.3 }"),
+    "rotor, event with a reset": cart(
+        pin="rotor_inertia = 1e-3\ngear_ratio = 10.0",
+        more='[events.kick]\nwhen = "cart.x - 0.09"\nreset = { "cart.vx" = "0.5" }',
+    ),
     "beam element": cart(
         more="[bodies.end]\nmass = 0.5\ninertia = 0.01\nposition = [0.6, 0.0]\n"
         f"[forces.blade]\n{_BLADE}\naxial = 1e4\nbending = 10.0"

@@ -11,7 +11,7 @@ from symgen.base.vocabulary.expressions import Expr
 from symgen.base.vocabulary.measures import Effort, Holonomic, Measure
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Event, Output
+    from symgen.describe.mechanism import ModeEvent, Output
 
 
 class RowFamily(msgspec.Struct, frozen=True):
@@ -62,7 +62,12 @@ class BoundedRow(Protocol):
 
     @property
     def name(self) -> str:
-        """Name, with which the names of its events and outputs begin."""
+        """Name, with which the names of its events and outputs begin; several rows may share it."""
+        ...
+
+    @property
+    def label(self) -> str:
+        """Name that no other row has."""
         ...
 
     @property
@@ -170,7 +175,7 @@ class BoundedRow(Protocol):
         """The effort that takes energy, a formula of outputs."""
         ...
 
-    def events(self, beside: Sequence[BoundedRow]) -> tuple[Event, ...]:
+    def events(self, beside: Sequence[BoundedRow]) -> tuple[ModeEvent, ...]:
         """Return the events at which its mode is chosen anew; it may carry the forces of rows beside it."""
         ...
 

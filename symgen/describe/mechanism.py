@@ -317,6 +317,16 @@ class Event(msgspec.Struct, frozen=True):
     text: str = ""
 
 
+class ModeEvent(Event, frozen=True):
+    """An event of a row with bounds, at which modes are chosen anew.
+
+    `word` says what happens to the row, and `row` is its number among the rows with bounds of a mechanism.
+    """
+
+    word: str = ""
+    row: int = -1
+
+
 class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     """A validated mechanism, all of it planar or all of it spatial.
 

@@ -324,14 +324,26 @@ def rows():
     yield "save ending", lambda x: x.result.save("a.xls"), "save: expected a file ending in .nc"
     yield "save folder", lambda x: x.result.save("no/where/a.csv"), "save: expected a file in a folder that exists"
     yield "save null", lambda x: x.result.save("a\0.csv"), "save: expected a name that a file can have"
-    yield "columns", lambda x: x.result.columns("pints"), "table: expected one of q, v, a, lam, reactions"
-    yield "series of columns", lambda x: x.result.series("pints"), "table: expected one of q, v, a, lam, reactions"
+    yield (
+        "columns",
+        lambda x: x.result.columns("pints"),
+        "table: got 'pints'; did you mean 'points'?",
+    )
+    yield (
+        "series of columns",
+        lambda x: x.result.series("pints"),
+        "table: got 'pints'; did you mean 'points'?",
+    )
     yield "select", lambda x: x.result.select(3), "quantities: expected a list of names, got 3"
     yield "select name", lambda x: x.result.select(["bob.z"]), "quantity 'bob.z': expected a quantity of"
     yield "plot what", lambda x: x.result.plot("a.png", 3), "plot: expected a list of names, got 3"
     yield "plot over", lambda x: x.result.plot("a.png", "q", over=3), "over: expected a text, got 3"
     yield "plot over two", lambda x: x.result.plot("a.png", "q", over="bob"), "over: expected one column, got 'bob'"
-    yield "study plot what", lambda x: x.study.plot("a.png", "eror"), "plot: expected one of step, rtol, error"
+    yield (
+        "study plot what",
+        lambda x: x.study.plot("a.png", "eror"),
+        "plot: got 'eror'; did you mean 'error'?",
+    )
     yield "sweep plot what", lambda x: x.sweep.plot("a.png", "bob.z"), "quantity 'bob.z': expected a quantity of"
     yield "sweep plot over", lambda x: x.sweep.plot("a.png", over="bob.z"), "over: expected t, what varies, or"
     yield "plot panel", lambda x: x.result.plot("a.png", "energi"), "quantity 'energi': expected a quantity of"

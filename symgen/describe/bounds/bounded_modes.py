@@ -17,7 +17,7 @@ from symgen.base.ir.program import MODE_NUMBERS, MODES
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call, readings_in
 from symgen.base.vocabulary.measures import Driven, Integral
 from symgen.describe.bounded import BoundedRow, RowFamily
-from symgen.describe.mechanism import Event, Mechanism, Output
+from symgen.describe.mechanism import Mechanism, ModeEvent, Output
 
 #: Action of events at which modes are chosen anew.
 MODE = "mode"
@@ -48,10 +48,10 @@ def bounds_from_carried_force(row: BoundedRow, beside: Sequence[BoundedRow]) -> 
     Constant bounds of these are in the number ``limit`` of the row. Of a carried row the number ``constant`` is the
     place of its carrier, counted from 1, and ``limit`` is the largest force of the carrier for each of its own.
     """
-    place = next(i for i, other in enumerate(beside, 1) if other.name == row.name)
+    place = next(i for i, other in enumerate(beside, 1) if other.row == row.row)
     terms = list[Expr]()
     for other in beside:
-        if other.changing and not other.pressed and other.name != row.name:
+        if other.changing and not other.pressed and other.row != row.row:
             held, constant, limit = (name_of_number(other, number) for number in ("held", "constant", "limit"))
             carries = call("mul", call("sub", ONE, held), equals_whole_number(constant, place))
             terms.append(call("mul", call("mul", carries, limit), other.numbers[0][1]))
@@ -71,7 +71,7 @@ def formula_of_closed(row: BoundedRow) -> Expr:
 
 def measure_derivative(row: BoundedRow, order: int = 1) -> Reading:
     """Return a derivative of the measure."""
-    return Reading(f"{row.name}{'.rate' * order}", row.measure, order)
+    return Reading(f"{row.label}{'.rate' * order}", row.measure, order)
 
 
 def unit_of_effort(row: BoundedRow) -> str:
@@ -120,9 +120,20 @@ def coordinate_of(mechanism: Mechanism, row: BoundedRow) -> str:
     return next(f"{joint.name}.{label}" for label, measure in joint.coordinates if measure == row.measure)
 
 
-def mode_events(mechanism: Mechanism) -> tuple[Event, ...]:
+def event_of_mode(
+    row: BoundedRow, word: str, when: Expr, text: str, reset: tuple[tuple[Expr, Expr], ...] = (), way: str = "falling"
+) -> ModeEvent:
+    """Return an event of a row: the last word of its name, its switching function, its text and what it sets."""
+    return ModeEvent(f"{row.name}.{word}", when, way, MODE, reset, text, word)
+
+
+def mode_events(mechanism: Mechanism) -> tuple[ModeEvent, ...]:
     """Return the events at which modes are chosen anew. A function of another mode is 1: it sleeps."""
-    return tuple(event for row in mechanism.bounded for event in row.events(mechanism.bounded))
+    return tuple(
+        msgspec.structs.replace(event, row=number)
+        for number, row in enumerate(mechanism.bounded)
+        for event in row.events(mechanism.bounded)
+    )
 
 
 def bounded_outputs(rows: Sequence[BoundedRow]) -> Iterator[Output]:

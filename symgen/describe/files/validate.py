@@ -272,7 +272,8 @@ class _Validator:
 
     def _bounded_rows_of_section(self, section: str, kind: SectionOfFiles) -> tuple[BoundedRow, ...]:
         """Return the rows with bounds of a section of their own."""
-        return self.read_each_entry(section, lambda name, value: kind.read(self.scope_of_entry(section, name), value))
+        read = self.read_each_entry(section, lambda name, value: kind.read(self.scope_of_entry(section, name), value))
+        return tuple(row for rows in read for row in rows)
 
     def refuse_shared_names(self) -> None:
         """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""

@@ -51,6 +51,8 @@ _WITH_UNIT = re.compile(r"(?<![A-Za-z0-9_])[0-9.]+(?:[eE][-+]?[0-9]+)?\s*([A-Za-
 #: The number of a beam's node between dots, which Python's grammar does not allow.
 _NODE = re.compile(r"(?<=[A-Za-z0-9_])\.([0-9]+)(?=\.[A-Za-z])")
 _WORDS = frozenset({"and", "or", "not", "if", "else"})
+#: Words that users write for names of formulas.
+_MEANT = {"time": "t", "pi": "pi", "π": "pi", "seconds": "t"}
 _HINTS = {
     "^": "a power is written **",
     "%": "there is no remainder",
@@ -263,7 +265,10 @@ class _Reader:
         if name in self.names.coordinates:
             listed = ", ".join(f"{name}.{c}" for c in self.names.coordinates[name])
             raise self.formula_error(f"the body '{name}' in place of a number", f"it has {listed}")
-        raise self.formula_error(f"the unknown name {quote(name)}", suggest(name, [*self.names.plain, "pi"]))
+        known = [*self.names.plain, "pi"]
+        meant = _MEANT.get(name.lower(), "")
+        hint = f"did you mean '{meant}'?" if meant in known else suggest(name, known)
+        raise self.formula_error(f"the unknown name {quote(name)}", hint)
 
     def convert_dotted_name(self, path: tuple[str, ...]) -> Expr:
         """Return a body's coordinate, or another quantity with a dotted name."""

@@ -279,7 +279,7 @@ class Readings:
         self._dimension = 3 if context.space == "spatial" else 2
 
     @property
-    def _losses(self) -> Mapping[str, Reading]:
+    def _losses(self) -> Mapping[str, Expr]:
         return self._context.losses if self._order == OUTPUT else {}
 
     def names_of_owners(self) -> Iterator[str]:

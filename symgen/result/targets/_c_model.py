@@ -22,7 +22,7 @@ from symgen.run.compiling.checked import check_kernels, checked_function
 from symgen.run.compiling.printed import Printed, PrintedEvents
 from symgen.run.compiling.printed_run import PrintedRun
 from symgen.run.compiling.side import compile_side
-from symgen.run.effects.locking import DEPENDENT, MOST_NAMED, NEARLY_EXACT
+from symgen.run.effects.locking import MOST_NAMED
 from symgen.run.effects.stepping import FAILED
 from symgen.run.layout import abi
 from symgen.run.planning.dead_centre import DRIVER, moving_names
@@ -296,7 +296,7 @@ class CModel:
             further = ("apply_effects",) if self.events.effects else ()
             printed.add_steps(self.compiled, self.events, ("find_rates", "take_step", "take_steps", *further))
         if self.has_driven_rows:
-            printed.add_lock(self.compiled, self.drivers, NEARLY_EXACT if self.named else DEPENDENT)
+            printed.add_lock(self.compiled, self.drivers, len(start.redundant_rows))
         if self.exchanges:
             printed.add_partition(self.compiled, self.partition)
             if self.printed_run is None:

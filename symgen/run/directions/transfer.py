@@ -218,8 +218,8 @@ class Transfer:
         if watched is None or watched.bounded is None:
             return {}
         rows = watched.bounded
-        places = zip(rows.names[rows.dry :], rows.losses, strict=True)
-        return {watched.names.index(f"{name}.{HIT}"): place for name, place in places if place is not None}
+        hits = watched.events_of_rows(HIT, len(rows.names))[rows.dry :]
+        return {hit: place for hit, place in zip(hits, rows.losses, strict=True) if place is not None}
 
     @property
     def _count(self) -> int:

@@ -81,13 +81,12 @@ def modes_of_runs(
     choice = new_choice(compiled, rows, rate_functions(compiled.law_module), width, nw)
     choice.step[0] = first_step(span)
     effects = effects_of_runs(compiled, watched, span.end, width, nw, keeps)
-    events = {name: k for k, name in enumerate(watched.names)}
-    hits = [events[f"{name}.{HIT}"] if i >= rows.dry else -1 for i, name in enumerate(rows.names)]
+    hits = watched.events_of_rows(HIT, len(rows.names))
     losses = [-1] * rows.dry + [-1 if place is None else place for place in rows.losses]
 
     def rows_of_turn(word: str) -> NDArray[np.int64]:
-        places = {f"{name}.{word}": i for i, name in enumerate(rows.names)}
-        return np.array([places.get(name, -1) for name in watched.names], dtype=np.int64)
+        pairs = zip(watched.owners, watched.words, strict=True)
+        return np.array([row if own == word else -1 for row, own in pairs], dtype=np.int64)
 
     # a turn of a single run is read whole
     log = new_transitions(len(rows.names), max(OF_LOG, 3 * len(rows.names)) if keeps else OF_LOG)

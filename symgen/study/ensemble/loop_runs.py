@@ -107,9 +107,8 @@ class LoopRuns:
                 out.events[selected, e.HEAD_OF_EVENTS :: e.OF_EVENT] = 0.0
         further: tuple[Any, ...] = ()
         effects = self.watched is not None and self.watched.effects is not None
-        modes = pressed = False
+        modes = self.watched is not None and self.watched.bounded is not None
         if self.watched is not None and self.watched.bounded is not None:
-            modes, pressed = True, bool(self.watched.bounded.pressed)
             rows_and_events = self.watched, self.watched.bounded, span
             further = (modes_of_runs(compiled, *rows_and_events, sizes.width, len(state.w)),)
         elif self.watched is not None and effects:
@@ -122,8 +121,7 @@ class LoopRuns:
             effects,
             examined,
             modes,
-            pressed,
-            self.watched is not None and bool(self.watched.corners),
+            () if self.watched is None else self.watched.turning,
         )
         if recipe.seams:
             system = arguments_with_table(compiled, system, inner, adaptive, rows.seams or ((),), alone=False)

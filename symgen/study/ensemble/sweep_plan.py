@@ -24,6 +24,7 @@ from symgen.describe.parts.event_sections import RECORD
 from symgen.run.breaks.motions import refuse_jumps
 from symgen.run.breaks.seams import Foreseen, foresee_in_run, times_between
 from symgen.run.compiling.choices import LARGEST_STRAIGHT, mechanism_on_tree
+from symgen.run.compiling.masses import has_coupled_masses
 from symgen.run.compiling.pipeline import compile_model
 from symgen.run.compiling.side import add_integrals, can_integrate
 from symgen.run.integrators import INTEGRATORS
@@ -130,6 +131,7 @@ def make_ensemble(
         seams=driving.jumps,
         plugins=loaded_plugin_files(),
         over=over,
+        weighed=mechanism if has_coupled_masses(mechanism) else None,
         datum=tuple(origin_of_sizes(mechanism, scalar_values(parameter_values(mechanism, plan.parameters)))),
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run

@@ -20,6 +20,7 @@ from symgen.base.arguments import path_argument as argument_path
 from symgen.base.errors import InputError, plural, suggest
 from symgen.base.files import check_path, need_library, write_csv, write_whole
 from symgen.base.version import __version__
+from symgen.describe.bounds.bounded_modes import mode_events
 from symgen.result.contract import json_value
 from symgen.result.export import netcdf_writer
 from symgen.result.labelled import notebook_table
@@ -98,7 +99,8 @@ class Sweep:
         compiled = self.ensemble.compiled
         recipe, events = self.ensemble.recipe, self.ensemble.events
         rows = None if recipe.watch is None else bounded_names(recipe.tree or recipe.watch.mechanism)
-        named = EventNames(events, rows, recipe.tree is not None)
+        modes = () if recipe.watch is None else mode_events(recipe.tree or recipe.watch.mechanism)
+        named = EventNames(events, rows, recipe.tree is not None, tuple(event.name for event in modes))
         status, reason = judge_runs(self.summary, self.done, compiled.info, compiled.law, recipe.spec, named)
         failed = self.done & (summary_column(self.summary, "start") != ASSEMBLED)
         for row, why in self.ensemble.driving.rows_refused(self.ensemble, failed):
