@@ -2,12 +2,12 @@
 
 import pickle
 from functools import partial
-from itertools import product
 
 import numpy as np
 import pytest
 import sympy as sp
 from support.emitted import Emitted, mechanism_of
+from support.in_coordinates import in_coordinates
 from support.models import EVERYTHING, ROUGH
 from support.rotation import of_turn
 
@@ -84,14 +84,6 @@ def agrees(mechanism, seed=3):
     close(work, expected.power, max(1.0, abs(power), abs(driven), np.abs(expected.multipliers).max(initial=0.0)))
 
 
-#: Every entry in the coordinates that it has.
-IN_COORDINATES = [
-    (name, coordinates)
-    for name, coordinates in product(catalogue.all_names(), ("absolute", "joint"))
-    if coordinates == "absolute" or not load_mechanism(name).has_modal_bodies
-]
-
-
 @pytest.mark.parametrize("name", SMALL)
 def test_numbers_are_those_of_the_emitted_functions(name):
     agrees(load_mechanism(name))
@@ -109,7 +101,7 @@ def test_numbers_of_every_kind_and_of_tables(raw):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "coordinates"), of_turn(IN_COORDINATES, 3))
+@pytest.mark.parametrize(("name", "coordinates"), of_turn(in_coordinates(catalogue.all_names()), 3))
 def test_numbers_of_the_whole_catalogue(name, coordinates):
     mechanism = load_mechanism(name)
     agrees(mechanism_on_tree(mechanism) if coordinates == "joint" else mechanism)
