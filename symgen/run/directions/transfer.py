@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.errors import InputError
 from symgen.describe.bounds.bounded_modes import HIT
 from symgen.run.directions.free_directions import TOGETHER, Free, constraint_directions
 from symgen.run.directions.moments import Directions, Moment, Moments, modes_of_moment
@@ -201,6 +202,8 @@ class Transfer:
         watched = self.watched
         assert watched is not None, "the run has events"
         effects = watched.effects
+        if "contacts" in watched.turning and any(watched.words[k] == HIT for k in numbers):
+            raise InputError("sensitivities", "a run without impacts of contacts", f"one at t = {now.t:.6g} s")
         work = effects.memory(len(now.y), len(now.w))
         state, scratch = now.y.copy(), now.w.copy()
         impact = effects.apply_to_state(numbers, now.t, state, now.p.copy(), scratch, work)

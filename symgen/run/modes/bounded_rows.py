@@ -64,6 +64,9 @@ IMMOVABLE = 16
 FURTHER_PIECE = 2
 #: Both pieces of a gap push at a corner.
 TWO_PIECES = 17
+#: Codes of contacts: no modes with forces within bounds; several with different motions; an impact that adds energy;
+#: more contacts that depend on each other than are tried.
+NO_CONTACT_MODES, SEVERAL_MODES, GAINED, TOO_MANY = range(18, 22)
 
 
 class Choice(Record):
@@ -138,6 +141,11 @@ class Choice(Record):
         Arguments of emitted functions.
     room : Array
         Working memory of the choice of independent rows.
+    partner, gaps : Array of int64, shapes (k,)
+        Of each row the other one of its contact, -1 for others; 1 for gaps of contacts.
+    mode, best, other, carrier, part, option : Array of int64, shapes (k,)
+        Working memory of contacts: modes of a combination, of the first that is right and of a second one, rows that
+        carry others, parts of G, and the combination.
     """
 
     layout: Layout
@@ -200,6 +208,14 @@ class Choice(Record):
     out: Array
     room: Array
     iw: Integers
+    partner: Integers
+    gaps: Integers
+    mode: Integers
+    best: Integers
+    other: Integers
+    carrier: Integers
+    part: Integers
+    option: Integers
 
 
 def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any], width: int, nw: int) -> Choice:
@@ -290,6 +306,14 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         out=numbers(max(states, 1)),
         room=numbers(room_of_choice(info.m, info.nv)),
         iw=flags(abi.N_COUNTERS),
+        partner=np.array(rows.partners, dtype=np.int64) if rows.partners else np.full(k, -1),
+        gaps=marks(rows.contacts),
+        mode=flags(),
+        best=flags(),
+        other=flags(),
+        carrier=flags(),
+        part=flags(),
+        option=flags(),
     )
 
 
