@@ -16,8 +16,10 @@ from datetime import date
 from benchmarks import (
     all_methods,
     beside_tools,
+    claims,
     coordinates,
     equal_error,
+    equal_work,
     functions,
     identification,
     literature,
@@ -38,12 +40,18 @@ def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
     """Return every table that has a module; run times are measured only if asked for."""
     return (
         *literature.tables(times).values(),
-        *(shared_loads.table(), stiff.table(), long.table(), singular.table()),
+        *(claims.table(), shared_loads.table(), stiff.table(), long.table(), singular.table()),
         *(coordinates.table(times), picard.work_table(times), picard.hard_table(times), space.methods(times)),
         *all_methods.tables().values(),
         *stress_cells.tables().values(),
         *(stress_quick.tables().values() if stress_quick.RECORD.lines() else ()),
-        *(equal_error.page_table(), statistics.page_table(), identification.page_table(), *beside_tools.tables()),
+        *(
+            equal_error.page_table(),
+            equal_work.page_table(),
+            statistics.page_table(),
+            identification.page_table(),
+            *beside_tools.tables(),
+        ),
         *functions.tables(),
     )
 

@@ -18,7 +18,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import symgen
-from symgen.base.errors import SymgenError
+from symgen.base.errors import InputError, SymgenError
 from symgen.cli import main
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -230,7 +230,9 @@ def _stressed(file: Path, folder: Path) -> str:
         from symgen.study.stress.study import stress
 
         study = stress([file], ["gravity"], ["lagrange"], quick=True, jobs=1)
-        assert study.rows and not study.unusable, "its cells have references"
+        if study.unusable:
+            raise InputError("stress", "cells with references", study.unusable[0][-1])
+        assert study.rows, "it has cells"
 
     return guarded(go)
 

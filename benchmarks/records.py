@@ -29,6 +29,7 @@ FOLDER = Path(__file__).with_name("records")
 NAMES = (
     "statistics",
     "equal_error",
+    "equal_work",
     "all_methods",
     "beside_tools",
     "stress_cells",

@@ -57,7 +57,9 @@ def study_files(row: str) -> Callable[[F], F]:
     """
     options = (
         click.option(
-            *("-o", "--output"), metavar="FILE", help="Write a report: .html, .md, or .pdf by a browser or matplotlib."
+            *("-o", "--output"),
+            metavar="FILE",
+            help="Write a report: .html, .md, .pdf by a browser or matplotlib, or .tex, its tables.",
         ),
         click.option("--csv", metavar="FILE", help=f"Write the {row}s to a CSV file."),
         units_option,

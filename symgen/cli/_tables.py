@@ -13,6 +13,7 @@ from rich.text import Text
 
 from symgen.base.digits import digits, format_column, scale_of
 from symgen.base.errors import InputError, fit_lines, plural
+from symgen.describe.modal_body import COORDINATE, MOST_MODES, SPEED, mode_names
 
 if TYPE_CHECKING:
     import numpy as np
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
+    from symgen.study.comparison.across import Across
     from symgen.study.comparison.compare_models import Study
     from symgen.study.comparison.comparison_rows import Row
     from symgen.study.ensemble.sweep_study import Sweep
@@ -164,12 +166,16 @@ def _final_state(result: Result, most: int = 12) -> tuple[list[str], list[tuple[
 
 
 #: Coordinates and velocities of bodies in the order in which they are shown.
-_LABELS = ("x", "y", "z", "theta", "e0", "e1", "e2", "e3", "vx", "vy", "vz", "omega", "wx", "wy", "wz")
+_LABELS = (
+    *("x", "y", "z", "theta", "e0", "e1", "e2", "e3", "vx", "vy", "vz", "omega", "wx", "wy", "wz"),
+    *mode_names(COORDINATE, MOST_MODES),
+    *mode_names(SPEED, MOST_MODES),
+)
 
 
 def show_study(study: Study) -> None:
     """Print the rows of a study."""
-    from symgen.study.comparison.comparison_study import BEYOND, FRONT, ONE_RUN
+    from symgen.study.comparison.comparison_study import BEYOND, FRONT, LOADED, ONE_RUN
 
     out = make_console()
     off = "" if study.how == "none" else f" (off by about {study.estimated_error:.1g} m)"
@@ -190,15 +196,21 @@ def show_study(study: Study) -> None:
         out.print("* below what the reference itself may be off")
     if any(row.beyond_limits for row in study.rows):
         out.print(BEYOND)
+    if any(row.disturbed for row in study.rows):
+        out.print(LOADED)
     spreads = study.ratio_spreads
     if not study.is_repeated:
         out.print(ONE_RUN)
     elif spreads is not None:
         out.print(
-            f"ratios of run time may vary by {100 * spreads[0]:.1f} % (median row; worst {100 * spreads[1]:.0f} %)"
+            "run: processor time of the loop, median of rounds; ratios within rounds, ± holds their median with 95 %: "
+            f"{100 * spreads[0]:.1f} % in the median row, {100 * spreads[1]:.0f} % in the worst"
         )
     if study.at:
         show_rows(out, *_cells_at_errors(study), ("error [m]", "method", "integrator"), first=3)
+        for x in study.at:
+            if x.reason:
+                out.print(f"{x.error:g} m, {x.method}, {x.integrator}: {x.reason}", style="dim")
     common = study.common_warnings
     for sentence in common:
         out.print(f"every run: {sentence}", style="dim")
@@ -217,7 +229,7 @@ def _cells_at_errors(study: Study) -> tuple[tuple[str, ...], list[tuple[str, ...
     ) -> tuple[str, str]:
         if middle is None or low is None or high is None:
             return "", ""
-        return f"{scale * middle:.3g}", f"{scale * low:.3g} - {scale * high:.3g}"
+        return f"{scale * middle:.3g}", _quartiles_cell(low, high, scale)
 
     ratio = f"time / {study.rows[0].label}"
     headings = "error [m]", "method", "integrator", "CPU [ms]", "quartiles", ratio, "of the ratio"
@@ -243,7 +255,8 @@ _HEADINGS = (
         "|Phi|",
         "energy [J]",
     ),
-    *("evaluations", "|D v - nu|", "spread", "error / length", "error [m/s]", "error [N]"),
+    *("evaluations", "|D v - nu|", "quartiles", "error / length", "error [m/s]", "error [N]"),
+    "|Phi| / length",
 )
 
 
@@ -274,18 +287,46 @@ def _contact_cells(row: Row) -> tuple[str, ...]:
     return "" if row.creep is None else f"{row.creep:.1e}", *counts, lost
 
 
+def _ratio_cell(row: Row) -> str:
+    """Return the ratio with its interval as ±."""
+    if row.cost_ratio is None:
+        return ""
+    return f"{row.cost_ratio:.2f}" + (f" ± {row.cost_ratio_spread:.2f}" if row.cost_ratio_spread is not None else "")
+
+
+def _quartiles_cell(low: float | None, high: float | None, scale: float) -> str:
+    return "-" if low is None or high is None else f"{scale * low:.3g} - {scale * high:.3g}"
+
+
 def _cells_of_row(row: Row, on_front: bool) -> tuple[str, ...]:
     return (
         *(row.label, row.integrator, f"rtol {row.rtol:g}" if row.rtol is not None else f"{row.step:g} s"),
         "" if row.error is None else f"{row.error:.2e}" + " *" * row.below_reference + " ^" * on_front,
-        *(f"{1e3 * row.run_seconds:.3f}", row.status_text, "" if row.cost_ratio is None else f"{row.cost_ratio:.2f}"),
+        *(f"{1e3 * row.run_seconds:.3f}{row.time_mark}", row.status_text, _ratio_cell(row)),
         *(f"{row.position_violation_max:.1e}", f"{row.energy_drift_max:.1e}", str(row.evaluations)),
         *(
             f"{row.velocity_violation_max:.1e}",
-            "-" if row.run_seconds_spread is None else f"{1e3 * row.run_seconds_spread:.3f}",
+            _quartiles_cell(row.run_seconds_low, row.run_seconds_high, 1e3),
         ),
         *("" if x is None else f"{x:.1e}" for x in (row.relative_error, row.velocity_error, row.reaction_error)),
+        "" if row.relative_violation is None else f"{row.relative_violation:.1e}",
     )
+
+
+def show_across(lines: Sequence[Across]) -> None:
+    """Print the statistic of methods over several mechanisms."""
+    if not lines:
+        return
+    headings = "method", "integrator", "mechanisms", "error of lagrange / error", "95 %", "time / lagrange", "of time"
+    cells = [
+        (
+            *(x.method, x.integrator, str(x.mechanisms), "" if x.error is None else f"{x.error:.3g}"),
+            *(_quartiles_cell(x.error_low, x.error_high, 1.0), "" if x.time is None else f"{x.time:.3g}"),
+            _quartiles_cell(x.time_low, x.time_high, 1.0),
+        )
+        for x in lines
+    ]
+    show_rows(make_console(), headings, cells, headings[:2], "medians over the mechanisms, with intervals", first=2)
 
 
 def show_stress(study: Stress) -> None:

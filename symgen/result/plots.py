@@ -18,9 +18,9 @@ DASHES = ("-", "--", ":", "-.")
 LONGEST_LEGEND = 14
 #: Smaller violations are drawn here: a logarithm has no zero.
 FLOOR = 1e-17
-#: Letters of a figure in print [pt]; height of a panel over its width, of a line of the legend and width of one of its
-#: columns [inch].
-LETTERS, PANEL, LINE, LEGEND = 8.0, 0.65, 0.16, 1.6
+#: Letters of a figure in print [pt]; height of a panel over its width, of a line of the legend, and widths of its
+#: handles and of a letter [inch].
+LETTERS, PANEL, LINE, HANDLE, LETTER = 8.0, 0.65, 0.16, 0.5, 0.057
 #: Curves that are nowhere further apart than this part of the picture are one line.
 APART = 1e-6
 #: Unit -> what has it.
@@ -112,7 +112,8 @@ def fit_into(figure: Any, width: float) -> None:
         for text in (ax.xaxis.label, ax.yaxis.label, ax.title):
             text.set_fontsize(LETTERS)
     inches = width / 25.4
-    columns = max(1, int(inches / LEGEND))
+    letters = max(map(len, "\n".join(named).split("\n")), default=0)
+    columns = max(1, int(inches / (HANDLE + letters * LETTER)))
     height = PANEL * inches * len(figure.axes) + LINE * -(-len(named) // columns)
     figure.set_size_inches(inches, height)
     figure.suptitle("")

@@ -54,7 +54,11 @@ class Rank:
 
 @dataclass(frozen=True)
 class Seconds:
-    """Wall-clock times [s]; `run` is the integration loop alone, the best of several where repeated."""
+    """Times of the stages [s].
+
+    `run` is the processor time of the integration loop alone, the best of several where repeated; other work of the
+    machine changes it little. The others are on the wall.
+    """
 
     derive: float
     emit: float

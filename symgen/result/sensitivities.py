@@ -129,9 +129,9 @@ class Differentiated:
 
     @property
     def seconds(self) -> float:
-        """Run time of all loops that `integrate` entered [s]."""
+        """Processor time of all loops that `integrate` entered [s]."""
         assert self._course is not None, "the run was made"
-        return sum(part.outcome.run_seconds for part in self._course.parts)
+        return sum(part.outcome.cpu_seconds for part in self._course.parts)
 
     @property
     def bodies(self) -> CompiledModel:

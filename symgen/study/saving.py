@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from symgen.study.stress.stress_rows import Stress
 
 #: Endings of reports.
-REPORTS = (".html", ".md", ".pdf")
+REPORTS = (".html", ".md", ".pdf", ".tex")
 
 
 def save_study(study: Study | Stress, path: str | PathLike[str], save_rows: Callable[[Path], Path]) -> Path:

@@ -43,6 +43,18 @@ def test_rows_without_a_resolved_error_are_no_points():
     rows += line("penalty", [1e-3, 1e-9], below_reference=True)
     known, unknown = times_at(rows, [[1.0, 2.0, None, 1.0, 2.0]], [1e-5])
     assert known.seconds == pytest.approx(math.sqrt(2.0)) and unknown.seconds is None and unknown.ratio is None
+    assert known.reason == "" and unknown.reason == "all of its errors are below that of the reference"
+
+
+def test_a_line_without_a_time_says_which_way_to_go():
+    rows = [*line("lagrange", [1e-3, 1e-5]), made.row("penalty", 1e-3, None, 1.0, status="failed", reason="")]
+    rows += [*line("baumgarte", [1e-6]), made.row("baumgarte", 1e-4, 1e-12, 1.0, below_reference=True)]
+    seconds = [[1.0] * len(rows)]
+    fine, failed, floor = times_at(rows, seconds, [1e-7])
+    assert fine.reason == "its smallest error is 1e-05 m; finer steps reach it"
+    assert failed.reason == "no run reached its end with an error"
+    assert floor.reason == "its smallest error is 1e-06 m; finer ones are below the error of the reference"
+    assert times_at(rows, seconds, [1e-2])[0].reason == "its largest error is 0.001 m; coarser steps reach it"
 
 
 def test_the_front_is_what_none_surpasses():

@@ -6,7 +6,6 @@ start, the parameters and the scratch. These times the directions of the start a
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import AnalysisError
+from symgen.compile.store.stats import CPU_CLOCK
 from symgen.result.build import build_result
 from symgen.result.evaluated import Evaluated
 from symgen.result.sensitivities import Sensitivities, doubt_of_motion, place_of_column, prepare_for_directions
@@ -218,11 +218,11 @@ def adjoint_gradient(
     ends = EndDirections(start, run.compiled)
     own = Sensitivities(Evaluated(run, ends, ends.course_of_run(adjoint)), result.outcome)
     by, n = own.table(table)[-1, place], start.count
-    began = time.perf_counter()
+    began = CPU_CLOCK()
     seeds = start.seeds()
     back, doubts = adjoint.derivatives_by_start(by[n:], seeds)
     slopes = by[:n] + back
-    seconds = adjoint.outcome.run_seconds + time.perf_counter() - began
+    seconds = adjoint.outcome.cpu_seconds + CPU_CLOCK() - began
     if not np.all(np.isfinite(slopes)):
         raise Uncovered("adjoint", "slopes that are finite", "a formula without one in the part that is not taken")
     result = replace(result, notes=(*result.notes, *notes, *start.notes))

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import os
 import threading
 import time
-from typing import ClassVar, Self, TypedDict
+from typing import Self, TypedDict
+
+#: Processor time of the calling thread [s], which the load of the machine changes little; elapsed time where a system
+#: counts it coarsely or not at all.
+CPU_CLOCK = getattr(time, "thread_time", time.perf_counter) if os.name == "posix" else time.perf_counter
 
 
 class CacheStats(TypedDict):
@@ -25,6 +30,10 @@ class CacheStats(TypedDict):
 counters = CacheStats(hits=0, misses=0, compile_seconds=0.0, load_seconds=0.0)
 
 
+#: Processor time of this thread in compilation or loading [s].
+_here = threading.local()
+
+
 def cache_stats() -> CacheStats:
     """Return a copy of the counters of this process."""
     return counters.copy()
@@ -33,6 +42,11 @@ def cache_stats() -> CacheStats:
 def seconds_in_cache() -> float:
     """Return the seconds of this process in compilation or loading of compiled code."""
     return counters["compile_seconds"] + counters["load_seconds"]
+
+
+def processor_seconds_in_cache() -> float:
+    """Return the processor time of the calling thread in compilation or loading of compiled code [s]."""
+    return float(getattr(_here, "processor", 0.0))
 
 
 class CompilationClock:
@@ -46,14 +60,13 @@ class CompilationClock:
         Time spent inside, set at the end.
     """
 
-    _here: ClassVar[threading.local] = threading.local()
     loaded = False
     seconds = 0.0
 
     def __enter__(self) -> Self:
-        self._outermost = not getattr(self._here, "running", False)
-        self._here.running = True
-        self._started = time.perf_counter()
+        self._outermost = not getattr(_here, "running", False)
+        _here.running = True
+        self._started, self._processor = time.perf_counter(), CPU_CLOCK()
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *error: object) -> None:
@@ -61,5 +74,6 @@ class CompilationClock:
         if kind is None:
             counters["hits" if self.loaded else "misses"] += 1
         if self._outermost:
-            self._here.running = False
+            _here.running = False
+            _here.processor = processor_seconds_in_cache() + CPU_CLOCK() - self._processor
             counters["load_seconds" if self.loaded else "compile_seconds"] += self.seconds

@@ -27,6 +27,7 @@ from symgen.derive.formulate.exertion import exertion_of_effort
 from symgen.derive.formulate.flexure import exertions_of_force
 from symgen.derive.formulate.joint_tree import energies_on_tree
 from symgen.derive.formulate.measure_nodes import DerivedMeasure, ModelNodes
+from symgen.derive.formulate.modal_inertia import add_modal_inertia
 from symgen.derive.formulate.of_time import time_function
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import name_of_number, places_of_first_modes
@@ -125,7 +126,7 @@ def _first_indices_of_spins(model: ModelNodes) -> tuple[tuple[int, int], ...]:
     return tuple(
         (model.first_q[b.name] + 3, model.first[b.name] + 3)
         for b in model.mechanism.bodies
-        if isinstance(b, SpatialBody) and not b.is_point
+        if isinstance(b, SpatialBody) and not b.is_point and b.carried is None
     )
 
 
@@ -240,11 +241,15 @@ def _mass_and_energies(model: ModelNodes, forces: list[int]) -> tuple[tuple[Mass
     kinetic = potential = g.zero
     half = g.constant(0.5)
     for body in model.mechanism.bodies:
+        if body.carried is not None:
+            continue
         with refuse_overflow(f"bodies.{body.name}", "its weight is its mass times gravity"):
             first, first_q = model.first[body.name], model.first_q[body.name]
             mass = model.expression(body.mass)
             masses = [mass] * len(gravity)
-            if isinstance(body, SpatialBody):
+            if body.modal is not None:
+                kinetic = g.add(kinetic, add_modal_inertia(model, body, blocks, forces))
+            elif isinstance(body, SpatialBody):
                 if body.inertia is not None:
                     tensor = tuple(model.expression(e) for e in body.inertia)
                     kinetic = g.add(kinetic, _add_rotational_inertia(model, first + 3, tensor, blocks, forces))
@@ -356,6 +361,8 @@ def _omitted_terms(mechanism: Mechanism) -> list[Omission]:
         if body.is_point:
             what = "angle" if mechanism.space == "planar" else "orientation"
             omissions.append(Omission(f"{what} of {body.name}", "a point mass has none"))
+        elif body.carried is not None:
+            continue
         elif all(e == ZERO for e in body.centre_of_mass) and len(mechanism.bodies) <= 12:
             omissions.append(
                 Omission(f"centre-of-mass offset of {body.name}", "its centre of mass is the frame's origin")

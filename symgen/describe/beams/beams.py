@@ -186,7 +186,8 @@ class Beams:
                 self.forces[f"{name}.{LOAD}{k}"] = {"type": "force", "body": host or node, "at": at, "force": load}
         k = 0
         for segment in line:
-            element: dict[str, Any] = {"type": "beam", "length": file_value(segment.step), "damping": beam.damping}
+            damping = msgspec.to_builtins(beam.damping)
+            element: dict[str, Any] = {"type": "beam", "length": file_value(segment.step), "damping": damping}
             element |= properties.stiffness
             if segment.bend != ZERO:
                 bend = file_value(segment.curvature)

@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.ir.interpolation import Interpolation
-from symgen.base.vocabulary.expressions import ZERO, Expr, Reading, call, sum_of_terms
-from symgen.base.vocabulary.measures import GROUND, Spin
+from symgen.base.vocabulary.expressions import ZERO, Expr
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import measure_derivative, mode_events, one_sided_rows, two_sided_rows
 from symgen.describe.bounds.by_reaction import reaction_components, rows_bounded_by_reactions
@@ -17,7 +16,8 @@ from symgen.describe.bounds.losses import places_of_losses
 from symgen.describe.facts.corners import corner_events, rows_that_turn
 from symgen.describe.facts.kinks import KINKS, Discontinuity, changes_in_time, discontinuities_of, rows_with_kinks
 from symgen.describe.formulas.formula_text import to_text
-from symgen.describe.mechanism import Event, Mechanism, ModeEvent, Rotor, SpatialBody
+from symgen.describe.mechanism import Event, Mechanism, ModeEvent
+from symgen.run.compiling.masses import entries_of_masses, formulas_of_masses
 from symgen.run.compiling.side import compile_side
 from symgen.run.effects.effects import Effect, Effects
 from symgen.run.layout.compiled import CompiledModel
@@ -160,14 +160,12 @@ def effects_of_events(mechanism: Mechanism, compiled: CompiledModel, events: Seq
     if not parts:
         return None
     struck = [pair for velocities, _ in parts.values() for pair in velocities]
-    masses = diagonal_masses(mechanism) if struck else {}
+    masses = entries_of_masses(mechanism) if struck else {}
     formulas = [(to_text(name), name) for name, _ in struck]
     formulas += [(f"{to_text(name)} afterwards", value) for name, value in struck]
     formulas += [(f"{to_text(name)} afterwards", value) for _, writes in parts.values() for name, value in writes]
-    formulas += [(f"mass {i}, {j}", value) for (i, j), value in masses.items()]
-    rotors = mechanism.rotors if struck else ()
-    formulas += [(f"rate of the rotor of {rotor.joint}", rate_of_rotor(mechanism, rotor)) for rotor in rotors]
-    formulas += [(f"inertia of the rotor of {rotor.joint}", rotor.inertia) for rotor in rotors]
+    if struck:
+        formulas += formulas_of_masses(mechanism, masses)
     carried = bool(struck) and mechanism.topology is not None
     return Effects(
         compiled=compiled,
@@ -179,20 +177,8 @@ def effects_of_events(mechanism: Mechanism, compiled: CompiledModel, events: Seq
         entries=tuple(masses),
         bodies=sum(len(body.speeds) for body in mechanism.bodies) if carried else 0,
         first=mechanism.body_coordinates if carried else 0,
-        rotors=len(rotors),
+        rotors=len(mechanism.rotors) if struck else 0,
     )
-
-
-def rate_of_rotor(mechanism: Mechanism, rotor: Rotor) -> Expr:
-    """Return the rate of a rotor's angle, as M of the equations of motion has it.
-
-    In space it is the difference of the angular velocities of both bodies about the axes that the joint keeps parallel.
-    """
-    if mechanism.topology is not None or not rotor.axes:
-        return Reading(f"{rotor.joint}.rotor.rate", rotor.angle, 1)
-    signed = [(sign, axis) for axis, sign in zip(rotor.axes, (-1.0, 1.0), strict=True) if axis.body != GROUND]
-    rates = [(sign, Reading(f"{axis.body}.spin.rate", Spin(GROUND, axis.body, axis), 1)) for sign, axis in signed]
-    return sum_of_terms(*(rate if sign > 0.0 else call("neg", rate) for sign, rate in rates))
 
 
 def switch_of_event(passed: Discontinuity, rtol: float) -> Switch:
@@ -229,22 +215,3 @@ def sizes_of_kinks(curve: Interpolation) -> tuple[float, ...]:
         total += np.abs(part) * h**k
     span = float(np.ptp(y))
     return tuple((total / span).tolist()) if span > 0.0 else (0.0,) * n
-
-
-def diagonal_masses(mechanism: Mechanism) -> dict[tuple[int, int], Expr]:
-    """Return entries of bodies in M by row and column: off-diagonal ones, with joints or rotors diagonal ones too."""
-    entries, first = dict[tuple[int, int], Expr](), 0
-    for body in mechanism.bodies:
-        inertia: tuple[Expr, ...] = ()
-        if isinstance(body, SpatialBody):
-            inertia = body.inertia or ()
-        elif body.inertia is not None:
-            inertia = (body.inertia,)
-        if mechanism.topology is not None or mechanism.rotors:
-            diagonal = [body.mass] * len(mechanism.gravity) + list(inertia[:3])
-            entries |= {(first + i, first + i): value for i, value in enumerate(diagonal)}
-        for (i, j), value in zip(((3, 4), (3, 5), (4, 5)), inertia[3:], strict=False):
-            if value != ZERO:
-                entries[first + i, first + j] = value
-        first += len(body.speeds)
-    return entries

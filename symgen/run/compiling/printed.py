@@ -40,8 +40,8 @@ if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.starts.assembler import Assembly
 
-#: Names of the switching functions of events, and of the formulas of their effects.
-SWITCHING, CHANGED = "formulas_of_events", "formulas_of_effects"
+#: Names of the switching functions of events, of the formulas of their effects, and of those of M at starts.
+SWITCHING, CHANGED, WEIGHED = "formulas_of_events", "formulas_of_effects", "formulas_of_masses"
 #: Name of an array in the memory, by the parameter; None where it is constant, empty where it is passed.
 Naming = Callable[[str], str | None]
 
@@ -368,6 +368,9 @@ class Printed:
                     self.emitted[name] = checked_function(function, kind)
                 functions[id(function)] = self.emitted[name]
         functions[id(own[-1])] = self.emitted["rhs"]
+        if assembly.masses is not None:
+            self.emitted[WEIGHED] = checked_function(assembly.masses.formulas, abi.OBSERVE)
+            functions[id(compiled_form(assembly.masses.formulas))] = self.emitted[WEIGHED]
         scratch = compiled.scratch()
         now = Instant(np.zeros(compiled.info.ny), compiled.parameter_array(defaultdict(float), {}), scratch)
         conditions = StartConditions(np.zeros(assembly.layout.nv), np.zeros(0), np.zeros(N_SUMMARY))
@@ -378,7 +381,7 @@ class Printed:
                 return own
             return f"start_{own}" if owner in ("work", "conditions") else _ALONE.get(name)
 
-        model = (assembly.layout, *own), observe, joints
+        model = (assembly.layout, assembly.table, *own), observe, joints
         meanings = meanings_of_names(close_row, (model, now, conditions, work), functions, room)
         self.entries["close_row"] = source_of_piece(close_row), meanings
         places, counters = np.flatnonzero(scratch), np.zeros(abi.N_COUNTERS, dtype=np.int64)
@@ -388,5 +391,5 @@ class Printed:
 
 
 #: Functions that a start calls, by their names in models, and their types.
-_NAMES = ("geometry", "measure", "move", "spread", "solve", "turns", "rhs")
-_KINDS = (abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, None, None, None)
+_NAMES = ("geometry", "measure", "move", "spread", "solve", "formulas", "project", "turns", "rhs")
+_KINDS = (abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, None, None, None, None, None)

@@ -21,7 +21,7 @@ SINE, HOLDS, ROUNDS = 1e-2, 3e-5, 8
 NOTHING = 1e-60
 #: Most coordinates that are named, their least share of the largest one, and the relative difference below which jumps
 #: are equal, of which the first are named: the state is a bit before the dead centre.
-MOST_NAMED, COUNTS, EQUAL = 3, 0.3, 1e-3
+MOST_NAMED, COUNTS, EQUAL = 3, 0.3, 3e-2
 #: Layout, ``geometry``, 1 for each row of a driver, else 0, and the number of rows that depend on others everywhere.
 LockModel = tuple[Layout, abi.Measure, Integers, int]
 

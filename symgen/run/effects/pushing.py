@@ -23,11 +23,11 @@ from symgen.run.effects.applying import (
     fill_masses,
     probe_velocities,
 )
-from symgen.run.effects.impulse import smallest_impulse
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import is_off
 from symgen.run.layout.scales import fill_jacobian
 from symgen.run.layout.start_records import Instant
+from symgen.run.starts.impulse import smallest_impulse
 from symgen.run.starts.start_solvers import least_norm_above
 
 _EPSILON = 2.0**-52

@@ -11,7 +11,7 @@ from symgen.compile.loopcode.exact import compiled_form, exact
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout import abi
 from symgen.run.layout.records import Span
-from symgen.run.layout.redundancy import room_of_choice
+from symgen.run.layout.redundancy import LARGEST, room_of_choice
 from symgen.run.layout.start_records import Layout
 from symgen.run.modes.box import Box, new_box
 from symgen.run.starts.assembler import layout_of_starts
@@ -66,7 +66,11 @@ FURTHER_PIECE = 2
 TWO_PIECES = 17
 #: Codes of contacts: no modes with forces within bounds; several with different motions; an impact that adds energy;
 #: more contacts that depend on each other than are tried.
-NO_CONTACT_MODES, SEVERAL_MODES, GAINED, TOO_MANY = range(18, 22)
+NO_CONTACT_MODES, SEVERAL_MODES, GAINED, TOO_MANY = range(24, 28)
+#: A formula of a row is no number at the end of a run, or just behind it.
+NO_NUMBER = 18
+#: Gaps leave what lies between them no way to move: of opposed ones that meet, none opens.
+CONTRARY = 19
 
 
 class Choice(Record):
@@ -146,6 +150,10 @@ class Choice(Record):
     mode, best, other, carrier, part, option : Array of int64, shapes (k,)
         Working memory of contacts: modes of a combination, of the first that is right and of a second one, rows that
         carry others, parts of G, and the combination.
+    moved : Array, shape (k,)
+        Gaps that a start has put to 0, before that; else 0.
+    rows, right, shift, space, order : Array, Array of int64
+        Working memory of `symgen.run.modes.placing`; empty without gaps, and for large mechanisms.
     """
 
     layout: Layout
@@ -216,6 +224,12 @@ class Choice(Record):
     carrier: Integers
     part: Integers
     option: Integers
+    moved: Array
+    rows: Array
+    right: Array
+    shift: Array
+    space: Array
+    order: Integers
 
 
 def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any], width: int, nw: int) -> Choice:
@@ -245,6 +259,8 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         return np.isin(np.arange(k), these).astype(np.int64)
 
     numbers = np.zeros
+    small = k > rows.dry and info.m * info.nv <= LARGEST
+    m, n = (info.m, info.nv) if small else (0, 0)
     return Choice(
         layout=layout_of_starts(compiled),
         rates=compiled_form(rates[0]),
@@ -314,6 +330,12 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         carrier=flags(),
         part=flags(),
         option=flags(),
+        moved=numbers(k),
+        rows=numbers(m * n),
+        right=numbers(m),
+        shift=numbers(n),
+        space=numbers(m * min(m, n) + m + n if m else 0),
+        order=flags(m),
     )
 
 

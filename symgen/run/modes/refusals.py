@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from symgen.base.errors import InputError
 from symgen.run.modes.bounded_rows import (
+    CONTRARY,
     DISAGREED,
     GAINED,
     IMMOVABLE,
@@ -20,6 +21,7 @@ from symgen.run.modes.bounded_rows import (
     NO_CONTACT_MODES,
     NO_FORCES,
     NO_IMPULSES,
+    NO_NUMBER,
     NO_RESTITUTION,
     NOT_APPLIED,
     NOT_DETERMINED,
@@ -62,6 +64,7 @@ SENTENCES = {
     NEGATIVE_GAP: Sentence(
         "{kind} {name}", "a gap of at least 0", "{first:.6g} at t = {t:.6g} s", "a start within all {kinds}"
     ),
+    NO_NUMBER: Sentence("{kind} of {name}", "formulas that stay defined", "one that is no number behind t = {t:.6g} s"),
     NO_RESTITUTION: Sentence("{kind} {name}", "a restitution from 0 to 1", "{first:g}"),
     NO_BOUND_IN_MOTION: Sentence("{kind} of {name}", "a bound in motion above 0, as that at rest is above 0", "0"),
     NO_BOUNDS: Sentence(
@@ -98,6 +101,9 @@ SENTENCES = {
         "a rate of {first:.6g} at t = {t:.6g} s that joints{drivers} determine",
     ),
     NO_IMPULSES: Sentence("{gaps}", "impulses that can be found", "none of {names} at t = {t:.6g} s"),
+    CONTRARY: Sentence(
+        "{gaps}", "a motion in which no gap becomes negative", "none that {names} allow at t = {t:.6g} s"
+    ),
     TWO_PIECES: Sentence(
         "{kind} {name}",
         "a gap of which one piece pushes at a corner",

@@ -22,10 +22,11 @@ from symgen.run.layout.start_records import Instant
 from symgen.run.loops import search_records as records
 from symgen.run.loops.afresh import begin_afresh
 from symgen.run.loops.event_loop import EventState
-from symgen.run.loops.unbound import gather_impacts, keep_after, keep_before, meet_impacts
+from symgen.run.loops.unbound import gather_impacts, keep_after, keep_before, lay_gaps, meet_impacts
 from symgen.run.loops.watch import remember_rank
 from symgen.run.modes.agreement import choose_pressed
 from symgen.run.modes.bounded_rows import (
+    CONTRARY,
     DEEP,
     GAINED,
     IMMOVABLE,
@@ -60,6 +61,8 @@ from symgen.run.modes.choice import (
 from symgen.run.modes.contact_impacts import find_struck_contacts, gather_contacts, strike_contacts
 from symgen.run.modes.contacts import choose_contacts
 from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_corners
+from symgen.run.modes.ends import find_undefined
+from symgen.run.modes.placing import put_gaps
 from symgen.run.modes.strikes import Strikes, find_struck, forget_passed, gather, strike
 from symgen.run.modes.transition_log import (
     HIT,
@@ -133,6 +136,14 @@ def modes_in_digits(c: Choice, of: Integers) -> float:
     return total
 
 
+def dry_at_rest(c: Choice) -> int:
+    """Return the number of rows with two bounds among those at rest, of which they come first."""
+    count = 0
+    for r in range(c.at_rest[0]):
+        count += 1 if c.pushes[c.rest[r]] == 0 else 0
+    return count
+
+
 def refuse_fault(code: int, which: float, first: float, second: float, modes: OfModes) -> int:
     """Keep why there are no modes, with rows and numbers of the sentence; return `NO_MODES`."""
     ends = modes.strikes.effects.ends
@@ -153,6 +164,8 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
         which = set_of(c.named, c.count + 1)
     elif code == NO_IMPULSES:
         which = set_of(c.rest, c.at_rest[0])
+    elif code == CONTRARY:
+        which = set_of(c.rest, c.at_rest[0]) - set_of(c.rest, dry_at_rest(c))
     elif code == NOT_APPLIED:
         which, power = 0.0, 1.0
         for i in range(c.count):
@@ -171,6 +184,14 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
     elif CONTACTS and code == SEVERAL_MODES:
         first, second = modes_in_digits(c, c.best), modes_in_digits(c, c.other)
     return refuse_fault(code, which, first, second, modes)
+
+
+def look_ahead(code: int, modes: OfModes, state: EventState) -> int:
+    """Return the code of a run whose step has failed, `NO_MODES` where a formula of a row is no number behind it."""
+    c, t, step = modes.choice, state.clock[abi.TIME], state.clock[abi.STEP] if code == abi.NOT_FINITE else 0.0
+    if find_undefined(t, step, c, state.y, state.p, state.w, state.iw) == SAME:
+        return code
+    return refuse_modes(OUT_OF_RANGE, modes, state)
 
 
 # -- impacts -----------------------------------------------------------------------------------------------------------
@@ -227,6 +248,11 @@ def rest_gaps(t: float, modes: OfModes, state: EventState) -> int:
     return int(code)
 
 
+def put_gaps_to_zero(t: float, modes: OfModes, state: EventState) -> int:
+    """Put the gaps that are closed at a start to 0; return their number."""
+    return int(put_gaps(t, modes.choice, state.y, state.p, state.w, state.iw))
+
+
 # -- modes -------------------------------------------------------------------------------------------------------------
 
 
@@ -278,11 +304,12 @@ def choose_here(modes: OfModes, state: EventState) -> int:
             code = take_chosen(modes, state)
     if code != SAME:
         return int(refuse_modes(code, modes, state))
-    if not starts:  # a start has modes, and no change of them
-        if PIECES:
-            log_changes_in_pieces(t, c, state.w, modes.transitions)
-        else:
-            log_changes(t, c, state.w, modes.transitions)
+    if starts:
+        lay_gaps(t, modes, state)
+    elif PIECES:  # a start has modes, and no change of them
+        log_changes_in_pieces(t, c, state.w, modes.transitions)
+    else:
+        log_changes(t, c, state.w, modes.transitions)
     return int(abi.DONE)
 
 
@@ -327,7 +354,7 @@ def take_turn(code: int, modes: OfModes, state: EventState) -> int:
     Parameters
     ----------
     code : int
-        End code of the loop; nothing happens but where it is `MET`.
+        End code of the loop; nothing happens but where it is `MET`, and where a step has failed.
     modes : OfModes
         Rows with bounds.
     state : State
@@ -339,6 +366,8 @@ def take_turn(code: int, modes: OfModes, state: EventState) -> int:
         `MET` to go on, or the code of the end of the run: `DONE` where an event ends it, `GATHERED` where resets
         accumulate, `IMPOSSIBLE` where one cannot be, `NO_MODES` where modes are not determined.
     """
+    if code == abi.TINY_STEP or code == abi.NOT_FINITE:
+        return look_ahead(code, modes, state)
     if code != abi.MET:
         return code
     c, effects, hunt, t = modes.choice, modes.strikes.effects, state.hunt, state.clock[abi.TIME]
@@ -386,6 +415,7 @@ def change_state(last: int, effects: OfEffects, state: EventState) -> int:
 STRIKING = Meanings(
     "runs with bounded rows, of which gaps strike or events change the state",
     meet_impacts=strike_gaps,
+    lay_gaps=put_gaps_to_zero,
     gather_impacts=rest_gaps,
     change_state=apply_resets,
 )
@@ -400,6 +430,7 @@ TOUCHED = Meanings(
     strike=strike_contacts,
     gather=gather_contacts,
     log_changes=log_changes_of_contacts,
+    log_changes_in_pieces=log_changes_of_contacts,
 )
 #: Meanings for what a run's rows with bounds have (`symgen.run.loops.run_spec.Watched.turning`).
 TURNING = {"pressed": PRESSED, "corners": CORNERED, "pieces": IN_PIECES, "contacts": TOUCHED}

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symgen.compile.loopcode.exact import plain_form
 from symgen.run.effects.locking import MOST_NAMED, name_jumps
 from symgen.run.layout import abi
 from symgen.run.layout.model_arrays import velocity_of_coordinate
@@ -62,7 +63,7 @@ def free_and_held(
     left, _, right = np.linalg.svd(jacobian_at(compiled, t, y, p, w)[active])
     moving, holding = np.abs(right[-1]), np.abs(left[:, -1])
     farthest = np.zeros(MOST_NAMED, dtype=np.int64)
-    name_jumps(moving, len(moving), farthest)
+    plain_form(name_jumps)(moving, len(moving), farthest)
     joints = dict.fromkeys(info.rows[i].joint for i in active[holding > _HOLDS * holding.max()])
     kinds = {joint.name: joint.kind for joint in mechanism.joints}
     names = moving_names(info)

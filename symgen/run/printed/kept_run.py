@@ -310,9 +310,9 @@ def advance_run(
         code = advance_to_output(
             model, scheme, steps_until(span, until, math.inf, duration), chunk, state, outputs, visible
         )
-    numbers[END_CODE] = code
     if code > abi.DONE:
-        take_notes(code, 0, model, chunk, state)
+        code = int(take_notes(code, 0, model, chunk, state))
+    numbers[END_CODE] = code
     ended = code != abi.DONE or numbers[ENDING] >= 0
     if ended:
         show_state(observers[0], state.w, outputs, 0, state.y)

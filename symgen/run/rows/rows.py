@@ -134,7 +134,7 @@ def run_rows(
         if code == abi.MET:
             code = abi.DONE
         else:
-            take_notes(code, r, model, chunk, state)
+            code = take_notes(code, r, model, chunk, state)
         end_run(code, r, system, span, observers, chunk, state, series)
     return int(chunk.selected.shape[0])
 

@@ -293,6 +293,14 @@ def stop_notes(outcome: Outcome) -> list[str]:
     return [f"stopped at t = {outcome.end:.13g} s by the event {' and '.join(names)}"]
 
 
+def gap_notes(outcome: Outcome) -> list[str]:
+    """Return a note on gaps that were closed at the start without being 0."""
+    turn = outcome.simulation.turn
+    put = {} if turn is None else turn.gaps_put
+    gaps = ", ".join(f"{name} ({gap:.3g})" for name, gap in put.items())
+    return [f"gaps that touch at the start were put to 0: {gaps}"] if gaps else []
+
+
 def rest_notes(outcome: Outcome) -> list[str]:
     """Return a note on each gap that ever faster impacts have brought to rest, with the time that was left.
 

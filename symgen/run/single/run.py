@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import threading
 import time
 from collections.abc import Callable
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.base.ir.program import COUNTERS
 from symgen.compile.native.machine import vector_width
-from symgen.compile.store.stats import seconds_in_cache
+from symgen.compile.store.stats import CPU_CLOCK, processor_seconds_in_cache, seconds_in_cache
 from symgen.describe.bounds.advice import JUMPING
 from symgen.run.layout import abi
 from symgen.run.layout.model_arrays import triplets_of_entries
@@ -32,9 +31,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Progress = Callable[[float], None]
 
-#: CPU time of the calling thread [s], which the load of the machine changes little; elapsed time where a system counts
-#: it coarsely or not at all.
-CPU_CLOCK = getattr(time, "thread_time", time.perf_counter) if os.name == "posix" else time.perf_counter
 #: Message for runs without progress.
 STIFF = "where the motion is stiff, an implicit integrator (radau5) takes longer steps"
 
@@ -195,11 +191,12 @@ def _in_thread(simulation: Simulation, outputs: Outputs, progress: Progress | No
     begun = int(control[abi.STEPS])
 
     def work() -> None:
-        began, compiled, cpu = time.perf_counter(), seconds_in_cache(), CPU_CLOCK()
+        began, compiled = time.perf_counter(), seconds_in_cache()
+        cpu = CPU_CLOCK() - processor_seconds_in_cache()
         try:
             code = simulation.enter(outputs)
             seconds = time.perf_counter() - began - (seconds_in_cache() - compiled)
-            result.append((code, max(seconds, 0.0), CPU_CLOCK() - cpu))
+            result.append((code, max(seconds, 0.0), CPU_CLOCK() - processor_seconds_in_cache() - cpu))
         except InputError as error:
             if control[abi.STEPS] == begun:  # nothing has run yet
                 result.append(error)

@@ -314,6 +314,8 @@ class Simulation:
                 return abi.UNPREPARED
             return None if self.is_ahead(until) else abi.DONE
         elif code != abi.NOTED:
+            if code in (abi.TINY_STEP, abi.NOT_FINITE) and self.turn is not None:
+                self.turn.explain_end(code)
             return code
         return None
 

@@ -49,14 +49,14 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 #: What is asked for: modes where a run begins or inputs have changed; the same after all rows were taken out of force,
-#: as gaps may strike; what happens at the events noted.
-BEGIN, BEGIN_OPEN, MEET = range(3)
+#: as gaps may strike; what happens at the events noted; why a step has failed.
+BEGIN, BEGIN_OPEN, MEET, END = range(4)
 
 
 def serve_modes(doing: float, modes: OfModes, state: EventState) -> int:
     """Begin in modes, or do what happens at events; see `take_turn`."""
-    if doing == float(MEET):
-        return int(take_turn(abi.MET, modes, state))
+    if doing >= float(MEET):
+        return int(take_turn(abi.MET if doing == float(MEET) else int(doing) - END, modes, state))
     if doing == float(BEGIN_OPEN):
         open_rows_of(modes, state)
     return int(begin_modes(modes, state))
@@ -99,11 +99,17 @@ class TurnOfRun:
         The run, which has events.
     watched : Watched
         Its events.
+
+    Attributes
+    ----------
+    gaps_put : dict of str to float
+        What the gaps were that the start has put to 0, by the names of their rows.
     """
 
     def __init__(self, simulation: Simulation, watched: Watched) -> None:
         self.simulation, self.watched, self.rows = simulation, watched, watched.bounded
         self.effects = what_changes(simulation.compiled, watched)
+        self.gaps_put = dict[str, float]()
 
     # -- entries -------------------------------------------------------------------------------------------------------
 
@@ -126,6 +132,8 @@ class TurnOfRun:
         y = state.y.copy()
         before = self._count
         self._serve(BEGIN_OPEN if opened else BEGIN)
+        if state.control[abi.STEPS] == 0:
+            self._keep_gaps_put()
         self._note(before, Happening(self._now, "", MODE, y[: info.work], y[info.own_states]))
 
     def meet(self, happened: Sequence[Happening]) -> int:
@@ -152,6 +160,23 @@ class TurnOfRun:
             past[:] = [event for event in past if event.t != here.t or event.action != MODE]
             self._note(before, here)
         return {abi.DONE: abi.MET, abi.MET: abi.DONE}.get(code, code)
+
+    def _keep_gaps_put(self) -> None:
+        """Keep the gaps that the start has put to 0."""
+        assert self.rows is not None, "gaps belong to rows"
+        moved = self.memory.choice.moved
+        self.gaps_put = {name: float(x) for name, x in zip(self.rows.names, moved, strict=True) if x != 0.0}
+
+    def explain_end(self, code: int) -> None:
+        """Look for the reason why a step has failed, by the code of the loop.
+
+        Raises
+        ------
+        InputError
+            If a formula of a row is no number behind the present time.
+        """
+        if self.rows is not None:
+            self._serve(END + code)
 
     def _serve(self, doing: int) -> int:
         """Enter the compiled turn; return its code, `MET` to go on, unless it is refused."""

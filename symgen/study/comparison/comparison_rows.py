@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, fields, replace
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields
 from typing import TYPE_CHECKING, Any, TypedDict
 
 import msgspec
@@ -21,7 +21,8 @@ YARDSTICK = "lagrange"
 #: Units of columns.
 UNITS = {
     **dict.fromkeys(("gradient_seconds", "adjoint_seconds", "differences_seconds"), "s"),
-    **dict.fromkeys(("step", "run_seconds", "run_seconds_spread", "run_seconds_median"), "s"),
+    **dict.fromkeys(("step", "wall_seconds", "run_seconds"), "s"),
+    **dict.fromkeys((f"run_seconds_{x}" for x in ("spread", "median", "low", "high")), "s"),
     **{"error": "m", "velocity_error": "m/s", "reaction_error": "N", "energy_drift_max": "J"},
     **{"dissipated": "J", "creep": "m/s"},
     **{
@@ -36,9 +37,9 @@ UNITS = {
 class Row:
     """One method with one integrator at one step or tolerance.
 
-    Violations are Euclidean norms of Phi, ``D v - nu`` and ``D v' - gamma``, in metres and radians as they are. The
-    largest ones of position and velocity are over all accepted steps and outputs; those of acceleration, the roots of
-    the mean squares and the final ones are over the outputs.
+    Violations are Euclidean norms of Phi, ``D v - nu`` and ``D v' - gamma`` over all rows, those of angles in radians:
+    a radian counts as a metre. The largest ones of position and velocity are over all accepted steps and outputs; those
+    of acceleration, the roots of the mean squares and the final ones are over the outputs.
 
     Attributes
     ----------
@@ -64,13 +65,20 @@ class Row:
     below_reference : bool
         Whether the error is below the estimated error of the reference, which is then its only bound.
     run_seconds, run_seconds_median : float
-        Shortest of several runs after a warm-up, and median [s].
-    run_seconds_spread : float or None
-        Longest minus shortest of them [s]; None for one run.
-    cost_ratio, cost_ratio_spread : float or None
-        Run time over `lagrange`'s with the same integrator and step or tolerance, and its spread: the ratio
-        times the sum of both runs' median less shortest time over shortest time (the longest time shows only the
-        other load of the machine). None where one of them failed or `lagrange` was not run; of one run no spread.
+        Processor time of the thread of the run [s]: the median of rounds after a warm-up, under both names.
+    run_seconds_low, run_seconds_high, run_seconds_spread : float or None
+        Quartiles of the processor time, and longest minus shortest [s]; None for one run.
+    wall_seconds : float
+        Median time on the wall [s].
+    disturbed : bool
+        Whether the time on the wall was above 1.5 times the processor time, also when the row was measured again.
+    cost_ratio : float or None
+        Processor time over the time of `lagrange` with the same integrator and step or tolerance: the median of ratios
+        within rounds, in which both run in turn. None where one of them failed or `lagrange` was not run.
+    cost_ratio_low, cost_ratio_high : float or None
+        Interval that holds the median of the ratios with 95 % (`symgen.study.comparison.turns`); None for one run.
+    cost_ratio_spread : float or None
+        Distance from the ratio to the farther end of the interval.
     evaluations, iterations : int
         Right-hand sides, and iterations of laws, corrections and implicit stages.
     position_violation_max, velocity_violation_max, acceleration_violation_max : float
@@ -79,6 +87,8 @@ class Row:
         Roots of their mean squares; None where a run gave no output.
     position_violation_final, velocity_violation_final, acceleration_violation_final : float or None
         At the last output.
+    relative_violation : float or None
+        `position_violation_max` as a share of the mechanism's length.
     energy_drift_max : float
         Largest energy error [J].
     warnings : tuple of str
@@ -126,7 +136,13 @@ class Row:
     warnings: tuple[str, ...] = ()
     iterations: int = 0
     run_seconds_median: float = 0.0
+    run_seconds_low: float | None = None
+    run_seconds_high: float | None = None
+    wall_seconds: float = 0.0
+    disturbed: bool = False
     cost_ratio: float | None = None
+    cost_ratio_low: float | None = None
+    cost_ratio_high: float | None = None
     cost_ratio_spread: float | None = None
     acceleration_violation_max: float | None = None
     position_violation_rms: float | None = None
@@ -135,6 +151,7 @@ class Row:
     position_violation_final: float | None = None
     velocity_violation_final: float | None = None
     acceleration_violation_final: float | None = None
+    relative_violation: float | None = None
     coordinates: str = "absolute"
     variant: str = ""
     beyond_limits: bool = False
@@ -174,6 +191,11 @@ class Row:
     def status_text(self) -> str:
         """Status with its mark, which `BEYOND` explains."""
         return f"{self.status} +" if self.beyond_limits else self.status
+
+    @property
+    def time_mark(self) -> str:
+        """Mark of a run time that other work has disturbed, which `LOADED` explains."""
+        return " !" if self.disturbed else ""
 
     def texts(self) -> list[str]:
         """Return the fields as the cells of a table; None is empty."""
@@ -249,21 +271,6 @@ def check_entry(entry: Mapping[str, Any]) -> None:
         raise ValueError(row.status)
 
 
-def add_ratios(rows: Sequence[Row]) -> tuple[Row, ...]:
-    """Return the rows with cost ratios, which need the rows of `YARDSTICK`."""
-    # with both coordinates the first requested ones are the yardstick, so that ratios distinguish them
-    usable = [row for row in rows if row.method == YARDSTICK and row.ended and row.run_seconds > 0.0]
-    base = {row.setting: row for row in reversed(usable)}
-    rated = []
-    for row in rows:
-        other = base.get(row.setting)
-        if other is None or not row.ended or row.run_seconds <= 0.0:
-            rated.append(replace(row, cost_ratio=None, cost_ratio_spread=None))
-            continue
-        ratio = row.run_seconds / other.run_seconds
-        parts = [max(r.run_seconds_median - r.run_seconds, 0.0) / r.run_seconds for r in (row, other)]
-        # the yardstick's ratio to itself is 1 however its run time varies
-        spread = 0.0 if row is other else ratio * sum(parts)
-        single = row.run_seconds_spread is None or other.run_seconds_spread is None
-        rated.append(replace(row, cost_ratio=ratio, cost_ratio_spread=None if single else spread))
-    return tuple(rated)
+def half_width(ratio: float | None, low: float | None, high: float | None) -> float | None:
+    """Return the ± of a ratio that covers an interval; None without one."""
+    return None if ratio is None or low is None or high is None else max(high - ratio, ratio - low)

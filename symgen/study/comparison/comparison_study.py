@@ -23,10 +23,14 @@ from symgen.study.saving import save_study
 if TYPE_CHECKING:
     import pandas as pd
 
+#: Marks of integrators in a plot.
+MARKS = "os^Dv<>P"
 #: Meaning of the mark of a row that is `Row.beyond_limits`.
 BEYOND = "+ exceeded a limit of a run; measured to its end without limits"
 #: Meaning of the mark of a row on the front.
 FRONT = "^ on the front: no other row is both faster and more accurate"
+#: Meaning of the mark of a run time that is `Row.disturbed`.
+LOADED = "! other work had the processor for long, twice: the time on the wall was above 1.5 times the processor time"
 #: In place of the spread of run times, where each was measured once.
 ONE_RUN = "one run: no spread"
 
@@ -141,7 +145,7 @@ class Study:
 
     @property
     def ratio_spreads(self) -> tuple[float, float] | None:
-        """Median and largest spread of cost ratios, as fractions of the ratios; None without ratios."""
+        """Median and largest ± of cost ratios, as fractions of the ratios; None without ratios."""
         shares = [r.cost_ratio_spread / r.cost_ratio for r in self.rows if r.cost_ratio_spread and r.cost_ratio]
         return (median(shares), max(shares)) if shares else None
 
@@ -181,7 +185,7 @@ class Study:
     ) -> Plot | Path:
         """Draw columns of the rows over another one: a figure, or a PNG, SVG, PDF or PGF file.
 
-        Each method with each integrator has a line.
+        Each method has a colour, and each integrator a mark. Errors are drawn down to a tenth of the reference's.
 
         Parameters
         ----------
@@ -240,21 +244,35 @@ def _figure_of_rows(studies: Sequence[Study], names: Sequence[str], over: str) -
     from symgen.result.plots import axis_label, empty_figure, line_style_of, place_legend
 
     parts = [(study, name) for study in studies for name in names]
+    labels = list(dict.fromkeys(row.label for study in studies for row in study.rows))
+    integrators = list(dict.fromkeys(row.integrator for study in studies for row in study.rows))
     figure, axes = empty_figure(", ".join(f"{study.mechanism}, {study.until:g} s" for study in studies), len(parts))
     for ax, (study, name) in zip(axes, parts, strict=True):
-        lines: dict[str, list[tuple[float, float]]] = {}
+        lines: dict[tuple[str, str], list[tuple[float, float]]] = {}
+        least = {"error": 0.1 * study.estimated_error}  # below its reference an error is not known
         for row in study.rows:
-            x, y = getattr(row, over), getattr(row, name)
+            x, y = (max(getattr(row, what) or 0.0, least.get(what, 0.0)) for what in (over, name))
             if row.ended and x and y:  # a logarithm has no zero
-                lines.setdefault(f"{row.label}, {row.integrator}", []).append((x, y))
-        for i, (text, points) in enumerate(lines.items()):
-            ax.plot(*zip(*points, strict=True), label=text, marker="o", markersize=3.5, **line_style_of(i))
-        ax.set(xscale="log", yscale="log", ylabel=axis_label(name.replace("_", " "), UNITS.get(name, "")))
+                lines.setdefault((row.label, row.integrator), []).append((x, y))
+        for (label, integrator), points in lines.items():
+            mark = {"marker": MARKS[integrators.index(integrator) % len(MARKS)], "markersize": 3.5}
+            ax.plot(*zip(*points, strict=True), **line_style_of(labels.index(label)) | mark)
+        own = dict.fromkeys(label for label, _ in lines)
+        for label in own:
+            ax.plot([], [], label=label, **line_style_of(labels.index(label)))
+        for integrator in dict.fromkeys(x for _, x in lines) if len(integrators) > 1 else ():
+            ax.plot([], [], MARKS[integrators.index(integrator) % len(MARKS)], color="#5b6470", label=integrator)
+        ax.set(xscale="log", yscale="log", ylabel=axis_label(_words_of_column(name), UNITS.get(name, "")))
         ax.set_title(study.mechanism if len(studies) > 1 else "", fontsize=8, loc="left")
         if lines:
             place_legend(ax)
-    axes[-1].set_xlabel(axis_label(over.replace("_", " "), UNITS.get(over, "")))
+    axes[-1].set_xlabel(axis_label(_words_of_column(over), UNITS.get(over, "")))
     return figure
+
+
+def _words_of_column(name: str) -> str:
+    """Return a column in words: ``run time`` for its seconds."""
+    return name.replace("seconds", "time").replace("_", " ")
 
 
 def save_csv(studies: Sequence[Study], path: Path, units: bool = False) -> Path:

@@ -41,6 +41,8 @@ class TimeAtError:
         have errors on both sides.
     ratio, ratio_low, ratio_high : float or None
         The same of the ratio to the first method of the study with the same integrator.
+    reason : str
+        Why the line has no time at this error; empty where it has one.
     """
 
     error: float
@@ -52,6 +54,7 @@ class TimeAtError:
     ratio: float | None = None
     ratio_low: float | None = None
     ratio_high: float | None = None
+    reason: str = ""
 
 
 def rows_by_line(rows: Sequence[Row]) -> dict[Line, list[int]]:
@@ -95,10 +98,27 @@ def times_at(rows: Sequence[Row], rounds: Rounds, errors: Sequence[float]) -> tu
             pairs = zip(column, base, strict=False)
             ratios = [a / b for a, b in pairs if a is not None and b is not None]
             own = [x for x in column if x is not None]
-            table.append(
-                TimeAtError(error, method, integrator, *_quartiles_of_values(own), *_quartiles_of_values(ratios))
-            )
+            reason = "" if own else _reason_of_absence([rows[i] for i in lines[method, integrator]], error)
+            middle, low, high = _quartiles_of_values(own)
+            ratio, least, most = _quartiles_of_values(ratios)
+            table.append(TimeAtError(error, method, integrator, middle, low, high, ratio, least, most, reason))
     return tuple(table)
+
+
+def _reason_of_absence(rows: Sequence[Row], error: float) -> str:
+    """Return why a line has no time at an error."""
+    ended = [row for row in rows if row.ended and row.error is not None]
+    if not ended:
+        return "no run reached its end with an error"
+    errors = [row.error for row in ended if not row.below_reference and row.error]
+    what = "steps" if rows[0].step is not None else "tolerances"
+    if not errors:
+        return "all of its errors are below that of the reference"
+    if error < min(errors):
+        finest = any(row.below_reference for row in ended)
+        more = "finer ones are below the error of the reference" if finest else f"finer {what} reach it"
+        return f"its smallest error is {min(errors):.2g} m; {more}"
+    return f"its largest error is {max(errors):.2g} m; coarser {what} reach it"
 
 
 def _times_of_line(

@@ -157,5 +157,5 @@ class Gradients:
             if not chosen:
                 return None
             errors.append(best)
-            cost += sum(time_runs(run.integrate, settings.repeat).outcome.run_seconds for run in chosen)
+            cost += sum(time_runs(run.integrate, settings.repeat).outcome.cpu_seconds for run in chosen)
         return max(errors), cost

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from statistics import median
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,14 +10,14 @@ from numpy.typing import NDArray
 
 from symgen.result.judge import judge
 from symgen.run.layout import abi
-from symgen.study.comparison.comparison_rows import Row, Trace
+from symgen.study.comparison.comparison_rows import Row, Trace, half_width
 from symgen.study.comparison.laws import contact_measures
 
 if TYPE_CHECKING:
     from symgen.run.planning.prepare import Prepared
     from symgen.run.single.outcome import Outcome
-    from symgen.run.single.timing import Timed
     from symgen.study.comparison.distances import Distances
+    from symgen.study.comparison.turns import Turns
 
 Array = NDArray[np.float64]
 
@@ -26,7 +27,7 @@ LONGEST = 400
 
 def measure_run(
     run: Prepared,
-    runs: Timed,
+    runs: Turns,
     distances: Distances | None,
     variant: str,
     stopped: Outcome | None = None,
@@ -38,8 +39,8 @@ def measure_run(
     ----------
     run : Prepared
         What was run.
-    runs : Timed
-        Its results and run times.
+    runs : Turns
+        Its results, and run times beside the yardstick.
     distances : Distances or None
         Measures of errors; None without a reference.
     variant : str
@@ -74,16 +75,14 @@ def measure_run(
         reaction_error=None if judged is None else _largest_value(judged.reaction_errors(outcome)),
         beyond_limits=stopped is not None and outcome.code == abi.DONE,
         below_reference=error is not None and judged is not None and error < judged.reference.estimated_error,
-        run_seconds=outcome.run_seconds,
-        run_seconds_spread=runs.spread,
-        run_seconds_median=runs.median,
+        **_times_of_turns(runs),
         evaluations=outcome.evaluations,
         iterations=outcome.counters.get("iterations", 0),
         position_violation_max=outcome.position_violation_max,
         velocity_violation_max=outcome.velocity_violation_max,
         acceleration_violation_max=float(accelerations.max()) if count else None,
-        **{f"{level}_violation_rms": _root_mean_square(values) for level, values in violations.items()},
-        **{f"{level}_violation_final": float(values[-1]) if count else None for level, values in violations.items()},
+        relative_violation=None if distances is None else outcome.position_violation_max / (distances.size or 1.0),
+        **_summaries_of_violations(violations),
         energy_drift_max=outcome.energy_drift_max,
         warnings=(*plan.all_warnings, *outcome.start.warnings, *verdict.warnings),
         law=law,
@@ -102,6 +101,33 @@ def measure_run(
     }
     trace = Trace(**{name: _round_values(values) for name, values in curves.items()})
     return row, trace
+
+
+def _summaries_of_violations(violations: dict[str, Array]) -> dict[str, Any]:
+    """Return root mean squares and final values of violations, by the fields of a row."""
+    rms = {f"{level}_violation_rms": _root_mean_square(values) for level, values in violations.items()}
+    final = {f"{level}_violation_final": float(x[-1]) if len(x) else None for level, x in violations.items()}
+    return rms | final
+
+
+def _times_of_turns(runs: Turns) -> dict[str, Any]:
+    """Return the run times of a row, by its fields."""
+    middle = median(runs.seconds)
+    low, high = runs.quartiles or (None, None)
+    least, most = runs.ratio_interval or (None, None)
+    return {
+        "run_seconds": middle,
+        "run_seconds_median": middle,
+        "run_seconds_low": low,
+        "run_seconds_high": high,
+        "run_seconds_spread": None if runs.single else max(runs.seconds) - min(runs.seconds),
+        "wall_seconds": median(runs.wall),
+        "disturbed": runs.disturbed,
+        "cost_ratio": runs.ratio,
+        "cost_ratio_low": least,
+        "cost_ratio_high": most,
+        "cost_ratio_spread": half_width(runs.ratio, least, most),
+    }
 
 
 def _largest_value(values: Array | None) -> float | None:

@@ -19,14 +19,14 @@ from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
 from symgen.run.planning.plan import Plan, Purpose
 from symgen.run.planning.prepare import Assembled, Preparation, Prepared, prepare
-from symgen.run.single.timing import time_runs
 from symgen.study.comparison.combinations import words_of_variant
-from symgen.study.comparison.comparison_rows import add_ratios, check_entry, from_entry, to_entry
+from symgen.study.comparison.comparison_rows import YARDSTICK, check_entry, from_entry, to_entry
 from symgen.study.comparison.comparison_study import Study
 from symgen.study.comparison.distances import Distances, reference_rates, reference_reactions
 from symgen.study.comparison.equal_error import ROUNDS, times_at
 from symgen.study.comparison.gradients import FACTORS, Gradients, difference_slopes, difference_width
 from symgen.study.comparison.measured_runs import measure_run
+from symgen.study.comparison.turns import time_in_turns
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
 from symgen.study.machine_class import library_versions, machine_class
 from symgen.study.references.reference import Array, Reference, reference_motion
@@ -35,9 +35,9 @@ from symgen.study.references.solvers import AUTO
 from symgen.study.runner import Cell, run_cells
 from symgen.study.unlimited_runs import WATCHES, without_limits
 
-#: Default number of timed runs a row, their least total time, and the total from which on none is repeated [s]: noise
-#: is a small part of a long run.
-REPEAT, AT_LEAST, AT_MOST = 3, 0.05, 10.0
+#: Default number of rounds a row, their least total time, and the total from which on none is repeated [s]: noise is a
+#: small part of a long run.
+REPEAT, AT_LEAST, AT_MOST = 5, 0.05, 10.0
 #: What making the code of a method ready counts for in the progress, in rows; no process is started for what takes less
 #: than so many seconds.
 PREPARATION, PATIENCE = 10.0, 1.0
@@ -200,8 +200,23 @@ class ModelComparison:
             own = {f.name: getattr(settings, f.name) for f in fields(settings) if f.name not in self._parts}
             own |= {"law": self.laws[i]} if self.laws[i] else {}
             own |= {"gradient": self.gradient} if self.gradient else {}
+            base = self.yardsticks[i]
+            own |= {} if base is None else {"beside": [self.laws[base], self.settings[base].coordinates]}
             cells.append(Cell(cell_key(what="comparison", **self._parts, **own), "", i, check=check_entry))
         return cells
+
+    @cached_property
+    def yardsticks(self) -> list[int | None]:
+        """By rows, the row that they are timed beside: of `YARDSTICK` with the same integrator and step or tolerance.
+
+        With both coordinates it is that of the ones requested first, so that ratios distinguish them.
+        """
+        keys = [(str(x.integrator), x.step, x.rtol) for x in self.settings]
+        firsts = dict[Any, int]()
+        for i, (key, settings) in enumerate(zip(keys, self.settings, strict=True)):
+            if settings.method == YARDSTICK:
+                firsts.setdefault(key, i)
+        return [firsts.get(key) for key in keys]
 
     def cells_ahead(self) -> list[Cell]:
         """Return the cells that can be computed before the runs and in parallel."""
@@ -245,14 +260,17 @@ class ModelComparison:
                 compile_all(run)
                 compiled.add(pair)
             show(words, 1.0 + i + PREPARATION * len(compiled))
-            runs = time_runs(run.integrate, settings.repeat, AT_LEAST, AT_MOST)
-            stopped = runs.outcome if runs.outcome.code in WATCHES else None
-            if stopped is not None:  # a study measures what becomes of it
-                runs = time_runs(without_limits(run).integrate, settings.repeat, AT_LEAST, AT_MOST)
-            if runs.outcome.interrupted:
-                raise KeyboardInterrupt
+            first_outcome = run.integrate()
+            stopped = first_outcome if first_outcome.code in WATCHES else None
+            timed = run if stopped is None else without_limits(run)  # a study measures what becomes of it
+            base = self.yardsticks[i]
+            beside = None if base is None or base == i else without_limits(begin_run(base)).integrate
+            warm = first_outcome if stopped is None else None
+            runs = time_in_turns(timed.integrate, beside, settings.repeat, AT_LEAST, AT_MOST, warm)
             variant = words_of_variant(settings, self.common)
             entry, trace = measure_run(run, runs, distances, variant, stopped, self.laws[i])
+            if base == i and entry.ended:
+                entry = replace(entry, cost_ratio=1.0)
             if gradients is not None:
                 entry = replace(entry, **gradients.measure_all(self.model.mechanism, settings))
             return to_entry(entry, trace)
@@ -295,7 +313,7 @@ class ModelComparison:
         base, why = self.settings[0], motion.get("unusable")
         distances = self._distances(motion) if "q" in motion else None
         without = "there is no reference, so errors are unknown"
-        rows = add_ratios([row for row, _ in done])
+        rows = tuple(row for row, _ in done)
         rounds = list[list[float | None]]()
         if len(rows) == len(self.rows) and self.error_at:
             ended = [i for i, row in enumerate(rows) if row.ended]

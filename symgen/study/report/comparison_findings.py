@@ -285,7 +285,7 @@ def _finding_on_spread(study: Study) -> str:
     if spreads is None:
         return ""
     return (
-        "made again on the same machine, this study gives the same errors to the last digit; ratios of run time may "
-        f"differ by the spread of repeated runs, {words.percent_in_words(spreads[0])} in the median row and "
+        "made again on the same machine, this study gives the same errors to the last digit; ratios of run time, which "
+        f"are of processor time, hold with 95 % within {words.percent_in_words(spreads[0])} in the median row and "
         f"{words.percent_in_words(spreads[1])} in the worst"
     )

@@ -6,8 +6,9 @@ from collections.abc import Mapping, Sequence
 
 from symgen.describe.bounds.keys import nouns_of_families
 from symgen.describe.bounds.smooth import WITH_LAWS
+from symgen.study.comparison.across import across_mechanisms
 from symgen.study.comparison.comparison_rows import YARDSTICK, Row
-from symgen.study.comparison.comparison_study import BEYOND, FRONT, ONE_RUN, Study
+from symgen.study.comparison.comparison_study import BEYOND, FRONT, LOADED, ONE_RUN, Study
 from symgen.study.machine_class import machine_class, version_list
 from symgen.study.report import words
 from symgen.study.report.comparison_findings import (
@@ -17,6 +18,7 @@ from symgen.study.report.comparison_findings import (
     representative_rows,
     settings_text,
 )
+from symgen.study.report.definitions import measured_section
 from symgen.study.report.document import DocumentTable, ReportDocument, Section, TableCell
 from symgen.study.report.figures import pictures_of_study
 from symgen.study.report.picture import sketches_section
@@ -26,13 +28,6 @@ from symgen.study.report.source import section_beside_source
 FIRST = 3
 _MOODS = {"ok": "good", "unverified": "doubtful", "failed": "bad"}
 BELOW = "* below the error of the reference itself"
-_MEASURED = (
-    "The error of a run is its largest distance [m] from a reference motion, over bodies, common output times and "
-    "points: the centre of mass of each body and the tips of its axes at the body's own length. Run time is that of "
-    "the integration loop alone: a warm-up, then the shortest of several runs, with their spread (longest less "
-    "shortest). Violations are Euclidean norms of Φ, D v − ν and D v' − γ: the largest of the first two over all steps "
-    "and outputs, everything else over the outputs. A run that failed keeps its row."
-)
 
 
 def comparison_report(
@@ -67,7 +62,7 @@ def comparison_report(
         *([_section_across_mechanisms(studies)] if len(studies) > 1 else []),
         *(_section_of_study(study) for study in studies),
     ]
-    sections += [*sketches_section(sketches or {}), Section("How it is measured", (_MEASURED,))]
+    sections += [*sketches_section(sketches or {}), measured_section(studies)]
     source = section_beside_source(list(studies))
     if source is not None:
         sections.append(source)
@@ -78,8 +73,8 @@ def comparison_report(
 def _settings_section(studies: Sequence[Study]) -> list[tuple[str, str]]:
     facts = [("Durations", ", ".join(f"{study.mechanism} {study.until:g} s" for study in studies))]
     repeat = max(study.repeat for study in studies)
-    text = f"at least {words.plural(repeat, 'timed run')} a row after a warm-up" if repeat > 1 else "one run a row"
-    facts.append(("Timing", f"{text}, one at a time, nothing else running in this process"))
+    text = f"at least {words.plural(repeat, 'round')} a row after a warm-up" if repeat > 1 else "one round a row"
+    facts.append(("Timing", f"processor time, a row and its yardstick in turn, {text}; compilation is no part of it"))
     first = studies[0]
     for label, changed in (("Parameters", first.parameters), ("Start", first.start), ("Options", first.options)):
         if changed:
@@ -108,7 +103,33 @@ def _section_across_mechanisms(studies: Sequence[Study]) -> Section:
     tables = [DocumentTable("Error [m].", ("method", *names), errors)]
     if any(x != words.NONE for row in ratios for x in row[1:]):
         tables.append(DocumentTable(f"Run time as a multiple of that of {YARDSTICK}.", ("method", *names), ratios))
+    tables += _table_across_mechanisms(studies)
     return Section("Side by side", (f"One row a method: {text}.",), tables=tuple(tables))
+
+
+def _table_across_mechanisms(studies: Sequence[Study]) -> list[DocumentTable]:
+    """Return the statistic of methods over all mechanisms."""
+    rows = tuple(
+        (
+            *(x.method, x.integrator, str(x.mechanisms)),
+            *(words.ratio_in_words(x.error), words.range_in_words(x.error_low, x.error_high)),
+            *(words.ratio_in_words(x.error_mean), words.ratio_in_words(x.time)),
+            *(words.range_in_words(x.time_low, x.time_high), words.ratio_in_words(x.time_mean)),
+        )
+        for x in across_mechanisms(studies)
+    )
+    if not rows:
+        return []
+    headings = (
+        *("method", "integrator", "mechanisms", f"error of {YARDSTICK} / error", "95 %", "mean", f"× {YARDSTICK}"),
+        *("95 %", "mean"),
+    )
+    caption = (
+        f"Over all mechanisms: error of {YARDSTICK} over the error of the method at equal constant steps, above 1 "
+        "where the method is better, and run time as a multiple at equal settings; medians with intervals of 95 %, "
+        "and geometric means."
+    )
+    return [DocumentTable(caption, headings, rows, words=2)]
 
 
 def _error_cell(row: Row | None) -> str | TableCell:
@@ -151,8 +172,8 @@ def _summary_table(study: Study) -> DocumentTable:
                 row.label,
                 TableCell(row.status_text, _MOODS[row.status]),
                 _error_text(row),
-                words.seconds_in_words(row.run_seconds),
-                words.ratio_in_words(row.cost_ratio),
+                _time_text(row),
+                words.value_with_spread(row.cost_ratio, row.cost_ratio_spread or None),
                 words.rounded_number(row.position_violation_max),
                 words.rounded_number(row.velocity_violation_max),
                 words.rounded_number(row.acceleration_violation_max),
@@ -165,12 +186,20 @@ def _summary_table(study: Study) -> DocumentTable:
 
 def _meanings_of_marks(rows: Sequence[Row]) -> tuple[str, ...]:
     """Return the meanings of the marks in some rows."""
-    marks = (BELOW, any(row.below_reference for row in rows)), (BEYOND, any(row.beyond_limits for row in rows))
+    marks = (
+        (BELOW, any(row.below_reference for row in rows)),
+        (BEYOND, any(row.beyond_limits for row in rows)),
+        (LOADED, any(row.disturbed for row in rows)),
+    )
     return tuple(text for text, used in marks if used)
 
 
 def _error_text(row: Row, on_front: bool = False) -> str:
     return words.rounded_number(row.error) + " *" * row.below_reference + " ^" * on_front
+
+
+def _time_text(row: Row) -> str:
+    return words.seconds_in_words(row.run_seconds) + row.time_mark
 
 
 def _equal_error_table(study: Study) -> tuple[DocumentTable, ...]:
@@ -189,7 +218,10 @@ def _equal_error_table(study: Study) -> tuple[DocumentTable, ...]:
         f"CPU time at an error, interpolated between settings, and as a multiple of that of {first} with the same "
         "integrator: medians and quartiles of rounds in which all runs are timed in turn."
     )
-    return (DocumentTable(caption, headings, rows, words=3),)
+    notes = tuple(
+        f"{words.exact_number(x.error)} m, {x.method}, {x.integrator}: {x.reason}" for x in study.at if x.reason
+    )
+    return (DocumentTable(caption, headings, rows, words=3, notes=notes),)
 
 
 def _contact_table(study: Study) -> tuple[DocumentTable, ...]:
@@ -248,19 +280,22 @@ def _cost_table(study: Study) -> tuple[DocumentTable, ...]:
     if not rows:
         return ()
     headings = ("method", "median", "smallest", "largest", "pairs")
-    caption = f"Run time as a multiple of that of {YARDSTICK} with the same integrator and step or tolerance."
+    caption = (
+        f"Run time as a multiple of that of {YARDSTICK} with the same integrator and step or tolerance, over the "
+        "settings of the study."
+    )
     return (DocumentTable(caption, headings, rows),)
 
 
 def _table_of_all_rows(study: Study) -> DocumentTable:
     headings = (
-        *("method", "integrator", "setting", "status", "error [m]", "run time", "spread", f"× {YARDSTICK}"),
-        *("error / length", "error [m/s]", "error [N]", "evaluations", "iterations", "energy [J]"),
+        *("method", "integrator", "setting", "status", "error [m]", "run time", "quartiles", f"× {YARDSTICK}"),
+        *("error / length", "velocity error [m/s]", "reaction error [N]", "evaluations", "iterations"),
+        "energy error [J]",
     )
     rows = list[tuple[str | TableCell, ...]]()
     for i, row in enumerate(study.rows):
-        longer = row.run_seconds_spread
-        spread = longer / row.run_seconds if longer is not None and row.run_seconds > 0.0 else None
+        quartiles = row.run_seconds_low, row.run_seconds_high
         both = words.value_with_spread(row.cost_ratio, row.cost_ratio_spread or None)
         rows.append(
             (
@@ -268,8 +303,8 @@ def _table_of_all_rows(study: Study) -> DocumentTable:
                 TableCell(row.status_text, _MOODS[row.status]),
                 *(
                     _error_text(row, i in study.front),
-                    words.seconds_in_words(row.run_seconds),
-                    words.percent_in_words(spread),
+                    _time_text(row),
+                    " – ".join(map(words.seconds_in_words, quartiles)) if None not in quartiles else words.NONE,
                     both,
                 ),
                 *map(words.rounded_number, (row.relative_error, row.velocity_error, row.reaction_error)),
@@ -306,11 +341,15 @@ def _warnings_table(study: Study) -> list[str]:
 def _violations_table(study: Study) -> DocumentTable:
     levels = (("|Φ|", "position"), ("|D v − ν|", "velocity"), ("|D v' − γ|", "acceleration"))
     kinds = (("max", "max"), ("r.m.s.", "rms"), ("final", "final"))
-    headings = ("method", "integrator", "setting", *(f"{sign} {kind}" for sign, _ in levels for kind, _ in kinds))
+    headings = (
+        *("method", "integrator", "setting", "|Φ| / length"),
+        *(f"{sign} {kind}" for sign, _ in levels for kind, _ in kinds),
+    )
     rows = []
     for row in study.rows:
         values = [
             words.rounded_number(getattr(row, f"{level}_violation_{kind}")) for _, level in levels for _, kind in kinds
         ]
-        rows.append((row.label, row.integrator, words.setting_in_words(row.step, row.rtol), *values))
+        scaled = words.rounded_number(row.relative_violation)
+        rows.append((row.label, row.integrator, words.setting_in_words(row.step, row.rtol), scaled, *values))
     return DocumentTable("Violations at position, velocity and acceleration level.", headings, tuple(rows), words=3)

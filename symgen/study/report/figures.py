@@ -94,25 +94,37 @@ def _front_picture(study: Study) -> Picture | None:
 
     def draw_axes(figure: Figure) -> None:
         ax = figure.subplots()
-        ax.plot(*_points_of_rows([row for row, _ in rows]), ".", color="#b8bec7", markersize=4.0, label="all rows")
-        ax.plot(*_points_of_rows(best), color=GREY, linewidth=0.8, drawstyle="steps-post")
-        for method, integrator in lines:
-            own = _points_of_rows([row for row in best if (row.label, row.integrator) == (method, integrator)])
-            ax.plot(*own, markers[integrator], color=colours[method]["color"], label=f"{method}, {integrator}")
+        floor = _lowest_error(study)
+        ax.plot(*_points_of_rows([x for x, _ in rows], floor), ".", color="#b8bec7", markersize=4.0, label="all rows")
+        ax.plot(*_points_of_rows(best, floor), color=GREY, linewidth=0.8, drawstyle="steps-post")
+        for k, (method, integrator) in enumerate(lines):
+            own = [row for row in best if (row.label, row.integrator) == (method, integrator)]
+            x, y = _points_of_rows(own, floor)
+            label = f"{k + 1} {method}, {integrator}"
+            ax.plot(x, y, markers[integrator], color=colours[method]["color"], label=label)
+            for place in zip(x, y, strict=True):
+                ax.annotate(str(k + 1), place, (4.0, 3.0), textcoords="offset points", fontsize=7.5)
         ax.set(xscale="log", yscale="log", xlabel="run time", ylabel="error [m]")
         _shade_floor(ax, study.estimated_error, ax.get_ylim())
         _label_durations(ax, ax.get_xlim())
         ax.set_title("Error against run time: the front")
         legend_below(figure, len(lines) + 1)
 
-    caption = "Error against run time of all rows; named marks lie on the front: none is both faster and more accurate."
+    caption = (
+        "Error against run time of all rows; numbered marks lie on the front: none is both faster and more accurate."
+    )
     return draw_picture(
         f"{anchor_of_title(study.mechanism)}-front", caption, f"The front of {study.mechanism}.", draw_axes
     )
 
 
-def _points_of_rows(rows: Sequence[Row]) -> tuple[list[float], list[float]]:
-    return [row.run_seconds for row in rows], [max(row.error or 0.0, FLOOR) for row in rows]
+def _points_of_rows(rows: Sequence[Row], floor: float) -> tuple[list[float], list[float]]:
+    return [row.run_seconds for row in rows], [max(row.error or 0.0, floor) for row in rows]
+
+
+def _lowest_error(study: Study) -> float:
+    """Return the lowest error that is drawn: a decade below the error of the reference, where nothing is known."""
+    return max(FLOOR, 0.1 * study.estimated_error) if np.isfinite(study.estimated_error) else FLOOR
 
 
 def _ratios_picture(study: Study) -> Picture | None:
@@ -178,7 +190,7 @@ def _error_pictures(study: Study) -> list[Picture]:
         return []
     groups = _groups_of_lines(study)
     usual = {pair for _, lines in groups for pair in lines if not _has_integrators(lines)}
-    pictures = []
+    pictures, floor = [], _lowest_error(study)
     for title, lines in groups:
         # pictures of one integrator share their axes, so that they can be compared; the rest would stretch them
         together = set(lines) if _has_integrators(lines) else usual
@@ -186,7 +198,7 @@ def _error_pictures(study: Study) -> list[Picture]:
         if rows:
             limits = (
                 _axis_limits([r.run_seconds for r in rows]),
-                _axis_limits([max(r.error or 0.0, FLOOR) for r in rows]),
+                _axis_limits([max(r.error or 0.0, floor) for r in rows]),
             )
             pictures.append(_error_picture(study, title, lines, limits))
     return pictures
@@ -215,7 +227,7 @@ def _error_picture(
             own = [r for r in rows if (r.label, r.integrator) == (method, integrator) and _is_drawable(r)]
             look = colours[method] | ({"marker": markers[integrator]} if mixed else {})
             label = f"{method}, {integrator}" if mixed else method
-            errors = [max(r.error or 0.0, FLOOR) for r in own]
+            errors = [max(r.error or 0.0, _lowest_error(study)) for r in own]
             ax.plot([r.run_seconds for r in own], errors, **look, markerfacecolor="none", label=label)
             sure = [(r.run_seconds, e) for r, e in zip(own, errors, strict=True) if not r.below_reference]
             if sure:

@@ -91,6 +91,11 @@ def ratio_in_words(x: float | None) -> str:
     return NONE if x is None or not math.isfinite(x) else f"{x:.2f}" if x < 100.0 else f"{x:.0f}"
 
 
+def range_in_words(low: float | None, high: float | None) -> str:
+    """Return an interval of a ratio."""
+    return NONE if low is None or high is None else f"{ratio_in_words(low)} – {ratio_in_words(high)}"
+
+
 def value_with_spread(x: float | None, spread: float | None) -> str:
     """Return a ratio with its spread."""
     return f"{ratio_in_words(x)} ± {ratio_in_words(spread)}" if spread is not None else ratio_in_words(x)

@@ -19,6 +19,7 @@ from symgen.base.files import Content, check_path, system_message, templates_fol
 from symgen.study.comparison.comparison_study import Study
 from symgen.study.report.browser_pdf import find_browser, print_pdf
 from symgen.study.report.document import DocumentTable, Picture, ReportDocument, Section, TableCell
+from symgen.study.report.latex import latex_tables
 from symgen.study.report.plain_pdf import plain_pdf
 from symgen.study.saving import REPORTS
 
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from symgen.study.stress.stress_rows import Stress
 
 #: Endings of reports -> the libraries needed.
-WRITTEN: Mapping[str, tuple[str, ...]] = dict.fromkeys(REPORTS, ("matplotlib",))
+WRITTEN: Mapping[str, tuple[str, ...]] = {**dict.fromkeys(REPORTS, ("matplotlib",)), ".tex": ()}
 
 
 def check_report(where: str, path: Path) -> None:
@@ -53,11 +54,14 @@ def write(document: ReportDocument, path: Path) -> Path:
         The report.
     path : Path
         ``.html``: one file that opens without a network; ``.pdf``: the same, printed by a browser, or drawn by
-        matplotlib where there is none; ``.md``: pictures go into the folder ``NAME-files`` beside it.
+        matplotlib where there is none; ``.md``: pictures go into the folder ``NAME-files`` beside it; ``.tex``: the
+        tables for a paper.
     """
     check_report("report", path)
     if path.suffix.lower() == ".html":
         return write_whole(path, html_report(document))
+    if path.suffix.lower() == ".tex":
+        return write_whole(path, latex_tables(document))
     if path.suffix.lower() == ".pdf":
         program = find_browser()
         return (
@@ -88,7 +92,8 @@ def write_report(study: Study | Stress | Sequence[Study], path: str | PathLike[s
     study : Study, Stress or sequence of Study
         What `symgen.compare` or the stress study returns.
     path : path
-        A ``.html`` file, which opens without a network, its ``.pdf``, or ``.md`` with pictures in a folder beside it.
+        A ``.html`` file, which opens without a network, its ``.pdf``, ``.md`` with pictures in a folder beside it, or
+        ``.tex``, the tables for a paper.
 
     Raises
     ------

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from symgen.study.comparison.comparison_rows import Row, Trace, add_ratios
+from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Trace
 from symgen.study.comparison.comparison_study import Study
 from symgen.study.stress.stress_rows import StressRow
 
@@ -20,7 +20,10 @@ def row(method, step, error, seconds, **changes):
         "below_reference": False,
         "run_seconds": seconds,
         "run_seconds_spread": 0.2 * seconds,
-        "run_seconds_median": 1.05 * seconds,
+        "run_seconds_median": seconds,
+        "run_seconds_low": 0.97 * seconds,
+        "run_seconds_high": 1.04 * seconds,
+        "wall_seconds": 1.1 * seconds,
         "evaluations": 1000,
         "iterations": 7,
         "position_violation_max": 1e-13,
@@ -68,7 +71,21 @@ def study(rows=None, **changes):
         "digest": "0123456789abcdef",
         "repeat": 3,
     }
-    return Study(**{**values, "rows": add_ratios(rows), **changes})
+    return Study(**{**values, "rows": with_ratios(rows), **changes})
+
+
+def with_ratios(rows):
+    """Return the rows with their ratios to `lagrange` at the same step, each with an interval of 10 % about it."""
+    base = {r.setting: r.run_seconds for r in rows if r.method == YARDSTICK}
+    rated = []
+    for r in rows:
+        ratio = r.run_seconds / base[r.setting] if r.ended and r.setting in base else None
+        if ratio is not None:
+            half = 0.0 if r.method == YARDSTICK else 0.1 * ratio
+            bounds = {"cost_ratio_low": ratio - 0.5 * half, "cost_ratio_high": ratio + half, "cost_ratio_spread": half}
+            r = replace(r, cost_ratio=ratio, **bounds)
+        rated.append(r)
+    return tuple(rated)
 
 
 def stress_row(model, method, outcome, error, **changes):

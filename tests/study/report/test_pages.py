@@ -143,7 +143,7 @@ def test_the_page_says_what_it_was_made_with_and_words_are_escaped(text, page):
     whole = " ".join(page.text)
     for words in (
         *('A linkage <with> odd & "quoted" words', "symgen compare four-bar 'a & b' -o report.html", "1 < 2"),
-        *("symgen 0.", "Python 3.", "numpy", "numba", "sympy", "core", "0123456789abcdef", "at least 3 timed runs"),
+        *("symgen 0.", "Python 3.", "numpy", "numba", "sympy", "core", "0123456789abcdef", "at least 3 rounds"),
         "* below the error of the reference itself",
     ):
         assert words in whole
@@ -156,7 +156,7 @@ def test_every_row_stands_in_the_tables(page):
         part = whole.split(title)[1].split("All rows of")[0]
         assert part.count("step 0.001 s") >= 8 and "failed: the state is no longer finite" in part
     tables = page.all("table")
-    assert len(tables) == 2 + 2 * 4 + 1
+    assert len(tables) == 3 + 2 * 4 + 2
     assert len([a for a in page.all("div") if a.get("class") == "scroll"]) == len(tables)
 
 
