@@ -51,6 +51,10 @@ class Ties(Record):
         Working memory.
     impulses : Array, shape (count,)
         Impulse of each velocity.
+    ways : Array, shape (count,)
+        Sign of each multiple.
+    kept, kept_ways : Array of int64, Array, shapes (count,)
+        What was held, and those signs, at the latest impact, while it is followed by another one that brings to rest.
     """
 
     held: Integers
@@ -67,6 +71,9 @@ class Ties(Record):
     order: Integers
     matrix: Array
     impulses: Array
+    ways: Array
+    kept: Integers
+    kept_ways: Array
 
 
 def new_ties(count: int, n: int, m: int) -> Any:
@@ -87,6 +94,9 @@ def new_ties(count: int, n: int, m: int) -> Any:
         order=np.zeros(most, dtype=np.int64),
         matrix=numbers(max(count * count, 1)),
         impulses=numbers(count),
+        ways=numbers(count),
+        kept=np.zeros(count, dtype=np.int64),
+        kept_ways=numbers(count),
     )
 
 

@@ -150,7 +150,7 @@ def tie_velocities(c: Choice, s: Strikes, rests: bool) -> None:
     _, _, _, _, changes = s.effects.model
     owners, ties = changes.owners, s.ties
     for j in range(owners.shape[0]):
-        ties.held[j], ties.ratio[j], ties.values[j] = 0, 0.0, 0.0
+        ties.held[j], ties.ratio[j], ties.values[j], ties.ways[j] = 0, 0.0, 0.0, 0.0
         for i in range(c.dry, c.count):
             if owners[j] == s.events[i] and s.active[i] != 0:
                 friction = c.partner[i]
@@ -158,9 +158,11 @@ def tie_velocities(c: Choice, s: Strikes, rests: bool) -> None:
                     ties.held[j], ties.values[j] = 1, 0.0 if rests else s.asked[i]
                 elif c.mode[friction] >= UPPER:
                     sign = 1.0 if c.mode[friction] == UPPER else -1.0
-                    ties.held[j], ties.ratio[j] = -1, -sign * c.sliding[friction]
+                    ties.held[j], ties.ways[j], ties.ratio[j] = -1, -sign, -sign * c.sliding[friction]
                 elif c.mode[friction] == ON:
                     ties.held[j] = 1
+        if not rests:
+            ties.kept[j], ties.kept_ways[j] = ties.held[j], ties.ways[j]
 
 
 @exact()
