@@ -113,7 +113,7 @@ class PushDirections(ResetDirections):
             at = info.m + held.index(k - 1)
             columns[at] += ties.ratio[k] * push[k]
             turned[at] += ties.ratio[k] * own[k] + push[k][:, np.newaxis] * ratios[k]
-        masses, more = self._masses(entries)
+        masses, more = self._masses(entries, own, rest)
         before, after = self.y[info.nq : info.work], self.impact.v
         directions = self.model.directions_after(self.y, "y")[info.nq : info.work]
         change = after - before
