@@ -224,7 +224,7 @@ class ResetDirections:
         """Return what `_masses` does, of rotors alone: J r^T r of each with the rate r v."""
         changes, count = self.changes, self.changes.rotors
         first = self._first_entry + len(changes.entries) // 2
-        turning, turned = self.work.turning.reshape(count, -1), self.work.turned
+        turning, turned = self.work.turning.reshape(count, self.info.nv), self.work.turned
         inertias, slopes_of_inertias = self.work.out[first + count :], entries[len(entries) - count :]
         by, drift = own[first : first + count], rest[first : first + count]
         one = np.einsum("r,rik,rj->ijk", inertias, by, turning)
