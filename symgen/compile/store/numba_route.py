@@ -63,7 +63,9 @@ def argument(value: Any) -> Any:
     if isinstance(value, tuple):
         parts = tuple(map(argument, value))
         return type(value)(*parts) if hasattr(value, "_fields") else parts
-    return form_of(value) if isinstance(value, MachineFunction) else value
+    # an argument is compiled for the type of its parameter, which one with a signature of its own does not allow
+    passed = isinstance(value, MachineFunction)
+    return dispatcher(value.py_func, value.inlined, value.contracted) if passed else value
 
 
 def called(function: MachineFunction, *arguments: object) -> Any:
