@@ -26,11 +26,12 @@ from symgen.api import load
 from symgen.describe.catalogue import MACHINES, CatalogueEntry, entries
 from symgen.describe.drawing.traced import traced_points
 from symgen.describe.facts.digest import digest
-from symgen.study.comparison.comparison_rows import YARDSTICK, Row
+from symgen.study.comparison.comparison_rows import Row
 from symgen.study.comparison.comparison_study import Study
 from symgen.study.machine_class import library_versions, machine_class
 from symgen.study.report import words
 from symgen.study.report.document import Picture
+from symgen.study.yardstick import YARDSTICK
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 FOLDER = DOCS / "gallery"
@@ -146,7 +147,7 @@ def draw(entry: CatalogueEntry) -> None:
 
     own, model = choice(entry.name), load(model_name(entry))
     window = own.window * (own.until or model.mechanism.defaults.until)
-    shape = "straight" if model.mechanism.has_modes else "looped"
+    shape = "straight" if model.mechanism.has_modes or model.mechanism.has_modal_bodies else "looped"
     result = model.simulate(method="direct-correction", until=window, shape=shape)
     picture = Drawing.of_motion(model.mechanism, result.q.values, result.parameters)
     free = any(point.free for point in traced_points(model.mechanism, model.parameters()))
@@ -242,7 +243,7 @@ def page(entry: CatalogueEntry) -> str:
     if measured:
         lines += [f"![{entry.name} in motion]({entry.name}.svg)", "", words.as_sentence(measured["caption"]), ""]
     sizes = {
-        "bodies": len(mechanism.bodies),
+        "bodies": sum(body.carried is None for body in mechanism.bodies),
         "joints": len(mechanism.joints),
         "forces": len(mechanism.forces),
         "coordinates": nq,

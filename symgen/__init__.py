@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from symgen.derive.methods import list_methods
     from symgen.describe.files.builder import MechanismBuilder
     from symgen.describe.mechanism import Mechanism
+    from symgen.describe.reduction.reduction import reduced
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
     from symgen.result.stepping.stepped_run import SteppedRun
@@ -54,6 +55,7 @@ _WHERE = {
     "list_methods": "symgen.derive.methods",
     "load": "symgen.api",
     "load_plugin": "symgen.base.plugins",
+    "reduced": "symgen.describe.reduction.reduction",
     "simulate": "symgen.api",
     "sweep": "symgen.study.ensemble.parameter_sweep",
     "write_report": "symgen.study.report.write",
@@ -80,6 +82,7 @@ __all__ = [
     "list_methods",
     "load",
     "load_plugin",
+    "reduced",
     "simulate",
     "sweep",
     "write_report",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -20,6 +20,7 @@ UNMOVED = 1e-9
 #: How far ahead it is looked where an acceleration is zero and its force at a bound [s].
 AHEAD = (1e-6, 1e-4)
 LOWER, UPPER = -1, 1
+NO_PIECES: Mapping[int, int] = {}
 
 
 @dataclass(frozen=True)
@@ -60,12 +61,24 @@ class Forms:
         Its coordinates with bounds.
     t, u, v : float, Array, Array
         The state.
+    pieces : mapping of int to int
+        Pieces that hold, by the numbers of rows with corners; of others the largest.
     """
 
-    def __init__(self, tree: Tree, rows: Sequence[Bounded], t: float, u: Array, v: Array) -> None:
-        self.tree, self.rows, self.t, self.u, self.v = tree, rows, t, u, v
+    def __init__(
+        self, tree: Tree, rows: Sequence[Bounded], t: float, u: Array, v: Array, pieces: Mapping[int, int] = NO_PIECES
+    ) -> None:
+        self.tree, self.rows, self.t, self.u, self.v, self.pieces = tree, rows, t, u, v, pieces
         self.state = tree.at(t, u, v)
         measured = [row.of(self.state) for row in rows]
+        self.others = dict[int, float]()  # by how much the piece that holds is above another one
+        for i, row in enumerate(rows):
+            if row.pieces:
+                every = [piece(self.state) for piece in row.pieces]
+                values = [float(m.value) for m in every]
+                held = pieces.get(i, int(np.argmax(values)))
+                measured[i] = every[held]
+                self.others[i] = values[held] - max(x for k, x in enumerate(values) if k != held)
         self.values = np.array([float(m.value) for m in measured])
         self.slopes = np.array([m.slopes for m in measured]).reshape(len(rows), tree.n)
         self.bias = np.array([float(m.bias) for m in measured])
@@ -248,7 +261,7 @@ class Forms:
                 break
             v = self.v + h * accelerations
             u = self.u + h * self.v + 0.5 * h * h * accelerations
-            later = Forms(self.tree, self.rows, self.t + h, u, v)
+            later = Forms(self.tree, self.rows, self.t + h, u, v, self.pieces)
             ahead = later.box(rest, signs, sides, slips)[0]
             largest = float(np.abs(ahead).max(initial=0.0))
             for i, a in zip(rest, ahead, strict=True):

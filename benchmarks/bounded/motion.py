@@ -73,6 +73,8 @@ class _Watched:
     def of(self, forms: Forms) -> float:
         """Return its value."""
         i = self.row
+        if self.kind == "corner":
+            return forms.others[i]
         if self.kind == "break":
             return float(forms.margins(self.modes)[i])
         if self.kind == "rest":
@@ -86,11 +88,12 @@ class Simulation:
 
     def __init__(self, tree: Tree, rows: Sequence[Bounded], rtol: float = 1e-12, atol: float = 1e-13) -> None:
         self.tree, self.rows, self.rtol, self.atol = tree, tuple(rows), rtol, atol
+        self.pieces = dict[int, int]()  # those that hold closed rows with corners
 
     def forms(self, t: float, y: Array) -> Forms:
         """Return the equations at a state."""
         n = self.tree.n
-        return Forms(self.tree, self.rows, t, y[:n], y[n:])
+        return Forms(self.tree, self.rows, t, y[:n], y[n:], self.pieces)
 
     def run(self, u: Array, v: Array, times: Sequence[float]) -> Motion:
         """Return the motion from a start that satisfies all closures, at rising times from 0.
@@ -120,6 +123,9 @@ class Simulation:
             hits = {w.row: LOWER if w.kind == "lower.hit" else UPPER for w in happened if w.kind.endswith("hit")}
             resting = {w.row for w in happened if w.kind == "rest"}
             y = self._placed(t, y, modes, hits, resting)
+            corners = [w.row for w in happened if w.kind == "corner"]
+            for i in corners:
+                self.pieces[i] = 1 - self.pieces[i]
             broken = {w.row for w in happened if w.kind == "break"}
             if broken and not self.forms(t, y).independent(modes.resting):
                 broken = set(modes.resting)
@@ -137,8 +143,28 @@ class Simulation:
             forms = self.forms(t, y)
         else:
             raise Unusable(f"impacts do not end at {t:.6g} s")
+        for i in self.pieces:
+            if struck and forms.others[i] < 1e-9:
+                self._refuse_two_pieces(t, y, i)
         modes = forms.choose(set() if struck else broken)
+        self._keep_pieces(t, y, modes)
         return modes, self._projected(t, y, modes, {}, set())
+
+    def _keep_pieces(self, t: float, y: Array, modes: Modes) -> None:
+        """Keep the pieces of closed rows until a corner, and let those of open ones go."""
+        values = {
+            i: [float(piece(self.forms(t, y).state).value) for piece in row.pieces]
+            for i, row in enumerate(self.rows)
+            if row.pieces and modes.held[i]
+        }
+        self.pieces = {i: self.pieces.get(i, int(np.argmax(x))) for i, x in values.items()}
+
+    def _refuse_two_pieces(self, t: float, y: Array, i: int) -> None:
+        """Raise where an impact at a corner sends the motion back over it."""
+        forms, row = self.forms(t, y), self.rows[i]
+        rates = [float(m.slopes @ forms.v) + m.drift for m in (piece(forms.state) for piece in row.pieces)]
+        if rates[self.pieces[i]] < rates[1 - self.pieces[i]] - 1e-12:
+            raise Unusable(f"two pieces push at {t:.6g} s")
 
     def _crowded(self, motion: Motion, row: int, t: float, forms: Forms) -> bool:
         name = self.rows[row].name
@@ -169,13 +195,13 @@ class Simulation:
         at |= {i: self.rows[i].lower if side == LOWER else self.rows[i].upper for i, side in hits.items()}
         which = sorted(at)
         for _ in range(4):
-            forms = Forms(self.tree, self.rows, t, u, v)
+            forms = Forms(self.tree, self.rows, t, u, v, self.pieces)
             gaps = np.concatenate([forms.closed[0], forms.values[which] - [at[i] for i in which]])
             slopes = np.vstack([forms.closed[1], forms.slopes[which]])
             if not len(gaps) or float(np.abs(gaps).max()) == 0.0:
                 break
             u = u - np.linalg.pinv(slopes, rcond=1e-9) @ gaps
-        forms = Forms(self.tree, self.rows, t, u, v)
+        forms = Forms(self.tree, self.rows, t, u, v, self.pieces)
         still = sorted(set(held) | resting)
         slopes = np.vstack([forms.closed[1], forms.slopes[still]])
         if len(slopes):
@@ -193,6 +219,8 @@ class Simulation:
             if modes.held[i]:
                 if row.rubs or modes.sides[i]:
                     functions.append(_Watched(i, "break", modes))
+                if row.pieces:
+                    functions.append(_Watched(i, "corner", modes))
                 continue
             if modes.signs[i]:
                 functions.append(_Watched(i, "rest", modes))

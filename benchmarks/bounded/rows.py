@@ -31,6 +31,8 @@ class Bounded:
         Stops [m or rad]; infinite where there is none.
     restitution : float
         Of the stops.
+    pieces : tuple of callable
+        Coordinates of which the largest counts, for one with a corner; `of` is the first of them.
     """
 
     name: str
@@ -41,6 +43,7 @@ class Bounded:
     lower: float = -math.inf
     upper: float = math.inf
     restitution: float = 0.0
+    pieces: tuple[Measure, ...] = ()
 
     @property
     def rubs(self) -> bool:

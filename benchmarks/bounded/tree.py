@@ -60,6 +60,8 @@ class Link:
         A torque on the body that swings like it.
     stiffness : float
         Of a spring along the coordinate, without force where this is 0.
+    rotor : float
+        Inertia of a rotor that turns with the coordinate, times the square of its gear ratio.
     """
 
     parent: int
@@ -75,6 +77,7 @@ class Link:
     phase: float = 0.0
     torque: Array = field(default_factory=lambda: np.zeros(3))
     stiffness: float = 0.0
+    rotor: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -281,6 +284,7 @@ class Tree:
                     force += state.spin_slopes[k].T @ (link.torque * swing)
                 force += along.T @ push
             force[k] -= link.stiffness * state.u[k]
+            mass[k, k] += link.rotor
             if link.inertia.any():
                 about, frame, spin = state.spin_slopes[k], state.turns[k], state.spins[k]
                 inertia = frame @ link.inertia @ frame.T

@@ -23,6 +23,8 @@ LONGEST_PART, LONGEST_PLACE, LONGEST_QUOTE = 1000, 240, 60
 MOST_LISTED, MOST_COMPARED, LONGEST_COMPARED = 60, 2000, 64
 #: Share of letters that two spellings of one word have in common.
 CLOSE = 0.6
+#: Characters of what was expected above which a likely spelling is said first.
+LONGEST_FIRST = 60
 
 
 class SymgenError(Exception):
@@ -32,6 +34,13 @@ class SymgenError(Exception):
 
     def __str__(self) -> str:
         return printable(super().__str__())
+
+
+def sentence_of_parts(expected: str, got: str, hint: str) -> str:
+    """Return what was expected, what was found and the hint in one sentence: a likely spelling before a long list."""
+    if hint.startswith("did you mean") and len(expected) > LONGEST_FIRST:
+        return f"got {got}; {hint} (expected {expected})"
+    return f"expected {expected}, got {got}" + (f"; {hint}" if hint else "")
 
 
 class InputError(SymgenError):
@@ -65,7 +74,7 @@ class InputError(SymgenError):
         self.expected, self.got, self.hint = (
             text if len(text) <= LONGEST_PART else f"{text[:LONGEST_PART]}..." for text in (expected, got, hint)
         )
-        super().__init__(f"{self.where}: expected {self.expected}, got {self.got}" + (f"; {self.hint}" if hint else ""))
+        super().__init__(f"{self.where}: {sentence_of_parts(self.expected, self.got, self.hint)}")
 
     def __reduce__(self) -> tuple[type, tuple[str, str, str, str, str]]:
         return type(self), (self.where, self.expected, self.got, self.hint, self.key)

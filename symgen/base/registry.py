@@ -52,6 +52,8 @@ class Registry(Generic[T]):
         The module's attribute that is the kind.
     beside : str, optional
         Package of a registry whose kinds are easily taken for these, which a message says.
+    meant : mapping of str to str, optional
+        Words of other programs and of daily life, each with the kind that a message names for it.
     """
 
     def __init__(
@@ -61,8 +63,9 @@ class Registry(Generic[T]):
         aliases: Mapping[str, str] | None = None,
         attribute: str = "KIND",
         beside: str = "",
+        meant: Mapping[str, str] | None = None,
     ) -> None:
-        self.beside = beside
+        self.beside, self.meant = beside, dict(meant or {})
         self.package, self.what, self.attribute = package, what, attribute
         self.aliases: dict[str, str] = dict(aliases or {})
         self._modules: dict[str, str] | None = None
@@ -109,7 +112,7 @@ class Registry(Generic[T]):
             load_installed_plugins()
         if resolved not in self._loaded and resolved not in self._module_names_by_kind():
             names = (*self.names, *self.aliases)
-            hint = suggest(name, names)
+            hint = f"did you mean '{self.meant[name]}'?" if name in self.meant else suggest(name, names)
             if hint.startswith("known"):
                 hint = self._hint_beside(name) or hint
             choices = " (known: " + ", ".join(sorted(names)) + ")"

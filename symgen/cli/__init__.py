@@ -31,6 +31,7 @@ from symgen.base.escapes import printable
 from symgen.base.plugins import failure_of_plugin, load_plugins
 from symgen.base.registry import Registry
 from symgen.base.settings import command_flag, setting_names
+from symgen.base.units import read_amount, read_unit
 from symgen.base.version import __version__
 
 OK, FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -248,10 +249,26 @@ def _sentence_of_error(error: click.ClickException) -> str:
         options = [o for p in context.command.params for o in p.opts] if context is not None else []
         hint = _hint_on_option(error.option_name, [o for o in options if o.startswith("--")])
         text = f"there is no option '{error.option_name}'" + (f"; {hint}" if hint else "")
+    elif isinstance(error, click.BadParameter) and (number := _NOT_A_NUMBER.search(text)):
+        text = text[: number.start()].rstrip() + f" expected a number, got '{number[1]}'{_hint_on_number(number[1])}"
     help_at = f" (symgen {context.info_name} --help)" if context is not None and context.parent is not None else ""
     return text[:1].lower() + text[1:].rstrip(".") + help_at
 
 
+def _hint_on_number(word: str) -> str:
+    """Return the number that a word with a unit or a decimal comma means."""
+    comma = re.fullmatch(r"([-+]?\d+),(\d+)", word)
+    amount = None if comma else read_amount(word)
+    if comma:
+        return f"; a number has a decimal point: {comma[1]}.{comma[2]}"
+    if amount is None or not amount.unit:
+        return ""
+    unit = read_unit(amount.unit)
+    return "" if isinstance(unit, str) else f"; numbers of options are in SI units: {unit.to_si(amount.number):g}"
+
+
+#: What click says of a word that is no number.
+_NOT_A_NUMBER = re.compile(r"'([^']*)' is not a valid (?:float|integer)(?: range)?\.?$")
 #: Words that users type for options -> the option, suggested where the command has it.
 MEANT = {
     **dict.fromkeys(("--param", "--parameter", "--parameters", "--params", "--p"), "--set"),

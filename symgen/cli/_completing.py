@@ -19,6 +19,10 @@ from click.shell_completion import CompletionItem
 from symgen.base.errors import SymgenError
 from symgen.base.settings import COORDINATES, SHAPES
 from symgen.describe import catalogue
+from symgen.describe.files.origins import Source
+from symgen.describe.modal.modal_file import ModalFile, read_modal_file, with_whole_paths
+from symgen.describe.modal_body import COORDINATE, PREFIXES, SPEED, mode_names
+from symgen.describe.parts.bodies import is_modal
 
 #: Files above this size in bytes are not read at a key press.
 LARGEST = 1_000_000
@@ -122,7 +126,8 @@ def _description_on_line(context: click.Context) -> Mapping[str, Any]:
             return catalogue.raw(name, int(size) if colon else None)
         path = Path(word)
         if path.suffix == ".toml" and path.is_file() and path.stat().st_size < LARGEST:
-            return tomllib.loads(path.read_text(encoding="utf-8"))
+            raw = tomllib.loads(path.read_text(encoding="utf-8"))
+            return with_whole_paths(raw, Source.of_file(path))
     return {}
 
 
@@ -159,11 +164,24 @@ def _complete_quantities(context: click.Context) -> Iterator[str]:
 
 def _columns_of_body(table: Mapping[str, Any], spatial: bool) -> Iterator[str]:
     """Yield columns of a body and of its points."""
-    turns = table.get("type") != "point"
+    turns, modal = table.get("type") != "point", _modal_file(table)
     columns = (*(_SPATIAL if spatial else _PLANAR), *_ACCELERATIONS[spatial])
     yield from (x for x in columns if turns or x in _POINT[spatial])
     for point in _names_of_section(table, "points"):
         yield from (point, *(f"{point}.{x}" for x in _POINT[spatial]))
+    if modal is not None:
+        yield from (name for x in PREFIXES for name in mode_names(x, len(modal.stiffness)))
+        yield from (row.label for row in modal.rows)
+        for interface in modal.interfaces:
+            yield from (interface, *(f"{interface}.{x}" for x in _POINT[spatial]))
+
+
+def _modal_file(table: object) -> ModalFile | None:
+    """Return the content of the file of a modal body; None for another body, or where it cannot be read."""
+    if is_modal(table) and isinstance(table, dict):
+        with suppress(SymgenError):
+            return read_modal_file("file", str(table.get("file")))
+    return None
 
 
 def _is_spatial(raw: Mapping[str, Any]) -> bool:
@@ -173,8 +191,12 @@ def _is_spatial(raw: Mapping[str, Any]) -> bool:
 
 def _complete_start(context: click.Context) -> list[str]:
     raw = _description_on_line(context)
-    columns = _SPATIAL if _is_spatial(raw) else _PLANAR
-    return [f"{body}.{x}" for body in _names_of_section(raw, "bodies") for x in columns]
+    own, names = _SPATIAL if _is_spatial(raw) else _PLANAR, list[str]()
+    for body in _names_of_section(raw, "bodies"):
+        modal = _modal_file(raw["bodies"][body])
+        count = 0 if modal is None else len(modal.stiffness)
+        names += [f"{body}.{x}" for x in (*own, *mode_names(COORDINATE, count), *mode_names(SPEED, count))]
+    return names
 
 
 def _wait_for_value(candidates: Callable[[click.Context], list[str]]) -> Candidates:

@@ -13,6 +13,7 @@ from rich.text import Text
 
 from symgen.base.digits import digits, format_column, scale_of
 from symgen.base.errors import InputError, fit_lines, plural
+from symgen.describe.modal_body import COORDINATE, MOST_MODES, SPEED, mode_names
 
 if TYPE_CHECKING:
     import numpy as np
@@ -35,7 +36,7 @@ COLOURS = {"ok": "green", "unverified": "yellow", "failed": "red"}
 def make_console() -> Console:
     """Return a console on standard output; where that is no terminal, wide enough that no figure is cut."""
     wide = Console(highlight=False, markup=False)
-    return wide if wide.is_terminal else Console(highlight=False, markup=False, width=200)
+    return wide if wide.is_terminal else Console(highlight=False, markup=False, width=240)
 
 
 def show_rows(
@@ -165,7 +166,11 @@ def _final_state(result: Result, most: int = 12) -> tuple[list[str], list[tuple[
 
 
 #: Coordinates and velocities of bodies in the order in which they are shown.
-_LABELS = ("x", "y", "z", "theta", "e0", "e1", "e2", "e3", "vx", "vy", "vz", "omega", "wx", "wy", "wz")
+_LABELS = (
+    *("x", "y", "z", "theta", "e0", "e1", "e2", "e3", "vx", "vy", "vz", "omega", "wx", "wy", "wz"),
+    *mode_names(COORDINATE, MOST_MODES),
+    *mode_names(SPEED, MOST_MODES),
+)
 
 
 def show_study(study: Study) -> None:

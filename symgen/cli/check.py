@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,10 +13,13 @@ from symgen.base.errors import InputError, fit_lines, plural
 from symgen.base.escapes import printable
 from symgen.cli import BAD_INPUT, OK, write_json
 from symgen.cli._shared_options import examples_in_help, json_option, setting_options
+from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.modal_body import MANY_MODES
 
 if TYPE_CHECKING:
     from symgen.api import Model
     from symgen.describe.files.problems import Problem
+    from symgen.describe.mechanism import Mechanism
 
 #: Problems of a file that are written to standard error at most; JSON has all.
 MOST_SHOWN = 100
@@ -72,6 +76,8 @@ def command(
         f"{plural(sizes['rows'], 'constraint row')} of rank {facts['rank']}"
     )
     click.echo(f"  {plural(facts['degrees_of_freedom'], 'degree')} of freedom at the start")
+    for body, modes in facts.get("modal_bodies", {}).items():
+        click.echo(f"  {body}: {_modes_in_words(modes)}")
     for label, rows in (("redundant at the start", facts["redundant_rows"]), ("repeated", facts["dropped_rows"])):
         if rows:
             click.echo(f"  rows {label}: {', '.join(rows)}")
@@ -80,6 +86,24 @@ def command(
     for warning in facts["warnings"]:
         click.echo(f"  warning: {warning}")
     return OK
+
+
+def _modes_in_words(modes: Mapping[str, Any]) -> str:
+    """Return the modes of a body, where they come from, and the frequencies of the free body."""
+    inner, faces = modes["inner"], len(modes["interfaces"])
+    count = len(modes["frequencies"])
+    what = f"{inner} of the free body"
+    if faces:
+        each = (count - inner) // (faces - 1) if faces > 1 else 0
+        of_interfaces = f"{count - inner} of {plural(faces, 'interface')}"
+        what = f"{of_interfaces}{f', {each} ({faces} - 1)' if each else ''}, and {inner} inside"
+    hertz = ", ".join(f"{x:.4g}" for x in modes["frequencies"][:6]) + (", ..." if count > 6 else "")
+    names = f" ({', '.join(modes['interfaces'])})" if faces else ""
+    centre = ", ".join(f"{x:.4g}" for x in modes["centre_of_mass"])
+    many = f"; more than {MANY_MODES} modes make each evaluation slow" if count > MANY_MODES else ""
+    return (
+        f"{plural(count, 'mode')}, {what}{names}; free at {hertz} Hz; {modes['mass']:.6g} kg about [{centre}] m{many}"
+    )
 
 
 def _problems_of_file(file: Path) -> Sequence[Problem]:
@@ -109,6 +133,7 @@ def _facts_of_assembly(
 ) -> dict[str, Any]:
     """Return the facts of an assembled mechanism: sizes, rank, degrees of freedom, redundant rows and notes."""
     from symgen.describe.files.joints_at_centres import warnings_on_centres
+    from symgen.describe.files.large_angles import warnings_on_angles
 
     compiled = loaded.compile()
     start = loaded.assemble(compiled, parameters, strict=strict, held=held)
@@ -118,7 +143,7 @@ def _facts_of_assembly(
         "mechanism": loaded.name,
         "title": mechanism.title,
         "sizes": {
-            "bodies": len(mechanism.bodies),
+            "bodies": sum(body.carried is None for body in mechanism.bodies),
             "joints": len(mechanism.joints),
             "forces": len(mechanism.forces),
             "parameters": len(mechanism.parameters) - len(mechanism.inputs),
@@ -129,12 +154,28 @@ def _facts_of_assembly(
         },
         "rank": start.rank,
         "degrees_of_freedom": info.nv - start.rank,
+        **({"modal_bodies": _facts_of_modes(mechanism)} if mechanism.has_modal_bodies else {}),
         "redundant_rows": list(start.redundant_rows),
         "dropped_rows": list(info.dropped_rows),
         "notes": list(start.notes),
-        "warnings": [*warnings_on_centres(mechanism), *start.warnings],
+        "warnings": [*warnings_on_centres(mechanism), *warnings_on_angles(mechanism), *start.warnings],
         "start": {
             "q": {each.name: float(x) for each, x in zip(info.coordinates, q, strict=True)},
             "v": {each.name: float(x) for each, x in zip(info.velocities, v, strict=True)},
         },
+    }
+
+
+def _facts_of_modes(mechanism: Mechanism) -> dict[str, Any]:
+    """Return what the files of modal bodies have, by body."""
+    return {
+        body.name: {
+            "inner": body.modal.inner,
+            "interfaces": [x.name for x in mechanism.bodies if x.carried is not None and x.carried.host == body.name],
+            "frequencies": [math.sqrt(k / body.modal.mass) / math.tau for k in body.modal.stiffness],
+            "mass": body.modal.mass,
+            "centre_of_mass": [evaluate(e, {}) for e in body.centre_of_mass],
+        }
+        for body in mechanism.bodies
+        if body.modal is not None
     }

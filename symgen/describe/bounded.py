@@ -11,7 +11,7 @@ from symgen.base.vocabulary.expressions import Expr
 from symgen.base.vocabulary.measures import Effort, Holonomic, Measure
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Event, Output
+    from symgen.describe.mechanism import ModeEvent, Output
 
 
 class RowFamily(msgspec.Struct, frozen=True):
@@ -62,7 +62,12 @@ class BoundedRow(Protocol):
 
     @property
     def name(self) -> str:
-        """Name, with which the names of its events and outputs begin."""
+        """Name, with which the names of its events and outputs begin; several rows may share it."""
+        ...
+
+    @property
+    def label(self) -> str:
+        """Name that no other row has."""
         ...
 
     @property
@@ -137,7 +142,17 @@ class BoundedRow(Protocol):
 
     @property
     def pressed(self) -> tuple[str, ...]:
-        """Rows of a joint whose forces are the reaction that bounds depend on; none where they do not."""
+        """Rows whose forces are what bounds depend on: the reaction of a joint, or a gap's; none where they do not."""
+        ...
+
+    @property
+    def signed(self) -> bool:
+        """Whether what presses is the force of a one-sided row, which has a sign, and not the reaction of a joint."""
+        ...
+
+    @property
+    def in_contact(self) -> bool:
+        """Whether it is a row of a contact, of a gap or of the friction along it."""
         ...
 
     @property
@@ -170,7 +185,7 @@ class BoundedRow(Protocol):
         """The effort that takes energy, a formula of outputs."""
         ...
 
-    def events(self, beside: Sequence[BoundedRow]) -> tuple[Event, ...]:
+    def events(self, beside: Sequence[BoundedRow]) -> tuple[ModeEvent, ...]:
         """Return the events at which its mode is chosen anew; it may carry the forces of rows beside it."""
         ...
 

@@ -14,6 +14,7 @@ from symgen.base.vocabulary.expressions import ZERO, Expr
 from symgen.base.vocabulary.measures import Direction, Effort, Flexure, Marker, Measure, Row
 from symgen.base.vocabulary.rotations import IDENTITY, Orientation
 from symgen.describe.bounded import BoundedRow
+from symgen.describe.modal_body import ACCELERATION, COORDINATE, MOST_MODES, SPEED, Carried, Modal, mode_names
 from symgen.describe.spanning_tree import Topology
 from symgen.describe.table_functions import Table
 
@@ -28,6 +29,7 @@ ACCELERATIONS = {
     "wx": "alphax",
     "wy": "alphay",
     "wz": "alphaz",
+    **dict(zip(mode_names(SPEED, MOST_MODES), mode_names(ACCELERATION, MOST_MODES), strict=True)),
 }
 
 
@@ -68,7 +70,7 @@ class Parameter(msgspec.Struct, frozen=True, omit_defaults=True):
 
 
 class Body(msgspec.Struct, frozen=True):
-    """A planar rigid body or point mass.
+    """A planar rigid body or point mass, a modal body, or an interface that a modal body carries.
 
     All points are relative to the body frame's origin; `position` is where that origin starts (approximately: assembly
     closes the mechanism) and `angle` how far the body frame is turned from the ground frame.
@@ -83,6 +85,8 @@ class Body(msgspec.Struct, frozen=True):
     angle: Expr = ZERO
     velocity: tuple[Expr | None, ...] = (None, None)  # of the centre of mass; None: completed by assembly
     angular_velocity: Expr | None = None
+    modal: Modal | None = None
+    carried: Carried | None = None
 
     @property
     def is_point(self) -> bool:
@@ -92,17 +96,17 @@ class Body(msgspec.Struct, frozen=True):
     @property
     def coordinates(self) -> tuple[str, ...]:
         """Names of the coordinates, without the body's."""
-        return ("x", "y") if self.is_point else ("x", "y", "theta")
+        return _names_of_body(self, ("x", "y"), ("theta",), COORDINATE)
 
     @property
     def speeds(self) -> tuple[str, ...]:
         """Names of the velocities, without the body's."""
-        return ("vx", "vy") if self.is_point else ("vx", "vy", "omega")
+        return _names_of_body(self, ("vx", "vy"), ("omega",), SPEED)
 
     @property
     def massless(self) -> bool:
         """Whether mass or inertia is the number 0."""
-        return ZERO in (self.mass, self.inertia)
+        return self.carried is None and ZERO in (self.mass, self.inertia)
 
     @property
     def weightless(self) -> bool:
@@ -111,7 +115,7 @@ class Body(msgspec.Struct, frozen=True):
 
 
 class SpatialBody(msgspec.Struct, frozen=True):
-    """A spatial rigid body or point mass.
+    """A spatial rigid body or point mass, a modal body, or an interface that a modal body carries.
 
     As for a planar `Body`; `inertia` holds the entries (xx, yy, zz, xy, xz, yz) of the tensor about the centre of mass
     along the axes of the body frame, None for a point mass, which has no orientation. `angular_velocity` is given in
@@ -127,6 +131,8 @@ class SpatialBody(msgspec.Struct, frozen=True):
     orientation: Orientation = IDENTITY
     velocity: tuple[Expr | None, ...] = (None, None, None)
     angular_velocity: tuple[Expr | None, ...] = (None, None, None)
+    modal: Modal | None = None
+    carried: Carried | None = None
 
     @property
     def is_point(self) -> bool:
@@ -136,17 +142,17 @@ class SpatialBody(msgspec.Struct, frozen=True):
     @property
     def coordinates(self) -> tuple[str, ...]:
         """Names of the coordinates, without the body's."""
-        return ("x", "y", "z") if self.is_point else ("x", "y", "z", "e0", "e1", "e2", "e3")
+        return _names_of_body(self, ("x", "y", "z"), ("e0", "e1", "e2", "e3"), COORDINATE)
 
     @property
     def speeds(self) -> tuple[str, ...]:
         """Names of the velocities, without the body's."""
-        return ("vx", "vy", "vz") if self.is_point else ("vx", "vy", "vz", "wx", "wy", "wz")
+        return _names_of_body(self, ("vx", "vy", "vz"), ("wx", "wy", "wz"), SPEED)
 
     @property
     def massless(self) -> bool:
         """Whether a mass or moment of inertia is the number 0."""
-        return ZERO in (self.mass, *(self.inertia or ())[:3])
+        return self.carried is None and ZERO in (self.mass, *(self.inertia or ())[:3])
 
     @property
     def weightless(self) -> bool:
@@ -155,6 +161,22 @@ class SpatialBody(msgspec.Struct, frozen=True):
 
 
 AnyBody = Body | SpatialBody
+
+
+def _names_of_body(body: AnyBody, moving: tuple[str, ...], turning: tuple[str, ...], mode: str) -> tuple[str, ...]:
+    """Return the names of coordinates or velocities of a body; an interface, which its body carries, has none."""
+    if body.carried is not None:
+        return ()
+    own = moving if body.is_point else moving + turning
+    return own if body.modal is None else own + body.modal.names(mode)
+
+
+def names_of_modal_body(dimension: int, count: int) -> tuple[str, ...]:
+    """Return the names of coordinates, velocities and accelerations that a modal body has."""
+    moving, turning = tuple("xyz"[:dimension]), ("theta",) if dimension == 2 else ("e0", "e1", "e2", "e3")
+    speeds = tuple(f"v{x}" for x in moving) + (("omega",) if dimension == 2 else ("wx", "wy", "wz"))
+    speeds += mode_names(SPEED, count)
+    return (*moving, *turning, *mode_names(COORDINATE, count), *speeds, *(ACCELERATIONS[speed] for speed in speeds))
 
 
 class Shape(msgspec.Struct, frozen=True):
@@ -295,6 +317,16 @@ class Event(msgspec.Struct, frozen=True):
     text: str = ""
 
 
+class ModeEvent(Event, frozen=True):
+    """An event of a row with bounds, at which modes are chosen anew.
+
+    `word` says what happens to the row, and `row` is its number among the rows with bounds of a mechanism.
+    """
+
+    word: str = ""
+    row: int = -1
+
+
 class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     """A validated mechanism, all of it planar or all of it spatial.
 
@@ -330,7 +362,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
 
     def __repr__(self) -> str:
         counted = (
-            (self.bodies, "body", "bodies"),
+            ([body for body in self.bodies if body.carried is None], "body", "bodies"),
             (self.joints, "joint", "joints"),
             (self.forces, "force", "forces"),
             (self.parameters, "parameter", "parameters"),
@@ -352,6 +384,11 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     def has_massless(self) -> bool:
         """Whether a body has no mass, so that M cannot be inverted."""
         return any(body.massless for body in self.bodies)
+
+    @property
+    def has_modal_bodies(self) -> bool:
+        """Whether a body has modes."""
+        return any(body.modal is not None for body in self.bodies)
 
     @property
     def body_coordinates(self) -> int:

@@ -22,7 +22,7 @@ from symgen.run.planning.continuation import settings_as_json
 from symgen.run.planning.dead_centre import dead_centre_at_end
 from symgen.run.planning.tree import CarriedOutcome
 from symgen.run.planning.undefined import undefined_at_end
-from symgen.run.single.events import impact_notes, record_of, rest_notes, stop_notes
+from symgen.run.single.events import gap_notes, impact_notes, record_of, rest_notes, stop_notes
 from symgen.run.single.last_state import LastState
 from symgen.run.single.simulation import SHOWN
 
@@ -71,6 +71,7 @@ def build_result(
     stiff = () if verdict.status == FAILED else stiff_by_steps(run, outcome)
     notes = (
         *start.notes,
+        *gap_notes(outcome),
         *_sentences_on_rows(compiled, outcome, forces),
         *_warnings_of_dense_factorisation(compiled, outcome),
         *stiff,
@@ -147,6 +148,11 @@ def _judge_outcome(
         from symgen.result.bending import warning_on_bending
 
         doubt = warning_on_bending(mechanism, values, outcome.states[:, : outcome.compiled.info.nq])
+        verdict = verdict if doubt is None else replace(verdict, status=UNVERIFIED, reason=doubt)
+    if verdict.status != FAILED and mechanism.has_modal_bodies:
+        from symgen.result.modal_limits import warning_on_modes
+
+        doubt = warning_on_modes(mechanism, values, outcome)
         verdict = verdict if doubt is None else replace(verdict, status=UNVERIFIED, reason=doubt)
     if verdict.status == FAILED and (undefined := undefined_at_end(mechanism, outcome)):
         verdict = replace(verdict, reason=f"{str(verdict.reason).partition('; ')[0]}: {undefined}")

@@ -9,6 +9,7 @@ from symgen.base.vocabulary.expressions import Expr, readings_in
 from symgen.base.vocabulary.measures import GROUND, Integral
 from symgen.compile.native.javascript_code import HELPERS, javascript_functions
 from symgen.compile.native.read import Foreign
+from symgen.describe.facts.carriers import bodies_of_reactions, seats_on_carriers
 from symgen.describe.formulas.readings import TABLES as FORMULAS
 from symgen.describe.formulas.readings import integrals_of_outputs
 from symgen.describe.mechanism import Mechanism
@@ -110,20 +111,18 @@ def _functions_by_table(
 
 def _seat_formulas(mechanism: Mechanism) -> tuple[list[tuple[str, Expr]], dict[str, tuple[int, int]]]:
     """Return formulas of the points at which reactions act, and the first places of point and centre by joint."""
-    formulas, places, markers = list[tuple[str, Expr]](), dict[str, tuple[int, int]](), dict(mechanism.seats)
-    for joint in mechanism.joints:
-        body = joint.bodies[0]
-        if joint.name not in markers:
+    formulas, places = list[tuple[str, Expr]](), dict[str, tuple[int, int]]()
+    seats = seats_on_carriers(mechanism)
+    for joint, body in bodies_of_reactions(mechanism).items():
+        seat = seats.get(joint)
+        if seat is None:
             continue
         first = len(formulas)
-        formulas += [
-            (f"point of {joint.name} {axis}", x) for axis, x in zip("xyz", markers[joint.name].point, strict=False)
-        ]
-        places[joint.name] = first, -1
+        formulas += [(f"point of {joint} {axis}", x) for axis, x in zip("xyz", seat[0], strict=False)]
+        places[joint] = first, -1
         if body != GROUND:
-            places[joint.name] = first, len(formulas)
-            centre = mechanism.body(body).centre_of_mass
-            formulas += [(f"centre for {joint.name} {axis}", x) for axis, x in zip("xyz", centre, strict=False)]
+            places[joint] = first, len(formulas)
+            formulas += [(f"centre for {joint} {axis}", x) for axis, x in zip("xyz", seat[1], strict=False)]
     return formulas, places
 
 
@@ -142,13 +141,13 @@ def _column_data(
         q, v = q + len(body.coordinates), v + len(body.speeds)
     joints = [
         [
-            joint.name,
-            names.index(joint.bodies[0]) if joint.bodies[0] != GROUND else -1,
-            *places.get(joint.name, (-1, -1)),
+            joint,
+            names.index(body) if body != GROUND else -1,
+            *places.get(joint, (-1, -1)),
         ]
-        for joint in mechanism.joints
+        for joint, body in bodies_of_reactions(mechanism).items()
     ]
-    order = {joint.name: i for i, joint in enumerate(mechanism.joints)}
+    order = {joint[0]: i for i, joint in enumerate(joints)}
     sections = compiled.info.sections
     return {
         "tables": {

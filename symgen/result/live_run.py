@@ -65,18 +65,20 @@ def live_of_run(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") 
     names += [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]
     begin = np.array([state[n] for n in names]) if set(names) <= set(state) else None
     if prepared.tree is not None:
-        return _live_part_on_tree(prepared, prepared.tree, step, begin)
+        return _live_part_on_tree(prepared, prepared.tree, step, begin, run["until"])
     live, note = live_part(
         mechanism, prepared.compiled, prepared.start, step, begin, acting=prepared.mechanism, run=prepared
     )
     if live is None and run["coordinates"] == "absolute":  # a tree has a tenth of the operations, or less
         prepared = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
         if prepared.tree is not None:
-            return _live_part_on_tree(prepared, prepared.tree, step, begin)
-    return _add_columns(live, mechanism, prepared), note
+            return _live_part_on_tree(prepared, prepared.tree, step, begin, run["until"])
+    return _add_columns(live, mechanism, prepared, run["until"]), note
 
 
-def _live_part_on_tree(run: Prepared, tree: TreeRun, step: float, initial: Array | None) -> tuple[Live | None, str]:
+def _live_part_on_tree(
+    run: Prepared, tree: TreeRun, step: float, initial: Array | None, until: float
+) -> tuple[Live | None, str]:
     """Return the live part in joint coordinates, which cannot close bodies: without sliders that move their start."""
     from symgen.run.planning.plan import Purpose
     from symgen.run.planning.prepare import prepare
@@ -107,11 +109,11 @@ def _live_part_on_tree(run: Prepared, tree: TreeRun, step: float, initial: Array
     live, note = live_part(mechanism, run.compiled, start, step, still=moving, acting=run.mechanism, run=run)
     if live is not None and moving:
         note = f"no sliders for {', '.join(moving)}: they move the start, which pages close in coordinates of bodies"
-    return _add_columns(live, mechanism, run), note
+    return _add_columns(live, mechanism, run, until), note
 
 
-def _add_columns(live: Live | None, mechanism: Mechanism, run: Prepared) -> Live | None:
-    """Return a live part that works out all columns that it can."""
+def _add_columns(live: Live | None, mechanism: Mechanism, run: Prepared, until: float) -> Live | None:
+    """Return a live part of motions until a time [s], also where an event ended the run before, with all columns."""
     if live is None:
         return None
     law = run.compiled.law
@@ -125,6 +127,7 @@ def _add_columns(live: Live | None, mechanism: Mechanism, run: Prepared) -> Live
     ]
     bodies = None if run.tree is None else run.tree.bodies
     text, spec = live_columns(mechanism, run.compiled, run.start, bodies, run.mechanism)
+    parameters = [*live.spec["parameters"], *gains]
     return replace(
-        live, columns=text, spec={**live.spec, "parameters": [*live.spec["parameters"], *gains], "columns": spec}
+        live, columns=text, spec={**live.spec, "until": float(until), "parameters": parameters, "columns": spec}
     )

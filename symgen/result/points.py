@@ -18,6 +18,8 @@ from symgen.base.vocabulary.rotations import rotation_matrix_of
 from symgen.describe.facts.lengths import origin_of_sizes, own_length
 from symgen.describe.formulas.evaluate import scalar_values
 from symgen.describe.mechanism import Mechanism
+from symgen.describe.modal_body import Carried
+from symgen.result.interface_poses import interface_poses
 
 Array = NDArray[np.float64]
 
@@ -38,6 +40,8 @@ class Points:
         The place that a point is measured from (`symgen.describe.facts.lengths.origin_of_sizes`).
     speeds : tuple of int
         For each body where its velocities begin.
+    carried : tuple of (int, int, Carried)
+        Interfaces of modal bodies: where the coordinates of the body begin, and where its modes do.
     """
 
     bodies: tuple[tuple[int, float], ...]
@@ -45,12 +49,19 @@ class Points:
     slender: bool = False
     datum: tuple[float, ...] = ()
     speeds: tuple[int, ...] = ()
+    carried: tuple[tuple[int, int, Carried], ...] = ()
 
     @classmethod
     def of_mechanism(cls, mechanism: Mechanism, parameters: Mapping[str, float]) -> Points:
         """Collect the bodies of `mechanism` with the lengths that they have at these parameters."""
         bodies, speeds, first, first_speed = [], [], 0, 0
+        carried, places = list[tuple[int, int, Carried]](), dict[str, tuple[int, int]]()
         for body in mechanism.bodies:
+            if body.carried is not None:
+                carried.append((*places[body.carried.host], body.carried))
+                continue
+            count = 0 if body.modal is None else len(body.modal.stiffness)
+            places[body.name] = first, first + len(body.coordinates) - count
             bodies.append((first, own_length(body, parameters)))
             speeds.append(first_speed)
             first += len(body.coordinates)
@@ -58,7 +69,7 @@ class Points:
         slender = any(force.flexures for force in mechanism.forces)
         dimension = 3 if mechanism.space == "spatial" else 2
         datum = tuple(origin_of_sizes(mechanism, scalar_values(parameters))[:dimension])
-        return cls(tuple(bodies), dimension, slender, datum, tuple(speeds))
+        return cls(tuple(bodies), dimension, slender, datum, tuple(speeds), tuple(carried))
 
     def size(self, q: Array) -> float:
         """Return the mechanism's size [m]: the longest body's own length.
@@ -99,7 +110,17 @@ class Points:
                 tips = rotation_matrices(a[:, turn]) - rotation_matrices(b[:, turn])
                 candidates += [np.linalg.norm(centre + length * tips[:, :, k], axis=1) for k in range(self.dimension)]
             largest = np.maximum(largest, np.max(candidates, axis=0))
+        for interface in self.carried:
+            away = self._interface_places(interface, a) - self._interface_places(interface, b)
+            largest = np.maximum(largest, np.linalg.norm(away, axis=1))
         return largest
+
+    def _interface_places(self, interface: tuple[int, int, Carried], q: Array) -> Array:
+        """Return the places of an interface, shape (k, dimension)."""
+        (first, modes, carried), n = interface, self.dimension
+        turn = slice(first + n, first + n + (1 if n == 2 else 4))
+        own = interface_poses(carried, q[:, modes : modes + len(carried.shape)]).origins
+        return np.asarray(q[:, first : first + n] + (rotation_matrices(q[:, turn]) @ own[:, :, np.newaxis])[:, :, 0])
 
     def speed_distances(self, a: tuple[Array, Array], b: tuple[Array, Array] | None = None) -> Array:
         """Return the largest difference of the points' velocities [m/s] over all bodies at each time, shape (k,).

@@ -12,7 +12,10 @@ import numpy as np
 from symgen.base.errors import plural
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.base.vocabulary.measures import GROUND
+from symgen.describe.facts.carriers import bodies_of_reactions
 from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.modal_body import COORDINATE, mode_names
+from symgen.result.interface_poses import interface_poses
 from symgen.result.labelled import Array, Labelled
 from symgen.result.points import rotation_matrices
 from symgen.result.signals import SignalTables, fill_table, signals_of_forces
@@ -20,6 +23,7 @@ from symgen.run.layout import abi
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
+    from symgen.describe.modal_body import Carried
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
     from symgen.run.single.outcome import Motion
 
@@ -29,11 +33,12 @@ class Seat:
     """Where the reaction of a joint acts: its first body, and its point there relative to the centre of mass [m].
 
     On the ground the point is relative to the origin; where it varies, `place` has a row for each state. It is 0 for
-    kinds of joints without a point ``at``.
+    kinds of joints without a point ``at``. On an interface, `carried`, it is a point of that, while `body` carries it.
     """
 
     body: str
     place: tuple[float, ...] | Array
+    carried: Carried | None = None
 
 
 @dataclass(frozen=True)
@@ -88,13 +93,21 @@ class Acting:
                 force, moment = self._reaction_on_ground(generalised, columns)
             else:
                 force, moment = self._reaction_on_body(seat.body, generalised, columns[seat.body])
-            place = self._three_components(np.asarray(seat.place))[..., np.newaxis, :]
+            place = self._three_components(self._place_on_body(seat))[..., np.newaxis, :]
             arm = (place @ np.swapaxes(self._axes_of_body(seat.body), 1, 2))[..., 0, :]
             moment = moment - np.cross(arm, force)
             vectors[joint] = {"F": force, "M": moment}
         return self._make_table(
             "reactions", (vectors[joint][part[0]][:, "xyz".index(part[1:] or "z")] for joint, part in self._parts)
         )
+
+    def _place_on_body(self, seat: Seat) -> Array:
+        """Return the place of a seat from the centre of mass of its body, in axes of the body."""
+        if seat.carried is None:
+            return np.asarray(seat.place)
+        names = mode_names(COORDINATE, len(seat.carried.shape))
+        modes = np.column_stack(self._coordinates_of_body(seat.body, names))
+        return interface_poses(seat.carried, modes).place(np.asarray(seat.place))
 
     @cached_property
     def signals(self) -> SignalTables:
@@ -196,17 +209,17 @@ _SHARE = 1e-8
 
 
 def seats_of_reactions(mechanism: Mechanism, parameters: Mapping[str, float]) -> dict[str, Seat]:
-    """Return where the reactions of all joints act, by name: at the points ``at`` of their first bodies."""
-    markers, nothing = dict(mechanism.seats), (0.0,) * len(mechanism.gravity)
-    by_joint = dict[str, Seat]()
-    for joint in mechanism.joints:
-        body, place = joint.bodies[0], nothing
-        if joint.name in markers:
-            place = tuple(evaluate(e, parameters, f"joints.{joint.name}.at") for e in markers[joint.name].point)
-            if body != GROUND:
-                centre = (evaluate(e, parameters, f"bodies.{body}") for e in mechanism.body(body).centre_of_mass)
-                place = tuple(x - c for x, c in zip(place, centre, strict=True))
-        by_joint[joint.name] = Seat(body, place)
+    """Return where the reactions of joints act, by name: at the points ``at`` of their first bodies."""
+    markers, nothing, by_joint = dict(mechanism.seats), (0.0,) * len(mechanism.gravity), dict[str, Seat]()
+    bodies = {body.name: body for body in mechanism.bodies}
+    for name, body in bodies_of_reactions(mechanism).items():
+        place, carried = nothing, None
+        if name in markers:
+            place = tuple(evaluate(e, parameters, f"joints.{name}.at") for e in markers[name].point)
+            if (on := markers[name].body) != GROUND:
+                centre = (evaluate(e, parameters, f"bodies.{on}") for e in bodies[on].centre_of_mass)
+                place, carried = tuple(x - c for x, c in zip(place, centre, strict=True)), bodies[on].carried
+        by_joint[name] = Seat(body, place, carried)
     return by_joint
 
 

@@ -325,9 +325,9 @@ class Result(MotionTables):
 
     def run_facts(self) -> dict[str, Any]:
         """Return the settings that a page shows and begins its live part with, by the names of JSON."""
-        names = ("method", "integrator", "status", "reason", "parameters", "inputs", "coordinates", "step", "start")
+        names = ("method", "integrator", "status", "reason", "parameters", "inputs", "coordinates", "step", "until")
         return {
-            **{name: getattr(self, name) for name in (*names, "watched")},
+            **{name: getattr(self, name) for name in (*names, "start", "watched")},
             "rank_events": [asdict(event) for event in self.rank_events],
             "events": [{"t": event.t, "name": event.name} for event in self.events],
         }

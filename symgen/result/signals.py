@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from symgen.base.arguments import words
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.vocabulary.measures import GROUND
+from symgen.describe.facts.carriers import bodies_of_reactions
 from symgen.describe.formulas.readings import TABLES as FORMULAS
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.describe.parts.columns import column_name
@@ -96,7 +97,7 @@ def signals_of_run(mechanism: Mechanism, info: ModelInfo) -> SignalTables:
             "a", ((acceleration_name(v.name), f"{v.unit}^2") for v in info.velocities), e.ACCELERATION
         ),
         "joint_coordinates": _signals_of_table("joint_coordinates", joints, e.JOINT),
-        **signals_of_forces(info, {joint.name: joint.bodies[0] for joint in mechanism.joints}),
+        **signals_of_forces(info, bodies_of_reactions(mechanism)),
         **signals_of_formulas(mechanism),
         "energy": (
             Signal("energy", "kinetic", "J", e.STATUS, abi.KINETIC),

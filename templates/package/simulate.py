@@ -43,6 +43,13 @@ class System:
         self.y = self.corrected(0.0, np.array(RUN["y"]))
         self.w[RUN["step_at"]] = step
 
+    def rate(self, t, y):
+        """Return the rate of a state, as integrators of other libraries call it."""
+        ydot = np.zeros(len(y))
+        if self.law.rhs(t, y, self.p, self.w, self.iw, ydot):  # a pivot is doubtful
+            self.law.confirm(t, y, self.p, self.w, self.iw, ydot)
+        return ydot
+
     def corrected(self, t, y):
         """Return a state at the end of a step as the method corrects it."""
         if self.law.accept(t, y, self.p, self.w, self.iw) & 1 or not np.isfinite(y).all():

@@ -97,7 +97,8 @@ def test_nothing_is_computed_with_limits(swung):
 def test_a_report_names_what_is_exceeded_and_the_room(swung):
     document = machine_report(*swung)
     (limits,) = (section for section in document.sections if section.title == "Limits")
-    assert limits.text == ("Exceeded: swing, reach.",)
+    assert document.verdict.text.startswith("2 of 5 limits are exceeded: swing (")
+    assert " and reach (" in document.verdict.text
     moods = [row[-1].mood for row in limits.tables[0].rows]
     assert moods == ["good", "good", "bad", "bad", "good"]
     glance = {row[0]: row[1:] for row in document.sections[0].tables[0].rows}

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.in_coordinates import in_coordinates
 
 from symgen.api import load
 from symgen.base.settings import Settings
@@ -32,8 +33,7 @@ def settled(chromium: Chromium) -> float:
     return float(chromium.run(painted))
 
 
-@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
-@pytest.mark.parametrize("name", sorted(catalogue.all_names()))
+@pytest.mark.parametrize(("name", "coordinates"), in_coordinates(sorted(catalogue.all_names())))
 def test_pages_of_the_catalogue(name: str, coordinates: str, chromium: Chromium, tmp_path: Path) -> None:
     """Nothing is said on the console, nothing asked of a network; all that is folded can be opened."""
     path = page_of(name, tmp_path, "--coordinates", coordinates)

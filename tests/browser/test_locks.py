@@ -15,7 +15,7 @@ pytestmark = pytest.mark.browser
 
 @pytest.mark.parametrize("name", LOCKED)
 def test_a_page_ends_where_a_run_does_with_its_sentence(name: str, tmp_path: Path, chromium: Chromium) -> None:
-    """A driver that is 1.5 times as fast locks after two thirds of the time."""
+    """A driver that is faster locks sooner."""
     described, expected, _ = LOCKED[name]
     motor = described["joints"]["motor"]
     joints = {**described["joints"], "motor": {**motor, "value": motor["value"].replace("t", "pace*t")}}
@@ -29,8 +29,9 @@ def test_a_page_ends_where_a_run_does_with_its_sentence(name: str, tmp_path: Pat
     assert found[0] == pytest.approx(expected, abs=1e-5) and found[1:] == moved[1:]
     assert len(chromium.run("symgen.run({}, 0.3)")) >= 18  # short of it there is a state
     chromium.run("document.querySelectorAll('details').forEach((d) => { d.open = true; })")
-    typed(chromium, "pace", "1.5")
-    settled(chromium)
-    found = parts(chromium.run(CLOSES))
-    assert found[0] == pytest.approx(expected / 1.5, abs=1e-5) and found[1:] == moved[1:]
+    for pace in (1.5, 1.38, 1.58, 1.62, 1.72, 1.88):  # steps that halve come near to the lock, as near as chance wants
+        typed(chromium, "pace", str(pace))
+        settled(chromium)
+        found = parts(chromium.run(CLOSES))
+        assert found[0] == pytest.approx(expected / pace, abs=1e-5) and found[1:] == moved[1:]
     assert chromium.said == []

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from support.emitted import mechanism_of
+from support.in_coordinates import in_coordinates
 from support.random_closed import make
 
 from symgen.api import Model, load
@@ -166,8 +167,7 @@ def uncontracted() -> Iterator[Uncontracted]:
         yield process
 
 
-@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(("name", "coordinates"), in_coordinates(NAMES))
 def test_rates_are_those_of_the_compiled_code(
     name: str, coordinates: str, chromium: Chromium, uncontracted: Uncontracted, tmp_path: Path
 ) -> None:

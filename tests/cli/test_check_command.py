@@ -31,7 +31,7 @@ ERRORS = [
     (5, "parameters.length: expected a number or an expression of parameters, got the unknown name 'width'"),
     (9, "bodies.rod.inertia: expected a value above 0, got -1.0"),
     (19, "outputs.far: expected a number or an expression of t, parameters and what is known of the motion, got the"),
-    (22, "run: expected the keys integrator, until, step, output_step, max_step, predictable_until, verify, got the"),
+    (22, "run: got the unknown key 'util'; did you mean 'until'? (expected the keys integrator, until, step, output_"),
 ]
 
 

@@ -22,7 +22,7 @@ REFUSED = {
     "run four-bra": "model: expected a catalogue name or the path of a file, got 'four-bra'; did you mean",
     "run nowhere/four-bar.toml": "which is no file",
     "run four-bar --stpe 1e-3": "there is no option '--stpe'; did you mean '--step'?",
-    "run four-bar --step abc": "'abc' is not a valid float",
+    "run four-bar --step abc": "'--step': expected a number, got 'abc' (symgen run --help)",
     "run four-bar --step nan": "--step: expected a finite number above 0, got nan",
     "run four-bar --rtol 0": "--rtol: expected a finite number above 0, got 0",
     "run four-bar --integrator rk4 --until 1e12": "at most 2e9 steps",

@@ -1,6 +1,7 @@
 """Every mistake in a file gives one sentence that names the file, the key, what was expected and what was found."""
 
 import copy
+import re
 import subprocess
 import sys
 import tomllib
@@ -143,8 +144,8 @@ CASES = [
     (
         "joints.pin.att",
         1,
-        "joints.pin: expected the keys type, start, cut, rotor_inertia, gear_ratio, friction, stop, between, at, "
-        "axis, reference",
+        "joints.pin: got the unknown key 'att'; did you mean 'at'? (expected the keys type, start, cut, "
+        "rotor_inertia, gear_ratio, friction, stop, between, at, axis, reference)",
     ),
     ("joints.string.length", 0.0, "joints.string.length: expected a value above 0, got 0.0"),
     ("joints.string.at", ["centre", [0.1, 0.0]], "expected 'centre' or [0, 0], the one point of the point mass 'bob'"),
@@ -239,8 +240,7 @@ def test_one_sentence(path, value, sentence):
         validate(changed(path, value), "rod.toml")
     message = str(error.value)
     assert message.startswith("rod.toml: ")
-    assert ": expected " in message
-    assert ", got " in message
+    assert re.search(r": expected .*, got |: got .*; did you mean .* \(expected ", message)
     assert sentence in message
     assert "\n" not in message
     assert error.value.exit_code == 2
@@ -261,9 +261,9 @@ def write(tmp_path, content):
 @pytest.mark.parametrize(
     ("content", "sentence"),
     [
-        ("[mechanism", "rod.toml: expected a TOML file, got a syntax error: expected ']' at the end of a table"),
-        ("[a]\n[a]\n", "rod.toml: expected a TOML file, got a syntax error: cannot declare ('a',) twice (at line 2"),
-        (GOOD + "\n[joints.pin]\n", "expected a TOML file, got a syntax error: cannot declare ('joints', 'pin') twice"),
+        ("[mechanism", "rod.toml: expected ']' at the end of a table's name, got '[mechanism' (at line 1, column 11)"),
+        ("[a]\n[a]\n", "rod.toml: expected one table [a], got a second one (at line 2"),
+        (GOOD + "\n[joints.pin]\n", "expected one table [joints.pin], got a second one (at line 39"),
         (b"\xff\xfe", "rod.toml: expected text in UTF-8, got another byte at position 0"),
         ("a = " + "[" * 5000 + "]" * 5000, "expected tables nested at most 20 levels deep, got deeper nesting"),
         ("a = " + "[" * 30 + "]" * 30, "expected tables nested at most 20 levels deep, got deeper nesting"),

@@ -82,7 +82,10 @@ def test_margins_of_carriers_read_bounds_that_vary() -> None:
 @pytest.mark.parametrize(
     ("keys", "sentence"),
     [
-        ('friction = { sliding = "presure" }', "friction.sliding: expected a number or an expression of t, rate,"),
+        (
+            'friction = { sliding = "presure" }',
+            "friction.sliding: got the unknown name 'presure'; did you mean 'pressure",
+        ),
         ('friction = { sliding = 1.0, static = "2 + rate" }', "friction.static: expected a number or an expression"),
         ('friction = { sliding = "-most" }', "friction.sliding: expected a value of at least 0, got -3.0"),
         ('friction = { sliding = "most", static = "most/2" }', "friction.static: expected a bound of at least that"),

@@ -10,6 +10,7 @@ from symgen.api import load
 from symgen.base.errors import InputError
 from symgen.describe import catalogue
 from symgen.describe.files.load import parse_toml
+from symgen.describe.files.origins import Source
 from symgen.describe.files.places import outline_of_document
 from symgen.describe.files.renaming import remove_from_text, rename_in_text
 from symgen.describe.files.section_words import words_of_sections
@@ -267,13 +268,13 @@ def test_a_parameter_goes_with_its_line_unless_it_is_needed() -> None:
 @pytest.mark.slow_cases("jansen-leg", "scissor-lift")
 @pytest.mark.parametrize("name", [*catalogue.names(catalogue.MACHINES), "four-bar", "andrews", "flyball-governor"])
 def test_every_body_and_joint_of_the_catalogue_can_be_renamed(name: str) -> None:
-    text = text_of(name)
+    text, source = text_of(name), Source.of_file(catalogue.file_of_entry(name))
     raw = parse_toml(text, name)
     for section in ("bodies", "joints"):
         for old in [*raw.get(section, {})][:3]:
-            after = rename_in_text(text, f"{section}.{old}", "other_name", name)
-            assert collect_errors(parse_toml(after, name), name) == ()
-            assert rename_in_text(after, f"{section}.other_name", old, name) == text
+            after = rename_in_text(text, f"{section}.{old}", "other_name", source)
+            assert collect_errors(parse_toml(after, name), source) == ()
+            assert rename_in_text(after, f"{section}.other_name", old, source) == text
 
 
 # -- words -------------------------------------------------------------------------------------------------------------

@@ -26,6 +26,7 @@ from symgen.describe.files.validate import validate
 from symgen.describe.forces import FORCES
 from symgen.describe.formulas.identifiers import CALLABLE
 from symgen.describe.joints import JOINTS
+from symgen.describe.modal.modal_bodies import ModalSection, SpatialModalSection
 from symgen.describe.parts.event_sections import EventSection
 from symgen.describe.parts.sections import (
     BodySection,
@@ -275,6 +276,7 @@ def test_a_kind_stands_in_the_reference_with_all_its_keys(kind: str, registry: o
         ("bodies", "`[bodies.NAME]`", [BodySection]),
         ("bodies", "`[bodies.NAME]` in space", [SpatialBodySection, OrientationSection]),
         ("bodies", "`[beams.NAME]`", [BeamSection]),
+        ("bodies", "Modal bodies", [ModalSection, SpatialModalSection]),
     ],
 )
 def test_a_section_stands_in_the_reference_with_all_its_keys(

@@ -172,6 +172,13 @@ def built(name="a", **keys):
     return symgen.MechanismBuilder(name).body("b", **{"mass": 1, "inertia": 1, **keys})
 
 
+def reducing(argument):
+    """Reductions of a bar of two nodes with one argument."""
+    nodes, k = np.array([[0.0, 0.0], [1.0, 0.0]]), np.kron([[1.0, -1.0], [-1.0, 1.0]], np.diag([1.0, 0.0]))
+    good = {"nodes": nodes, "M": np.eye(4), "K": k, "inner": 1}
+    return lambda x, v: symgen.reduced(**(good | {argument: v}))
+
+
 def rows():
     """Rows of everything else: label, call on the fixtures, sentence."""
     vy = {"bob.vy": [1.0]}
@@ -195,6 +202,16 @@ def rows():
         "compare": lambda x, v: symgen.compare(x.model, progress=v),
     }.items():
         yield from each(f"progress of {name}", (3, "yes", []), call, "progress: expected a function")
+    for argument, sentence in (
+        ("nodes", "nodes: expected places of two nodes or more"),
+        ("M", "M: expected a"),
+        ("K", "K: expected a"),
+        ("interfaces", "interfaces: expected a dictionary of names and lists of nodes"),
+        ("inner", "inner: expected a whole number"),
+        ("rows", "rows: expected a dictionary of names and rows"),
+        ("outline", "outline: expected a list of lines"),
+    ):
+        yield from each(f"reduced {argument}", (3.5, "a", Thing()), reducing(argument), sentence)
     # analyses: the pendulum is not driven, but what is wrong with an argument is said first
     times = ["x", True, {"a": 1}, Thing(), 1j]
     yield from each("kinematics", times, lambda x, v: x.model.kinematics(v), "kinematics: times: expected a")
@@ -307,14 +324,26 @@ def rows():
     yield "save ending", lambda x: x.result.save("a.xls"), "save: expected a file ending in .nc"
     yield "save folder", lambda x: x.result.save("no/where/a.csv"), "save: expected a file in a folder that exists"
     yield "save null", lambda x: x.result.save("a\0.csv"), "save: expected a name that a file can have"
-    yield "columns", lambda x: x.result.columns("pints"), "table: expected one of q, v, a, lam, reactions"
-    yield "series of columns", lambda x: x.result.series("pints"), "table: expected one of q, v, a, lam, reactions"
+    yield (
+        "columns",
+        lambda x: x.result.columns("pints"),
+        "table: got 'pints'; did you mean 'points'?",
+    )
+    yield (
+        "series of columns",
+        lambda x: x.result.series("pints"),
+        "table: got 'pints'; did you mean 'points'?",
+    )
     yield "select", lambda x: x.result.select(3), "quantities: expected a list of names, got 3"
     yield "select name", lambda x: x.result.select(["bob.z"]), "quantity 'bob.z': expected a quantity of"
     yield "plot what", lambda x: x.result.plot("a.png", 3), "plot: expected a list of names, got 3"
     yield "plot over", lambda x: x.result.plot("a.png", "q", over=3), "over: expected a text, got 3"
     yield "plot over two", lambda x: x.result.plot("a.png", "q", over="bob"), "over: expected one column, got 'bob'"
-    yield "study plot what", lambda x: x.study.plot("a.png", "eror"), "plot: expected one of step, rtol, error"
+    yield (
+        "study plot what",
+        lambda x: x.study.plot("a.png", "eror"),
+        "plot: got 'eror'; did you mean 'error'?",
+    )
     yield "sweep plot what", lambda x: x.sweep.plot("a.png", "bob.z"), "quantity 'bob.z': expected a quantity of"
     yield "sweep plot over", lambda x: x.sweep.plot("a.png", over="bob.z"), "over: expected t, what varies, or"
     yield "plot panel", lambda x: x.result.plot("a.png", "energi"), "quantity 'energi': expected a quantity of"
@@ -517,7 +546,7 @@ def test_no_function_with_arguments_is_left_out():
     """Every public name that can be called, and every method of a public class that takes something, has rows."""
     tested = {
         *"load simulate compare sweep Model Settings MechanismBuilder Mechanism.body Mechanism.joint_named".split(),
-        *"list_methods list_integrators load_plugin write_report".split(),
+        *"list_methods list_integrators load_plugin write_report reduced".split(),
         *(
             f"Model.{n}"
             for n in "parameters compile equations_in generate draw assemble simulate start functions frame".split()

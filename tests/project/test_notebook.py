@@ -19,6 +19,7 @@ import symgen
 from symgen.base import keywords, settings
 from symgen.describe.files import builder_keys
 from symgen.describe.files.builder import MechanismBuilder
+from symgen.describe.modal.modal_bodies import ModalSection, SpatialModalSection
 from symgen.describe.parts import sections
 from symgen.describe.parts.event_sections import EventSection
 
@@ -109,7 +110,11 @@ def test_keywords_are_the_settings_of_the_table() -> None:
         (builder_keys.MechanismKeys, [sections.MechanismSection], {"name"}),
         (builder_keys.RunKeys, [sections.RunSection], set()),
         (builder_keys.TableKeys, [sections.TableSection], {"x", "y"}),
-        (builder_keys.BodyKeys, [sections.BodySection, sections.SpatialBodySection], set()),
+        (
+            builder_keys.BodyKeys,
+            [sections.BodySection, sections.SpatialBodySection, ModalSection, SpatialModalSection],
+            set(),
+        ),
         (builder_keys.EventKeys, [EventSection], set()),
     ],
     ids=lambda x: getattr(x, "__name__", ""),

@@ -1,11 +1,18 @@
 """Text planted in every place of a mechanism file that may hold text, found by walking the file's JSON schema."""
 
+import atexit
 import copy
+import shutil
 from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from tempfile import mkdtemp
 from typing import Any
 
 import numpy as np
 
+import symgen
+from benchmarks.finite_elements import solid
 from support.models import EVERYTHING
 from support.random_space import make
 from symgen.describe.files.json_schema import file_schema
@@ -32,6 +39,8 @@ CANARIES = (
 )
 #: Alternatives of bodies in the schema -> the mechanisms they belong to.
 _SPACES = {"BodySection": "planar", "SpatialBodySection": "spatial"}
+#: The same of modal bodies, by the components of a place.
+_BENT = {"ModalSection": 2, "SpatialModalSection": 3}
 #: Keys that a shape has for a mesh alone.
 _MESH = {"file", "scale"}
 #: Sections whose entries are all of one kind.
@@ -100,6 +109,15 @@ BESIDE: dict[str, dict[str, Any]] = {
 }
 
 
+@cache
+def modal_file(dimension: int) -> str:
+    """Return the path of the file of a bar, in the plane or in space."""
+    bar = solid((1.0, 0.1, 0.1)[:dimension], (2, 1, 1)[:dimension])
+    folder = mkdtemp()
+    atexit.register(shutil.rmtree, folder, True)
+    return str(symgen.reduced(bar.x, bar.mass, bar.stiffness, inner=1).save(Path(folder) / "bar.npz"))
+
+
 def bases(path: tuple[Any, ...]) -> Iterator[dict[str, Any]]:
     """Yield valid descriptions that have what a path leads through, in the plane and in space."""
     section, kind = path[0], next((p[1] for p in path if isinstance(p, tuple)), None)
@@ -116,6 +134,11 @@ def bases(path: tuple[Any, ...]) -> Iterator[dict[str, Any]]:
         return
     if section == "joints" and kind in BESIDE:
         yield copy.deepcopy(BESIDE[kind])
+        return
+    if kind in _BENT:
+        raw = SMALL if _BENT[kind] == 2 else make(np.random.default_rng(1), ["revolute"])[0]
+        arm = {"type": "modal", "file": modal_file(_BENT[kind])}
+        yield copy.deepcopy(raw) | {"bodies": {"arm": arm, **raw["bodies"]}}
         return
     if _MESH & set(path[1:]) and kind == "SpatialBodySection":
         shape = {"type": "mesh", "file": "x.stl"}

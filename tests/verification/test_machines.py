@@ -24,7 +24,7 @@ from symgen.describe.files.validate import validate
 
 NAMES = (
     *("belt-oscillator", "bent-arc", "bicycle", "cam-follower", "cantilever", "cart-pole"),
-    *("dry-four-bar", "engine"),
+    *("curved-lever", "dry-four-bar", "engine"),
     *(
         "flexible-slider-crank",
         "flying-spaghetti",

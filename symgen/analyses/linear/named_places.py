@@ -34,6 +34,7 @@ from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError, quote, suggest
 from symgen.describe.bounds.bounded_modes import two_sided_rows
 from symgen.describe.formulas.evaluate import parameter_values
+from symgen.run.compiling.pipeline import straight_alone
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
@@ -221,7 +222,8 @@ def scan_for_rests(
 
 def rest_from(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     """Find the equilibrium that the start leads to; see `symgen.api.Model.equilibrium`."""
-    looped = settings.shape == "looped" or (settings.shape == "auto" and mechanism.body_coordinates > LARGE)
+    large = mechanism.body_coordinates > LARGE and not straight_alone(mechanism)
+    looped = settings.shape == "looped" or (settings.shape == "auto" and large)
     if settings.coordinates == "absolute" and looped:
         from symgen.analyses.linear.large import large_equilibrium
 

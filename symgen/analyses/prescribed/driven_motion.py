@@ -146,6 +146,7 @@ class Kinematics(MotionTables):
     def run_facts(self) -> dict[str, Any]:
         """Return data of the motion for a page and for the start of its live part, by the names of JSON."""
         start = {"t": float(self.t[0]), "q": self.q.row(0), "v": self.v.row(0)} if len(self.t) else {}
+        until = float(self.t[-1]) if len(self.t) else 0.0
         return {
             "method": "kinematics",
             "integrator": plural(len(self.t), "time"),
@@ -153,7 +154,7 @@ class Kinematics(MotionTables):
             "reason": self.reason,
             "events": [{"t": passage.t, "name": passage.words} for passage in self.passages],
             **{"parameters": self.parameters, "inputs": self.inputs},
-            **{"coordinates": "absolute", "step": None, "start": start, "watched": ()},
+            **{"coordinates": "absolute", "step": None, "until": until, "start": start, "watched": ()},
         }
 
     def to_json(self) -> dict[str, Any]:

@@ -15,9 +15,10 @@ from symgen.analyses.state.one_sided import mode_in_words, rows_as_joints, rows_
 from symgen.base.errors import InputError, suggest
 from symgen.base.settings import Settings
 from symgen.derive.lower.windings import winding_order
-from symgen.describe.bounds.bounded_modes import one_sided_rows, without_bounds
+from symgen.describe.bounds.bounded_modes import one_sided_rows, refuse_contacts, without_bounds
 from symgen.describe.facts.digest import digest
 from symgen.run.compiling.linearised import DescriptorForm, LinearisedState, compile_linearised
+from symgen.run.compiling.pipeline import straight_alone
 from symgen.run.compiling.side import compile_side
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
@@ -323,12 +324,14 @@ def make_subject(mechanism: Mechanism, settings: Settings, by: Sequence[str] = (
     InputError
         If a setting is wrong, or a name of `by` is no parameter.
     """
+    refuse_contacts("analyses at a state", mechanism, friction=True)
     settings = _without_bounded_state(mechanism, settings)
     mechanism, pushing = without_bounds(mechanism), one_sided_rows(mechanism)
     placed, inputs = put_inputs_at_start(mechanism, settings), mechanism.inputs
     settings = placed.settings
     if settings.shape == "auto":
-        looped = mechanism.body_coordinates > LARGE and settings.coordinates == "absolute"
+        large = mechanism.body_coordinates > LARGE and not straight_alone(mechanism)
+        looped = large and settings.coordinates == "absolute"
         settings = replace(settings, shape="looped" if looped else "straight")
     run = prepare(placed.mechanism, settings, Purpose.DESCRIBED)
     shut = rows_in_force_at(run.mechanism, run.compiled, run.start, pushing)

@@ -129,6 +129,12 @@ class Bearing(msgspec.Struct, frozen=True, tag="bearing"):
     quarter: Direction
 
 
+class Swing(Bearing, frozen=True, tag="swing"):
+    """A bearing whose markers may meet: nearer than `least` [m] it has the rate of a vector with this length."""
+
+    least: Expr
+
+
 class RimHeight(msgspec.Struct, frozen=True, tag="rim-height"):
     """s = n . (c - p) - R sqrt(1 - (n . k)^2) [m]: height of a thin disc's lowest point over a plane of the ground.
 
@@ -262,7 +268,8 @@ class Flexure(msgspec.Struct, frozen=True):
 
     With H_a and H_b the frames, psi = log(H_a^-1 H_b) is the element's deformation: length and shear displacements [m],
     then in the plane its bend, in space twist and two bends [rad]. Its potential is ``d^T F^-1 d / 2`` with
-    ``d = psi - rest`` and ``F = h C + h/12 ad_psi C ad_psi^T``, its damping force ``-damping F^-1 psi'``.
+    ``d = psi - rest`` and ``F = h C + h/12 ad_psi C ad_psi^T``, its damping force ``-damping F^-1 psi'``; with a time
+    for each strain it is ``-F^-1 F_T F^-1 psi'``, where F_T is F with C times these times.
 
     `measures` are what psi is a function of, with e_i the axes of the frames and r the vector between their origins: in
     the plane (e_i of a + e_i of b) . r of both axes and the bend; in space those of all axes, twice the axial vector of
@@ -274,7 +281,7 @@ class Flexure(msgspec.Struct, frozen=True):
     length: Expr
     compliances: tuple[Expr, ...]
     rest: tuple[Expr, ...]
-    damping: Expr = ZERO
+    damping: Expr | tuple[Expr, ...] = ZERO  # a time, or a time for each strain in the order of psi
     turn: Expr = ZERO
 
 

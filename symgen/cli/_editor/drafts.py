@@ -189,7 +189,7 @@ class Drafts:
         start = prepare(*_closing_part(mechanism), Purpose.STATE).start
         angles, at = {"ground": 0.0}, 0
         for body in mechanism.bodies:
-            if len(body.coordinates) == 3:
+            if "theta" in body.coordinates:
                 angles[body.name] = float(start.y[at + 2])
             at += len(body.coordinates)
         bodies = next((j.bodies for j in mechanism.joints if j.name == spot.joint), ("ground", spot.body))

@@ -23,6 +23,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cached_property
 
+from symgen.base.ir.graph import Graph
 from symgen.base.vocabulary.measures import Exerted, Flexed, Flexure
 from symgen.derive.formulate.exertion import Exertion, exertion_of_effort
 from symgen.derive.formulate.measure_nodes import ModelNodes
@@ -168,7 +169,11 @@ class Flexing:
     @cached_property
     def flexibility(self) -> list[list[int]]:
         """The lower triangle of F."""
-        g, v, h, k, c = self.graph, self.algebra, self.length, self.twelfth, self.compliances
+        return self.flexibility_of(self.compliances)
+
+    def flexibility_of(self, c: Sequence[int]) -> list[list[int]]:
+        """Return the lower triangle of F for a diagonal of C."""
+        g, v, h, k = self.graph, self.algebra, self.length, self.twelfth
         psi = self.deformation
         if self.spatial:
             nothing, u, w = (g.zero,) * 3, v.triple(psi[:3]), v.triple(psi[3:])
@@ -218,11 +223,16 @@ class Flexing:
 
     @cached_property
     def damping_force(self) -> list[int]:
-        """The damping force and moment, tau F^-1 psi'."""
-        damping = self.model.expression(self.flexure.damping)
-        if damping == self.graph.zero:
-            return [damping] * len(self.compliances)
-        return [self.graph.mul(damping, x) for x in self.solve_flexibility(self.rate)]
+        """The damping force and moment: tau F^-1 psi', or F^-1 F_T F^-1 psi' with a time for each strain."""
+        g, damping = self.graph, self.flexure.damping
+        if isinstance(damping, tuple):
+            times = [self.model.expression(e) for e in damping]
+            delayed = self.flexibility_of([g.mul(c, x) for c, x in zip(self.compliances, times, strict=True)])
+            return self.solve_flexibility(_product_with_symmetric(g, delayed, self.solve_flexibility(self.rate)))
+        time = self.model.expression(damping)
+        if time == g.zero:
+            return [time] * len(self.compliances)
+        return [g.mul(time, x) for x in self.solve_flexibility(self.rate)]
 
     @cached_property
     def gradient(self) -> list[int]:
@@ -275,3 +285,9 @@ class Flexing:
             result.append(Exertion(measure.row, rate, g.neg(along), power, energy))
             energy = power = g.zero
         return result
+
+
+def _product_with_symmetric(g: Graph, lower: Sequence[Sequence[int]], vector: Sequence[int]) -> list[int]:
+    """Return a symmetric matrix, given by its lower triangle, times a vector."""
+    n = range(len(vector))
+    return [g.dot([lower[max(i, j)][min(i, j)] for j in n], vector) for i in n]

@@ -27,10 +27,11 @@ from symgen.derive.formulate.exertion import exertion_of_effort
 from symgen.derive.formulate.flexure import exertions_of_force
 from symgen.derive.formulate.joint_tree import energies_on_tree
 from symgen.derive.formulate.measure_nodes import DerivedMeasure, ModelNodes
+from symgen.derive.formulate.modal_inertia import add_modal_inertia
 from symgen.derive.formulate.of_time import time_function
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import name_of_number, places_of_first_modes
-from symgen.describe.bounds.by_reaction import refuse_shared_reactions, rows_bounded_by_reactions
+from symgen.describe.bounds.by_reaction import pressed_rows, refuse_shared_reactions
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.mechanism import Mechanism, Rotor, SpatialBody
 from symgen.describe.parts.topology import UNITS, state_quantities
@@ -104,7 +105,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         metric=() if model.tree is None else model.tree.metric_of_bodies(),
         states=tuple(Quantity(x.name, x.unit) for x in mechanism.states),
         state_rates=rates,
-        drags=tuple(_drag_of_reaction(model, row, rows, repeats) for row in rows_bounded_by_reactions(mechanism)),
+        drags=tuple(_drag_of_reaction(model, row, rows, repeats) for row in pressed_rows(mechanism)),
     )
 
 
@@ -125,7 +126,7 @@ def _first_indices_of_spins(model: ModelNodes) -> tuple[tuple[int, int], ...]:
     return tuple(
         (model.first_q[b.name] + 3, model.first[b.name] + 3)
         for b in model.mechanism.bodies
-        if isinstance(b, SpatialBody) and not b.is_point
+        if isinstance(b, SpatialBody) and not b.is_point and b.carried is None
     )
 
 
@@ -171,7 +172,7 @@ def _equations_of_bounded_row(model: ModelNodes, bounded: BoundedRow, first: int
 def _drag_of_reaction(
     model: ModelNodes, bounded: BoundedRow, rows: Sequence[ConstraintRow], repeats: Iterable[tuple[str, str]]
 ) -> Drag:
-    """Return the effort by the reaction of a joint."""
+    """Return the effort by the reaction of a joint, or by the force of a gap."""
     places = {row.name: i for i, row in enumerate(rows)}
     refuse_shared_reactions(bounded, repeats)
     rate = model.measure(bounded.measure).rate(model.graph, model.velocities)
@@ -185,7 +186,9 @@ def _drag_of_reaction(
     if bounded.across:
         cosines = [[model.measure(cosine).value for cosine in line] for line in bounded.across]
         pressed = tuple(tuple(zip(rows_of, line, strict=True)) for line in cosines)
-    return Drag(places[bounded.row], sign, coefficient, rate, pressed, bounded.family.one)
+    if bounded.signed:  # a force that pushes is minus the multiplier of its row
+        coefficient = model.graph.neg(coefficient)
+    return Drag(places[bounded.row], sign, coefficient, rate, pressed, bounded.family.one, bounded.signed)
 
 
 def _switchable_row(model: ModelNodes, row: ConstraintRow, first: int) -> ConstraintRow:
@@ -238,11 +241,15 @@ def _mass_and_energies(model: ModelNodes, forces: list[int]) -> tuple[tuple[Mass
     kinetic = potential = g.zero
     half = g.constant(0.5)
     for body in model.mechanism.bodies:
+        if body.carried is not None:
+            continue
         with refuse_overflow(f"bodies.{body.name}", "its weight is its mass times gravity"):
             first, first_q = model.first[body.name], model.first_q[body.name]
             mass = model.expression(body.mass)
             masses = [mass] * len(gravity)
-            if isinstance(body, SpatialBody):
+            if body.modal is not None:
+                kinetic = g.add(kinetic, add_modal_inertia(model, body, blocks, forces))
+            elif isinstance(body, SpatialBody):
                 if body.inertia is not None:
                     tensor = tuple(model.expression(e) for e in body.inertia)
                     kinetic = g.add(kinetic, _add_rotational_inertia(model, first + 3, tensor, blocks, forces))
@@ -354,6 +361,8 @@ def _omitted_terms(mechanism: Mechanism) -> list[Omission]:
         if body.is_point:
             what = "angle" if mechanism.space == "planar" else "orientation"
             omissions.append(Omission(f"{what} of {body.name}", "a point mass has none"))
+        elif body.carried is not None:
+            continue
         elif all(e == ZERO for e in body.centre_of_mass) and len(mechanism.bodies) <= 12:
             omissions.append(
                 Omission(f"centre-of-mass offset of {body.name}", "its centre of mass is the frame's origin")

@@ -29,12 +29,14 @@ from symgen.base.vocabulary.measures import (
     Speed,
     Spin,
     Sum,
+    Swing,
     Turn,
     Turning,
     axes,
 )
 from symgen.derive.formulate.euler_parameters import rate_of_parameters, rotation_matrix_rows
 from symgen.derive.formulate.frames import FRAME_SLOTS, SPATIAL_SLOTS
+from symgen.derive.formulate.interface_frames import InterfaceFrame, interface_frame
 from symgen.derive.formulate.joint_tree import Tree
 from symgen.derive.formulate.measure_kernels import derive_kernel
 from symgen.derive.formulate.tree_plane import PlanarTree
@@ -43,6 +45,7 @@ from symgen.describe.bounds.bounded_modes import mode_names
 from symgen.describe.bounds.by_reaction import jamming_names
 from symgen.describe.formulas.formula_nodes import Formulas
 from symgen.describe.mechanism import is_speed
+from symgen.describe.modal_body import mode_number
 
 
 @dataclass(frozen=True)
@@ -84,6 +87,7 @@ class ModelNodes(Formulas):
         self.names |= {name: self.graph.input(JAMMING, i) for name, i in jamming_names(self.mechanism).items()}
         self._memo: dict[object, DerivedMeasure] = {}
         self._frames: dict[str, list[int]] = {}
+        self._interfaces: dict[str, InterfaceFrame] = {}
         #: Raw angles of measures with counted turns, in the order of their slots in the section ``winding``.
         self.windings: list[int] = []
 
@@ -95,11 +99,29 @@ class ModelNodes(Formulas):
     def frame_inputs(self, body: str) -> list[int]:
         """Return the nodes of a frame's slots."""
         if body not in self._frames:
-            if self.tree is not None:
+            if (interface := self.interface(body)) is not None:
+                self._frames[body] = list(interface.slots)
+            elif self.tree is not None:
                 self._frames[body] = self.tree.frame(body)
             else:
                 self._frames[body] = self._spatial_inputs(body) if self.spatial else self._planar_inputs(body)
         return self._frames[body]
+
+    def interface(self, body: str) -> InterfaceFrame | None:
+        """Return the frame of an interface of a modal body, None for any other body."""
+        carried = None if body == GROUND else self.mechanism.body(body).carried
+        if carried is None:
+            return None
+        if body not in self._interfaces:
+            self._interfaces[body] = interface_frame(self, carried)
+        return self._interfaces[body]
+
+    def modes(self, body: str) -> tuple[list[int], list[int]]:
+        """Return the nodes of the coordinates of a modal body's modes, and of their velocities."""
+        own, modal = self.mechanism.body(body), self.mechanism.body(body).modal
+        count = 0 if modal is None else len(modal.stiffness)
+        q, v = self.first_q[body] + len(own.coordinates) - count, self.first[body] + len(own.speeds) - count
+        return [self.graph.input("q", q + i) for i in range(count)], list(self.velocities[v : v + count])
 
     def _spatial_inputs(self, body: str) -> list[int]:
         g, kind = self.graph, self.kind(body)
@@ -127,22 +149,23 @@ class ModelNodes(Formulas):
         g, rates = self.graph, list[int]()
         for body in self.mechanism.bodies:
             j = self.first[body.name]
-            if not self.spatial or body.is_point:
+            if not self.spatial or body.is_point or body.carried is not None:
                 rates += self.velocities[j : j + len(body.speeds)]
                 continue
             rates += self.velocities[j : j + 3]
             rates += rate_of_parameters(g, self.euler_parameters(body.name), self.velocities[j + 3 : j + 6])
+            rates += self.velocities[j + 6 : j + len(body.speeds)]
         return tuple(rates)
 
     def _planar_inputs(self, body: str) -> list[int]:
         g, kind = self.graph, self.kind(body)
         if kind == "ground":
             return [g.zero] * len(FRAME_SLOTS)
-        i = self.first[body]
-        x, y, vx, vy = g.input("q", i), g.input("q", i + 1), g.input("v", i), g.input("v", i + 1)
+        i, j = self.first[body], self.first_q[body]
+        x, y, vx, vy = g.input("q", j), g.input("q", j + 1), g.input("v", i), g.input("v", i + 1)
         if kind == "point":
             return [x, y, g.one, g.zero, vx, vy, g.zero]
-        theta = g.input("q", i + 2)
+        theta = g.input("q", j + 2)
         return [x, y, g.call("cos", theta), g.call("sin", theta), vx, vy, g.input("v", i + 2)]
 
     def reading(self, r: Reading) -> int:
@@ -315,6 +338,10 @@ class ModelNodes(Formulas):
         body, _, label = leaf.name.rpartition(".")
         if label in ("theta", "omega"):
             return self.measure(Angle(GROUND, body))
+        if (number := mode_number(label)) > 0:
+            m, _ = self.modes(body)
+            place = self.first[body] + len(self.mechanism.body(body).speeds) - len(m) + number - 1
+            return DerivedMeasure(m[number - 1], {place: self.graph.one}, self.graph.zero)
         dimension, i = len(self.mechanism.gravity), "xyz".index(label[-1])
         if label[0] == "w":
             return self.measure(Spin(GROUND, body, axes(body, dimension)[i]))
@@ -332,6 +359,9 @@ class ModelNodes(Formulas):
         else:
             y, x = self.measure(Component(m.a, m.b, m.quarter)), self.measure(Component(m.a, m.b, m.zero))
         square = g.add(g.mul(x.value, x.value), g.mul(y.value, y.value))
+        if isinstance(m, Swing):
+            least = self.expression(m.least)
+            square = g.call("max", square, g.mul(least, least))
         across, along = g.div(x.value, square), g.div(y.value, square)
         row = {
             i: g.sub(g.mul(across, y.row.get(i, g.zero)), g.mul(along, x.row.get(i, g.zero)))
@@ -356,9 +386,12 @@ class ModelNodes(Formulas):
         g, value, row = self.graph, self.graph.zero, dict[int, int]()
         for body, sign in ((m.b, g.one), (m.a, g.constant(-1.0))):
             if body != GROUND:
-                i = self.first[body] + 2
-                value = g.add(value, g.mul(sign, self.names[f"{body}.theta"]))
-                row[i] = g.add(row.get(i, g.zero), sign)
+                interface = self.interface(body)
+                angle = self.names[f"{body}.theta"] if interface is None else interface.angle
+                value = g.add(value, g.mul(sign, angle))
+                turning = {self.first[body] + 2: g.one} if interface is None else interface.columns[2]
+                for i, factor in turning.items():
+                    row[i] = g.add(row.get(i, g.zero), g.mul(sign, factor))
         return DerivedMeasure(value, {i: n for i, n in row.items() if n != g.zero}, g.zero)
 
     def _insert_kernel(self, kind: str, bodies: tuple[str, ...], constants: list[int]) -> DerivedMeasure:
@@ -368,11 +401,17 @@ class ModelNodes(Formulas):
         kernel = derive_kernel(kind, tuple((slots[b], self.kind(b)) for b in bodies))
         flat = [node for body in slots for node in self.frame_inputs(body)] + constants
         nodes = self.graph.copy_from(kernel.graph, kernel.outputs, {("slot", i): n for i, n in enumerate(flat)})
-        row: dict[int, int] = {}
-        position = 1
+        g, row, bias, entries = self.graph, dict[int, int](), nodes[-1], iter(nodes[1:-1])
         for body, part in zip(slots, kernel.row, strict=True):
-            for offset in range(len(part)):
-                if nodes[position] != self.graph.zero:
-                    row[self.first[body] + offset] = nodes[position]
-                position += 1
-        return DerivedMeasure(nodes[0], row, nodes[-1])
+            interface = self.interface(body)
+            for offset, entry in zip(range(len(part)), entries, strict=False):
+                if entry == g.zero:
+                    continue
+                if interface is None:
+                    i = self.first[body] + offset
+                    row[i] = g.add(row.get(i, g.zero), entry)
+                    continue
+                for i, factor in interface.columns[offset].items():
+                    row[i] = g.add(row.get(i, g.zero), g.mul(entry, factor))
+                bias = g.add(bias, g.mul(entry, interface.biases[offset]))
+        return DerivedMeasure(nodes[0], {i: node for i, node in row.items() if node != g.zero}, bias)

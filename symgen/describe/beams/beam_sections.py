@@ -22,6 +22,7 @@ from symgen.describe.parts.fields import (
     value_in_words,
 )
 from symgen.describe.parts.scope import Scope
+from symgen.describe.parts.strain_times import StrainTimes
 
 
 class ProfileSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -86,8 +87,8 @@ class BeamSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
         k G A [N], in space one value or two, along y and z; rigid by default. A beam with section and material has it.
     mass, rotary : scalar
         rho A [kg/m] and rho I [kg m], in space rho I about x, y and z.
-    damping : scalar
-        Time of a Kelvin-Voigt material [s]; 0 by default.
+    damping : scalar, or table
+        Time of a Kelvin-Voigt material [s], or times by strain, ``{ axial, shear, torsion, bending }``; 0 by default.
     load : vector of functions of state
         Force by length in ground axes [N/m], where ``x``, ``y`` and ``z`` are the coordinates of the place.
     clamp : body name, or two
@@ -113,7 +114,7 @@ class BeamSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     bending: Across | None = None
     mass: Scalar | None = None
     rotary: Across | None = None
-    damping: Scalar = 0.0
+    damping: Scalar | StrainTimes = 0.0
     load: StateVector | None = None
     clamp: str | tuple[str, ...] = ""
     velocity: Vector | None = None

@@ -36,7 +36,7 @@ from symgen.describe.formulas.evaluate import scalar_values
 from symgen.describe.formulas.formula_text import file_value, to_text
 from symgen.describe.formulas.start import euler_parameters
 from symgen.describe.mechanism import AnyBody, Body, Vec
-from symgen.describe.parts.bodies import shift_tensor
+from symgen.describe.parts.bodies import is_modal, shift_tensor
 from symgen.describe.parts.collected import Errors
 from symgen.describe.parts.fields import read_table, value_in_words
 from symgen.describe.parts.kinds import FORCES, JOINTS
@@ -186,7 +186,8 @@ class Beams:
                 self.forces[f"{name}.{LOAD}{k}"] = {"type": "force", "body": host or node, "at": at, "force": load}
         k = 0
         for segment in line:
-            element: dict[str, Any] = {"type": "beam", "length": file_value(segment.step), "damping": beam.damping}
+            damping = msgspec.to_builtins(beam.damping)
+            element: dict[str, Any] = {"type": "beam", "length": file_value(segment.step), "damping": damping}
             element |= properties.stiffness
             if segment.bend != ZERO:
                 bend = file_value(segment.curvature)
@@ -239,6 +240,9 @@ class Beams:
         if name not in bodies:
             got = f"the unknown body {quote(name)}"
             raise scope.error("clamp", "the name of a body or 'ground'", got, suggest(name, [*bodies, GROUND]))
+        if is_modal(bodies[name]):
+            hint = "a rigid joint holds the end of a beam on an interface"
+            raise scope.error("clamp", "a rigid body or 'ground'", f"the modal body '{name}'", hint)
         body = self.body_of(self.scope_of("bodies", name), bodies[name])
         if body.is_point:
             raise scope.error("clamp", "a body with an angle", f"the point mass '{name}'")

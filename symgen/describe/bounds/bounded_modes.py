@@ -17,7 +17,7 @@ from symgen.base.ir.program import MODE_NUMBERS, MODES
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call, readings_in
 from symgen.base.vocabulary.measures import Driven, Integral
 from symgen.describe.bounded import BoundedRow, RowFamily
-from symgen.describe.mechanism import Event, Mechanism, Output
+from symgen.describe.mechanism import Mechanism, ModeEvent, Output
 
 #: Action of events at which modes are chosen anew.
 MODE = "mode"
@@ -27,6 +27,8 @@ SLIP, REVERSE, STICK = "slip", "reverse", "stick"
 JAM = "jam"
 #: Last words of the names of events of one-sided rows: an impact, the row comes into force, it is off again.
 HIT, REST, LEAVE = "hit", "rest", "leave"
+#: Last word of the event at which a contact opens.
+LIFT = "lift"
 
 
 # -- formulas of one row -----------------------------------------------------------------------------------------------
@@ -48,10 +50,16 @@ def bounds_from_carried_force(row: BoundedRow, beside: Sequence[BoundedRow]) -> 
     Constant bounds of these are in the number ``limit`` of the row. Of a carried row the number ``constant`` is the
     place of its carrier, counted from 1, and ``limit`` is the largest force of the carrier for each of its own.
     """
-    place = next(i for i, other in enumerate(beside, 1) if other.name == row.name)
+    place = next(i for i, other in enumerate(beside, 1) if other.row == row.row)
     terms = list[Expr]()
     for other in beside:
-        if other.changing and not other.pressed and other.name != row.name:
+        if other.signed and other.row != row.row:  # its bound is that of the force that presses it
+            pressing = Reading(other.pressed[0], Driven(other.pressed[0], other.measure))
+            held, constant, limit = (name_of_number(other, number) for number in ("held", "constant", "limit"))
+            carries = call("mul", call("sub", ONE, held), equals_whole_number(constant, place))
+            carried = call("mul", carries, call("abs", limit))
+            terms.append(call("mul", carried, call("mul", other.numbers[0][1], pressing)))
+        elif other.changing and not other.pressed and other.row != row.row:
             held, constant, limit = (name_of_number(other, number) for number in ("held", "constant", "limit"))
             carries = call("mul", call("sub", ONE, held), equals_whole_number(constant, place))
             terms.append(call("mul", call("mul", carries, limit), other.numbers[0][1]))
@@ -65,13 +73,18 @@ def equals_whole_number(number: Expr, value: int) -> Expr:
 
 def formula_of_closed(row: BoundedRow) -> Expr:
     """Return the formula that is 1 where a one-sided row is closed, else 0."""
-    held, limit = name_of_number(row, "held"), name_of_number(row, "limit")
+    return closed_by(row.row)
+
+
+def closed_by(row: str) -> Expr:
+    """Return the formula that is 1 where the one-sided row of some name is closed, else 0."""
+    held, limit = Name(f"{row}.held"), Name(f"{row}.limit")
     return call("add", held, call("mul", call("sub", ONE, held), limit))
 
 
 def measure_derivative(row: BoundedRow, order: int = 1) -> Reading:
     """Return a derivative of the measure."""
-    return Reading(f"{row.name}{'.rate' * order}", row.measure, order)
+    return Reading(f"{row.label}{'.rate' * order}", row.measure, order)
 
 
 def unit_of_effort(row: BoundedRow) -> str:
@@ -120,9 +133,20 @@ def coordinate_of(mechanism: Mechanism, row: BoundedRow) -> str:
     return next(f"{joint.name}.{label}" for label, measure in joint.coordinates if measure == row.measure)
 
 
-def mode_events(mechanism: Mechanism) -> tuple[Event, ...]:
+def event_of_mode(
+    row: BoundedRow, word: str, when: Expr, text: str, reset: tuple[tuple[Expr, Expr], ...] = (), way: str = "falling"
+) -> ModeEvent:
+    """Return an event of a row: the last word of its name, its switching function, its text and what it sets."""
+    return ModeEvent(f"{row.name}.{word}", when, way, MODE, reset, text, word)
+
+
+def mode_events(mechanism: Mechanism) -> tuple[ModeEvent, ...]:
     """Return the events at which modes are chosen anew. A function of another mode is 1: it sleeps."""
-    return tuple(event for row in mechanism.bounded for event in row.events(mechanism.bounded))
+    return tuple(
+        msgspec.structs.replace(event, row=number)
+        for number, row in enumerate(mechanism.bounded)
+        for event in row.events(mechanism.bounded)
+    )
 
 
 def bounded_outputs(rows: Sequence[BoundedRow]) -> Iterator[Output]:
@@ -176,4 +200,18 @@ def refuse_bounds(where: str, mechanism: Mechanism) -> None:
     """
     for family, rows in rows_by_family(mechanism).items():
         names = ", ".join(row.name for row in rows)
+        raise InputError(where, f"a mechanism without {family.noun}", family.named.format(names), family.hint)
+
+
+def refuse_contacts(where: str, mechanism: Mechanism, friction: bool = False) -> None:
+    """Refuse a mechanism with contacts, or with friction of contacts, where nothing takes them.
+
+    Raises
+    ------
+    InputError
+        If it has any.
+    """
+    rows = [row for row in mechanism.bounded if (row.signed if friction else row.in_contact)]
+    if rows:
+        family, names = rows[0].family, ", ".join(dict.fromkeys(row.name for row in rows))
         raise InputError(where, f"a mechanism without {family.noun}", family.named.format(names), family.hint)

@@ -13,12 +13,12 @@ from symgen.base.vocabulary.measures import Effort, Exerted, Holonomic, Measure
 from symgen.describe.bounded import BoundedRow, RowFamily
 from symgen.describe.bounds.bounded_modes import (
     JAM,
-    MODE,
     REVERSE,
     SLIP,
     bounds_from_carried_force,
     effort_in_force,
     equals_whole_number,
+    event_of_mode,
     measure_derivative,
     name_of_number,
     unit_of_effort,
@@ -26,7 +26,7 @@ from symgen.describe.bounds.bounded_modes import (
 from symgen.describe.bounds.by_reaction import size_of_reaction
 from symgen.describe.bounds.row import Bounds
 from symgen.describe.formulas.formula_text import to_text
-from symgen.describe.mechanism import Event, Output
+from symgen.describe.mechanism import ModeEvent, Output
 from symgen.describe.parts.driven_mechanism import replace_names
 
 #: Factor of a mean.
@@ -119,6 +119,11 @@ class Friction(Bounds, frozen=True):
     backwards: Expr | None = None
     exponent: Expr | None = None
     changing: bool = False
+
+    @property
+    def label(self) -> str:
+        """The name, which no other row has."""
+        return self.name
 
     @property
     def row(self) -> str:
@@ -243,7 +248,7 @@ class Friction(Bounds, frozen=True):
         against = call("mul", self.bound_in_motion(measure_derivative(self)), size_of_reaction(self))
         return call("sub", total, call("mul", name_of_number(self, "sign"), against))
 
-    def events(self, beside: Sequence[BoundedRow]) -> tuple[Event, ...]:
+    def events(self, beside: Sequence[BoundedRow]) -> tuple[ModeEvent, ...]:
         """Return the events at which its mode is chosen anew.
 
         Where its effort at rest is a number of its own, as several rows share it, a bound that varies may reach that;
@@ -259,19 +264,20 @@ class Friction(Bounds, frozen=True):
             off = call("mul", off, call("add", call("sub", ONE, shares), call("mul", shares, own)))
         if self.pressed:
             limit_at_rest = call("add", call("mul", self.static, size_of_reaction(self)), limit)
-        left = call("sub", limit_at_rest, call("abs", effort_in_force(self)))
-        resting = call("add", call("mul", held, left), off)
+        effort = effort_in_force(self)
+        left = call("sub", limit_at_rest, effort), call("add", limit_at_rest, effort)  # smooth, as their least is not
         locked = call("sub", held, call("mul", call("sub", ONE, held), call("abs", measure_derivative(self))))
         resting_rate = call("mul", call("sub", ONE, call("mul", sign, sign)), locked)
         moving = call("add", call("mul", sign, measure_derivative(self)), resting_rate)
+        resting = (call("add", call("mul", held, each), off) for each in left)
         events = (
-            Event(f"{self.name}.{SLIP}", resting, "falling", MODE, (), "effort at rest at its bound"),
-            Event(f"{self.name}.{REVERSE}", moving, "falling", MODE, (), "rate of sliding 0"),
+            *(event_of_mode(self, SLIP, each, "effort at rest at a bound") for each in resting),
+            event_of_mode(self, REVERSE, moving, "rate of sliding 0"),
         )
         if not self.pressed:
             return events
         free = call("sub", ONE, name_of_number(self, JAMMING))
-        return (*events, Event(f"{self.name}.{JAM}", free, "falling", MODE, (), "jamming number 1"))
+        return (*events, event_of_mode(self, JAM, free, "jamming number 1"))
 
     def outputs(self, beside: Sequence[BoundedRow]) -> Iterator[Output]:
         """Yield mode (0 at rest, else the sign of the rate) and force.

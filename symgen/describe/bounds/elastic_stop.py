@@ -11,7 +11,7 @@ from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import measure_derivative
 from symgen.describe.bounds.end_stop import GapStop
 from symgen.describe.formulas.formula_text import to_text
-from symgen.describe.mechanism import Event, Output
+from symgen.describe.mechanism import ModeEvent, Output
 
 
 class ElasticStop(GapStop, frozen=True):
@@ -70,7 +70,7 @@ class ElasticStop(GapStop, frozen=True):
         spring = self._spring_force(call("max", difference(self.value, measure_derivative(self, 0)), ZERO))
         return call("sub", Reading(f"{self.name}.force", Exerted((self.smooth_effort,))), spring)
 
-    def events(self, beside: Sequence[BoundedRow]) -> tuple[Event, ...]:
+    def events(self, beside: Sequence[BoundedRow]) -> tuple[ModeEvent, ...]:
         """Return none: it has no modes."""
         return ()
 

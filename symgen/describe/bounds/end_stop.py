@@ -10,14 +10,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, Reading, call, difference, sum_of_terms
-from symgen.base.vocabulary.measures import Effort, Holonomic, Measure
+from symgen.base.vocabulary.measures import Effort, FormulaMeasure, Holonomic, Measure
 from symgen.describe.bounded import BoundedRow, RowFamily
 from symgen.describe.bounds.bounded_modes import (
     HIT,
     LEAVE,
-    MODE,
     bounds_from_carried_force,
     effort_in_force,
+    event_of_mode,
     formula_of_closed,
     measure_derivative,
     name_of_number,
@@ -25,7 +25,7 @@ from symgen.describe.bounds.bounded_modes import (
 )
 from symgen.describe.bounds.row import Bounds
 from symgen.describe.formulas.formula_text import to_text
-from symgen.describe.mechanism import Event, Output
+from symgen.describe.mechanism import ModeEvent, Output
 
 #: Last words of the names of the stops of a coordinate.
 LOWER, UPPER = "lower", "upper"
@@ -78,9 +78,14 @@ class GapStop(Bounds, frozen=True):
     unit: str
 
     @property
+    def label(self) -> str:
+        """The name, which no other row has unless it is another piece of the gap."""
+        return self.name
+
+    @property
     def row(self) -> str:
         """Name of the row that is in force where the stop is closed; of its force where it gives way."""
-        return f"{self.name}.stop"
+        return f"{self.label}.stop"
 
     @property
     def where(self) -> str:
@@ -95,7 +100,7 @@ class GapStop(Bounds, frozen=True):
     @property
     def place(self) -> tuple[str, Expr]:
         """The gap."""
-        return f"gap of {self.name}", difference(Reading(self.name, self.measure), self.value)
+        return f"gap of {self.label}", difference(Reading(self.label, self.measure), self.value)
 
 
 class EndStop(GapStop, frozen=True):
@@ -131,7 +136,7 @@ class EndStop(GapStop, frozen=True):
     @property
     def numbers(self) -> tuple[tuple[str, Expr], ...]:
         """The restitution."""
-        return ((f"restitution of {self.name}", self.restitution),)
+        return ((f"restitution of {self.label}", self.restitution),)
 
     @property
     def taking(self) -> Expr:
@@ -142,7 +147,7 @@ class EndStop(GapStop, frozen=True):
         """Return the rate of the gap after an impact, the law of impacts: ``-e u`` for a rate u below 0, else 0."""
         return call("mul", call("mul", Number(0.5), self.restitution), call("sub", call("abs", rate), rate))
 
-    def events(self, beside: Sequence[BoundedRow]) -> tuple[Event, ...]:
+    def events(self, beside: Sequence[BoundedRow]) -> tuple[ModeEvent, ...]:
         """Return the events at which the stop closes or opens.
 
         The number ``limit`` of a row in force is the bound of the dry friction whose force it carries: before the stop
@@ -156,8 +161,8 @@ class EndStop(GapStop, frozen=True):
         pushing = call("add", call("mul", held, pulling), call("sub", ONE, held))
         after = call("mul", call("sub", ONE, call("mul", sign, sign)), self.rebound(rate))
         return (
-            Event(f"{self.name}.{HIT}", open_gap, "falling", MODE, ((rate, after),), "gap 0"),
-            Event(f"{self.name}.{LEAVE}", pushing, "falling", MODE, (), "force of a closed stop 0"),
+            event_of_mode(self, HIT, open_gap, "gap 0", ((rate, after),)),
+            event_of_mode(self, LEAVE, pushing, "force of a closed stop 0"),
         )
 
     def outputs(self, beside: Sequence[BoundedRow]) -> Iterator[Output]:
@@ -171,3 +176,41 @@ class EndStop(GapStop, frozen=True):
     def facts(self) -> dict[str, Any]:
         """Return what `symgen inspect` says of it."""
         return {"restitution": to_text(self.restitution)}
+
+
+class PieceOfGap(EndStop, frozen=True):
+    """One of the smooth formulas of which the gap of a stop is the least: where it is 0, this one pushes.
+
+    All pieces share the stop's name, with which their events and outputs are called.
+
+    Parameters
+    ----------
+    piece : int
+        Its number, counted from 1.
+    """
+
+    piece: int = 1
+
+    @property
+    def label(self) -> str:
+        """The name with the number of the piece."""
+        return f"{self.name}.{self.piece}"
+
+    def outputs(self, beside: Sequence[BoundedRow]) -> Iterator[Output]:
+        """Yield mode (1 where any piece is closed) and the sum of the forces, once for all pieces."""
+        if self.piece != 1:
+            return
+        pieces = [row for row in beside if isinstance(row, PieceOfGap) and row.name == self.name]
+        closed = [formula_of_closed(row) for row in pieces]
+        yield Output(f"{self.name}.mode", call("max", *closed), "")
+        yield Output(f"{self.name}.force", sum_of_terms(*map(effort_in_force, pieces)), unit_of_effort(self))
+
+
+def pieces_of(stop: EndStop, gaps: Sequence[Expr]) -> tuple[EndStop, ...]:
+    """Return the rows of a stop whose gap is the least of some formulas: the stop itself where there is one."""
+    if len(gaps) == 1:
+        return (stop,)
+    of = {name: getattr(stop, name) for name in EndStop.__struct_fields__}
+    return tuple(
+        PieceOfGap(**{**of, "measure": FormulaMeasure(gap)}, piece=number) for number, gap in enumerate(gaps, 1)
+    )

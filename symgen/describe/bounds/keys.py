@@ -25,8 +25,8 @@ class OfJoint(Protocol):
 class OfSection(Protocol):
     """Reader of an entry of a section."""
 
-    def __call__(self, scope: Scope, raw: object) -> BoundedRow:
-        """Return the row of an entry."""
+    def __call__(self, scope: Scope, raw: object) -> tuple[BoundedRow, ...]:
+        """Return the rows of an entry."""
         ...
 
 

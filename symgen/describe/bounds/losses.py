@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from symgen.base.vocabulary.expressions import Reading, call
+from symgen.base.vocabulary.expressions import Expr, Reading, call
 from symgen.base.vocabulary.measures import Integral
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import measure_derivative, one_sided_rows
@@ -29,9 +29,13 @@ def energy_taken(row: BoundedRow) -> Reading:
     return Reading(f"{row.name}.{LOSS}", _integral_of_power(row))
 
 
-def losses_by_name(rows: Iterable[BoundedRow]) -> dict[str, Reading]:
-    """Return the losses by their names."""
-    return {reading.name: reading for reading in map(energy_taken, rows)}
+def losses_by_name(rows: Iterable[BoundedRow]) -> dict[str, Expr]:
+    """Return the losses by their names, of rows with one name their sum."""
+    losses = dict[str, Expr]()
+    for reading in map(energy_taken, rows):
+        own = losses.get(reading.name)
+        losses[reading.name] = reading if own is None else call("add", own, reading)
+    return losses
 
 
 def places_of_losses(mechanism: Mechanism) -> tuple[int | None, ...]:

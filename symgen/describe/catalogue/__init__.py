@@ -113,7 +113,16 @@ def raw(name: str, size: int | None = None) -> dict[str, Any]:
         raise InputError("model", f"'{name}' without a size", f"'{name}:{size}'")
     import tomllib
 
-    return tomllib.loads((_files_of_group(STUDIED) | _files_of_group(MACHINES))[name].read_text(encoding="utf-8"))
+    file = (_files_of_group(STUDIED) | _files_of_group(MACHINES))[name]
+    return _with_whole_paths(tomllib.loads(file.read_text(encoding="utf-8")), file.parent)
+
+
+def _with_whole_paths(raw: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """Return a description with whole paths of the files of its modal bodies: an entry is read without a folder."""
+    for table in raw.get("bodies", {}).values():
+        if table.get("type") == "modal":
+            table["file"] = str(folder / table["file"])
+    return raw
 
 
 def entries(group: str = STUDIED) -> tuple[CatalogueEntry, ...]:

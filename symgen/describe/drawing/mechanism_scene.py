@@ -33,6 +33,7 @@ from symgen.describe.drawing.symbols import gap_mark, joint_symbol
 from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import AnyBody, Mechanism, Shape, SpatialBody, Vec
+from symgen.describe.modal_body import Modal
 
 #: A symbol in parts of the picture's diagonal, and of the usual distance between points of a body.
 SHARE, OF_BODY = 0.017, 0.17
@@ -83,7 +84,7 @@ def build_scene(
     guided = {name for joint in mechanism.joints if joint.kind in SHOWN for name in joint.bodies}
     bodies = [_body_item(pen, body, points[body.name], guided) for body in mechanism.bodies]
     joints = [joint_symbol(pen, joint) for joint in mechanism.joints]
-    forces = [force_item(pen, force) for force in mechanism.forces]
+    forces = [force_item(pen, force) for force in mechanism.forces if force.kind != "modal"]
     faults = [gap_mark(pen, item) for item in joints if item.name in open_joints]
     return Scene(
         name=mechanism.name,
@@ -99,8 +100,8 @@ def build_scene(
 
 def _points_of_bodies(numbers: PlacedMechanism) -> dict[str, list[Point]]:
     """Return the points of each body from its centre of mass: points of joints and forces, and named points."""
-    by_body: dict[str, dict[Point, None]] = {frame.name: {} for frame in numbers.frames}
-    names = [frame.name for frame in numbers.frames]
+    names = [body.name for body in numbers.mechanism.bodies]
+    by_body: dict[str, dict[Point, None]] = {name: {} for name in names}
     for element in (*numbers.mechanism.joints, *numbers.mechanism.forces):
         for marker in nested_parts(element):
             if isinstance(marker, Marker) and marker.body in by_body:
@@ -162,10 +163,12 @@ def _body_item(pen: Pen, body: AnyBody, points: list[Point], guided: set[str]) -
     i = numbers.index[body.name]
     colour = pen.colour(i)
     centre = BodyPoint(i, (0.0, 0.0, 0.0))
-    if "." in body.name:  # a node of a beam, whose elements draw it
+    if "." in body.name:  # a node of a beam, whose elements draw it, or an interface
         return Item("body", body.name, "node", (pen.dot(centre, 0.18, RIGID),), label=(i, (0.0, 0.0, 0.0)))
     shapes = [shape for name, shape in numbers.mechanism.shapes if name == body.name]
     marks: list[Mark]
+    if body.modal is not None and not shapes:
+        return Item("body", body.name, "modal", _outline_marks(pen, body.name, body.modal), label=(i, (0.0, 0.0, 0.0)))
     if body.is_point and not shapes:
         marks = [pen.dot(centre, 0.75, Look("#20262e", colour, 1.0))]
     elif shapes:
@@ -189,6 +192,15 @@ def _body_item(pen: Pen, body: AnyBody, points: list[Point], guided: set[str]) -
     own = [p for p in points if any(p)]
     x, y, z = np.mean(np.array(own), axis=0) if own else np.zeros(3)
     return Item("body", body.name, "point" if body.is_point else "rigid", tuple(marks), label=(i, (x, y, z)))
+
+
+def _outline_marks(pen: Pen, name: str, modal: Modal) -> tuple[Mark, ...]:
+    """Return the lines of a modal body, which move with its modes."""
+    first, origin = pen.numbers.outlines[name], (0.0, 0.0, 0.0)
+    colour = pen.colour(pen.numbers.index[name])
+    ends = [(BodyPoint(first + a, origin), BodyPoint(first + b, origin)) for a, b in modal.outline.lines]
+    lines = [pen.stretch("rod", a, b, Look(colour, "", 2.0)) for a, b in ends]
+    return (*lines, pen.dot(BodyPoint(pen.numbers.index[name], origin), 0.34, replace(RIGID, width=0.8), mass=True))
 
 
 def _half_edges_of_inertia_box(numbers: PlacedMechanism, body: AnyBody) -> Array:

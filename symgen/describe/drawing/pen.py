@@ -17,6 +17,7 @@ from symgen.describe.drawing.scene import (
     INK,
     PAPER,
     Array,
+    Bent,
     BodyFrame,
     CarriedFrame,
     Disc,
@@ -56,10 +57,10 @@ class PlacedMechanism:
 
     def __init__(self, mechanism: Mechanism, values: Mapping[str, float], q: Array) -> None:
         self.mechanism, self.values, self.spatial = mechanism, values, mechanism.space == "spatial"
+        self.outlines: dict[str, int] = {}  # modal body -> number of the frame of the first point of its outline
         bodies: tuple[AnyBody, ...] = mechanism.bodies
-        firsts = accumulate((len(body.coordinates) for body in bodies), initial=0)
-        self.frames = tuple(BodyFrame(b.name, i, len(b.coordinates)) for b, i in zip(bodies, firsts, strict=False))
-        self.index = {frame.name: i for i, frame in enumerate(self.frames)} | {GROUND: GROUNDED}
+        self.frames = tuple(self._frames_of_bodies(bodies))
+        self.index = {body.name: i for i, body in enumerate(bodies)} | {GROUND: GROUNDED}
         self.centres = {body.name: self.vector(body.centre_of_mass) for body in mechanism.bodies}
         self.centres[GROUND] = np.zeros(3)
         self.all = [Poses(self.frames, row, self.spatial) for row in q]
@@ -67,6 +68,37 @@ class PlacedMechanism:
         state = {f"{b.name}.{c}" for b in mechanism.bodies for c in (*b.coordinates, *b.speeds)}
         names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
         self.state = {**dict.fromkeys(state, 0.0), **dict(zip(names, map(float, q[0]), strict=True)), "t": 0.0}
+
+    def _frames_of_bodies(self, bodies: tuple[AnyBody, ...]) -> list[BodyFrame]:
+        """Return the frames of bodies, then one for each point of the outlines of modal ones."""
+        frames, firsts = list[BodyFrame](), list(accumulate((len(body.coordinates) for body in bodies), initial=0))
+        places, modes = {body.name: i for i, body in enumerate(bodies)}, dict[str, int]()
+        for body, first in zip(bodies, firsts, strict=False):
+            count = 0 if body.modal is None else len(body.modal.stiffness)
+            size = len(body.coordinates) - count
+            modes[body.name] = first + size
+            bent = None
+            if (own := body.carried) is not None:
+                bent = Bent(
+                    places[own.host],
+                    modes[own.host],
+                    _point(own.place),
+                    tuple(map(_point, own.shape)),
+                    tuple(_point(turn) if len(turn) == 3 else (0.0, 0.0, turn[0]) for turn in own.turn),
+                )
+            frames.append(BodyFrame(body.name, first, size, bent))
+        for body in bodies:
+            if body.modal is None:
+                continue
+            self.outlines[body.name] = len(frames)
+            centre, outline = self.vector(body.centre_of_mass), body.modal.outline
+            for point, shape in zip(outline.points, outline.shapes, strict=True):
+                x, y, z = np.array(_point(point)) - centre
+                still = ((0.0, 0.0, 0.0),) * len(shape)
+                at = (float(x), float(y), float(z))
+                bent = Bent(places[body.name], modes[body.name], at, tuple(map(_point, shape)), still)
+                frames.append(BodyFrame(body.name, 0, 0, bent))
+        return frames
 
     def number(self, expression: Any) -> float:
         """Return a constant of the mechanism."""
@@ -123,6 +155,12 @@ class PlacedMechanism:
         return min(places), max(places)
 
 
+def _point(components: tuple[float, ...]) -> Point:
+    """Return a point with three components."""
+    x, y, z = (*components, 0.0)[:3]
+    return (x, y, z)
+
+
 #: How joints and the ground are drawn.
 PLAIN, FILLED, EARTH = Look(INK, "", 1.2), Look(INK, PAPER, 1.2), Look(GREY, "", 1.0)
 RIGID = Look(INK, INK, 1.0)
@@ -160,7 +198,8 @@ class Pen:
         This is the body's own frame if it always has those directions.
         """
         frames, still = self.numbers.frames, 3 if self.numbers.spatial else 2  # coordinates of a body that is a point
-        if place.body == turned or (turned == GROUNDED and frames[place.body].size == still):
+        is_point = frames[place.body].size == still if turned == GROUNDED else False
+        if place.body == turned or is_point:
             return place.body
         frame = CarriedFrame(place.body, place.at, turned)
         if frame not in self.carried:

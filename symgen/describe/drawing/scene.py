@@ -161,12 +161,39 @@ class Item:
 
 
 @dataclass(frozen=True)
+class Bent:
+    """What modes of a body move: an interface, or a point of its outline.
+
+    Attributes
+    ----------
+    host : int
+        Number of the frame of the body.
+    first : int
+        Index of the first coordinate of its modes in q.
+    place : Point
+        From its centre of mass, without deformation [m].
+    shape, turn : tuple of Point
+        Of each mode: displacement, and turn, which has its z component alone in the plane.
+    """
+
+    host: int
+    first: int
+    place: Point
+    shape: tuple[Point, ...]
+    turn: tuple[Point, ...]
+
+
+@dataclass(frozen=True)
 class BodyFrame:
-    """Coordinates of a body in q: index `first`, and their number, 2 or 3 in the plane, 3 or 7 in space."""
+    """Coordinates of a body in q: index `first`, and their number, 2 or 3 in the plane, 3 or 7 in space.
+
+    What modes move has none of its own, and is `bent`.
+    """
 
     name: str
     first: int
     size: int
+    bent: Bent | None = None
 
 
 @dataclass(frozen=True)
@@ -261,10 +288,13 @@ class Poses:
         spatial: bool,
         carried: Sequence[CarriedFrame] = (),
     ) -> None:
-        n = len(frames) + len(carried) + 1
+        n, self._spatial = len(frames) + len(carried) + 1, spatial
         self.turns = np.tile(np.eye(3), (n, 1, 1))
         self.centres = np.zeros((n, 3))
         for i, frame in enumerate(frames):
+            if frame.bent is not None:  # its body comes before it
+                self._place_bent(i, frame.bent, np.asarray(q, dtype=np.float64))
+                continue
             own = [float(x) for x in q[frame.first : frame.first + frame.size]]
             self.centres[i, : 3 if spatial else 2] = own[: 3 if spatial else 2]
             if spatial and frame.size == 7:
@@ -276,6 +306,18 @@ class Poses:
         for i, own_frame in enumerate(carried, len(frames)):
             self.centres[i] = self.to_ground(own_frame.body, [own_frame.at])[0]
             self.turns[i] = self.turns[own_frame.turned]
+
+    def _place_bent(self, i: int, bent: Bent, q: Array) -> None:
+        """Place what modes of a body move; its turn is the rotation of the Euler parameters (1, p)."""
+        m = q[bent.first : bent.first + len(bent.shape)]
+        p = 0.5 * (m @ np.array(bent.turn).reshape(-1, 3))
+        if not self._spatial:
+            p = np.tan(p)  # of half the angle: in the plane the angle is exact
+        size = np.sqrt(1.0 + p @ p)
+        turn = rotation_matrix_of((1.0 / size, p[0] / size, p[1] / size, p[2] / size))
+        at = np.array(bent.place) + m @ np.array(bent.shape).reshape(-1, 3)
+        self.centres[i] = self.to_ground(bent.host, [at])[0]
+        self.turns[i] = self.turns[bent.host] @ np.array(turn)
 
     def to_ground(self, body: int, points: Sequence[Sequence[float]] | Array) -> Array:
         """Return points of a body in the ground frame, shape (k, 3)."""

@@ -13,20 +13,21 @@ from symgen.base.vocabulary.measures import FormulaMeasure
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import MODE, formula_of_closed
 from symgen.describe.facts.kinks import kink_expressions
-from symgen.describe.mechanism import Event, Mechanism
+from symgen.describe.mechanism import Mechanism, ModeEvent
 
 #: Last word of the names of these events, before a number where a gap has several.
 CORNER = "corner"
 
 
-def corner_events(mechanism: Mechanism) -> Iterator[Event]:
+def corner_events(mechanism: Mechanism) -> Iterator[ModeEvent]:
     """Yield the events at which gaps of closed stops pass corners; their functions are 1 while a stop is open."""
-    for row in mechanism.bounded:
+    for place, row in enumerate(mechanism.bounded):
         if row.one_sided:
             closed = formula_of_closed(row)
             for number, zero in enumerate(_zero_at_corners(mechanism, row)):
                 when = call("add", call("mul", closed, zero), call("sub", ONE, closed))
-                yield Event(f"{row.name}.{CORNER}{number or ''}", when, "any", MODE, (), "corner of a closed gap")
+                name = f"{row.name}.{CORNER}{number or ''}"
+                yield ModeEvent(name, when, "any", MODE, (), "corner of a closed gap", CORNER, place)
 
 
 def _zero_at_corners(mechanism: Mechanism, row: BoundedRow) -> Iterator[Expr]:
@@ -52,9 +53,3 @@ def rows_that_turn(mechanism: Mechanism, corrected: bool) -> tuple[int, ...]:
     formulas = [(i, row.measure) for i, row in enumerate(mechanism.bounded) if row.one_sided]
     own = [(i, measure.of) for i, measure in formulas if isinstance(measure, FormulaMeasure)]
     return tuple(i for i, of in own if corrected or kink_expressions(of))
-
-
-def row_of_corner(name: str) -> str:
-    """Return the row of an event at a corner by its name; empty for other events."""
-    row, _, word = name.rpartition(".")
-    return row if word.rstrip("0123456789") == CORNER else ""

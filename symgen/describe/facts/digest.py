@@ -32,6 +32,7 @@ def canonical_text(mechanism: Mechanism) -> str:
             _canonical_value(body.inertia),
             _canonical_value(body.centre_of_mass),
             sorted([name, _canonical_value(point)] for name, point in body.points),
+            *(_canonical_value(part.equations) for part in (body.modal, body.carried) if part is not None),
         ]
         for body in mechanism.bodies
     ]
@@ -98,6 +99,8 @@ def mechanism_digest(mechanism: Mechanism) -> str:
         ", exponent=None",
         ", changing=False",
         ", shown=''",
+        ", modal=None",
+        ", carried=None",
     ):
         text = text.replace(absent, "")
     return hashlib.sha256(text.encode()).hexdigest()

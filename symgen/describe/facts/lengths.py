@@ -35,6 +35,9 @@ def own_length(body: AnyBody, parameters: Mapping[str, float]) -> float:
     moments = body.inertia[:3] if isinstance(body, SpatialBody) else (body.inertia,)
     inertia = max(evaluate(e, parameters, where) for e in moments)
     longest = math.sqrt(abs(inertia / mass)) if mass else 0.0
+    if body.modal is not None:
+        reach = (math.dist(point, centre) for point in body.modal.outline.points)
+        longest = max(longest, *reach, 0.0)
     for _, point in body.points:
         away = [evaluate(e, parameters, where) - c for e, c in zip(point, centre, strict=True)]
         longest = max(longest, math.hypot(*away))
@@ -66,7 +69,8 @@ def origin_of_sizes(mechanism: Mechanism, numbers: Numbers) -> list[Any]:
     if point is None:
         point = next((body.position for body in mechanism.bodies), ())
     place = [numbers.value(e, f"{mechanism.name}: points of the ground") for e in point]
-    return [x for body in mechanism.bodies for x in (*place, *[0.0] * (len(body.coordinates) - len(place)))]
+    moving = (body for body in mechanism.bodies if body.carried is None)
+    return [x for body in moving for x in (*place, *[0.0] * (len(body.coordinates) - len(place)))]
 
 
 def _points_on_ground(mechanism: Mechanism) -> Iterator[tuple[Expr, ...]]:

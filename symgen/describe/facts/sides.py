@@ -73,7 +73,8 @@ def sided_joints(mechanism: Mechanism) -> tuple[SidedJoint, ...]:
     places, first = dict[str, int](), 0
     for body in mechanism.bodies:
         if isinstance(body, SpatialBody) and not body.is_point:
-            places[body.name] = first + 3
+            # an interface is turned against its body by little
+            places[body.name] = first + 3 if body.carried is None else places[body.carried.host]
         first += len(body.coordinates)
 
     def arm_of_direction(direction: Direction) -> Arm:

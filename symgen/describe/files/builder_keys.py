@@ -52,7 +52,7 @@ class TableKeys(TypedDict, total=False):
 class BodyKeys(TypedDict, total=False):
     """Keys of ``[bodies.NAME]``, in the plane and in space."""
 
-    type: Literal["rigid", "point"]
+    type: Literal["rigid", "point", "modal"]
     mass: Scalar
     inertia: Scalar | Vector
     inertia_at: Point
@@ -64,6 +64,9 @@ class BodyKeys(TypedDict, total=False):
     orientation: Mapping[str, Any]
     velocity: Vector
     angular_velocity: Scalar | Vector
+    file: str
+    damping: Scalar
+    start: Mapping[str, Scalar]
     hold: bool | str | Iterable[str]
     shape: Mapping[str, Any] | Iterable[Mapping[str, Any]]
 

@@ -144,7 +144,7 @@ class _Handles:
         self.centres = {body.name: body.centre_of_mass for body in mechanism.bodies}
         self.poses: dict[str, tuple[float, float, float]] = {GROUND: (0.0, 0.0, 0.0)}
         at = 0
-        for body in mechanism.bodies:
+        for body in (body for body in mechanism.bodies if body.carried is None):
             own = [*q[at : at + len(body.coordinates)], 0.0]
             self.poses[body.name] = (own[0], own[1], own[2])
             at += len(body.coordinates)

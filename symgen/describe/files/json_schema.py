@@ -10,6 +10,7 @@ import msgspec
 
 from symgen.describe.beams.beam_sections import BeamSection
 from symgen.describe.bounds.keys import keys_of_any_joint, sections_of_files
+from symgen.describe.modal.modal_bodies import ModalSection, SpatialModalSection
 from symgen.describe.parts.event_sections import EventSection
 from symgen.describe.parts.kinds import FORCES, JOINTS
 from symgen.describe.parts.sections import (
@@ -48,7 +49,11 @@ def file_schema() -> dict[str, Any]:
             "states": _schema_of_named_entries(_schema_of_table(StateSection)),
             "tables": _schema_of_named_entries(_schema_of_table(TableSection)),
             "bodies": _schema_of_named_entries(
-                {"anyOf": [_schema_of_table(BodySection), _schema_of_table(SpatialBodySection)]}
+                {
+                    "anyOf": [
+                        *map(_schema_of_table, (BodySection, SpatialBodySection, ModalSection, SpatialModalSection))
+                    ]
+                }
             )
             | {"minProperties": 1},
             "beams": _schema_of_named_entries(_schema_of_table(BeamSection)),

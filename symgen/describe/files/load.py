@@ -160,8 +160,9 @@ def parse_toml(text: str, source: str) -> dict[str, Any]:
     try:
         raw = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        slip = str(error)
-        raise InputError(source, "a TOML file", f"a syntax error: {slip[:1].lower() + slip[1:]}") from None
+        from symgen.describe.files.slips import slip_in_toml
+
+        raise InputError(source, *slip_in_toml(text, str(error))) from None
     except ValueError:  # of `int`
         digits = sys.get_int_max_str_digits()
         raise InputError(source, f"whole numbers of at most {digits} digits", "a longer one") from None

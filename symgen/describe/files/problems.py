@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from symgen.base.errors import InputError
+from symgen.base.errors import InputError, sentence_of_parts
 from symgen.describe.files.load import parse_toml, read_text
 from symgen.describe.files.places import Path, Place, TextSpan, places_in_document
 from symgen.describe.files.validate import collect_errors
@@ -43,7 +43,7 @@ class Problem(NamedTuple):
 
     def __str__(self) -> str:
         where = f"{self.where}: " if self.where else ""
-        return f"{where}expected {self.expected}, got {self.got}" + (f"; {self.hint}" if self.hint else "")
+        return f"{where}{sentence_of_parts(self.expected, self.got, self.hint)}"
 
 
 def problems_of_text(text: str, source: str) -> tuple[Problem, ...]:

@@ -46,7 +46,7 @@ def rename_in_text(text: str, path: str, name: str, source: str) -> str:
     """
     raw, parts = parse_toml(text, source), outline_of_document(text)
     where = _path_from_text(raw, path)
-    check_identifier(name, f"{source}: {path}", "name")
+    check_identifier(name, f"{source}: {path}", "new")
     siblings = _value_at_path(raw, where[:-1])
     if name in siblings and name != where[-1]:
         raise InputError(f"{source}: {path}", "a name that is free", quote(name))
@@ -150,7 +150,8 @@ def _changer_at_path(raw: Mapping[str, Any], where: Path, name: str) -> Callable
     def change_text_at(path: Path, text: str) -> str:
         key = next((str(part) for part in reversed(path) if isinstance(part, str)), "")
         if where[0] == "bodies" and len(where) == 2 and key in _OF_BODIES:
-            return name if text == old else text
+            own = text == old or text.startswith(f"{old}.")  # an interface of a modal body
+            return name + text[len(old) :] if own else text
         if where[0] == "joints" and key in _OF_JOINTS:
             return name + text[len(old) :] if text == old or text.startswith(f"{old}.") else text
         if key == "at" and isinstance(path[-1], int | str) and not _is_coordinate(path):
@@ -184,7 +185,8 @@ def _users_of_removed(raw: Mapping[str, Any], gone: Path) -> Iterator[Path]:
         for name, entry in raw.get(section, {}).items():
             named = [entry.get(key) for key in keys]
             named += list(entry.get("terms", ())) if gone[0] == "joints" else []
-            if any(gone[1] in value if isinstance(value, list) else gone[1] == value for value in named):
+            owners = [x for value in named for x in (value if isinstance(value, list) else [value])]
+            if any(x == gone[1] or (isinstance(x, str) and x.startswith(f"{gone[1]}.")) for x in owners):
                 yield section, name
 
 

@@ -64,6 +64,7 @@ from symgen.describe.parts.sections import (
 
 if TYPE_CHECKING:
     from symgen.describe.beams.beams import Beams
+    from symgen.describe.modal.modal_bodies import ModalBodies
 
 Raw = Mapping[str, Any]
 T = TypeVar("T")
@@ -107,7 +108,7 @@ class _Validator:
         self.raw, self.source = raw, source
         self.errors = errors
         self._entries: dict[str, list[tuple[str, Any]]] = {}
-        self._parts: frozenset[str] = frozenset()  # names of nodes and elements of beams
+        self._parts: frozenset[str] = frozenset()  # names of nodes and elements of beams, and of interfaces
         self._numbers = FormulaNames("a number or an expression of parameters", {})
         self._limits: list[OperatingLimit] = []  # of parameters and outputs
 
@@ -173,17 +174,21 @@ class _Validator:
         )
         scope = Scope(self.context, "mechanism")
         read_body = spatial_body if head.space == "spatial" else planar_body
+        modal = self.read_modal_files()
         beams = self.read_beams(read_body)
+        self.expand_modal_bodies(modal)
         self.joints = JointTables(self.raw.get("joints", {}), self.errors, self.place_in_file, self.scope_of_entry)
         gravity: Vec = ()
         with self.errors.part_of_description():
             gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
-        bodies = self.read_bodies(read_body, beams)
+        bodies = self.read_bodies(read_body, beams, modal)
         self.context = msgspec.structs.replace(self.context, bodies={body.name: body for body in bodies})
         joints = self.read_each_entry("joints", lambda name, _: self.read_joint(name, self.place_in_file("joints")))
-        forces = self.read_each_entry("forces", self.read_force)
+        forces = () if modal is None else modal.forces(bodies)
+        forces += self.read_each_entry("forces", self.read_force)
         self.context = msgspec.structs.replace(self.context, forces={force.name: force for force in forces})
         holds, shapes = self.read_holds_and_shapes(bodies)
+        holds += [] if modal is None else modal.holds(bodies)
         holds += [hold for joint in joints for hold in self.joints.starts.get(joint.name, ())]
         bounded = self.read_bounded_rows(joints)
         self.context = msgspec.structs.replace(self.context, losses=losses_by_name(bounded))
@@ -267,7 +272,8 @@ class _Validator:
 
     def _bounded_rows_of_section(self, section: str, kind: SectionOfFiles) -> tuple[BoundedRow, ...]:
         """Return the rows with bounds of a section of their own."""
-        return self.read_each_entry(section, lambda name, value: kind.read(self.scope_of_entry(section, name), value))
+        read = self.read_each_entry(section, lambda name, value: kind.read(self.scope_of_entry(section, name), value))
+        return tuple(row for rows in read for row in rows)
 
     def refuse_shared_names(self) -> None:
         """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""
@@ -298,11 +304,46 @@ class _Validator:
             return beams
         return None
 
-    def read_bodies(self, read_body: Callable[[Scope, object], AnyBody], beams: Beams | None) -> tuple[AnyBody, ...]:
-        """Return the bodies, and the nodes of beams."""
-        bodies = self.read_each_entry(
-            "bodies", lambda name, value: read_body(self.scope_of_entry("bodies", name), value)
-        )
+    def read_modal_files(self) -> ModalBodies | None:
+        """Return the modal bodies, whose files are found; None where there are none."""
+        tables = dict(self.named_entries("bodies"))
+        if not any(isinstance(table, Mapping) and table.get("type") == "modal" for table in tables.values()):
+            return None
+        from symgen.describe.modal.modal_bodies import ModalBodies
+        from symgen.describe.modal.modal_file import with_whole_paths
+
+        modal = ModalBodies(tables, self.scope_of_entry, self.errors)
+        self.raw = with_whole_paths(self.raw, self.source)  # of which finer beams are described anew
+        self._entries.clear()
+        return modal
+
+    def expand_modal_bodies(self, modal: ModalBodies | None) -> None:
+        """Put the interfaces of modal bodies into the description."""
+        if modal is None:
+            return
+        for section in ("joints", "forces"):
+            for name, table in self.named_entries(section):
+                if name not in self._parts and isinstance(table, Mapping):
+                    with self.errors.part_of_description(name):
+                        modal.refuse_frames(self.scope_of_entry(section, name), table)
+        self.raw, self._parts = modal.expand(self.raw), self._parts | frozenset(modal.interfaces)
+        self._entries.clear()
+
+    def read_bodies(
+        self, read_body: Callable[[Scope, object], AnyBody], beams: Beams | None, modal: ModalBodies | None
+    ) -> tuple[AnyBody, ...]:
+        """Return the bodies, the nodes of beams, and the interfaces of modal bodies."""
+        bent = () if modal is None else (*modal.names, *modal.interfaces)
+
+        def read_any_body(name: str, value: object) -> AnyBody:
+            scope = self.scope_of_entry("bodies", name)
+            if modal is not None and name in bent:
+                return modal.read_body(scope, value)
+            if modal is not None and modal.is_wrong(name, value):
+                raise Incomplete
+            return read_body(scope, value)
+
+        bodies = self.read_each_entry("bodies", read_any_body)
         if not self.raw.get("bodies") and not self.raw.get("beams"):
             self.errors.leave_if_any()
             raise InputError(self.place_in_file("bodies"), "at least one body, [bodies.NAME]", "none")

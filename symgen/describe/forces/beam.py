@@ -12,6 +12,7 @@ from symgen.base.vocabulary.measures import Angle, Component, Direction, Dot, Fl
 from symgen.describe.mechanism import Body, Force
 from symgen.describe.parts.fields import Across, AxisPair, BodyPair, DirectionPair, PointPair, Scalar, value_in_words
 from symgen.describe.parts.scope import Scope
+from symgen.describe.parts.strain_times import StrainTimes
 from symgen.describe.parts.triads import make_triads, triad_from_directions
 
 
@@ -41,8 +42,10 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         Stiffness E I [N m^2], in space about y and z.
     curvature : scalar, or three
         Of the unloaded element [1/m]; in space twist and curvatures about y and z. 0 by default.
-    damping : scalar
-        Time tau of a Kelvin-Voigt material: stress follows strain plus tau times its rate [s]; 0 by default.
+    damping : scalar, or table
+        Time tau of a Kelvin-Voigt material: stress follows strain plus tau times its rate [s]; 0 by default. A table
+        ``{ axial, shear, torsion, bending }`` has a time for each strain: cables damp bending and no stretch, which
+        would make them stiff.
 
     Notes
     -----
@@ -62,7 +65,7 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     torsion: Scalar | None = None
     bending: Across
     curvature: Across = 0.0
-    damping: Scalar = 0.0
+    damping: Scalar | StrainTimes = 0.0
 
     def build(self, scope: Scope) -> Force:
         """Resolve to a beam element."""
@@ -72,9 +75,7 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         scope.only(*(("torsion",) if scope.spatial else ()), torsion=self.torsion)
         bends = scope.several("curvature", self.curvature, 3 if scope.spatial else 1, alike=self.curvature == 0.0)
         rest = (length, *(ZERO,) * (2 if scope.spatial else 1), *(product(length, bend) for bend in bends))
-        damping = scope.constant("damping", self.damping)
-        if scope.value(damping, "damping") < 0.0:
-            raise scope.error("damping", "a time of 0 or more", value_in_words(self.damping))
+        damping = self._damping(scope)
         turn: Expr = ZERO
         if scope.spatial:
             measures = _deformation_in_space(ends, *self._triads_in_space(scope, (a, b), bends))
@@ -83,6 +84,21 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
             measures, turn = _deformation_in_plane(ends, directions), _bend_beyond_angle(scope, directions, rest[-1])
         flexure = Flexure(measures, length, self._compliances(scope), rest, damping, turn)
         return Force(scope.name, scope.kind, (a, b), (), (flexure,))
+
+    def _damping(self, scope: Scope) -> Expr | tuple[Expr, ...]:
+        """Return one time, or a time for each strain."""
+        if not isinstance(self.damping, StrainTimes):
+            return _time(scope, "damping", self.damping)
+        across = 2 if scope.spatial else 1
+        if not scope.spatial and self.damping.torsion != 0.0:
+            raise scope.error("damping.torsion", "no twist in the plane", value_in_words(self.damping.torsion))
+        axial, shear, bending, torsion = (
+            _time(scope, f"damping.{key}", getattr(self.damping, key))
+            for key in ("axial", "shear", "bending", "torsion")
+        )
+        twist = (torsion,) if scope.spatial else ()
+        times = (axial, *(shear,) * across, *twist, *(bending,) * across)
+        return times if any(time != ZERO for time in times) else ZERO
 
     def _compliances(self, scope: Scope) -> tuple[Expr, ...]:
         """Return the compliances: 1 / E A, shear, 1 / G J in space, and bending."""
@@ -155,6 +171,13 @@ def _deformation_in_space(ends: tuple[Marker, Marker], u: Directions, v: Directi
         Sum(((ONE, Dot(u[(i + 2) % 3], v[(i + 1) % 3])), (less, Dot(u[(i + 1) % 3], v[(i + 2) % 3])))) for i in range(3)
     )
     return (*along, *turns, Sum(tuple((ONE, Dot(a, b)) for a, b in zip(u, v, strict=True))))
+
+
+def _time(scope: Scope, key: str, value: float | str) -> Expr:
+    time = scope.constant(key, value)
+    if scope.value(time, key) < 0.0:
+        raise scope.error(key, "a time of 0 or more", value_in_words(value))
+    return time
 
 
 def _described_angle(scope: Scope, body: str, sign: float) -> Expr:

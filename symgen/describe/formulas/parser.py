@@ -51,6 +51,8 @@ _WITH_UNIT = re.compile(r"(?<![A-Za-z0-9_])[0-9.]+(?:[eE][-+]?[0-9]+)?\s*([A-Za-
 #: The number of a beam's node between dots, which Python's grammar does not allow.
 _NODE = re.compile(r"(?<=[A-Za-z0-9_])\.([0-9]+)(?=\.[A-Za-z])")
 _WORDS = frozenset({"and", "or", "not", "if", "else"})
+#: Words that users write for names of formulas.
+_MEANT = {"time": "t", "pi": "pi", "π": "pi", "seconds": "t"}
 _HINTS = {
     "^": "a power is written **",
     "%": "there is no remainder",
@@ -125,6 +127,7 @@ class _Reader:
 
     def __init__(self, names: FormulaNames, where: str) -> None:
         self.names, self.where, self.nodes = names, where, 0
+        self.rows: dict[str, Expr] = {}  # row of a modal body that stands for a name of several
 
     def formula_error(self, got: str, hint: str = "", expected: str = "") -> InputError:
         return InputError(self.where, expected or self.names.what, got, hint)
@@ -262,11 +265,16 @@ class _Reader:
         if name in self.names.coordinates:
             listed = ", ".join(f"{name}.{c}" for c in self.names.coordinates[name])
             raise self.formula_error(f"the body '{name}' in place of a number", f"it has {listed}")
-        raise self.formula_error(f"the unknown name {quote(name)}", suggest(name, [*self.names.plain, "pi"]))
+        known = [*self.names.plain, "pi"]
+        meant = _MEANT.get(name.lower(), "")
+        hint = f"did you mean '{meant}'?" if meant in known else suggest(name, known)
+        raise self.formula_error(f"the unknown name {quote(name)}", hint)
 
     def convert_dotted_name(self, path: tuple[str, ...]) -> Expr:
         """Return a body's coordinate, or another quantity with a dotted name."""
         text, readings = ".".join(path), self.names.readings
+        if text in self.rows:
+            return self.rows[text]
         if (node := ".".join(path[:2])) in self.names.coordinates or (
             readings is not None and readings.has_force(node)
         ):
@@ -329,6 +337,9 @@ class _Reader:
         if function == "piecewise":
             return self.convert_piecewise(nodes, depth)
         if function in ("min", "max"):
+            several = self.convert_rows(nodes[0], depth) if len(nodes) == 1 else ()
+            if several:
+                return self.fold_chain(function, several)
             if len(nodes) < 2:
                 raise self.formula_error(f"{function}() with {len(nodes)}", expected="two arguments or more")
         else:
@@ -339,6 +350,24 @@ class _Reader:
             if function in ("min", "max")
             else self.folded_call(function, *arguments)
         )
+
+    def convert_rows(self, node: ast.expr, depth: int) -> list[Expr]:
+        """Return a formula once for each row of a name that it reads: ``max(abs(arm.sigma))``; empty without one."""
+        readings = self.names.readings
+        parts = [] if readings is None else [part for part in ast.walk(node) if isinstance(part, ast.Attribute)]
+        for part in parts:
+            path = _dotted_path(part)
+            if readings is not None and path is not None and len(path) == 2 and readings.rows_called(*path):
+                text, rows = ".".join(path), readings.rows_called(*path)
+                try:
+                    return [self._with_row(text, row, node, depth) for row in rows]
+                finally:
+                    self.rows.pop(text, None)
+        return []
+
+    def _with_row(self, text: str, row: Expr, node: ast.expr, depth: int) -> Expr:
+        self.rows[text] = row
+        return self.convert_quantity(node, depth)
 
     def convert_integral(self, node: ast.expr, depth: int) -> Expr:
         """Return the reading of an integral over time."""

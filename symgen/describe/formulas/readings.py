@@ -5,6 +5,8 @@
 | ``arm.tip.x``, ``.y``, in space ``.z`` | a point's coordinate in the ground frame [m] | everywhere |
 | ``arm.tip.vx``, ``.vy``, ``.vz`` | its velocity [m/s] | everywhere |
 | ``arm.tip.ax``, ``.ay``, ``.az`` | its acceleration [m/s^2] | outputs |
+| ``arm.tip.theta``, ``.omega`` | in the plane, angle of an interface of a modal body and its rate | everywhere |
+| ``arm.sigma`` | a row of the file of a modal body, such as a stress | everywhere |
 | ``arm.ex.x`` ..., ``arm.ez.z`` | in space, component of an axis of a body's frame in the ground frame | everywhere |
 | ``arm.ex.vx`` ..., ``arm.ez.vz`` | its rate [1/s] | everywhere |
 | ``motor.angle``, ``slide.displacement``, ... | a coordinate that a joint reports, or a driver drives | everywhere |
@@ -40,6 +42,7 @@ from symgen.base.vocabulary.expressions import (
 )
 from symgen.base.vocabulary.measures import (
     GROUND,
+    Angle,
     AnyAngle,
     Component,
     Direction,
@@ -60,7 +63,8 @@ from symgen.base.vocabulary.measures import (
     Sum,
     axes,
 )
-from symgen.describe.mechanism import Force, Joint, Mechanism
+from symgen.describe.mechanism import AnyBody, Force, Joint, Mechanism
+from symgen.describe.modal_body import COORDINATE, Modal, ModalRow, mode_names
 
 if TYPE_CHECKING:
     from symgen.describe.parts.context import Context
@@ -94,6 +98,30 @@ def readings_of_point(name: str, marker: Marker, dimension: int, order: int) -> 
             label = f"{letter}{axis}"
             table[label] = Reading(f"{name}.{label}", Component(origin, marker, direction), derivative), unit
     return table
+
+
+def readings_of_interface(body: AnyBody, dimension: int, order: int) -> Table:
+    """Return the coordinates of the origin of an interface, and in the plane its angle, with their derivatives."""
+    table = readings_of_point(body.name, Marker(body.name, (ZERO,) * dimension), dimension, order)
+    if dimension == 2:
+        angle = Angle(GROUND, body.name)
+        table["theta"] = Reading(f"{body.name}.theta", angle), "rad"
+        table["omega"] = Reading(f"{body.name}.omega", angle, 1), "rad/s"
+        if order == OUTPUT:
+            table["alpha"] = Reading(f"{body.name}.alpha", angle, 2), "rad/s^2"
+    return table
+
+
+def row_formula(body: str, row: ModalRow) -> Expr:
+    """Return a row of the file of a modal body as a formula of the coordinates of its modes."""
+    names = mode_names(COORDINATE, len(row.factors))
+    terms = (call("mul", literal_of(x), Name(f"{body}.{m}")) for x, m in zip(row.factors, names, strict=True))
+    return sum_of_terms(*terms)
+
+
+def readings_of_rows(body: str, modal: Modal) -> Table:
+    """Return the rows of the file of a modal body."""
+    return {row.label: (row_formula(body, row), row.unit) for row in modal.rows}
 
 
 def readings_of_axis(name: str, axis: Direction) -> Table:
@@ -251,7 +279,7 @@ class Readings:
         self._dimension = 3 if context.space == "spatial" else 2
 
     @property
-    def _losses(self) -> Mapping[str, Reading]:
+    def _losses(self) -> Mapping[str, Expr]:
         return self._context.losses if self._order == OUTPUT else {}
 
     def names_of_owners(self) -> Iterator[str]:
@@ -273,8 +301,9 @@ class Readings:
     def names_of(self, owner: str, where: str) -> tuple[str, ...]:
         """Return the readings of a body, joint or force besides a body's own coordinates."""
         if owner in self._context.bodies:
+            own = self._body_readings(self._context.bodies[owner])
             points = self._context.points[owner]
-            return tuple(f"{p}.{label}" for p in points for label in self._point_readings(owner, p))
+            return (*own, *(f"{p}.{label}" for p in points for label in self._point_readings(owner, p)))
         lost = (name.partition(".") for name in self._losses)
         return (*self._element_readings(owner, where), *(label for head, _, label in lost if head == owner))
 
@@ -298,6 +327,8 @@ class Readings:
             return self._losses[name], "J"
         if owner not in self._context.bodies:
             return self._element_readings(owner, where).get(".".join(words))
+        if len(words) == 1 and (meaning := self._body_readings(self._context.bodies[owner]).get(words[0])) is not None:
+            return meaning
         if len(words) == 2 and words[0] in self._context.points[owner]:
             return self._point_readings(owner, words[0]).get(words[1])
         if len(words) == 2 and words[0] in AXES and self._dimension == 3 and not self._context.bodies[owner].is_point:
@@ -308,6 +339,18 @@ class Readings:
     def _point_readings(self, body: str, point: str) -> Table:
         marker = Marker(body, self._context.points[body][point])
         return readings_of_point(f"{body}.{point}", marker, self._dimension, self._order)
+
+    def _body_readings(self, body: AnyBody) -> Table:
+        """Return what a modal body or an interface has besides coordinates."""
+        if body.carried is not None:
+            return readings_of_interface(body, self._dimension, self._order)
+        return {} if body.modal is None else readings_of_rows(body.name, body.modal)
+
+    def rows_called(self, owner: str, name: str) -> tuple[Expr, ...]:
+        """Return all rows of one name that the file of a modal body has."""
+        body = self._context.bodies.get(owner)
+        rows = () if body is None or body.modal is None else body.modal.rows
+        return tuple(row_formula(owner, row) for row in rows if row.name == name)
 
     def _element_readings(self, owner: str, where: str) -> Table:
         if owner in self._context.joint_names:
@@ -331,16 +374,17 @@ class Column(NamedTuple):
 
 
 def columns_of_points(mechanism: Mechanism) -> tuple[Column, ...]:
-    """Return coordinates, velocities and accelerations of all named points: ``arm.tip.x``, ``.vx``, ``.ax``."""
+    """Return coordinates, velocities and accelerations of named points and interfaces: ``arm.tip.x``, ``.vx``, ...."""
     dimension = len(mechanism.gravity)
-    return tuple(
-        column
+    tables = (
+        table
         for body in mechanism.bodies
-        for point, place in body.points
-        for column in _columns_of_table(
-            readings_of_point(f"{body.name}.{point}", Marker(body.name, place), dimension, OUTPUT)
+        for table in (
+            *(readings_of_interface(x, dimension, OUTPUT) for x in (body,) if x.carried is not None),
+            *(readings_of_point(f"{body.name}.{p}", Marker(body.name, at), dimension, OUTPUT) for p, at in body.points),
         )
     )
+    return tuple(column for table in tables for column in _columns_of_table(table))
 
 
 def columns_of_elements(mechanism: Mechanism) -> tuple[Column, ...]:
@@ -360,9 +404,15 @@ def columns_of_force_elements(mechanism: Mechanism) -> tuple[Column, ...]:
 
 
 def columns_of_outputs(mechanism: Mechanism) -> tuple[Column, ...]:
-    """Return the states of the file's own, and the formulas of ``[outputs]``."""
+    """Return the states of the file's own, the rows of modal bodies, and the formulas of ``[outputs]``."""
     states = (Column(x.name, x.unit, Name(x.name)) for x in mechanism.states)
-    return (*states, *(Column(o.name, o.unit, o.value) for o in mechanism.outputs))
+    rows = (
+        Column(f"{body.name}.{label}", unit, formula)
+        for body in mechanism.bodies
+        if body.modal is not None
+        for label, (formula, unit) in readings_of_rows(body.name, body.modal).items()
+    )
+    return (*states, *rows, *(Column(o.name, o.unit, o.value) for o in mechanism.outputs))
 
 
 def rows_read_by_output(value: Expr) -> set[str]:

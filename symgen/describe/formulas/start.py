@@ -23,6 +23,7 @@ from symgen.base.vocabulary.rotations import (
     rotation_matrix_of,
 )
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
+from symgen.describe.modal_body import COORDINATE, SPEED
 
 
 class Numbers(Protocol):
@@ -95,6 +96,8 @@ def described_start(mechanism: Mechanism, numbers: Numbers) -> tuple[list[Any], 
     q: list[Any] = []
     v: list[Any] = []
     for body in mechanism.bodies:
+        if body.carried is not None:
+            continue
         where = f"{mechanism.name}: bodies.{body.name}"
 
         def evaluate_speeds(key: str, *speeds: Expr | None, where: str = where) -> list[Any]:
@@ -105,6 +108,10 @@ def described_start(mechanism: Mechanism, numbers: Numbers) -> tuple[list[Any], 
         if not body.is_point:
             turning = body.angular_velocity if isinstance(body, SpatialBody) else (body.angular_velocity,)
             v += evaluate_speeds("angular_velocity", *turning)
+        if body.modal is not None:
+            given = {name: numbers.value(e, f"{where}.start.{name}") for name, e in body.modal.start}
+            q += [given.get(name, 0.0) for name in body.modal.names(COORDINATE)]
+            v += [given.get(name, 0.0) for name in body.modal.names(SPEED)]
     return q, v
 
 
@@ -220,6 +227,8 @@ def displacements_of_bodies(
     """
     first = 0
     for body in mechanism.bodies:
+        if body.carried is not None:
+            continue
         size, where = len(body.coordinates), f"{mechanism.name}: bodies.{body.name}"
         centre = [numbers.value(e, f"{where}.centre_of_mass") for e in body.centre_of_mass]
         named = [(name, [numbers.value(e, where) for e in point]) for name, point in body.points]
@@ -240,8 +249,8 @@ def _turned_angle(body: AnyBody, before: Sequence[float], after: Sequence[float]
     """Return the angle by which a body was turned [rad]; in space the smallest one."""
     if not isinstance(body, SpatialBody):
         return abs(after[2] - before[2])
-    lengths = [math.sqrt(sum(e * e for e in q[3:])) for q in (before, after)]
-    cosine = abs(sum(a * b for a, b in zip(before[3:], after[3:], strict=True))) / (lengths[0] * lengths[1])
+    lengths = [math.sqrt(sum(e * e for e in q[3:7])) for q in (before, after)]
+    cosine = abs(sum(a * b for a, b in zip(before[3:7], after[3:7], strict=True))) / (lengths[0] * lengths[1])
     return 2.0 * math.acos(min(1.0, cosine))
 
 
@@ -250,9 +259,9 @@ def _place_of_point(body: AnyBody, q: Sequence[float], at: Sequence[float]) -> l
     if body.is_point:
         return list(q)
     if isinstance(body, SpatialBody):
-        length = math.sqrt(sum(e * e for e in q[3:]))
-        e0, e1, e2, e3 = (e / length for e in q[3:])
+        length = math.sqrt(sum(e * e for e in q[3:7]))
+        e0, e1, e2, e3 = (e / length for e in q[3:7])
         turned = rotate(rotation_matrix_of((e0, e1, e2, e3)), (at[0], at[1], at[2]))
-        return [x + dx for x, dx in zip(q, turned, strict=False)]
+        return [x + dx for x, dx in zip(q[:3], turned, strict=True)]
     c, s = math.cos(q[2]), math.sin(q[2])
     return [q[0] + c * at[0] - s * at[1], q[1] + s * at[0] + c * at[1]]

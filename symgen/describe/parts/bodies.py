@@ -25,6 +25,11 @@ if TYPE_CHECKING:
 Tensor = tuple[Expr, Expr, Expr, Expr, Expr, Expr]
 
 
+def is_modal(table: object) -> bool:
+    """Whether the table of a body describes a modal one, which `symgen.describe.modal` reads."""
+    return isinstance(table, Mapping) and table.get("type") == "modal"
+
+
 def planar_body(scope: Scope, raw: object) -> Body:
     """Return the planar body that a table describes."""
     section = read_table(BodySection, _without_shape(raw), scope.where(""))
@@ -59,9 +64,9 @@ def spatial_body(scope: Scope, raw: object) -> SpatialBody:
         centre_of_mass=centre,
         points=points,
         position=position,
-        orientation=_read_orientation(scope, "orientation", section.orientation),
+        orientation=read_orientation(scope, "orientation", section.orientation),
         velocity=velocity,
-        angular_velocity=_optional_vector(scope, "angular_velocity", section.angular_velocity),
+        angular_velocity=optional_vector(scope, "angular_velocity", section.angular_velocity),
     )
 
 
@@ -95,19 +100,21 @@ def _read_common_keys(scope: Scope, section: BodySection | SpatialBodySection) -
     return (
         scope.vector("position", nothing if section.position is None else section.position),
         scope.vector("centre_of_mass", nothing if section.centre_of_mass is None else section.centre_of_mass),
-        _optional_vector(scope, "velocity", section.velocity),
+        optional_vector(scope, "velocity", section.velocity),
         tuple(points),
     )
 
 
-def _optional_vector(scope: Scope, key: str, vector: tuple[float | str, ...] | None) -> tuple[Expr | None, ...]:
+def optional_vector(scope: Scope, key: str, vector: tuple[float | str, ...] | None) -> tuple[Expr | None, ...]:
+    """Return a vector, or a None for each component where there is none."""
     return (None,) * scope.dimension if vector is None else scope.vector(key, vector)
 
 
 # -- orientation and inertia in space --------------------------------------------------------------------------------
 
 
-def _read_orientation(scope: Scope, key: str, section: OrientationSection | None) -> Orientation:
+def read_orientation(scope: Scope, key: str, section: OrientationSection | None) -> Orientation:
+    """Return the orientation of a table; without one a frame is not turned."""
     if section is None:
         return IDENTITY
     ways = ("quaternion", "rotation_vector", "euler_angles", "x_axis", "start")
@@ -195,7 +202,7 @@ def _numeric_orientation(
     scope: Scope, key: str, section: OrientationSection | None
 ) -> tuple[float, float, float, float]:
     """Return the Euler parameters of an orientation that is given in numbers."""
-    axes = _read_orientation(scope, key, section)
+    axes = read_orientation(scope, key, section)
     if not axes.is_numeric:
         raise scope.error(key, "numbers, no expressions of parameters", "an expression")
     return euler_parameters(axes, Scalars(lambda x, _: scope.value(x, key)), scope.where(key))

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import msgspec
 
-from symgen.base.vocabulary.expressions import Reading
+from symgen.base.vocabulary.expressions import Expr
 from symgen.describe.formulas.parser import FormulaNames
 from symgen.describe.mechanism import AnyBody, Force, Joint, Mechanism, Vec
 from symgen.describe.table_functions import Table
@@ -29,7 +29,7 @@ class Context(msgspec.Struct, frozen=True, dict=True):
     forces: Mapping[str, Force] = {}  # empty while forces are resolved
     inputs: tuple[str, ...] = ()
     state_names: tuple[str, ...] = ()
-    losses: Mapping[str, Reading] = {}  # energy lost at rows with bounds, which outputs may read
+    losses: Mapping[str, Expr] = {}  # energy lost at rows with bounds, which outputs may read
 
     @classmethod
     def of_mechanism(cls, mechanism: Mechanism, source: str = "") -> Context:

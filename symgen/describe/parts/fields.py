@@ -113,6 +113,9 @@ Held = Annotated[
 JointStart = Annotated[
     dict[str, float | str], Meta(description="a table of the joint's coordinates at the start, such as { angle = 0.5 }")
 ]
+ModeStart = Annotated[
+    dict[str, float | str], Meta(description="a table of modes at the start, such as { m1 = 0.002, vm1 = 0.1 }")
+]
 Condition = Annotated[
     str, Meta(description="a condition such as 'ball.y < 0.1', or an expression that passes through zero")
 ]
@@ -206,6 +209,8 @@ def read_value(type_: object, value: object, where: str) -> Any:
         if items is not None and isinstance(value, Mapping):
             for key, item in value.items():
                 read_value(items, item, f"{where}.{key}")
+        if isinstance(value, Mapping) and (table := _table_in(type_)) is not None:
+            read_table(table, value, where)  # whose sentence names the key
         path = _AT.search(str(error))
         part = _value_at_path(value, path.group(1) if path else "")
         raise InputError(where, describe_type(type_), value_in_words(part), si_hint(part)) from None
@@ -218,6 +223,12 @@ def _type_of_entries(type_: object) -> Any:
         if get_origin(inner) is dict:
             return get_args(inner)[1]
     return None
+
+
+def _table_in(type_: object) -> type[msgspec.Struct] | None:
+    """Return the table among the types of a value that may be one, else None."""
+    parts = (part for part in get_args(type_) if isinstance(part, type) and issubclass(part, msgspec.Struct))
+    return next(parts, None)
 
 
 def _value_at_path(value: object, path: str) -> object:

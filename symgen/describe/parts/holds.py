@@ -61,9 +61,8 @@ def body_holds(scope: Scope, raw: Mapping[str, Any], body: AnyBody) -> tuple[Hol
 
 def _velocity_names(body: AnyBody) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return the names of the velocities of the centre of mass, and of the angular ones."""
-    turning = sum(name[0] in "ow" for name in body.speeds)
-    moving = len(body.speeds) - turning
-    return body.speeds[:moving], body.speeds[moving:]
+    moving = tuple(name for name in body.speeds if name in ("vx", "vy", "vz"))
+    return moving, tuple(name for name in body.speeds if name[0] in "ow")
 
 
 def joint_holds(scope: Scope, values: Mapping[str, float | str], joint: Joint) -> tuple[Hold, ...]:

@@ -10,6 +10,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from symgen.describe.modal_body import UNITS_OF_MODES
 from symgen.describe.parts.kinds import FORCES, JOINTS
 
 #: Units by the key of a body, or of the mechanism.
@@ -23,6 +24,7 @@ _OF_BODIES = {
     "angle": "rad",
     "velocity": "m/s",
     "angular_velocity": "rad/s",
+    "damping": "s",
 }
 #: Units of keys that are read on their way to others, by the last part: those of bodies in space, of shapes, of beams.
 _FURTHER = {
@@ -80,6 +82,8 @@ def unit_of_number(path: str, key: str, kind: str, coordinates: Mapping[str, str
         return _unit_along_coordinate(parts, coordinates)
     if section in _FURTHER and parts[-1] in _FURTHER[section] and (section == "beams" or parts[0] not in _OF_BODIES):
         return _FURTHER[section][parts[-1]]
+    if section == "bodies" and parts[0] == "start":  # of modes
+        return UNITS_OF_MODES.get(parts[-1].rstrip("0123456789"), "")
     if section == "states" and key == "start":
         return next(iter(coordinates.values()), "")
     if key == "restitution":

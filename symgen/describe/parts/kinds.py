@@ -43,8 +43,20 @@ JOINTS: Registry[type[JointKind]] = Registry(
         **{"prismatic": "translational", "point-on-line": "pin-in-slot"},
         **{"inline": "pin-in-slot", "in-plane": "point-on-plane"},
     },
+    meant={
+        **dict.fromkeys(("hinge", "pin", "pivot", "rotational", "rotary", "rotation", "continuous"), "revolute"),
+        **dict.fromkeys(("slider", "slide", "linear", "translation", "sliding", "guide"), "translational"),
+        **dict.fromkeys(("ball", "ball-joint", "ball-and-socket"), "spherical"),
+        **dict.fromkeys(("weld", "fixed", "fix", "clamp", "welded", "bolted"), "rigid"),
+        **{"motor": "driver", "motion": "driver", "actuator": "driver", "rope": "distance", "link": "distance"},
+        **{"cardan": "universal", "hooke": "universal", "slot": "pin-in-slot", "belt": "gear", "helical": "screw"},
+    },
 )
-FORCES: Registry[type[ForceKind]] = Registry("symgen.describe.forces", "force type")
+FORCES: Registry[type[ForceKind]] = Registry(
+    "symgen.describe.forces",
+    "force type",
+    meant={"spring": "spring-damper", "damper": "spring-damper", "moment": "torque", "load": "force"},
+)
 
 
 def kind_and_keys(where: str, table: object, what: str, *common: str) -> tuple[str, dict[str, Any]]:

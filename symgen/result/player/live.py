@@ -29,7 +29,7 @@ from symgen.run.planning.start_lines import (
     is_described,
     written_start,
 )
-from symgen.run.single.turn_memory import WORDS
+from symgen.run.single.turn_memory import words_of_run
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -130,6 +130,7 @@ def live_part(
             compiled,
             whole,
             exported_start(mechanism, compiled, start.datum, None if described else turns),
+            len(start.redundant_rows),
         )
     except NotInLines:
         return None, f"{NONE}: a formula of the start is not one that pages know"
@@ -145,9 +146,11 @@ def live_part(
 
 
 def _page_functions(
-    mechanism: Mechanism, compiled: CompiledModel, run: PrintedRun | None, assembly: Assembly
+    mechanism: Mechanism, compiled: CompiledModel, run: PrintedRun | None, assembly: Assembly, redundant: int
 ) -> tuple[str, int]:
     """Return emitted functions and functions of the runtime for starts and events.
+
+    `redundant` is the number of rows that depend on others.
 
     Returns
     -------
@@ -171,7 +174,7 @@ def _page_functions(
     elif events is not None:
         printed.add_steps(compiled, events, ("take_steps",))
     if drivers := _driving_joints(mechanism):
-        printed.add_lock(compiled, drivers)
+        printed.add_lock(compiled, drivers, redundant)
     return get_or_make(_texts, printed.key, lambda: _text_of_functions(printed), MOST_TEXTS)
 
 
@@ -190,8 +193,9 @@ def modes_data(mechanism: Mechanism, run: PrintedRun) -> dict[str, Any]:
         for name, array in run.memory.items()
         if name not in ("y", "p", "w", "iw") and np.any(array)
     }
-    rows = [row.name for row in mechanism.bounded]
-    return {"rows": rows, "words": list(WORDS), "kept": OF_LOG, "status": abi.N_STATUS, "initial": initial}
+    rows, watched = [row.name for row in mechanism.bounded], run.watched
+    words = list(words_of_run(() if watched is None else watched.turning))
+    return {"rows": rows, "words": words, "kept": OF_LOG, "status": abi.N_STATUS, "initial": initial}
 
 
 def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]:

@@ -19,7 +19,7 @@ from symgen.base.escapes import script_json
 from symgen.base.files import check_path, write_whole
 from symgen.describe.drawing.mechanism_scene import build_scene
 from symgen.describe.drawing.paper import View
-from symgen.describe.drawing.scene import Array, Disc, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
+from symgen.describe.drawing.scene import Array, Bent, Disc, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
 from symgen.describe.drawing.traced import traced_points
 from symgen.describe.drawing.viewpoint import choose_viewpoint
 from symgen.result.player.live import Live
@@ -258,12 +258,21 @@ def scene_data(scene: Scene, view: View) -> dict[str, Any]:
         "view": [round(view.turn, 3), round(view.tilt, 3)],
         "up": list(scene.up),
         "unit": scene.unit,
-        "frames": [[frame.name, frame.first, frame.size] for frame in scene.frames],
+        "frames": [
+            [frame.name, frame.first, frame.size, *([] if frame.bent is None else [_bent_data(frame.bent)])]
+            for frame in scene.frames
+        ],
         **({"carried": [[c.body, rounded_point(c.at), c.turned] for c in scene.carried]} if scene.carried else {}),
         "looks": [list(astuple(look)) for look in looks],
         "lists": [list(points) for points in shared],
         "items": items,
     }
+
+
+def _bent_data(bent: Bent) -> list[Any]:
+    """Return what a page needs of a frame that modes move: host, first mode, place, shape and turn of each mode."""
+    motions = [[[float(f"{x:.5g}") for x in part] for part in parts] for parts in (bent.shape, bent.turn)]
+    return [bent.host, bent.first, [float(f"{x:.6g}") for x in bent.place], *motions]
 
 
 def _traced_points(recording: Recording) -> list[list[Any]]:

@@ -22,7 +22,7 @@ from symgen.run.compiling.checked import check_kernels, checked_function
 from symgen.run.compiling.printed import Printed, PrintedEvents
 from symgen.run.compiling.printed_run import PrintedRun
 from symgen.run.compiling.side import compile_side
-from symgen.run.effects.locking import DEPENDENT, MOST_NAMED, NEARLY_EXACT
+from symgen.run.effects.locking import MOST_NAMED
 from symgen.run.effects.stepping import FAILED
 from symgen.run.layout import abi
 from symgen.run.planning.dead_centre import DRIVER, moving_names
@@ -113,11 +113,12 @@ class CModel:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Another name of the mechanism in C, in words."""
+        """Another name of the mechanism in C, and what an FMU is not for, in words."""
         name = self.mechanism.name.replace("-", "_")
-        if self.prefix == name:
-            return ()
-        return (f"in C, names of '{self.mechanism.name}' begin with {self.prefix}: {name} has another meaning there",)
+        words = f"in C, names of '{self.mechanism.name}' begin with {self.prefix}: {name} has another meaning there"
+        alone = "the FMU is for co-simulation alone: an importer that integrates does not find modes of contacts"
+        has_contacts = any(row.in_contact for row in self.mechanism.bounded)
+        return (words,) * (self.prefix != name) + (alone,) * (has_contacts and self.target == "fmu")
 
     @cached_property
     def text(self) -> str:
@@ -264,8 +265,8 @@ class CModel:
 
     @property
     def exchanges(self) -> bool:
-        """Whether an importer may integrate: in FMUs without a named integrator."""
-        return self.target == "fmu" and not self.named
+        """Whether an importer may integrate: in FMUs without a named integrator, and without contacts."""
+        return self.target == "fmu" and not self.named and not any(row.in_contact for row in self.mechanism.bounded)
 
     @cached_property
     def partition(self) -> Any:
@@ -296,7 +297,7 @@ class CModel:
             further = ("apply_effects",) if self.events.effects else ()
             printed.add_steps(self.compiled, self.events, ("find_rates", "take_step", "take_steps", *further))
         if self.has_driven_rows:
-            printed.add_lock(self.compiled, self.drivers, NEARLY_EXACT if self.named else DEPENDENT)
+            printed.add_lock(self.compiled, self.drivers, len(start.redundant_rows))
         if self.exchanges:
             printed.add_partition(self.compiled, self.partition)
             if self.printed_run is None:

@@ -87,10 +87,14 @@ def choose_coordinates(mechanism: Mechanism, coordinates: str, shape: str) -> Ta
     Raises
     ------
     InputError
-        If both joint coordinates and looped code are requested.
+        If both joint coordinates and looped code are requested, or joint coordinates of modal bodies.
     """
     if coordinates == "absolute":
         return Taken("absolute", "it was set")
+    if mechanism.has_modal_bodies:
+        if coordinates == "joint":
+            raise InputError("coordinates", "absolute ones for modal bodies, which no tree of joints carries", "joint")
+        return Taken("absolute", "joint coordinates have no modal bodies")
     if coordinates == "joint":
         if shape == "looped":
             expected = "absolute ones for code that is not straight: loops, lanes and CUDA have no joint coordinates"

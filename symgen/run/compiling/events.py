@@ -8,15 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.ir.interpolation import Interpolation
-from symgen.base.vocabulary.expressions import ZERO, Expr, Reading, call, sum_of_terms
-from symgen.base.vocabulary.measures import GROUND, Spin
+from symgen.base.vocabulary.expressions import ZERO, Expr
+from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import measure_derivative, mode_events, one_sided_rows, two_sided_rows
 from symgen.describe.bounds.by_reaction import reaction_components, rows_bounded_by_reactions
 from symgen.describe.bounds.losses import places_of_losses
 from symgen.describe.facts.corners import corner_events, rows_that_turn
 from symgen.describe.facts.kinks import KINKS, Discontinuity, changes_in_time, discontinuities_of, rows_with_kinks
 from symgen.describe.formulas.formula_text import to_text
-from symgen.describe.mechanism import Event, Mechanism, Rotor, SpatialBody
+from symgen.describe.mechanism import Event, Mechanism, ModeEvent
+from symgen.run.compiling.masses import entries_of_masses, formulas_of_masses
 from symgen.run.compiling.side import compile_side
 from symgen.run.effects.effects import Effect, Effects
 from symgen.run.layout.compiled import CompiledModel
@@ -64,6 +65,8 @@ def compile_events(
         names=tuple(event.name for event in events),
         directions=tuple(DIRECTIONS[event.direction] for event in events),
         actions=tuple(event.action for event in events),
+        words=tuple(event.word if isinstance(event, ModeEvent) else "" for event in events),
+        owners=tuple(event.row if isinstance(event, ModeEvent) else -1 for event in events),
         function=side.function,
         needs_rates="ydot" in side.reads or bool(mechanism.bounded),  # which leave multipliers in w
         of_forces=tuple(i for i in range(len(functions)) if i in side.of_forces),
@@ -85,10 +88,10 @@ def bounded_rows(mechanism: Mechanism, compiled: CompiledModel) -> BoundedRows |
     if not every:
         return None
     state = [row.place for row in every]
-    state += [(f"rate of {row.name}", measure_derivative(row)) for row in every]
+    state += [(f"rate of {row.label}", measure_derivative(row)) for row in every]
     state += [row.numbers[k] for k in range(2) for row in held]  # bounds at rest, then those in motion
     state += [row.numbers[0] for row in pushing]
-    rates = [(f"second derivative of {row.name}", measure_derivative(row, 2)) for row in every]
+    rates = [(f"second derivative of {row.label}", measure_derivative(row, 2)) for row in every]
     pressed, forces = rows_bounded_by_reactions(mechanism), list[tuple[str, Expr]]()
     for row in pressed:
         forces += zip((f"{row.name}, reaction {k}" for k in range(2)), (*reaction_components(row), ZERO), strict=False)
@@ -114,9 +117,26 @@ def bounded_names(mechanism: Mechanism) -> BoundedNames:
         tuple(row.family.one for row in every),
         tuple(row.family.noun for row in every),
         len(two_sided_rows(mechanism)),
-        tuple(i for i, row in enumerate(every) if row.pressed),
+        tuple(i for i, row in enumerate(every) if row.pressed and not row.signed),
         tuple(joint.name for joint in mechanism.joints if joint.kind == "driver"),
+        tuple(
+            i
+            for i in range(1, len(every))
+            if every[i - 1].one_sided and every[i].one_sided and every[i].name == every[i - 1].name
+        ),
+        tuple(i for i, row in enumerate(every) if row.in_contact and row.one_sided),
+        _partners_of(every),
     )
+
+
+def _partners_of(rows: Sequence[BoundedRow]) -> tuple[int, ...]:
+    """Return for each row the gap that presses it, or the row that it presses; -1 for others."""
+    partners, places = [-1] * len(rows), {row.row: i for i, row in enumerate(rows)}
+    for i, row in enumerate(rows):
+        if row.signed:
+            gap = places[row.pressed[0]]
+            partners[i], partners[gap] = gap, i
+    return tuple(partners)
 
 
 def row_jumps(mechanism: Mechanism, compiled: CompiledModel) -> RowJumps:
@@ -140,14 +160,12 @@ def effects_of_events(mechanism: Mechanism, compiled: CompiledModel, events: Seq
     if not parts:
         return None
     struck = [pair for velocities, _ in parts.values() for pair in velocities]
-    masses = diagonal_masses(mechanism) if struck else {}
+    masses = entries_of_masses(mechanism) if struck else {}
     formulas = [(to_text(name), name) for name, _ in struck]
     formulas += [(f"{to_text(name)} afterwards", value) for name, value in struck]
     formulas += [(f"{to_text(name)} afterwards", value) for _, writes in parts.values() for name, value in writes]
-    formulas += [(f"mass {i}, {j}", value) for (i, j), value in masses.items()]
-    rotors = mechanism.rotors if struck else ()
-    formulas += [(f"rate of the rotor of {rotor.joint}", rate_of_rotor(mechanism, rotor)) for rotor in rotors]
-    formulas += [(f"inertia of the rotor of {rotor.joint}", rotor.inertia) for rotor in rotors]
+    if struck:
+        formulas += formulas_of_masses(mechanism, masses)
     carried = bool(struck) and mechanism.topology is not None
     return Effects(
         compiled=compiled,
@@ -159,20 +177,8 @@ def effects_of_events(mechanism: Mechanism, compiled: CompiledModel, events: Seq
         entries=tuple(masses),
         bodies=sum(len(body.speeds) for body in mechanism.bodies) if carried else 0,
         first=mechanism.body_coordinates if carried else 0,
-        rotors=len(rotors),
+        rotors=len(mechanism.rotors) if struck else 0,
     )
-
-
-def rate_of_rotor(mechanism: Mechanism, rotor: Rotor) -> Expr:
-    """Return the rate of a rotor's angle, as M of the equations of motion has it.
-
-    In space it is the difference of the angular velocities of both bodies about the axes that the joint keeps parallel.
-    """
-    if mechanism.topology is not None or not rotor.axes:
-        return Reading(f"{rotor.joint}.rotor.rate", rotor.angle, 1)
-    signed = [(sign, axis) for axis, sign in zip(rotor.axes, (-1.0, 1.0), strict=True) if axis.body != GROUND]
-    rates = [(sign, Reading(f"{axis.body}.spin.rate", Spin(GROUND, axis.body, axis), 1)) for sign, axis in signed]
-    return sum_of_terms(*(rate if sign > 0.0 else call("neg", rate) for sign, rate in rates))
 
 
 def switch_of_event(passed: Discontinuity, rtol: float) -> Switch:
@@ -209,22 +215,3 @@ def sizes_of_kinks(curve: Interpolation) -> tuple[float, ...]:
         total += np.abs(part) * h**k
     span = float(np.ptp(y))
     return tuple((total / span).tolist()) if span > 0.0 else (0.0,) * n
-
-
-def diagonal_masses(mechanism: Mechanism) -> dict[tuple[int, int], Expr]:
-    """Return entries of bodies in M by row and column: off-diagonal ones, with joints or rotors diagonal ones too."""
-    entries, first = dict[tuple[int, int], Expr](), 0
-    for body in mechanism.bodies:
-        inertia: tuple[Expr, ...] = ()
-        if isinstance(body, SpatialBody):
-            inertia = body.inertia or ()
-        elif body.inertia is not None:
-            inertia = (body.inertia,)
-        if mechanism.topology is not None or mechanism.rotors:
-            diagonal = [body.mass] * len(mechanism.gravity) + list(inertia[:3])
-            entries |= {(first + i, first + i): value for i, value in enumerate(diagonal)}
-        for (i, j), value in zip(((3, 4), (3, 5), (4, 5)), inertia[3:], strict=False):
-            if value != ZERO:
-                entries[first + i, first + j] = value
-        first += len(body.speeds)
-    return entries

@@ -43,7 +43,7 @@ def stages_of(
 ) -> PipelineStages[Any, Any]:
     """Return the stages of a shape of code; parameters and errors as of `generate`."""
     if target != "cpu":
-        _refuse_target(target, choices, shape)
+        _refuse_target(mechanism, target, choices, shape)
     if shape == "looped":
         from symgen.run.compiling.looped import LoopedStages
 
@@ -139,7 +139,7 @@ def refuse_loops(mechanism: Mechanism) -> None:
     Raises
     ------
     InputError
-        If rows of joints may be off.
+        If rows of joints may be off, or bodies have modes.
     """
     if what := straight_alone(mechanism):
         raise InputError("shape", f"straight code where a file has {what}", "looped")
@@ -147,10 +147,16 @@ def refuse_loops(mechanism: Mechanism) -> None:
 
 def straight_alone(mechanism: Mechanism) -> str:
     """Return what of a file exists as straight code alone; empty where loops take all of it."""
+    if any(row.signed for row in mechanism.bounded):
+        return "friction of contacts"
+    if mechanism.has_modal_bodies:
+        return "modal bodies"
     return "rows that may be off" if mechanism.switchable else ""
 
 
-def _refuse_target(target: str, choices: tuple[MethodChoice, ...], shape: str) -> None:
+def _refuse_target(mechanism: Mechanism, target: str, choices: tuple[MethodChoice, ...], shape: str) -> None:
+    if mechanism.has_modal_bodies:
+        raise InputError(f"target '{target}'", "bodies without modes", "modal bodies", "target 'cpu' takes them")
     if shape == "looped":
         raise InputError(f"target '{target}'", "the straight shape", "looped")
     for choice in choices:

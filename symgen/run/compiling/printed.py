@@ -23,7 +23,7 @@ from symgen.run.compiling.events import DIRECTIONS, effects_of_events
 from symgen.run.compiling.side import compile_side
 from symgen.run.effects.applying import apply_effects
 from symgen.run.effects.effects import Effects
-from symgen.run.effects.locking import DEPENDENT, find_lock, new_lock_work
+from symgen.run.effects.locking import find_lock, new_lock_work
 from symgen.run.effects.stepping import find_rates, new_step_work, take_step, take_steps
 from symgen.run.layout import abi
 from symgen.run.layout.ensemble_abi import N_SUMMARY
@@ -40,8 +40,8 @@ if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.starts.assembler import Assembly
 
-#: Names of the switching functions of events, and of the formulas of their effects.
-SWITCHING, CHANGED = "formulas_of_events", "formulas_of_effects"
+#: Names of the switching functions of events, of the formulas of their effects, and of those of M at starts.
+SWITCHING, CHANGED, WEIGHED = "formulas_of_events", "formulas_of_effects", "formulas_of_masses"
 #: Name of an array in the memory, by the parameter; None where it is constant, empty where it is passed.
 Naming = Callable[[str], str | None]
 
@@ -339,12 +339,12 @@ class Printed:
         """Add ``foresee_run(is_start, t)``, which finds the jumps of a run, see `symgen.run.printed.foreseen_run`."""
         self.entries.update(run.foresight_entries(self.emitted))
 
-    def add_lock(self, compiled: CompiledModel, drivers: Collection[str], dependent: float = DEPENDENT) -> None:
-        """Add ``find_lock(t, y)``, see `symgen.run.effects.locking`, for these joints."""
+    def add_lock(self, compiled: CompiledModel, drivers: Collection[str], redundant: int) -> None:
+        """Add ``find_lock(t, y)``, see `symgen.run.effects.locking`, for these joints and this number of rows."""
         layout, geometry = layout_of_starts(compiled), compiled.model.geometry
         driven = np.array([int(row.joint in drivers) for row in compiled.info.rows], dtype=np.int64)
         now = Instant(np.zeros(compiled.info.ny), np.zeros(1), compiled.scratch())
-        arguments = (layout, geometry, driven, dependent), None, now, new_lock_work(layout)
+        arguments = (layout, geometry, driven, redundant), None, now, new_lock_work(layout)
         emitted = {id(geometry): self.emitted["geometry"]}
         self.entries["find_lock"] = (
             source_of_piece(find_lock),
@@ -368,6 +368,9 @@ class Printed:
                     self.emitted[name] = checked_function(function, kind)
                 functions[id(function)] = self.emitted[name]
         functions[id(own[-1])] = self.emitted["rhs"]
+        if assembly.masses is not None:
+            self.emitted[WEIGHED] = checked_function(assembly.masses.formulas, abi.OBSERVE)
+            functions[id(compiled_form(assembly.masses.formulas))] = self.emitted[WEIGHED]
         scratch = compiled.scratch()
         now = Instant(np.zeros(compiled.info.ny), compiled.parameter_array(defaultdict(float), {}), scratch)
         conditions = StartConditions(np.zeros(assembly.layout.nv), np.zeros(0), np.zeros(N_SUMMARY))
@@ -378,7 +381,7 @@ class Printed:
                 return own
             return f"start_{own}" if owner in ("work", "conditions") else _ALONE.get(name)
 
-        model = (assembly.layout, *own), observe, joints
+        model = (assembly.layout, assembly.table, *own), observe, joints
         meanings = meanings_of_names(close_row, (model, now, conditions, work), functions, room)
         self.entries["close_row"] = source_of_piece(close_row), meanings
         places, counters = np.flatnonzero(scratch), np.zeros(abi.N_COUNTERS, dtype=np.int64)
@@ -388,5 +391,5 @@ class Printed:
 
 
 #: Functions that a start calls, by their names in models, and their types.
-_NAMES = ("geometry", "measure", "move", "spread", "solve", "turns", "rhs")
-_KINDS = (abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, None, None, None)
+_NAMES = ("geometry", "measure", "move", "spread", "solve", "formulas", "project", "turns", "rhs")
+_KINDS = (abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, None, None, None, None, None)

@@ -224,11 +224,9 @@ class PrintedRun:
 
     @property
     def _recipe(self) -> tuple[Any, Traits]:
-        watched, rows = self.watched, self._rows
-        pressed = rows is not None and bool(rows.pressed)
-        changes = watched is not None and watched.effects is not None
-        corners = watched is not None and bool(watched.corners)
-        traits = Traits(watched is not None, changes, rows is not None, pressed, self._has_seams, corners)
+        watched = self.watched
+        changes, turning = (False, ()) if watched is None else (watched.effects is not None, watched.turning)
+        traits = Traits(watched is not None, changes, self._rows is not None, self._has_seams, turning)
         return readable.adaptive if self.spec.adaptive else self.integrator.loop(False), traits
 
     @property
@@ -237,7 +235,7 @@ class PrintedRun:
 
     @cached_property
     def _decide(self) -> Any:
-        return deciding(_NOTES, self.watched is not None and bool(self.watched.corners))
+        return deciding(_NOTES, self._rows is not None, self.watched is not None and bool(self.watched.corners))
 
     def _search_record(self, watched: Watched, hunt: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the data of events with room for few notes, as all are taken before the next step."""

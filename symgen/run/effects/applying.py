@@ -7,13 +7,15 @@ from typing import Any
 
 import numpy as np
 
+from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers, Record
-from symgen.run.effects.impulse import Impulse, new_impulse, smallest_impulse
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import is_off
 from symgen.run.layout.scales import fill_jacobian
 from symgen.run.layout.start_records import Instant, Layout
+from symgen.run.starts.impulse import Impulse, new_impulse, smallest_impulse
+from symgen.run.starts.masses import add_rotors, put_entries
 
 #: Codes: the state has changed; velocities, or values of states, contradict each other or are not finite.
 APPLIED, NO_VELOCITIES, NO_VALUES = range(3)
@@ -163,22 +165,20 @@ def fill_masses(model: EffectModel, w: Array, work: EffectWork) -> None:
     if changes.bodies == 0 and changes.rotors == 0:
         for j in range(n):
             mass[j * n + j] = w[layout.mass + j]
-    for e in range(entries.shape[0] // 2):
-        row, column, value = entries[2 * e], entries[2 * e + 1], work.out[first + e]
-        if changes.bodies == 0:
-            mass[row * n + column] = mass[column * n + row] = value
-        else:
+    count = entries.shape[0] // 2
+    if changes.bodies == 0 and count > 0:
+        put_entries(n, entries, part(work.out, first, count), mass)
+    else:
+        for e in range(count):
+            row, column, value = entries[2 * e], entries[2 * e + 1], work.out[first + e]
             for i in range(n):
                 for j in range(n):
                     product = carried[row * n + i] * carried[column * n + j]
                     if row != column:
                         product += carried[column * n + i] * carried[row * n + j]
                     mass[i * n + j] += value * product
-    inertias = first + entries.shape[0] // 2 + changes.rotors
-    for r in range(changes.rotors):
-        for i in range(n):
-            for j in range(n):
-                mass[i * n + j] += work.out[inertias + r] * (turning[r * n + i] * turning[r * n + j])
+    if changes.rotors > 0:
+        add_rotors(n, turning, part(work.out, first + count + changes.rotors, changes.rotors), mass)
 
 
 @exact()

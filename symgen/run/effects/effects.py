@@ -20,9 +20,9 @@ from symgen.run.effects.applying import (
     apply_effects,
     new_effect_work,
 )
-from symgen.run.effects.impulse import new_impulse, smallest_impulse
 from symgen.run.layout.start_records import Instant
 from symgen.run.starts.assembler import layout_of_starts
+from symgen.run.starts.impulse import new_impulse, smallest_impulse
 from symgen.run.starts.starting import observe_nothing
 
 if TYPE_CHECKING:

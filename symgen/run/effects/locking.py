@@ -10,20 +10,20 @@ import numpy as np
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout import abi
-from symgen.run.layout.redundancy import farthest_row
+from symgen.run.layout.redundancy import farthest_row, is_off
 from symgen.run.layout.scales import square_rows
 from symgen.run.layout.start_records import Instant, Layout
 
 #: Sine of the angle between rows below which they vanish together, the share of the largest factor below which a row
 #: takes no part, and the number of inverse iterations.
 SINE, HOLDS, ROUNDS = 1e-2, 3e-5, 8
-#: Square of that sine where rows depend on each other always: steps that halve up to a dead centre do not come so near
-#: to it, those with error control come nearer.
-DEPENDENT, NEARLY_EXACT = 1e-12, 1e-24
-#: Most coordinates that are named, and their least share of the largest one.
-MOST_NAMED, COUNTS = 3, 0.3
-#: Layout, ``geometry``, 1 for each row of a driver, else 0, and that square.
-LockModel = tuple[Layout, abi.Measure, Integers, float]
+#: Added to the square of a row's remainder: a row that vanishes to the last bit has a factor that is finite.
+NOTHING = 1e-60
+#: Most coordinates that are named, their least share of the largest one, and the relative difference below which jumps
+#: are equal, of which the first are named: the state is a bit before the dead centre.
+MOST_NAMED, COUNTS, EQUAL = 3, 0.3, 3e-2
+#: Layout, ``geometry``, 1 for each row of a driver, else 0, and the number of rows that depend on others everywhere.
+LockModel = tuple[Layout, abi.Measure, Integers, int]
 
 
 class LockWork(Record):
@@ -67,7 +67,7 @@ def name_jumps(jumps: Array, count: int, named: Integers) -> None:
             is_new = True
             for i in range(k):
                 is_new = is_new and named[i] != j
-            if is_new and (best < 0 or jumps[j] > jumps[best]):
+            if is_new and (best < 0 or jumps[j] > jumps[best] * (1.0 + EQUAL)):
                 best = j
         counts = (
             best >= 0 and (k == 0 or named[k - 1] >= 0) and jumps[best] > COUNTS * jumps[best if k == 0 else named[0]]
@@ -80,6 +80,8 @@ def find_lock(model: LockModel, t: float, now: Instant, work: LockWork) -> bool:
     """Return whether drivers lock at a state: with other rows, their rows nearly vanish.
 
     Inverse iteration finds the combination of rows that vanishes first, and the velocity that hardly changes any row.
+    Rows that depend on others at the start do so everywhere and are left out by their number: however near a step comes
+    to the dead centre, the row that vanishes only there is farther from the others than they are.
 
     Parameters
     ----------
@@ -92,7 +94,7 @@ def find_lock(model: LockModel, t: float, now: Instant, work: LockWork) -> bool:
     work : LockWork
         Working memory.
     """
-    layout, geometry, driven, dependent = model
+    layout, geometry, driven, redundant = model
     m, n, numbers, factors, jumps = layout.m, layout.nv, work.numbers, work.factors, work.jumps
     width, largest, usual, size, locked = n + m, 0.0, 0.0, 0.0, False
     geometry(t, now.y, now.p, now.w)
@@ -102,7 +104,10 @@ def find_lock(model: LockModel, t: float, now: Instant, work: LockWork) -> bool:
         work.scale[i] = 1.0 / math.sqrt(square) if square > 0.0 else 0.0
         usual = work.scale[i] if work.scale[i] > usual else usual
         factors[i] = 1.0 + i / m
-    farthest_row(layout, width, m, dependent, 0, now.w, numbers)
+    count = m - redundant
+    for i in range(m):
+        count -= 1 if is_off(layout, i, now.w) else 0
+    farthest_row(layout, width, count, 0.0, 0, now.w, numbers)
     for _ in range(ROUNDS):
         for j in range(n):
             jumps[j] = 0.0
@@ -110,7 +115,7 @@ def find_lock(model: LockModel, t: float, now: Instant, work: LockWork) -> bool:
             work.sums[i] = 0.0
         for k in range(m):
             if numbers[m * width + k] < 0.0:  # an independent row
-                square = product = 0.0
+                square, product = NOTHING, 0.0
                 for j in range(n):
                     square += numbers[k * width + j] * numbers[k * width + j]
                 for i in range(m):

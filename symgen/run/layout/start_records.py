@@ -107,10 +107,26 @@ class StartConditions(Record):
     summary: Array
 
 
+class MassTable(Record):
+    """What formulas give of M (`symgen.run.starts.masses`).
+
+    Attributes
+    ----------
+    rotors : int
+        Number of rotors.
+    places : Array of int64, shape (2 e,)
+        (row, column) of each entry; empty where M counts as diagonal.
+    """
+
+    rotors: int
+    places: Integers
+
+
 class Closing(Record):
     """Functions called at a start: emitted ones, and a solver of `symgen.run.starts.start_solvers`.
 
-    ``geometry`` comes before ``measure`` and ``spread`` at the same state.
+    ``geometry`` comes before ``measure`` and ``spread`` at the same state. `masses`, `formulas` and `project` are those
+    of an M that is not diagonal (`symgen.run.starts.masses`).
     """
 
     geometry: abi.Measure
@@ -118,6 +134,9 @@ class Closing(Record):
     move: abi.Move
     spread: abi.Move
     solve: Solve
+    masses: MassTable
+    formulas: abi.Observe
+    project: Project
 
 
 class Work(Record):
@@ -149,21 +168,25 @@ class Work(Record):
     counters: Integers
 
 
-def new_work(layout: Layout, nw: int) -> Work:
-    """Return working memory for a model whose scratch has `nw` numbers."""
+def new_work(layout: Layout, nw: int, numbers: int = 0, integers: int = 0) -> Work:
+    """Return working memory for a model whose scratch has `nw` numbers, with room for at least so many others."""
     n, m, k = layout.nv, layout.m, layout.windings
     ny = layout.ny
     solver = 2 * (m + n) if layout.sparse else m * n + m * m + 2 * m + n
-    sizes = m, n, n, layout.nq, ny, ny, nw, max(solver, m * k + 2 * k + m)
-    integers = (np.zeros(size, dtype=np.int64) for size in (m, abi.N_COUNTERS))
-    return Work._make((*(np.zeros(size) for size in sizes), *integers))
+    sizes = m, n, n, layout.nq, ny, ny, nw, max(solver, m * k + 2 * k + m, numbers)
+    counts = (np.zeros(size, dtype=np.int64) for size in (max(m, integers), abi.N_COUNTERS))
+    return Work._make((*(np.zeros(size) for size in sizes), *counts))
 
 
 #: solve(spread, layout, now, work): see `symgen.run.starts.start_solvers`.
 Solve = Callable[[abi.Move, Layout, Instant, Work], int]
+#: project(formulas, masses, layout, now, work): see `symgen.run.starts.masses`.
+Project = Callable[[abi.Observe, MassTable, Layout, Instant, Work], int]
 #: turns(geometry, measure, layout, now, work): see `symgen.run.starts.start_solvers`.
 Turns = Callable[[abi.Measure, abi.Measure, Layout, Instant, Work], int]
-SOLVE, TURNS = function_type(Solve), function_type(Turns)
-#: A model for `symgen.run.starts.starting.close_row`: its layout, functions of a `Closing`, choice of turns and
+SOLVE, PROJECT, TURNS = function_type(Solve), function_type(Project), function_type(Turns)
+#: A model for `symgen.run.starts.starting.close_row`: its layout, what a `Closing` has, choice of turns and
 #: ``rhs``.
-StartModel = tuple[Layout, abi.Measure, abi.Measure, abi.Move, abi.Move, Solve, Turns, abi.Rhs]
+StartModel = tuple[
+    Layout, MassTable, abi.Measure, abi.Measure, abi.Move, abi.Move, Solve, abi.Observe, Project, Turns, abi.Rhs
+]

@@ -98,6 +98,12 @@ class BoundedNames:
         Coordinates whose bounds depend on the reaction of their joint.
     drivers : tuple of str
         Names of the drivers of the mechanism.
+    pieces : tuple of int
+        One-sided rows that are further pieces of the gap of the row before them.
+    contacts : tuple of int
+        One-sided rows that are gaps of contacts.
+    partners : tuple of int
+        Of each row the other one of its contact, a gap or the friction along it; -1 for others.
     """
 
     names: tuple[str, ...]
@@ -106,6 +112,9 @@ class BoundedNames:
     dry: int
     pressed: tuple[int, ...]
     drivers: tuple[str, ...]
+    pieces: tuple[int, ...] = ()
+    contacts: tuple[int, ...] = ()
+    partners: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,7 +123,7 @@ class BoundedRows(BoundedNames):
 
     Attributes
     ----------
-    names, kinds, nouns, dry, pressed
+    names, kinds, nouns, dry, pressed, drivers, pieces, contacts, partners
         See `BoundedNames`.
     state, accelerations : callable
         ``(t, y, p, w, rate)`` -> coordinates and gaps, their rates, bounds at rest and bounds at the beginning
@@ -150,6 +159,10 @@ class Watched:
         1, -1, or 0 for both.
     actions : tuple of str
         ``record``, ``stop`` or ``reset``.
+    words : tuple of str
+        What happens to the row with bounds of each event; empty for other events.
+    owners : tuple of int
+        Numbers of these rows; -1 for other events.
     function : emitted function
         Values of all functions, then their rates, then the scale of the rounding of each value.
     needs_rates : bool
@@ -181,6 +194,8 @@ class Watched:
     actions: tuple[str, ...]
     function: Any
     needs_rates: bool
+    words: tuple[str, ...] = ()
+    owners: tuple[int, ...] = ()
     effects: Any = None
     switches: tuple[Switch, ...] = ()
     jumps: bool = False
@@ -191,6 +206,27 @@ class Watched:
     corners: tuple[int, ...] = ()
     turns: tuple[int, ...] = ()
     missed: float = 0.0
+
+    @property
+    def turning(self) -> tuple[str, ...]:
+        """What of rows with bounds has its own meanings in a turn, see `symgen.run.modes.turn.TURNING`."""
+        rows = self.bounded
+        if rows is None:
+            return ()
+        has = {
+            "pressed": rows.pressed,
+            "corners": self.corners,
+            "pieces": rows.pieces,
+            "contacts": rows.contacts,
+        }
+        return tuple(kind for kind, those in has.items() if those)
+
+    def events_of_rows(self, word: str, rows: int) -> list[int]:
+        """Return the event with a word of each of some rows with bounds; -1 where a row has none."""
+        found = {
+            row: event for event, (row, own) in enumerate(zip(self.owners, self.words, strict=True)) if own == word
+        }
+        return [found.get(row, -1) for row in range(rows)]
 
 
 @dataclass(frozen=True)

@@ -145,6 +145,14 @@ def keep_after(kept: Record, now: Record, first: int, work: Record) -> None:
 # -- the turn of events ------------------------------------------------------------------------------------------------
 
 
+def lay_gaps(t: float, modes: Record, state: State) -> int:
+    """Return 0: a run without gaps has none that is closed at a start.
+
+    ``docs/late-names.md`` says who means it when.
+    """
+    return 0
+
+
 def meet_impacts(t: float, modes: Record, state: State) -> int:
     """Return `SAME`: a run without gaps has no impacts.
 

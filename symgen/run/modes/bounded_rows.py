@@ -11,7 +11,7 @@ from symgen.compile.loopcode.exact import compiled_form, exact
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout import abi
 from symgen.run.layout.records import Span
-from symgen.run.layout.redundancy import room_of_choice
+from symgen.run.layout.redundancy import LARGEST, room_of_choice
 from symgen.run.layout.start_records import Layout
 from symgen.run.modes.box import Box, new_box
 from symgen.run.starts.assembler import layout_of_starts
@@ -60,8 +60,17 @@ NOT_APPLIED, NO_IMPULSES = 10, 11
 NEGATIVE_GAP, NO_RESTITUTION, NO_BOUND_IN_MOTION, NO_BOUNDS = range(12, 16)
 #: Code of an impact at a gap whose rate joints and drivers determine: nothing can change it.
 IMMOVABLE = 16
+#: What `Choice.pushes` has of rows that are further pieces of the gap of the row before them.
+FURTHER_PIECE = 2
 #: Both pieces of a gap push at a corner.
 TWO_PIECES = 17
+#: Codes of contacts: no modes with forces within bounds; several with different motions; an impact that adds energy;
+#: more contacts that depend on each other than are tried.
+NO_CONTACT_MODES, SEVERAL_MODES, GAINED, TOO_MANY = range(24, 28)
+#: A formula of a row is no number at the end of a run, or just behind it.
+NO_NUMBER = 18
+#: Gaps leave what lies between them no way to move: of opposed ones that meet, none opens.
+CONTRARY = 19
 
 
 class Choice(Record):
@@ -87,7 +96,7 @@ class Choice(Record):
     place_of : Array of int64, shape (m,)
         For each constraint row its number among the rows with bounds, -1 for others.
     pushes : Array of int64, shape (k,)
-        1 for one-sided rows, which come last, else 0.
+        1 for one-sided rows, which come last, or `FURTHER_PIECE`, else 0.
     starting : Array of int64, shape (k,)
         1 for coordinates at rest with a sign that have just broken loose; others with a sign come to rest.
     begins : Array of int64, shape (1,)
@@ -136,6 +145,15 @@ class Choice(Record):
         Arguments of emitted functions.
     room : Array
         Working memory of the choice of independent rows.
+    partner, gaps : Array of int64, shapes (k,)
+        Of each row the other one of its contact, -1 for others; 1 for gaps of contacts.
+    mode, best, other, carrier, part, option : Array of int64, shapes (k,)
+        Working memory of contacts: modes of a combination, of the first that is right and of a second one, rows that
+        carry others, parts of G, and the combination.
+    moved : Array, shape (k,)
+        Gaps that a start has put to 0, before that; else 0.
+    rows, right, shift, space, order : Array, Array of int64
+        Working memory of `symgen.run.modes.placing`; empty without gaps, and for large mechanisms.
     """
 
     layout: Layout
@@ -198,6 +216,20 @@ class Choice(Record):
     out: Array
     room: Array
     iw: Integers
+    partner: Integers
+    gaps: Integers
+    mode: Integers
+    best: Integers
+    other: Integers
+    carrier: Integers
+    part: Integers
+    option: Integers
+    moved: Array
+    rows: Array
+    right: Array
+    shift: Array
+    space: Array
+    order: Integers
 
 
 def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any], width: int, nw: int) -> Choice:
@@ -227,6 +259,8 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         return np.isin(np.arange(k), these).astype(np.int64)
 
     numbers = np.zeros
+    small = k > rows.dry and info.m * info.nv <= LARGEST
+    m, n = (info.m, info.nv) if small else (0, 0)
     return Choice(
         layout=layout_of_starts(compiled),
         rates=compiled_form(rates[0]),
@@ -242,7 +276,7 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         changes=int(rows.changes),
         angular=np.array([info.rows[i].unit == "rad" for i in info.bounded], dtype=np.int64),
         place_of=places,
-        pushes=(np.arange(k) >= rows.dry).astype(np.int64),
+        pushes=(np.arange(k) >= rows.dry).astype(np.int64) + (FURTHER_PIECE - 1) * marks(rows.pieces),
         starting=flags(),
         begins=flags(1),
         let_go=np.full(k, np.nan),
@@ -288,6 +322,20 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         out=numbers(max(states, 1)),
         room=numbers(room_of_choice(info.m, info.nv)),
         iw=flags(abi.N_COUNTERS),
+        partner=np.array(rows.partners, dtype=np.int64) if rows.partners else np.full(k, -1),
+        gaps=marks(rows.contacts),
+        mode=flags(),
+        best=flags(),
+        other=flags(),
+        carrier=flags(),
+        part=flags(),
+        option=flags(),
+        moved=numbers(k),
+        rows=numbers(m * n),
+        right=numbers(m),
+        shift=numbers(n),
+        space=numbers(m * min(m, n) + m + n if m else 0),
+        order=flags(m),
     )
 
 

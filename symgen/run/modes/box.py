@@ -228,6 +228,15 @@ def wrong_bound(k: int, box: Box) -> int:
     return worst
 
 
+@exact()
+def is_contrary(k: int, i: int, box: Box) -> bool:
+    """Whether a force that may grow without end in one direction does not keep its acceleration from being negative.
+
+    It depends on others, which push against it as far as it goes: no forces serve.
+    """
+    return bool(box.place[i] == INSIDE and box.left[i] < -INCONSISTENT * magnitude_of(k, i, box))
+
+
 @exact(entry=True)
 def solve_box(k: int, box: Box) -> int:
     """Solve the box problem of `box`, from no force on; return 0, or 1 if that takes too many changes.

@@ -22,10 +22,23 @@ from symgen.run.layout.redundancy import choose_rows, farthest_row, is_off
 from symgen.run.layout.scales import entry_of, larger_number
 from symgen.run.loops.afresh import forget_steps
 from symgen.run.loops.event_loop import EventState
-from symgen.run.loops.search_records import COUNT, FORCE, GAP, MARGIN, MEASURE, N_HEAD, PACE, RATE, ROW
+from symgen.run.loops.search_records import (
+    COUNT,
+    FORCE,
+    GAP,
+    LOOKED,
+    MARGIN,
+    MEASURE,
+    N_HEAD,
+    PACE,
+    RATE,
+    ROW,
+    STEEPEST,
+)
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
     CONSTANT,
+    CONTRARY,
     DEPENDENT,
     EFFORT,
     HELD,
@@ -36,6 +49,7 @@ from symgen.run.modes.bounded_rows import (
     NO_BOUND_IN_MOTION,
     NO_BOUNDS,
     NO_FORCES,
+    NO_NUMBER,
     NO_RESTITUTION,
     NOT_FINITE,
     OTHERS,
@@ -53,7 +67,7 @@ from symgen.run.modes.bounded_rows import (
     sign_of_number,
     usual_of,
 )
-from symgen.run.modes.box import INSIDE, solve_box
+from symgen.run.modes.box import INSIDE, is_contrary, solve_box
 from symgen.run.modes.holding import hold_rows
 
 
@@ -86,6 +100,10 @@ def read_rows(t: float, c: Choice, y: Array, p: Array, w: Array) -> int:
 @exact(entry=True)
 def find_fault(c: Choice, w: Array) -> int:
     """Return the kind of number that is out of range at rows that have been read, and name the first such row."""
+    for i in range(c.count):
+        if not math.isfinite(c.value[i] + c.speed[i] + c.static[i] + c.sliding[i] + c.restitution[i]):
+            c.named[0] = i
+            return NO_NUMBER
     for i in range(c.dry, c.count):
         if not (c.value[i] >= -c.depth[0] * row_scale(c, w, i, abi.LENGTH) or is_kept_shut(c, w, i)):
             c.named[0] = i
@@ -101,7 +119,7 @@ def find_fault(c: Choice, w: Array) -> int:
     c.named[0] = 0
     for i in range(c.dry):
         static, sliding = c.static[i], c.sliding[i]
-        if not (math.isfinite(static) and math.isfinite(sliding) and sliding >= 0.0 and static >= sliding):
+        if not (sliding >= 0.0 and static >= sliding):
             c.named[0] = i
             break
     return NO_BOUNDS
@@ -284,7 +302,7 @@ def moves_at(c: Choice, n: int, r: int) -> bool:
 
 @exact()
 def solve_rest(c: Choice, n: int, w: Array) -> int:
-    """Find the forces at rest, and the signs of rows that they do not hold; return `SAME` or `NO_FORCES`."""
+    """Find the forces at rest, and the signs of rows that they do not hold; return `SAME` `NO_FORCES` or `CONTRARY`."""
     k, box = c.count, c.box
     for r in range(n):
         i = c.rest[r]
@@ -301,6 +319,10 @@ def solve_rest(c: Choice, n: int, w: Array) -> int:
             box.lower[r] = -bound if not pushes else (0.0 if c.loose[i] != 0 else -math.inf)
         if solve_box(n, box) != 0:
             return NO_FORCES
+        for r in range(n):
+            if c.pushes[c.rest[r]] != 0 and box.left[r] < -NO_ACCELERATION * usual_of(c, w, c.rest[r]):
+                if is_contrary(n, r, box):
+                    return CONTRARY
         again = False
         for r in range(n):
             i = c.rest[r]
@@ -345,8 +367,9 @@ def choose_modes(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers
     if n > 0:
         if probe(t, c, y, p, w, iw, control) != SAME:
             return NOT_FINITE
-        if solve_rest(c, n, w) != SAME:
-            return NO_FORCES
+        found = solve_rest(c, n, w)
+        if found != SAME:
+            return int(found)
     code = hold_rows(c, w)
     for i in range(c.count):
         c.shut[i] = 0
@@ -376,6 +399,8 @@ def measure_margins(c: Choice, w: Array, hunt: Array) -> int:
         elif kind == RATE:
             size = math.inf if rests else row_scale(c, w, i, abi.SPEED)
         hunt[at + MEASURE * n + k], hunt[at + PACE * n + k] = size, pace
+        if kind != 0:
+            hunt[at + STEEPEST * n + k] = hunt[at + LOOKED * n + k] = 0.0
         found += 1 if kind != 0 else 0
     return found
 

@@ -18,11 +18,13 @@ from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.effects.accumulation import OF_EVENT, accumulation, add_resets
 from symgen.run.effects.applying import APPLIED, apply_effects
+from symgen.run.effects.pushing import Ties, new_ties
 from symgen.run.effects.resets import KeptEffect, OfEffects, new_kept_effect
 from symgen.run.layout import abi
 from symgen.run.layout.scales import larger_number
 from symgen.run.layout.start_records import Instant
 from symgen.run.modes.bounded_rows import (
+    CONTRARY,
     IMMOVABLE,
     NO_IMPULSES,
     NOT_APPLIED,
@@ -37,11 +39,13 @@ from symgen.run.modes.bounded_rows import (
     row_scale,
     switch_off,
 )
-from symgen.run.modes.box import solve_box
+from symgen.run.modes.box import is_contrary, solve_box
 from symgen.run.modes.choice import copy_state, probe, write_rates
 
 #: Impulses below this part of the largest are rounding.
 _NOTHING = 1e-12
+#: Not a number of rows: no impulses keep all gaps from closing.
+_NONE = -2
 #: Flights up to this part of the mechanism's length are low; an importer loses those whose duration errs by this part.
 _LOW, _LOST = 1e-6, 0.1
 #: Changes of a gap below this part of the mechanism's length are rounding.
@@ -74,6 +78,8 @@ class Strikes(Record):
         Time until the impacts of a gap that comes to rest would have accumulated [s], else nan.
     struck, rested : KeptEffect
         The latest impact; impulses that have brought gaps to rest where impacts accumulate.
+    ties : Ties
+        Of the latest impact of contacts, which impulses are multiples of others.
     """
 
     effects: OfEffects
@@ -88,6 +94,7 @@ class Strikes(Record):
     left: Array
     struck: KeptEffect
     rested: KeptEffect
+    ties: Ties
 
 
 def new_strikes(effects: OfEffects, hits: Sequence[int], losses: Sequence[int], keeps: bool) -> Strikes:
@@ -116,6 +123,7 @@ def new_strikes(effects: OfEffects, hits: Sequence[int], losses: Sequence[int], 
         left=np.zeros(k),
         struck=new_kept_effect(effects.model[0], effects.work, keeps),
         rested=new_kept_effect(effects.model[0], effects.work, keeps),
+        ties=new_ties(len(effects.model[4].owners), effects.model[0].nv, effects.model[0].m),
     )
 
 
@@ -151,7 +159,7 @@ def find_struck(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers,
 
 @exact()
 def find_active(c: Choice, s: Strikes) -> int:
-    """Find the rows that push at the impact; return their number, -1 where there are no impulses."""
+    """Find the rows that push at the impact; return their number, `_NONE` where none serve, -1 where none are found."""
     k, n, box, most, count = c.count, c.at_rest[0], c.box, 0.0, 0
     for r in range(n):
         i = c.rest[r]
@@ -162,6 +170,8 @@ def find_active(c: Choice, s: Strikes) -> int:
     if solve_box(n, box) != 0:
         return -1
     for r in range(n):
+        if is_contrary(n, r, box):
+            return _NONE
         most = larger_number(most, abs(box.forces[r]))
     for i in range(k):
         s.active[i] = 0
@@ -271,7 +281,8 @@ def come_to_rest(t: float, c: Choice, s: Strikes, end: float, now: Instant) -> i
 def strike(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -> int:
     """Change the velocities by the impact of `find_struck`; all rows with bounds are off after it.
 
-    Returns `SAME`, `NO_IMPULSES` where none are found, or `NOT_APPLIED` where joints do not allow the impact.
+    Returns `SAME`, `CONTRARY` where no impulses serve, `NO_IMPULSES` where none are found, or
+    `NOT_APPLIED` where joints do not allow the impact.
     """
     now = Instant(y, p, w)
     for r in range(c.at_rest[0]):
@@ -282,7 +293,7 @@ def strike(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -> int
     ask_rates(t, c, s, now)
     count = find_active(c, s)
     if count < 0:
-        return NO_IMPULSES
+        return CONTRARY if count == _NONE else NO_IMPULSES
     choose_events(c, s, False)
     if apply_effects(s.effects.model, t, now, s.chosen, s.effects.work) != APPLIED:
         return NOT_APPLIED

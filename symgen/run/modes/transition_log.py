@@ -7,11 +7,13 @@ import numpy as np
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers, Record
-from symgen.run.modes.bounded_rows import SIGN, Choice, is_held, is_kept_shut
+from symgen.run.modes.bounded_rows import FURTHER_PIECE, SIGN, Choice, is_held, is_kept_shut
 
 #: What a row with bounds does at a transition: rest ends, rest begins, its rate changes sign, an impact, the row comes
 #: into force, it is off again.
 SLIP, STICK, REVERSE, HIT, REST, LEAVE = range(6)
+#: What a gap of a contact does where the row is off again.
+LIFT = 6
 #: Transitions that are kept, the latest ones.
 OF_LOG = 64
 
@@ -76,4 +78,56 @@ def log_changes(t: float, c: Choice, w: Array, log: Transitions) -> int:
             log_transition(t, log, i, SLIP if before == 0.0 else STICK if sign == 0.0 else REVERSE)
         if c.pushes[i] != 0 and (1 if is_held(c, w, i) else 0) != log.shut[i]:
             log_transition(t, log, i, LEAVE if log.shut[i] != 0 else REST)
+    return int(log.count[0])
+
+
+# -- gaps of several pieces --------------------------------------------------------------------------------------------
+
+
+@exact()
+def is_further_piece(c: Choice, i: int) -> bool:
+    """Return whether a row is another piece of the gap of the row before it."""
+    return bool(c.pushes[i] == FURTHER_PIECE)
+
+
+@exact(entry=True)
+def is_struck_before(c: Choice, active: Integers, i: int) -> bool:
+    """Return whether a piece of the gap of a row that comes before it pushes at an impact."""
+    j, found = i, False
+    while j > 0 and is_further_piece(c, j):
+        j -= 1
+        found = found or active[j] != 0
+    return found
+
+
+@exact(entry=True)
+def log_changes_in_pieces(t: float, c: Choice, w: Array, log: Transitions) -> int:
+    """Do what `log_changes` does, where pieces of one gap are one: closed where any of them is."""
+    i = 0
+    while i < c.count:
+        closed, before, j = is_held(c, w, i), log.shut[i] != 0, i + 1
+        while j < c.count and is_further_piece(c, j):
+            closed, before, j = closed or is_held(c, w, j), before or log.shut[j] != 0, j + 1
+        sign, past = w[c.first + MODE_NUMBERS * i + SIGN], log.signs[i]
+        if c.pushes[i] == 0 and sign != past:
+            log_transition(t, log, i, SLIP if past == 0.0 else STICK if sign == 0.0 else REVERSE)
+        if c.pushes[i] != 0 and closed != before:
+            log_transition(t, log, i, LEAVE if before else REST)
+        i = j
+    return int(log.count[0])
+
+
+# -- contacts ----------------------------------------------------------------------------------------------------------
+
+
+@exact(entry=True)
+def log_changes_of_contacts(t: float, c: Choice, w: Array, log: Transitions) -> int:
+    """Do what `log_changes` does, where the friction of a contact has transitions as long as it is closed."""
+    for i in range(c.count):
+        sign, before, j = w[c.first + MODE_NUMBERS * i + SIGN], log.signs[i], c.partner[i]
+        if c.pushes[i] == 0 and sign != before and (j < 0 or (log.shut[j] != 0 and is_held(c, w, j))):
+            log_transition(t, log, i, SLIP if before == 0.0 else STICK if sign == 0.0 else REVERSE)
+        if c.pushes[i] != 0 and (1 if is_held(c, w, i) else 0) != log.shut[i]:
+            opens = LIFT if c.gaps[i] != 0 else LEAVE
+            log_transition(t, log, i, opens if log.shut[i] != 0 else REST)
     return int(log.count[0])

@@ -8,6 +8,8 @@ sweeps, C, FMUs and pages call these functions; single runs make sentences of th
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import Any
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.loop_instances import Meanings, called
@@ -20,15 +22,18 @@ from symgen.run.layout.start_records import Instant
 from symgen.run.loops import search_records as records
 from symgen.run.loops.afresh import begin_afresh
 from symgen.run.loops.event_loop import EventState
-from symgen.run.loops.unbound import gather_impacts, keep_after, keep_before, meet_impacts
+from symgen.run.loops.unbound import gather_impacts, keep_after, keep_before, lay_gaps, meet_impacts
 from symgen.run.loops.watch import remember_rank
 from symgen.run.modes.agreement import choose_pressed
 from symgen.run.modes.bounded_rows import (
+    CONTRARY,
     DEEP,
+    GAINED,
     IMMOVABLE,
     JAMMED,
     NEGATIVE_GAP,
     NO_BOUNDS,
+    NO_CONTACT_MODES,
     NO_IMPULSES,
     NO_RESTITUTION,
     NOT_APPLIED,
@@ -36,6 +41,7 @@ from symgen.run.modes.bounded_rows import (
     OTHERS,
     OUT_OF_RANGE,
     SAME,
+    SEVERAL_MODES,
     SHARED,
     SIGN,
     TOUCHING,
@@ -52,9 +58,25 @@ from symgen.run.modes.choice import (
     measure_margins,
     read_rows,
 )
+from symgen.run.modes.contact_impacts import find_struck_contacts, gather_contacts, strike_contacts
+from symgen.run.modes.contacts import choose_contacts
 from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_corners
+from symgen.run.modes.ends import find_undefined
+from symgen.run.modes.placing import put_gaps
 from symgen.run.modes.strikes import Strikes, find_struck, forget_passed, gather, strike
-from symgen.run.modes.transition_log import HIT, Transitions, log_changes, log_transition, remember_modes
+from symgen.run.modes.transition_log import (
+    HIT,
+    Transitions,
+    is_struck_before,
+    log_changes,
+    log_changes_in_pieces,
+    log_changes_of_contacts,
+    log_transition,
+    remember_modes,
+)
+
+#: Whether gaps have several pieces, which are one in the log; whether there are contacts.
+PIECES = CONTACTS = False
 
 
 class OfModes(Record):
@@ -105,6 +127,23 @@ def set_of(numbers: Integers, count: int) -> float:
     return total
 
 
+def modes_in_digits(c: Choice, of: Integers) -> float:
+    """Return the modes of the rows of contacts as the digits of a number to the base of 4."""
+    total, power = 0.0, 1.0
+    for i in range(c.count):
+        total += power * float(of[i])
+        power *= 4.0
+    return total
+
+
+def dry_at_rest(c: Choice) -> int:
+    """Return the number of rows with two bounds among those at rest, of which they come first."""
+    count = 0
+    for r in range(c.at_rest[0]):
+        count += 1 if c.pushes[c.rest[r]] == 0 else 0
+    return count
+
+
 def refuse_fault(code: int, which: float, first: float, second: float, modes: OfModes) -> int:
     """Keep why there are no modes, with rows and numbers of the sentence; return `NO_MODES`."""
     ends = modes.strikes.effects.ends
@@ -125,6 +164,8 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
         which = set_of(c.named, c.count + 1)
     elif code == NO_IMPULSES:
         which = set_of(c.rest, c.at_rest[0])
+    elif code == CONTRARY:
+        which = set_of(c.rest, c.at_rest[0]) - set_of(c.rest, dry_at_rest(c))
     elif code == NOT_APPLIED:
         which, power = 0.0, 1.0
         for i in range(c.count):
@@ -138,7 +179,19 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
         first = c.value[row]
     elif code == IMMOVABLE:
         first = c.speed[row]
+    elif CONTACTS and (code == NO_CONTACT_MODES or code == GAINED):
+        first = c.jam[0]
+    elif CONTACTS and code == SEVERAL_MODES:
+        first, second = modes_in_digits(c, c.best), modes_in_digits(c, c.other)
     return refuse_fault(code, which, first, second, modes)
+
+
+def look_ahead(code: int, modes: OfModes, state: EventState) -> int:
+    """Return the code of a run whose step has failed, `NO_MODES` where a formula of a row is no number behind it."""
+    c, t, step = modes.choice, state.clock[abi.TIME], state.clock[abi.STEP] if code == abi.NOT_FINITE else 0.0
+    if find_undefined(t, step, c, state.y, state.p, state.w, state.iw) == SAME:
+        return code
+    return refuse_modes(OUT_OF_RANGE, modes, state)
 
 
 # -- impacts -----------------------------------------------------------------------------------------------------------
@@ -160,7 +213,7 @@ def strike_gaps(t: float, modes: OfModes, state: EventState) -> int:
     else:
         begin_afresh(state)
     for i in range(c.count):
-        if s.active[i] != 0:
+        if s.active[i] != 0 and not (PIECES and is_struck_before(c, s.active, i)):
             log_transition(t, modes.transitions, i, HIT)
     if read_rows(t, c, state.y, state.p, state.w) != SAME:
         return OUT_OF_RANGE
@@ -193,6 +246,11 @@ def rest_gaps(t: float, modes: OfModes, state: EventState) -> int:
         if read_rows(t, c, state.y, state.p, state.w) != SAME:
             code = OUT_OF_RANGE
     return int(code)
+
+
+def put_gaps_to_zero(t: float, modes: OfModes, state: EventState) -> int:
+    """Put the gaps that are closed at a start to 0; return their number."""
+    return int(put_gaps(t, modes.choice, state.y, state.p, state.w, state.iw))
 
 
 # -- modes -------------------------------------------------------------------------------------------------------------
@@ -246,7 +304,11 @@ def choose_here(modes: OfModes, state: EventState) -> int:
             code = take_chosen(modes, state)
     if code != SAME:
         return int(refuse_modes(code, modes, state))
-    if not starts:  # a start has modes, and no change of them
+    if starts:
+        lay_gaps(t, modes, state)
+    elif PIECES:  # a start has modes, and no change of them
+        log_changes_in_pieces(t, c, state.w, modes.transitions)
+    else:
         log_changes(t, c, state.w, modes.transitions)
     return int(abi.DONE)
 
@@ -292,7 +354,7 @@ def take_turn(code: int, modes: OfModes, state: EventState) -> int:
     Parameters
     ----------
     code : int
-        End code of the loop; nothing happens but where it is `MET`.
+        End code of the loop; nothing happens but where it is `MET`, and where a step has failed.
     modes : OfModes
         Rows with bounds.
     state : State
@@ -304,6 +366,8 @@ def take_turn(code: int, modes: OfModes, state: EventState) -> int:
         `MET` to go on, or the code of the end of the run: `DONE` where an event ends it, `GATHERED` where resets
         accumulate, `IMPOSSIBLE` where one cannot be, `NO_MODES` where modes are not determined.
     """
+    if code == abi.TINY_STEP or code == abi.NOT_FINITE:
+        return look_ahead(code, modes, state)
     if code != abi.MET:
         return code
     c, effects, hunt, t = modes.choice, modes.strikes.effects, state.hunt, state.clock[abi.TIME]
@@ -351,10 +415,40 @@ def change_state(last: int, effects: OfEffects, state: EventState) -> int:
 STRIKING = Meanings(
     "runs with bounded rows, of which gaps strike or events change the state",
     meet_impacts=strike_gaps,
+    lay_gaps=put_gaps_to_zero,
     gather_impacts=rest_gaps,
     change_state=apply_resets,
 )
 CORNERED = Meanings("runs with corners of gaps", meet_impacts=strike_past_corners)
 PRESSED = Meanings("runs with bounds that depend on reactions", choose_modes=choose_pressed)
+IN_PIECES = Meanings("runs with gaps of several pieces", PIECES=True)
+TOUCHED = Meanings(
+    "runs with contacts",
+    CONTACTS=True,
+    choose_modes=choose_contacts,
+    find_struck=find_struck_contacts,
+    strike=strike_contacts,
+    gather=gather_contacts,
+    log_changes=log_changes_of_contacts,
+    log_changes_in_pieces=log_changes_of_contacts,
+)
+#: Meanings for what a run's rows with bounds have (`symgen.run.loops.run_spec.Watched.turning`).
+TURNING = {"pressed": PRESSED, "corners": CORNERED, "pieces": IN_PIECES, "contacts": TOUCHED}
 #: Type of what follows the functions of a model, where events change a run, and where rows have bounds.
 FURTHER = {"effects": record_type(OfEffects), "modes": record_type(OfModes)}
+
+
+def meanings_of_turn(strikes: bool, turning: Sequence[str]) -> dict[str, Any]:
+    """Return the meanings of names in the turns of a run with bounded rows.
+
+    Parameters
+    ----------
+    strikes : bool
+        Whether events change the run, or gaps strike.
+    turning : sequence of str
+        Keys of `TURNING`.
+    """
+    meanings: dict[str, Any] = dict(STRIKING) if strikes else {}
+    for kind in turning:
+        meanings |= TURNING[kind]
+    return meanings

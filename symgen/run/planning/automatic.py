@@ -238,7 +238,8 @@ def _vibration(mechanism: Mechanism, p: Array) -> float:
     largest = 0.0
     for force in mechanism.forces:
         for flexure in force.flexures:
-            if flexure.damping != ZERO:
+            times = flexure.damping if isinstance(flexure.damping, tuple) else (flexure.damping,)
+            if ZERO not in times:
                 return 0.0
             for body in (mechanism.body(name) for name in force.bodies if name not in light and name != GROUND):
                 turns = body.inertia if isinstance(body.inertia, tuple) else (body.inertia,)

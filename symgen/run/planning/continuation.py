@@ -16,6 +16,7 @@ from symgen.describe.facts.lengths import origin_of_sizes
 from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.mechanism import Hold
 from symgen.describe.parts.event_sections import events_in_words
+from symgen.run.compiling.masses import masses_of_starts
 from symgen.run.planning.starts import close_with_light_bodies, compiled_for, states_at_start
 from symgen.run.single.new_state import lengths_match
 from symgen.run.starts.assembly import Start, assemble
@@ -89,7 +90,8 @@ def _from_coordinates(plan: Plan, last: LastState, compiled: CompiledModel, ask_
     p = compiled.parameter_array(values, plan.method_parameters)
     datum = origin_of_sizes(plan.mechanism, scalar_values(values))
     whence = last.t, _windings(plan.mechanism, compiled, last)
-    start = assemble(compiled, q, v, p, plan.settings.strict, None, ask_light, None, whence, datum)
+    masses = masses_of_starts(plan.mechanism, compiled, True)
+    start = assemble(compiled, q, v, p, plan.settings.strict, None, ask_light, None, whence, datum, masses)
     holds = [Hold(name, Number(x)) for name, x in (last.states or {}).items()]
     start.y[info.own_states] = states_at_start(plan.mechanism, scalar_values(values), holds)
     return start

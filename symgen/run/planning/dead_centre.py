@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.run.effects.locking import COUNTS, MOST_NAMED
+from symgen.compile.loopcode.exact import plain_form
+from symgen.run.effects.locking import MOST_NAMED, name_jumps
 from symgen.run.layout import abi
 from symgen.run.layout.model_arrays import velocity_of_coordinate
 from symgen.run.layout.probe import Ready
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
+#: How the sentence on one begins.
+DEAD_CENTRE = "dead centre"
 #: Rows below this share of the largest one do not hold.
 _HOLDS = 1e-9**0.5
 #: Kind of the joints that drive.
@@ -61,18 +64,19 @@ def free_and_held(
     active = np.flatnonzero(compiled.section(w, "mask") == 0.0)
     left, _, right = np.linalg.svd(jacobian_at(compiled, t, y, p, w)[active])
     moving, holding = np.abs(right[-1]), np.abs(left[:, -1])
-    order = [j for j in np.argsort(-moving) if moving[j] > COUNTS * moving.max()]
+    farthest = np.zeros(MOST_NAMED, dtype=np.int64)
+    plain_form(name_jumps)(moving, len(moving), farthest)
     joints = dict.fromkeys(info.rows[i].joint for i in active[holding > _HOLDS * holding.max()])
     kinds = {joint.name: joint.kind for joint in mechanism.joints}
     names = moving_names(info)
-    return tuple(names[j] for j in order[:MOST_NAMED]), tuple(name for name in joints if kinds[name] == DRIVER)
+    return tuple(names[j] for j in farthest if j >= 0), tuple(name for name in joints if kinds[name] == DRIVER)
 
 
 def dead_centre(t: float, drivers: Sequence[str], free: Sequence[str]) -> str:
     """Return the sentence on a motion that ends at a dead centre, at a time [s]."""
     who = " and ".join(f"'{name}'" for name in drivers)
     names = ", ".join(free)
-    return f"dead centre at t = {t:.9g} s: {who or 'the drivers'} can go no further; {names} would have to jump"
+    return f"{DEAD_CENTRE} at t = {t:.9g} s: {who or 'the drivers'} can go no further; {names} would have to jump"
 
 
 def dead_centre_at_end(mechanism: Mechanism, outcome: Outcome) -> str:

@@ -9,6 +9,7 @@ from symgen.compile.native.formula_lines import Dialect, FormulaLines
 from symgen.describe.formulas.evaluate import dependent_parameters, independent_values, parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start
 from symgen.describe.parts.holds import ORIENTATION, read_holds
+from symgen.run.compiling.masses import masses_of_starts
 from symgen.run.layout.model_arrays import velocity_of_coordinate
 from symgen.run.planning.starts import held_quantities
 from symgen.run.starts.assembler import Assembly
@@ -84,12 +85,13 @@ def exported_start(
         Angles that count turns in the start that it is closed from, empty where their turns are chosen; None for the
         described start, of which some coordinates and velocities stay.
     """
-    info = compiled.info
+    info, masses = compiled.info, masses_of_starts(mechanism, compiled, True)
     if turns is not None:
-        return Assembly(compiled, branches=turns, datum=datum)
+        return Assembly(compiled, branches=turns, datum=datum, masses=masses)
     held = held_quantities(info, read_holds(mechanism), scalar_values(parameter_values(mechanism)), [None] * info.nv)
     fixed = {*held.fixed, *(velocity_of_coordinate(i, info) for i in held.coordinates)}
-    return Assembly(compiled, Held(velocities=held.velocities, fixed=tuple(sorted(fixed))), datum=datum)
+    own = Held(velocities=held.velocities, fixed=tuple(sorted(fixed)))
+    return Assembly(compiled, own, datum=datum, masses=masses)
 
 
 def written_start(mechanism: Mechanism, dialect: Dialect, described: bool) -> list[str]:

@@ -14,6 +14,7 @@ from symgen.describe.facts.sides import sided_joints, wrong_sides
 from symgen.describe.formulas.evaluate import evaluate, parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start, displacements_of_bodies
 from symgen.describe.parts.holds import ORIENTATION, read_holds
+from symgen.run.compiling.masses import masses_of_starts
 from symgen.run.compiling.pipeline import compile_model
 from symgen.run.compiling.side import add_integrals
 from symgen.run.layout import abi
@@ -207,7 +208,8 @@ class DescribedStart:
         return indices_of(self.compiled.info)
 
     def _assembly(self, held: Held) -> Assembly:
-        return Assembly(self.compiled, held, self._strict, self._ask_light, datum=self._datum)
+        masses = masses_of_starts(self.mechanism, self.compiled, bool(held.velocities or held.rates))
+        return Assembly(self.compiled, held, self._strict, self._ask_light, datum=self._datum, masses=masses)
 
 
 def states_at_start(mechanism: Mechanism, numbers: Scalars, holds: Sequence[Hold]) -> list[float]:

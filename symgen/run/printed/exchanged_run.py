@@ -339,7 +339,7 @@ def exchanged_run(loop: RuntimeFunction, traits: Traits) -> tuple[Any, Any]:
     if key not in _loops:
         name, meanings, _, model = recipe_of(loop, traits)
         meanings |= _RESTING if traits.effects else {}
-        meanings |= (_SEAMED if traits.seams else {}) | (_CORNERED if traits.corners else {})
+        meanings |= (_SEAMED if traits.seams else {}) | (_CORNERED if "corners" in traits.turning else {})
         indicate = types.int64(_F, _A, model, EVENT_STATE, _A)
         exchange = types.int64(_K, _F, model, SPAN, CHUNK, EVENT_STATE, VISIBLE, EXCHANGE)
         _loops[key] = (

@@ -310,9 +310,9 @@ def advance_run(
         code = advance_to_output(
             model, scheme, steps_until(span, until, math.inf, duration), chunk, state, outputs, visible
         )
-    numbers[END_CODE] = code
     if code > abi.DONE:
-        take_notes(code, 0, model, chunk, state)
+        code = int(take_notes(code, 0, model, chunk, state))
+    numbers[END_CODE] = code
     ended = code != abi.DONE or numbers[ENDING] >= 0
     if ended:
         show_state(observers[0], state.w, outputs, 0, state.y)
@@ -331,6 +331,7 @@ _OF_ROWS_BETWEEN_SEAMS = Meanings(
     begin_at_seams=row_events.begin_row_between_seams,
     take_change=row_events.choose_after_change,
 )
+_UNBOUNDED = Meanings("printed runs with events and without bounded rows", MARGINS=False)
 _SEAMED = Meanings(
     "printed runs with seams",
     return_before_seams=forget_later_seams,
@@ -344,28 +345,34 @@ class Traits(NamedTuple):
 
     Attributes
     ----------
-    events, effects, modes, pressed, seams, corners : bool
-        Switching functions; events that change a run, or gaps that strike; rows with bounds, and bounds that depend on
-        reactions; formulas that jump or have kinks over time; gaps with corners.
+    events, effects, modes, seams : bool
+        Switching functions; events that change a run, or gaps that strike; rows with bounds; formulas that jump or have
+        kinks over time.
+    turning : tuple of str
+        What of rows with bounds has its own meanings, see `symgen.run.loops.run_spec.Watched`.
     """
 
     events: bool
     effects: bool
     modes: bool
-    pressed: bool
     seams: bool
-    corners: bool = False
+    turning: tuple[str, ...] = ()
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """The names of what they have."""
+        has = [name for name, own in self._asdict().items() if own is True]
+        return (*has, *self.turning)
 
     @property
     def meanings(self) -> dict[str, Any]:
         """Meanings of names in this module and in the frame."""
         meanings: dict[str, Any] = dict(_KEPT)
         if self.events:
-            meanings |= MEANINGS | rows.EVENTS
+            meanings |= MEANINGS | rows.EVENTS | ({} if self.modes else _UNBOUNDED)
         if self.modes:
-            meanings |= rows.MODES | _OF_ROWS | (turn.STRIKING if self.effects else {})
-            meanings |= turn.CORNERED if self.corners else {}
-            meanings |= (turn.PRESSED if self.pressed else {}) | (_OF_ROWS_BETWEEN_SEAMS if self.seams else {})
+            meanings |= rows.MODES | _OF_ROWS | turn.meanings_of_turn(self.effects, self.turning)
+            meanings |= _OF_ROWS_BETWEEN_SEAMS if self.seams else {}
         elif self.effects:
             meanings |= rows.EFFECTS
         return meanings | (_SEAMED if self.seams else {})
@@ -435,5 +442,5 @@ def recipe_of(loop: RuntimeFunction, traits: Traits) -> tuple[str, dict[str, Any
         signature = types.int64(system, scheme, SPAN, traits.state, KEPT_OUTPUT)
         steps = compiled_loop(__name__, f"{name}_steps", frame.integrate, signature, **meanings)
         system = types.RecordType((system, SEAMS, types.FunctionType(signature), e.PREPARE, e.PREPARE))
-    name += "".join(f"_{trait}" for trait, has in traits._asdict().items() if has)
+    name += "".join(f"_{trait}" for trait in traits.words)
     return name, meanings, steps, types.RecordType((system, OBSERVERS, *traits.further))

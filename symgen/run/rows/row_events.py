@@ -126,7 +126,7 @@ def take_notes_of_events(code: int, r: int, model: System, chunk: RowChunk, stat
         row[at + 2] = t
     hunt[records.NOTED] = hunt[records.ACCEPTED] = 0.0
     if code == abi.UNDEFINED:
-        for k in range(events):
+        for k in range(n if numbers > 0 else 0):
             g = hunt[records.N_HEAD + records.N_COLUMNS * n + k]
             if not g == g and not row[e.IMPOSSIBLE_EVENT] == row[e.IMPOSSIBLE_EVENT]:
                 row[e.IMPOSSIBLE_EVENT] = float(k)

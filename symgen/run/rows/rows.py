@@ -134,7 +134,7 @@ def run_rows(
         if code == abi.MET:
             code = abi.DONE
         else:
-            take_notes(code, r, model, chunk, state)
+            code = take_notes(code, r, model, chunk, state)
         end_run(code, r, system, span, observers, chunk, state, series)
     return int(chunk.selected.shape[0])
 
@@ -208,8 +208,7 @@ def over_rows(
     effects: bool = False,
     examined: bool = False,
     modes: bool = False,
-    pressed: bool = False,
-    corners: bool = False,
+    turning: tuple[str, ...] = (),
 ) -> Any:
     """Return the loop over many runs around that over a single run, made at the first use.
 
@@ -217,15 +216,17 @@ def over_rows(
     ----------
     loop : compiled loop
         From `symgen.run.loops.frame.loop`.
-    events, seams, effects, examined, modes, pressed, corners : bool
+    events, seams, effects, examined, modes : bool
         Whether rows have switching functions, seams of parameters, events that change a run, constraints that may jump,
-        bounded rows, bounds that depend on reactions, and gaps with corners.
+        and bounded rows.
+    turning : tuple of str
+        See `symgen.run.loops.run_spec.Watched`.
     """
-    key = loop, events, seams, effects, examined, modes, pressed, corners
+    key = loop, events, seams, effects, examined, modes, turning
     if key not in _loops:
         name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}" + "_with_events" * events + "_with_seams" * seams
-        name += "_with_effects" * effects + "_examined" * examined + "_with_modes" * modes + "_pressed" * pressed
-        name += "_at_corners" * corners
+        name += "_with_effects" * effects + "_examined" * examined + "_with_modes" * modes
+        name += "".join(f"_{kind}" for kind in turning)
         inner = loop_with_events(loop) if events else loop
         inner = loop_with_seams(inner) if seams else inner
         args = signature_of(inner).arguments
@@ -233,9 +234,7 @@ def over_rows(
         model = types.RecordType((*args[:1], OBSERVERS, *further))
         signature = types.int64(model, *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
         meanings: dict[str, Any] = {**(EVENTS if events else {}), **(EFFECTS if effects else {})}
-        meanings |= (MODES if modes else {}) | (turn.PRESSED if pressed else {})
-        meanings |= turn.STRIKING if effects and modes else {}
-        meanings |= turn.CORNERED if corners else {}
+        meanings |= MODES | turn.meanings_of_turn(effects, turning) if modes else {}
         meanings |= MODES_BETWEEN_SEAMS if modes and seams else {}
         meanings |= (SEAMED if seams else {}) | (_EXAMINED if examined else {})
         compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)

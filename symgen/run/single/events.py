@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.ir.program import MODE_NUMBERS
-from symgen.describe.bounds.bounded_modes import HIT, JAM, LEAVE, REVERSE, SLIP
-from symgen.describe.facts.corners import row_of_corner
+from symgen.describe.bounds.bounded_modes import HIT, JAM, LEAVE, LIFT, REVERSE, SLIP
+from symgen.describe.facts.corners import CORNER
 from symgen.describe.parts.event_sections import RECORD, STOP
 from symgen.run.effects.effects import Impact
 from symgen.run.layout import abi
@@ -60,22 +60,16 @@ def event_state(watched: Watched, sizes: Sizes, state: State) -> event_loop.Even
     return event_loop.EventState._make((*state, hunt))
 
 
-#: Kinds of margins by the last words of their names.
+#: Kinds of margins by the words of events.
 _MARGINS = {
-    **{SLIP: searching.FORCE, LEAVE: searching.FORCE},
-    **{HIT: searching.GAP, REVERSE: searching.RATE, JAM: searching.PART},
+    **{SLIP: searching.FORCE, LEAVE: searching.FORCE, LIFT: searching.FORCE},
+    **{HIT: searching.GAP, REVERSE: searching.RATE, JAM: searching.PART, CORNER: searching.CORNER},
 }
 
 
 def margins_of(watched: Watched) -> tuple[list[int], list[int]]:
     """Return of which kind of margin each event is, 0 for others, and the number of its bounded row."""
-    rows = () if watched.bounded is None else watched.bounded.names
-    found = {f"{name}.{word}": (kind, i) for i, name in enumerate(rows) for word, kind in _MARGINS.items()}
-    found |= {
-        watched.names[k]: (searching.CORNER, rows.index(row_of_corner(watched.names[k]))) for k in watched.corners
-    }
-    kinds = [found.get(name, (0, 0)) for name in watched.names]
-    return [kind for kind, _ in kinds], [row for _, row in kinds]
+    return [_MARGINS.get(word, 0) for word in watched.words], [max(row, 0) for row in watched.owners]
 
 
 @dataclass(frozen=True)
@@ -98,6 +92,8 @@ class Happening:
         Energy added by the reset [J]; for resets at the same time, the first has the total.
     left : float or None
         Time until impacts would have accumulated [s], where a gap is at rest by them.
+    number : int
+        Number of the event; -1 where none is named, as what happened has been found beside others.
     """
 
     t: float
@@ -108,6 +104,7 @@ class Happening:
     impact: Impact | None = None
     energy: float = 0.0
     left: float | None = None
+    number: int = -1
 
 
 class Events:
@@ -153,7 +150,7 @@ class Events:
         self._noted = float(state.hunt[searching.NOTED])
         notes = event_loop.taken_notes(state.hunt, len(state.y), len(state.w))
         events = [
-            (number, Happening(t, names[number], actions[number], y[: info.work], y[info.own_states]))
+            (number, Happening(t, names[number], actions[number], y[: info.work], y[info.own_states], number=number))
             for t, number, y in notes
             if number < len(names)
         ]
@@ -296,17 +293,26 @@ def stop_notes(outcome: Outcome) -> list[str]:
     return [f"stopped at t = {outcome.end:.13g} s by the event {' and '.join(names)}"]
 
 
+def gap_notes(outcome: Outcome) -> list[str]:
+    """Return a note on gaps that were closed at the start without being 0."""
+    turn = outcome.simulation.turn
+    put = {} if turn is None else turn.gaps_put
+    gaps = ", ".join(f"{name} ({gap:.3g})" for name, gap in put.items())
+    return [f"gaps that touch at the start were put to 0: {gaps}"] if gaps else []
+
+
 def rest_notes(outcome: Outcome) -> list[str]:
     """Return a note on each gap that ever faster impacts have brought to rest, with the time that was left.
 
     A single impact without rebound accumulates nothing: its events say all.
     """
-    return [
+    notes = dict.fromkeys(
         f"impacts of {event.name.rpartition('.')[0]} accumulate at t = {event.t + event.left:.13g} s: "
         f"it rests from t = {event.t:.13g} s on, where {event.left:.3g} s were left"
         for event in outcome.happened
         if event.left
-    ]
+    )
+    return list(notes)
 
 
 def impact_notes(outcome: Outcome) -> list[str]:
@@ -314,9 +320,10 @@ def impact_notes(outcome: Outcome) -> list[str]:
     hits = [event for event in outcome.happened if event.name.endswith(f".{HIT}") and event.impact is not None]
     for first, second in pairwise(hits):
         if first.impact is second.impact:
-            together = [event.name.rpartition(".")[0] for event in hits if event.impact is first.impact]
+            together = dict.fromkeys(event.name.rpartition(".")[0] for event in hits if event.impact is first.impact)
+            struck = " and ".join(together) if len(together) > 1 else f"pieces of {first.name.rpartition('.')[0]}"
             return [
-                f"{' and '.join(together)} strike at once at t = {first.t:.13g} s: by Newton's law each gap opens with "
+                f"{struck} strike at once at t = {first.t:.13g} s: by Newton's law each gap opens with "
                 "its restitution times the rate at which it closed, which is not what impacts one after the other do"
             ]
     return []

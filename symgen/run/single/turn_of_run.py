@@ -29,12 +29,10 @@ from symgen.run.loops.event_loop import EVENT_STATE, EventState
 from symgen.run.modes.bounded_rows import NOT_APPLIED, SIGN
 from symgen.run.modes.refusals import names_in, refusal
 from symgen.run.modes.turn import (
-    CORNERED,
     FURTHER,
-    PRESSED,
-    STRIKING,
     OfModes,
     begin_modes,
+    meanings_of_turn,
     open_rows_of,
     take_resets,
     take_turn,
@@ -51,14 +49,14 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 #: What is asked for: modes where a run begins or inputs have changed; the same after all rows were taken out of force,
-#: as gaps may strike; what happens at the events noted.
-BEGIN, BEGIN_OPEN, MEET = range(3)
+#: as gaps may strike; what happens at the events noted; why a step has failed.
+BEGIN, BEGIN_OPEN, MEET, END = range(4)
 
 
 def serve_modes(doing: float, modes: OfModes, state: EventState) -> int:
     """Begin in modes, or do what happens at events; see `take_turn`."""
-    if doing == float(MEET):
-        return int(take_turn(abi.MET, modes, state))
+    if doing >= float(MEET):
+        return int(take_turn(abi.MET if doing == float(MEET) else int(doing) - END, modes, state))
     if doing == float(BEGIN_OPEN):
         open_rows_of(modes, state)
     return int(begin_modes(modes, state))
@@ -72,21 +70,20 @@ def serve_resets(doing: float, effects: OfEffects, state: EventState) -> int:
 _loops: dict[str, Any] = {}
 
 
-def serving_function(modes: bool, effects: bool, pressed: bool, corners: bool) -> tuple[Any, Signature]:
+def serving_function(modes: bool, effects: bool, turning: tuple[str, ...]) -> tuple[Any, Signature]:
     """Return `serve_modes` or `serve_resets`, made at the first use, and its types.
 
     Parameters
     ----------
-    modes, effects, pressed, corners : bool
-        Whether rows have bounds, events change the run or gaps strike, bounds depend on reactions, and gaps have
-        corners.
+    modes, effects : bool
+        Whether rows have bounds, and events change the run or gaps strike.
+    turning : tuple of str
+        See `symgen.run.loops.run_spec.Watched`.
     """
-    name = "serve_modes" * modes + "_and_resets" * (modes and effects) + "_pressed" * pressed + "serve" * (not modes)
-    name += "_at_corners" * corners
+    name = "_".join(("serve_modes" if modes else "serve", *["and_resets"] * (modes and effects), *turning))
     signature = types.int64(types.float64, FURTHER["modes" if modes else "effects"], EVENT_STATE)
     if name not in _loops:
-        meanings = {**KEEPING, **(STRIKING if modes and effects else {}), **(PRESSED if pressed else {})}
-        meanings |= CORNERED if corners else {}
+        meanings = {**KEEPING, **(meanings_of_turn(effects, turning) if modes else {})}
         source = serve_modes if modes else serve_resets
         name_of_loop = f"compiled_{name}"  # it is found by its name, as all loops are
         _loops[name] = globals()[name_of_loop] = compiled_loop(__name__, name_of_loop, source, signature, **meanings)
@@ -102,11 +99,17 @@ class TurnOfRun:
         The run, which has events.
     watched : Watched
         Its events.
+
+    Attributes
+    ----------
+    gaps_put : dict of str to float
+        What the gaps were that the start has put to 0, by the names of their rows.
     """
 
     def __init__(self, simulation: Simulation, watched: Watched) -> None:
         self.simulation, self.watched, self.rows = simulation, watched, watched.bounded
         self.effects = what_changes(simulation.compiled, watched)
+        self.gaps_put = dict[str, float]()
 
     # -- entries -------------------------------------------------------------------------------------------------------
 
@@ -129,6 +132,8 @@ class TurnOfRun:
         y = state.y.copy()
         before = self._count
         self._serve(BEGIN_OPEN if opened else BEGIN)
+        if state.control[abi.STEPS] == 0:
+            self._keep_gaps_put()
         self._note(before, Happening(self._now, "", MODE, y[: info.work], y[info.own_states]))
 
     def meet(self, happened: Sequence[Happening]) -> int:
@@ -155,6 +160,23 @@ class TurnOfRun:
             past[:] = [event for event in past if event.t != here.t or event.action != MODE]
             self._note(before, here)
         return {abi.DONE: abi.MET, abi.MET: abi.DONE}.get(code, code)
+
+    def _keep_gaps_put(self) -> None:
+        """Keep the gaps that the start has put to 0."""
+        assert self.rows is not None, "gaps belong to rows"
+        moved = self.memory.choice.moved
+        self.gaps_put = {name: float(x) for name, x in zip(self.rows.names, moved, strict=True) if x != 0.0}
+
+    def explain_end(self, code: int) -> None:
+        """Look for the reason why a step has failed, by the code of the loop.
+
+        Raises
+        ------
+        InputError
+            If a formula of a row is no number behind the present time.
+        """
+        if self.rows is not None:
+            self._serve(END + code)
 
     def _serve(self, doing: int) -> int:
         """Enter the compiled turn; return its code, `MET` to go on, unless it is refused."""
@@ -190,7 +212,8 @@ class TurnOfRun:
             return self.effects.no_velocities(numbers, resets.work, v, self._now)
         assert self.rows is not None, "rows have modes"
         if failure == NOT_APPLIED:
-            numbers = [self.watched.names.index(f"{name}.{HIT}") for name in names_in(which, self.rows.names)]
+            hits = self.watched.events_of_rows(HIT, len(self.rows.names))
+            numbers = [hit for row, hit in enumerate(hits) if int(which) >> row & 1]
             return self.effects.no_velocities(numbers, resets.work, v, self._now)
         every = [row.name for row in info.rows]
         return refusal(self.rows, every, int(failure), which, first, second, self._now)
@@ -204,28 +227,34 @@ class TurnOfRun:
         return float(ends[e.ACCUMULATION]), tuple(names_in(float(ends[e.GATHERING]), self.watched.names))
 
     @property
-    def effects_in_order(self) -> list[tuple[tuple[int, ...], Array, Array]]:
-        """Effects of the latest turn in their order: numbers of events, state before, and scratch after each."""
+    def effects_in_order(self) -> list[tuple[tuple[int, ...], Array, Array, Any]]:
+        """Effects of the latest turn in their order.
+
+        Numbers of events, state before, scratch after each, and of contacts which impulses held velocities, and the
+        signs of the multiples that others were; else None.
+        """
         resets = self._resets
-        found = [(resets.kept, np.flatnonzero(resets.chosen), resets.kept.w)]
+        found: list[Any] = [(resets.kept, np.flatnonzero(resets.chosen), resets.kept.w, None)]
         if self.rows is not None:
             choice, strikes = self.memory.choice, self.memory.strikes
-            active = np.flatnonzero(strikes.active)
+            active, ties = np.flatnonzero(strikes.active), strikes.ties
             w = strikes.rested.w.copy()  # the formulas of rows that come to rest read their signs
             w[choice.first + MODE_NUMBERS * active + SIGN] = 1.0
-            found += [(strikes.struck, strikes.events[active], strikes.struck.w)]
-            found += [(strikes.rested, strikes.events[active], w)]
+            tied = (ties.kept.copy(), ties.kept_ways.copy()), (ties.held.copy(), ties.ways.copy())
+            both = tied if self.rows.contacts else (None, None)
+            found += [(strikes.struck, strikes.events[active], strikes.struck.w, both[0])]
+            found += [(strikes.rested, strikes.events[active], w, both[1])]
         happened = [x for x in found if not np.isnan(x[0].energy[0])]
-        return [(tuple(numbers.tolist()), kept.y.copy(), w.copy()) for kept, numbers, w in happened]
+        return [(tuple(numbers.tolist()), kept.y.copy(), w.copy(), ties) for kept, numbers, w, ties in happened]
 
     def forget_after(self, happened: Sequence[Happening]) -> None:
         """Remember the resets of some events alone, as a run goes on from an earlier state."""
         if "memory" in vars(self):
-            numbers, past = {name: k for k, name in enumerate(self.watched.names)}, self._resets.past
+            past = self._resets.past
             past.counts[:] = 0
             for event in happened:
                 if event.action == RESET or event.impact is not None:
-                    add_resets_of(past, self.effects.chosen([numbers[event.name]]), event.t)
+                    add_resets_of(past, self.effects.chosen([event.number]), event.t)
 
     def _write_resets(self) -> None:
         """Have the resets at the present time name what they have changed."""
@@ -251,16 +280,21 @@ class TurnOfRun:
         for number in range(before, self._count):
             at = number % len(log.times)
             row, word = int(log.rows[at]), WORDS[log.words[at]]
-            event = replace(here, name=f"{names[row]}.{word}")
+            event = replace(here, name=f"{names[row]}.{word}", number=-1)
             if word == HIT:
                 energy = 0.0
                 if impact is None:
                     impact = self._impact(strikes.events[np.flatnonzero(strikes.active)].tolist(), strikes.struck)
                     energy = impact.energy
-                event = replace(event, impact=impact, energy=energy)
-            elif word == REST and not np.isnan(strikes.left[row]):
-                event = replace(event, left=float(strikes.left[row]))
+                event = replace(event, impact=impact, energy=energy, number=int(strikes.events[row]))
+            elif word == REST and (left := [x for x in strikes.left[self._rows_named(row)] if not np.isnan(x)]):
+                event = replace(event, left=float(max(left)))
             happened.append(event)
+
+    def _rows_named(self, row: int) -> list[int]:
+        """Return the rows with the name of a row: the pieces of its gap."""
+        assert self.rows is not None, "rows have names"
+        return [i for i, name in enumerate(self.rows.names) if name == self.rows.names[row]]
 
     def _impact(self, numbers: Sequence[int], kept: KeptEffect) -> Impact:
         """Return what some events have changed."""
@@ -298,9 +332,8 @@ class TurnOfRun:
 
     @cached_property
     def _entry(self) -> Callable[..., int]:
-        rows, changes = self.rows, self.watched.effects is not None
-        pressed, corners = rows is not None and bool(rows.pressed), bool(self.watched.corners)
-        function, signature = serving_function(rows is not None, changes, pressed, corners)
+        watched = self.watched
+        function, signature = serving_function(self.rows is not None, watched.effects is not None, watched.turning)
         return bind_arguments(function, types.FunctionType(signature), 0.0, self.memory, self.simulation.state)
 
 

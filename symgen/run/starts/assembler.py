@@ -28,12 +28,13 @@ from symgen.run.layout.model_arrays import (
 )
 from symgen.run.layout.probe import Ready
 from symgen.run.layout.redundancy import choose_rows, room_of_choice
-from symgen.run.layout.start_records import Closing, Instant, Layout, StartConditions, Work, new_work
+from symgen.run.layout.start_records import Closing, Instant, Layout, MassTable, StartConditions, Work, new_work
 from symgen.run.starts import decisions
 from symgen.run.starts import start_solvers as solvers
 from symgen.run.starts.closing import is_light
 from symgen.run.starts.held import Held
 from symgen.run.starts.joint_starts import Joints, joints_held
+from symgen.run.starts.masses import Masses, project_nothing, project_velocities, room_of_masses
 from symgen.run.starts.starting import (
     close_alone,
     close_rows,
@@ -143,6 +144,8 @@ class Assembly:
         Angles that count turns; empty if their turns are chosen.
     datum : sequence of float
         What coordinates are measured from (`symgen.describe.facts.lengths.origin_of_sizes`); empty for the origin.
+    masses : Masses, optional
+        What is off the diagonal of M, in whose metric velocities that contradict each other are projected.
     """
 
     compiled: CompiledModel
@@ -152,6 +155,7 @@ class Assembly:
     t: float = 0.0
     branches: Sequence[float] = ()
     datum: Sequence[float] = ()
+    masses: Masses | None = None
 
     @cached_property
     def layout(self) -> Layout:
@@ -175,7 +179,7 @@ class Assembly:
         compiled, held, scratch = self.compiled, self.held, self.compiled.scratch()
         joints = joints_held(compiled.info, self.layout, list(held.joints), list(held.rates), scratch)
         largest = max(joints.values, joints.rates, key=lambda layout: layout.m)
-        return joints, new_work(largest, len(scratch))
+        return joints, new_work(largest, len(scratch), *(room_of_masses(largest, self.masses) if self.masses else ()))
 
     def close(self, y: Array, v: Array, p: Array) -> tuple[Array, Array]:
         """Make one state consistent in place, with held quantities at their values; return scratch and summary.
@@ -210,7 +214,7 @@ class Assembly:
         plain = plain_function_with_callees(law.rhs), plain_function_with_callees(model.geometry)
         machine = Ready(law.rhs, abi.RHS), Ready(model.geometry, abi.MEASURE)
         judge = plain_form(is_light)
-        nothing: list[Any] = [None] * 4  # it calls ``geometry`` alone
+        nothing: list[Any] = [None] * 7  # it calls ``geometry`` alone
         with np.errstate(all="ignore"):
             try:
                 return bool(judge(plain[0], Closing(plain[1], *nothing), self.layout, now, work))
@@ -234,7 +238,10 @@ class Assembly:
         """
         joints, work = self.memory()
         flat, (*functions, observe), form = self.prepare(now, selected, len(work.right))
-        model, all_conditions = ((self.layout, *functions), observe, joints), (array.ravel() for array in conditions)
+        model, all_conditions = (
+            ((self.layout, self.table, *functions), observe, joints),
+            (array.ravel() for array in conditions),
+        )
         close = form(close_rows if len(now.y) > 1 else close_alone)
         arguments = model, flat, StartConditions(*all_conditions), work, selected, control
         return self.close_prepared(partial(close, *arguments), now, conditions, len(selected))
@@ -278,7 +285,7 @@ class Assembly:
         large = self.layout.sparse or m * n * min(m, n) > decisions.LARGEST_INTERPRETED
         if len(now.y) > 1 or large or _MANY.get():
             return flat, tuple(compiled_form(f) for f in self.own), compiled_form
-        kinds = abi.MEASURE, abi.MEASURE, abi.MOVE, None, None, None, abi.RHS, abi.OBSERVE
+        kinds = abi.MEASURE, abi.MEASURE, abi.MOVE, None, None, abi.OBSERVE, None, None, abi.RHS, abi.OBSERVE
         plain = zip(map(plain_form, self.own), kinds, strict=True)
         return flat, tuple(f if kind is None else Ready(f, kind) for f, kind in plain), plain_form
 
@@ -299,8 +306,15 @@ class Assembly:
             summaries[moved, e.START] = e.MOVED
 
     @property
+    def table(self) -> MassTable:
+        """What formulas give of M."""
+        if self.masses is None:
+            return MassTable(0, np.zeros(0, dtype=np.int64))
+        return MassTable(self.masses.rotors, np.array(self.masses.entries, dtype=np.int64).ravel())
+
+    @property
     def own(self) -> tuple[Any, ...]:
-        """Functions for `close_row`: geometry, measure, move, spread, solve, turns, rhs, observe."""
+        """Functions for `close_row`, in the order of its model, and ``observe``."""
         model, law, layout = self.compiled.model, self.compiled.law_module, self.layout
         held = bool(self.held.joints or self.held.rates)
         return (
@@ -309,6 +323,8 @@ class Assembly:
             model.move if layout.nq != layout.nv else turn_nothing,
             model.spread if layout.sparse else turn_nothing,
             (solvers.iterated_change if held else solvers.sparse_change) if layout.sparse else solvers.dense_change,
+            self.masses.formulas if self.masses else observe_nothing,
+            project_velocities if self.masses else project_nothing,
             solvers.choose_turns if layout.windings else solvers.choose_no_turns,
             law.rhs if layout.ask_light else set_no_rates,
             model.observe if held else observe_nothing,

@@ -32,6 +32,7 @@ from symgen.run.starts.start_words import (
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
+    from symgen.run.starts.masses import Masses
 
 Array = NDArray[np.float64]
 #: Reported coordinates, from described and closed ones: names, differences, and units.
@@ -123,6 +124,7 @@ def assemble(
     moved: Moved | None = None,
     instant: tuple[float, Sequence[float]] = (0.0, ()),
     datum: Sequence[float] = (),
+    masses: Masses | None = None,
 ) -> Start:
     """Return the consistent start of a single run.
 
@@ -152,6 +154,8 @@ def assemble(
         Time of the start [s], and the angles that count turns if their branches are set.
     datum : sequence of float, optional
         What coordinates are measured from (`symgen.describe.facts.lengths.origin_of_sizes`).
+    masses : Masses, optional
+        What is off the diagonal of M.
 
     Raises
     ------
@@ -161,7 +165,7 @@ def assemble(
         If `strict` and the start had to be changed; if a mass is not positive, a formula is not finite, or nothing
         determines the accelerations of a massless body.
     """
-    assembly = Assembly(compiled, held or Held(), strict, ask_light, *instant, datum)
+    assembly = Assembly(compiled, held or Held(), strict, ask_light, *instant, datum, masses)
     return closed_start(assembly, assembly.held, assembly.close, q, v, p, moved)
 
 

@@ -18,6 +18,7 @@ from symgen.run.layout.redundancy import choose_rows, farthest_row, is_off, row_
 from symgen.run.layout.scales import (
     VANISHED,
     coarseness_of,
+    entry_of,
     extent_of,
     free_scale,
     larger_number,
@@ -114,15 +115,19 @@ def complete_velocities(closing: Closing, layout: Layout, now: Instant, work: Wo
             scale[j] = 0.0 if layout.unchanged[j] != 0 else free_scale(layout, w, j)
         _correct_velocities(closing, layout, now, work)
         return int(e.ASSEMBLED)
-    heaviest = 0.0
-    for j in range(n):
-        heaviest = larger_number(heaviest, w[mass + j] * w[layout.gauge + j])
-    for j in range(n):  # massless bodies give way first
-        least = decisions.LEAST_MASS * (heaviest if heaviest > 0.0 else 1.0) / w[layout.gauge + j]
-        weight = w[mass + j] if w[mass + j] > least else least
-        scale[j] = 0.0 if layout.unchanged[j] != 0 else 1.0 / math.sqrt(weight)
-    for _ in range(2):
-        size = _correct_velocities(closing, layout, now, work)
+    if closing.masses.places.shape[0] > 0:
+        closing.project(closing.formulas, closing.masses, layout, now, work)
+        size = _velocity_violation(layout, now, work)
+    else:
+        heaviest = 0.0
+        for j in range(n):
+            heaviest = larger_number(heaviest, w[mass + j] * w[layout.gauge + j])
+        for j in range(n):  # massless bodies give way first
+            least = decisions.LEAST_MASS * (heaviest if heaviest > 0.0 else 1.0) / w[layout.gauge + j]
+            weight = w[mass + j] if w[mass + j] > least else least
+            scale[j] = 0.0 if layout.unchanged[j] != 0 else 1.0 / math.sqrt(weight)
+        for _ in range(2):
+            size = _correct_velocities(closing, layout, now, work)
     return int(e.PROJECTED if size <= decisions.VELOCITIES_CONTRADICT * speed else e.CONTRADICTION)
 
 
@@ -297,8 +302,35 @@ def find_undetermined(closing: Closing, layout: Layout, now: Instant, work: Work
 
 
 @exact()
+def is_squeezed(layout: Layout, w: Array) -> bool:
+    """Whether a row with bounds and another row act on a velocity with little mass."""
+    heaviest = 0.0
+    for j in range(layout.nv):
+        heaviest = larger_number(heaviest, w[layout.mass + j] * w[layout.gauge + j])
+    for k in range(layout.constants.shape[0]):
+        row, j = layout.entries[3 * k], layout.entries[3 * k + 1]
+        own = w[layout.mass + j] * w[layout.gauge + j]
+        if (
+            layout.switches[row] >= 0
+            and own > 0.0
+            and own < decisions.LIGHT * heaviest
+            and entry_of(layout, w, k) != 0.0
+        ):
+            for other in range(layout.constants.shape[0]):
+                another = layout.entries[3 * other] != row and layout.entries[3 * other + 1] == j
+                if another and entry_of(layout, w, other) != 0.0:
+                    return True
+    return False
+
+
+@exact()
 def is_light(rhs: abi.Rhs, closing: Closing, layout: Layout, now: Instant, work: Work) -> bool:
-    """Whether a pivot of S is suspiciously small although D D^T finds no row dependent; `now` is not changed."""
+    """Whether a pivot of S is suspiciously small although D D^T finds no row dependent, or forces on light ones cancel.
+
+    `now` is not changed.
+    """
+    if is_squeezed(layout, now.w):
+        return True
     other = Instant(work.y, now.p, work.w)
     _copy_array(layout, now, other)
     for i in range(work.counters.shape[0]):

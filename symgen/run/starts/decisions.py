@@ -52,6 +52,9 @@ PROBES, PROBE_DISTANCE, STANDSTILL = 3, 0.03, 1e-9
 #: Rows kept in order of elimination represent those left out badly if their smallest pivot of D D^T is below this, a
 #: sine of 0.1: rows that hold a light body between heavy ones are nearly equal in the metric of masses.
 STAND_BADLY = 1e-2
+#: A velocity with less than this part of the largest mass is light where a row with bounds and another one act on it:
+#: M^-1 makes their forces accelerations that cancel, and leaves rounding over the mass.
+LIGHT = 1e-5
 #: No row holds a direction of massless bodies of which more than this lies outside the row space of D.
 UNHELD = 1e-6
 #: A row that a whole turn of an angle changes by less than this does not depend on the angle.

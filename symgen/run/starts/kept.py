@@ -51,7 +51,13 @@ class KeptStart:
         self._prepared = Instant(*(array.copy() for array in flat))
         *functions, observe = (compiled_form(function) for function in assembly.own)
         conditions = StartConditions(*(array.ravel() for array in self._conditions))
-        self._arguments = ((assembly.layout, *functions), observe, joints), flat, conditions, work, *ALONE
+        self._arguments = (
+            ((assembly.layout, assembly.table, *functions), observe, joints),
+            flat,
+            conditions,
+            work,
+            *ALONE,
+        )
         self._close, self._calls = _bind_functions(close_alone, self._arguments), 0
 
     def close(self, held: Held, y: Array, v: Array, p: Array) -> tuple[Array, Array]:
@@ -98,7 +104,7 @@ class KeptTree:
         self._of_bodies, self._w = Instant(*(array.copy() for array in of_bodies)), self._now.w.copy()
         self._alike = np.zeros(len(carried.carrying.spins))
         functions = (compiled_form(function) for function in assembly.own[:-1])
-        tree = (assembly.layout, *functions), *carried.ends, carried.carrying
+        tree = (assembly.layout, assembly.table, *functions), *carried.ends, carried.carrying
         arguments = tree, self._of_bodies, self._now, assembly.memory()[1], room, self._alike
         self._settle = _bind_functions(settle_tree_row, arguments)
 

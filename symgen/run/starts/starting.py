@@ -71,8 +71,9 @@ def close_row(model: Holding, now: Instant, conditions: StartConditions, work: W
     Parameters
     ----------
     model : tuple
-        First a `Layout`, then ``geometry``, ``measure``, ``move``, ``spread``, `solve`, `turns` and ``rhs``: emitted
-        ones (`symgen.run.layout.abi`) and two of `symgen.run.starts.start_solvers`. After
+        First a `Layout` and a `MassTable`, then ``geometry``, ``measure``, ``move``, ``spread``, `solve`, ``formulas``,
+        `project`, `turns` and ``rhs``: emitted ones (`symgen.run.layout.abi`), two of
+        `symgen.run.starts.start_solvers` and one of `symgen.run.starts.masses`. After
         these ``observe``, and `symgen.run.starts.joint_starts.Joints`.
     now, conditions, work : Instant, StartConditions, Work
         See `symgen.run.layout.start_records`. The state holds the described coordinates and velocities of 0; parameters
@@ -83,8 +84,9 @@ def close_row(model: Holding, now: Instant, conditions: StartConditions, work: W
     int
         `ASSEMBLED`, or the code of a failure; see `symgen.run.layout.ensemble_abi`.
     """
-    (layout, geometry, measure, move, spread, solve, turns, rhs), observe, joints = model
-    closing, y, w, summary = Closing(geometry, measure, move, spread, solve), now.y, now.w, conditions.summary
+    (layout, masses, geometry, measure, move, spread, solve, formulas, project, turns, rhs), observe, joints = model
+    closing = Closing(geometry, measure, move, spread, solve, masses, formulas, project)
+    y, w, summary = now.y, now.w, conditions.summary
     values = joints.values.m - layout.m
     nothing = Further(observe, part(joints.held, 0, 0), joints.goals, joints.out, layout.residual, layout.nu)
     code = check_numbers(layout, now, summary)
@@ -283,10 +285,10 @@ def close_rows(
     int
         Number of processed rows: all, unless the run was stopped.
     """
-    (layout, geometry, measure, move, spread, solve, turns, rhs), observe, joints = model
+    (layout, masses, geometry, measure, move, spread, solve, formulas, project, turns, rhs), observe, joints = model
     layout, joints, work = bare(layout), bare(joints), bare(work)
     (ys, ps, ws), rest = bare(all_of_now), bare(all_conditions)
-    model = (layout, geometry, measure, move, spread, solve, turns, rhs), observe, joints
+    model = (layout, masses, geometry, measure, move, spread, solve, formulas, project, turns, rhs), observe, joints
     n, ny, h = layout.nv, layout.ny, layout.held.shape[0] // 2 + joints.held.shape[0]
     runs = ys.shape[0] // ny
     n_p, nw = ps.shape[0] // runs, ws.shape[0] // runs

@@ -75,7 +75,7 @@ def settle_tree_row(tree: Tree, of_bodies: Instant, now: Instant, work: Work, ro
         Set to the products of Euler parameters of closed bodies with the tree's: constraint rows leave the sense of
         an axis open; a tree fixes it.
     """
-    (layout, geometry, measure, move, spread, solve, _, _), observe, carry, carrying = tree
+    (layout, masses, geometry, measure, move, spread, solve, formulas, project, _, _), observe, carry, carrying = tree
     (y, p, w), (y_t, p_t, w_t) = of_bodies, now
     ny, nw = y.shape[0], w.shape[0]
     rate, out, scratch = part(room, 0, ny), part(room, ny, carrying.outs), part(room, ny + carrying.outs, nw)
@@ -93,7 +93,7 @@ def settle_tree_row(tree: Tree, of_bodies: Instant, now: Instant, work: Work, ro
     for j in range(layout.nv):
         w_t[layout.gauge + j] = 1.0 if carrying.gauges[j] < 0 else w[carrying.gauges[j]]
     w_t[abi.MEAN_MASS] = mean_mass(layout, w_t)
-    closing = Closing(geometry, measure, move, spread, solve)
+    closing = Closing(geometry, measure, move, spread, solve, masses, formulas, project)
     nothing = Further(observe, part(work.order, 0, 0), out, out, layout.residual, layout.nu)
     geometry(layout.t, y_t, p_t, w_t)
     dependent = mask_redundant(closing, layout, now, work, nothing)
@@ -130,9 +130,19 @@ def settle_rows(
     selected, control : Array of int
         Rows to work on; memory shared with the watching thread.
     """
-    (layout, geometry, measure, move, spread, solve, turns, rhs), observe, carry, carrying = tree
+    (
+        (layout, masses, geometry, measure, move, spread, solve, formulas, project, turns, rhs),
+        observe,
+        carry,
+        carrying,
+    ) = tree
     layout, carrying, work = bare(layout), bare(carrying), bare(work)
-    tree = (layout, geometry, measure, move, spread, solve, turns, rhs), observe, carry, carrying
+    tree = (
+        (layout, masses, geometry, measure, move, spread, solve, formulas, project, turns, rhs),
+        observe,
+        carry,
+        carrying,
+    )
     (ys, ps, ws), (yt, pt, wt) = bare(of_bodies), bare(of_tree)
     runs, count = yt.shape[0] // layout.ny, carrying.spins.shape[0]
     ny, n_p, nw = ys.shape[0] // runs, ps.shape[0] // runs, ws.shape[0] // runs
@@ -180,7 +190,7 @@ class Carried:
         ends = self.ends
         if form is plain_form:
             ends = Ready(ends[0], abi.OBSERVE), Ready(ends[1], abi.OBSERVE)
-        tree = (assembly.layout, *functions[:-1]), *ends, self.carrying
+        tree = (assembly.layout, assembly.table, *functions[:-1]), *ends, self.carrying
         room = self.room(Instant(*(array[0] for array in of_bodies)))
         starts = Instant(*(array.ravel() for array in of_bodies)), flat
         with np.errstate(all="ignore"):

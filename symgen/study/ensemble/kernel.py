@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.run.compiling.events import compile_events
+from symgen.run.compiling.masses import masses_of_starts
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
@@ -171,7 +172,14 @@ class RowKernel:
     def _prepare_code(self, code: Code) -> _Prepared:
         compiled, recipe = code.module.load(), self.recipe
         p = self._parameter_array(compiled)
-        assembly = Assembly(compiled, recipe.held, recipe.strict, recipe.spare is not None, datum=recipe.datum)
+        weighed = recipe.weighed
+        masses = (
+            None
+            if weighed is None
+            else masses_of_starts(weighed, compiled, bool(recipe.held.velocities or recipe.held.rates))
+        )
+        light = recipe.spare is not None
+        assembly = Assembly(compiled, recipe.held, recipe.strict, light, datum=recipe.datum, masses=masses)
         return _Prepared(compiled, assembly, p, self._function_of_runs(code, compiled), code.measures)
 
     def _parameter_array(self, compiled: CompiledModel) -> Array:

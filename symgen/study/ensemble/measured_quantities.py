@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from symgen.base.vocabulary.expressions import readings_in
 from symgen.base.vocabulary.measures import GROUND, Integral
+from symgen.describe.facts.carriers import bodies_of_reactions, seats_on_carriers
 from symgen.describe.formulas.readings import TABLES
 from symgen.result.reactions import Acting, Seat
 from symgen.result.signals import Signal
@@ -279,20 +280,19 @@ def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequenc
 
 def _places_of_reactions(mechanism: Mechanism, formulas: list[tuple[str, Expr]]) -> dict[str, JointPlace]:
     """Return where reactions act, after adding what that depends on to the formulas."""
-    markers, places = dict(mechanism.seats), dict[str, JointPlace]()
+    places, seats = dict[str, JointPlace](), seats_on_carriers(mechanism)
 
     def add_formulas(label: str, expressions: Sequence[Expr]) -> tuple[int, ...]:
         first = len(formulas)
         formulas.extend((f"{label} {axis}", x) for axis, x in zip("xyz", expressions, strict=False))
         return tuple(range(first, len(formulas)))
 
-    for joint in mechanism.joints:
-        name, body = joint.name, joint.bodies[0]
+    for name, body in bodies_of_reactions(mechanism).items():
         point: tuple[int, ...] = ()
         centre: tuple[int, ...] = ()
-        if name in markers:
-            point = add_formulas(f"point of {name}", markers[name].point)
+        if (seat := seats.get(name)) is not None:
+            point = add_formulas(f"point of {name}", seat[0])
             if body != GROUND:
-                centre = add_formulas(f"centre of {body}", mechanism.body(body).centre_of_mass)
+                centre = add_formulas(f"centre of {body}", seat[1])
         places[name] = JointPlace(body, point, centre)
     return places

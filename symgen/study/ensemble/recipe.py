@@ -191,6 +191,8 @@ class Recipe:
         `symgen.describe.facts.lengths.origin_of_sizes`.
     over : OverTime or None
         What is taken of the quantities over the time of each run; None where their histories are kept.
+    weighed : Mechanism or None
+        The mechanism where its M is not diagonal, which starts may need.
     """
 
     first: Code
@@ -210,6 +212,7 @@ class Recipe:
     plugins: tuple[str, ...] = ()
     datum: tuple[float, ...] = ()
     over: OverTime | None = None
+    weighed: Mechanism | None = None
 
     @property
     def kept(self) -> tuple[Signal, ...]:
@@ -283,6 +286,7 @@ class Recipe:
                 *(["seams"] if self.seams else []),
                 *(x if x is None else x.described for x in (self.first, self.spare, self.watch)),
                 None if self.tree is None else mechanism_digest(self.tree),
+                *([] if self.weighed is None else [mechanism_digest(self.weighed)]),
             ],
             sort_keys=True,
         )

@@ -24,6 +24,7 @@ from symgen.describe.parts.event_sections import RECORD
 from symgen.run.breaks.motions import refuse_jumps
 from symgen.run.breaks.seams import Foreseen, foresee_in_run, times_between
 from symgen.run.compiling.choices import LARGEST_STRAIGHT, mechanism_on_tree
+from symgen.run.compiling.masses import has_coupled_masses
 from symgen.run.compiling.pipeline import compile_model
 from symgen.run.compiling.side import add_integrals, can_integrate
 from symgen.run.integrators import INTEGRATORS
@@ -130,12 +131,13 @@ def make_ensemble(
         seams=driving.jumps,
         plugins=loaded_plugin_files(),
         over=over,
+        weighed=mechanism if has_coupled_masses(mechanism) else None,
         datum=tuple(origin_of_sizes(mechanism, scalar_values(parameter_values(mechanism, plan.parameters)))),
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of_recipe(recipe).first_model
     model = replace(model, mechanism=mechanism)
-    warnings = *plan.warnings, *_warnings_of_missed(plan, passed_times, grid)
+    warnings = *plan.warnings, *_warnings_of_missed(plan, passed_times, grid), *_warnings_on_modes(mechanism)
     notes = *plan.notes, *plan.bound
     return Ensemble(model, plan, compiled, grid, targets, recipe, driving, warnings, notes)
 
@@ -238,6 +240,13 @@ def _warnings_of_missed(plan: Plan, passed_times: Foreseen, grid: Grid) -> tuple
     if passed_times.reads & {*grid.names, *(name for name, _ in dependent_parameters(plan.mechanism.parameters))}:
         return ()
     return plan.missed if passed_times else ()
+
+
+def _warnings_on_modes(mechanism: Mechanism) -> tuple[str, ...]:
+    """Return a warning of what only single runs are examined for: whether linear modes hold."""
+    if not mechanism.has_modal_bodies:
+        return ()
+    return ("forces and turns beyond what linear modes can do are looked for in single runs alone",)
 
 
 def _check_settings(settings: Settings, target: str) -> None:

@@ -20,6 +20,7 @@ from symgen.base.arguments import path_argument as argument_path
 from symgen.base.errors import InputError, plural, suggest
 from symgen.base.files import check_path, need_library, write_csv, write_whole
 from symgen.base.version import __version__
+from symgen.describe.bounds.bounded_modes import mode_events
 from symgen.result.contract import json_value
 from symgen.result.export import netcdf_writer
 from symgen.result.labelled import notebook_table
@@ -29,6 +30,7 @@ from symgen.run.compiling.events import bounded_names
 from symgen.run.layout.ensemble_abi import ASSEMBLED
 from symgen.study.ensemble.axes import Grid
 from symgen.study.ensemble.lines import table_lines
+from symgen.study.ensemble.locked_rows import dead_centres_of_rows
 from symgen.study.ensemble.row_quantities import NUMBERS, event_columns
 from symgen.study.ensemble.samples import contributions
 from symgen.study.ensemble.unmoved_axes import unmoved_axes
@@ -98,7 +100,8 @@ class Sweep:
         compiled = self.ensemble.compiled
         recipe, events = self.ensemble.recipe, self.ensemble.events
         rows = None if recipe.watch is None else bounded_names(recipe.tree or recipe.watch.mechanism)
-        named = EventNames(events, rows, recipe.tree is not None)
+        modes = () if recipe.watch is None else mode_events(recipe.tree or recipe.watch.mechanism)
+        named = EventNames(events, rows, recipe.tree is not None, tuple(event.name for event in modes))
         status, reason = judge_runs(self.summary, self.done, compiled.info, compiled.law, recipe.spec, named)
         failed = self.done & (summary_column(self.summary, "start") != ASSEMBLED)
         for row, why in self.ensemble.driving.rows_refused(self.ensemble, failed):
@@ -115,10 +118,13 @@ class Sweep:
         """Status of every run: ``ok``, ``unverified``, ``failed``, or ``not run`` where it was interrupted."""
         return self._verdicts[0]
 
-    @property
+    @cached_property
     def reason(self) -> NDArray[np.object_]:
         """Why a run is not ok, empty where it is."""
-        return self._verdicts[1]
+        reasons = self._verdicts[1]
+        for row, why in dead_centres_of_rows(self.ensemble, self.summary):
+            reasons[row] = why
+        return reasons
 
     @cached_property
     def warnings(self) -> NDArray[np.object_]:

@@ -39,11 +39,14 @@ class EventNames(NamedTuple):
         Rows with bounds.
     tree : bool
         Whether runs are in joint coordinates, whose rows are others.
+    further : sequence of str
+        Events of rows with bounds, which come after the others.
     """
 
     events: Sequence[str]
     bounded: BoundedNames | None = None
     tree: bool = False
+    further: Sequence[str] = ()
 
 
 #: Status of a run that has not been done.
@@ -130,11 +133,14 @@ def _reason_of_events(row: Array, looked: EventNames, info: ModelInfo) -> str | 
     if code == abi.GATHERED:
         return accumulation_sentence(names_in(float(further[e.GATHERING]), events), float(further[e.ACCUMULATION]))
     if code == abi.UNDEFINED:
-        return undefined_sentence(events[int(further[e.IMPOSSIBLE_EVENT])], time)
+        watched, k = (*events, *looked.further), further[e.IMPOSSIBLE_EVENT] if len(further) else np.nan
+        if k < len(watched):
+            return undefined_sentence(watched[int(k)], time)
+        return f"{abi.REASONS[code]} at t = {time:.6g} s"
     if code == e.NO_MODES and looked.bounded is not None:
         failure, which, first, second = (float(x) for x in further[e.FAILURE : e.SECOND_NUMBER + 1])
-        every = [] if looked.tree else [row.name for row in info.rows]
-        return str(refusal(looked.bounded, every, int(failure), which, first, second, time))
+        rows = [] if looked.tree else [row.name for row in info.rows]
+        return str(refusal(looked.bounded, rows, int(failure), which, first, second, time))
     if code != e.IMPOSSIBLE:
         return None
     if not len(further) or np.isnan(further[e.IMPOSSIBLE_EVENT]):

@@ -123,12 +123,13 @@ def reference_motion(
     Raises
     ------
     InputError
-        If the solver does not exist, or the mechanism has beam elements, which have no second derivation.
+        If the solver does not exist, or the mechanism has beam elements or modal bodies, which have no second
+        derivation.
     SimulationError
         If the motion cannot be integrated, e.g. into a singularity.
     """
-    if any(force.flexures for force in mechanism.forces):
-        expected = "a mechanism without beam elements, whose equations are derived a second time"
+    if mechanism.has_modal_bodies or any(force.flexures for force in mechanism.forces):
+        expected = "a mechanism without beam elements and modal bodies, whose equations are derived a second time"
         raise InputError("reference_by", expected, f"'{mechanism.name}'", f"'{AUTO}' takes two formulations that agree")
     closed = closed_form(mechanism) if check_solver(solver) == AUTO and own_start else None
     from symgen.study.references.independent import IndependentEquations

@@ -77,6 +77,8 @@ def parts_without_derivation(mechanism: Mechanism) -> str:
     """Return what no second derivation of a mechanism has; empty where it has all of it."""
     if any(force.flexures for force in mechanism.forces):
         return "beam elements"
+    if mechanism.has_modal_bodies:
+        return "modal bodies"
     for family in rows_by_family(mechanism):
         return family.noun
     return "events that change the state" if any(event.action == RESET for event in mechanism.events) else ""

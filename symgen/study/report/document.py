@@ -119,6 +119,8 @@ class ReportDocument:
         Its content.
     page : str
         Address of a page that plays the motion, relative to the document; empty where there is none.
+    verdict : TableCell, optional
+        One sentence with its mood, before all else.
     """
 
     title: str
@@ -127,6 +129,7 @@ class ReportDocument:
     command: str
     sections: tuple[Section, ...] = field(default=())
     page: str = ""
+    verdict: TableCell | None = None
 
     def pictures(self) -> list[Picture]:
         """Return all pictures in the order of the report."""

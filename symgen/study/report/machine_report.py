@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from datetime import date
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -12,7 +12,7 @@ import numpy as np
 
 from symgen.analyses.kinds import AnalysisTable
 from symgen.analyses.kinds.modes import mode_lines as shown_modes
-from symgen.analyses.reached_limits import reached_limits
+from symgen.analyses.reached_limits import ReachedLimit, reached_limits
 from symgen.base.errors import SymgenError, fit_lines, plural
 from symgen.describe.drawing.drawing import Drawing
 from symgen.result.labelled import Labelled, columns_at
@@ -22,7 +22,8 @@ from symgen.study.machine_class import machine_class, version_list
 from symgen.study.report.document import DocumentTable, Picture, ReportDocument, Section, TableCell
 from symgen.study.report.key_numbers import key_numbers
 from symgen.study.report.picture import MOST_BODIES, picture_of_figure
-from symgen.study.report.words import engineering_number, rounded_number
+from symgen.study.report.verdict import verdict_on_run
+from symgen.study.report.words import engineering_number
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -67,17 +68,19 @@ def machine_report(model: Model, result: Result, command: str = "", over: str = 
         ("versions", version_list()),
         ("machine", machine_class()),
     ]
+    limits = reached_limits(model.mechanism, result) if len(result.t) else ()
     sections = [
         *_first_section(model, result),
+        *_limits_section(limits),
         *_motion_section(model, result),
         *_events_section(result),
-        *_limits_section(model, result),
-        Section("Largest loads", _sentences_on_trust(result), tables=(*_load_tables(result, along),)),
+        *_loads_section(result, along),
         Section("Curves", pictures=(*_curve_pictures(result, along),)),
         _frequencies_section(model, result),
     ]
     title = model.mechanism.title or model.name
-    return ReportDocument(title, (_lead_sentence(result),), tuple(facts), command, tuple(sections), quote(page))
+    lead, verdict = _lead_sentence(result), verdict_on_run(result, limits)
+    return ReportDocument(title, (lead,), tuple(facts), command, tuple(sections), quote(page), verdict)
 
 
 def _origin_of_file(model: Model) -> Iterator[tuple[str, str]]:
@@ -97,34 +100,22 @@ def _value_with_unit(model: Model, name: str, value: float) -> str:
 
 def _lead_sentence(result: Result) -> str:
     span = f"from {result.t[0]:g} to {result.t[-1]:g} s" if len(result.t) else "without outputs"
-    how = f"simulated {span} with {result.method} and {result.integrator}"
-    return f"{result.mechanism}, {how}: {result.status}.{_closing_sentence(result)}"
+    return f"{result.mechanism}, simulated {span} with {result.method} and {result.integrator}."
 
 
-def _closing_sentence(result: Result) -> str:
-    """Return how far the motion and its energies can be trusted."""
-    estimate = result.error_estimate
-    error = (
-        "" if estimate is None else f"a second run puts the error of the motion at {rounded_number(estimate)} m, and "
-    )
-    text = f"{error}the balance of energy closes to {engineering_number(result.energy_drift_max, 'J')}."
-    return f" {text[:1].upper()}{text[1:]}" if np.isfinite(result.energy_drift_max) else ""
-
-
-def _sentences_on_trust(result: Result) -> tuple[str, ...]:
-    """Return the outputs of the largest loads, and reasons for which these may be off."""
+def _loads_section(result: Result, along: Labelled) -> Iterator[Section]:
+    """Yield the section of the largest loads; a failed run has none, as its last loads tell of the failure alone."""
+    if result.status == "failed":
+        return
     text = f"Largest absolute values over {plural(len(result.t), 'output')}; a peak between two outputs can be higher."
-    estimate = result.error_estimate
-    error = "" if estimate is None else f" A second run puts the error of the motion at about {estimate:.1e} m."
-    doubt = "" if result.status == "ok" else f" The run is {result.status}: {result.reason}."
-    return (text + error + doubt,)
+    yield Section("Largest loads", (text,), tables=(*_load_tables(result, along),))
 
 
 def _first_section(model: Model, result: Result) -> Iterator[Section]:
     """Yield the section with the picture of the motion beside the numbers that are asked for first."""
     if not len(result.t):
         return
-    numbers = key_numbers(model.mechanism, result)
+    numbers = () if result.status == "failed" else key_numbers(model.mechanism, result)
     table = DocumentTable("", ("", "largest", "when and where"), tuple((n.what, n.value, n.where) for n in numbers))
     pictures = []
     if len(model.mechanism.bodies) <= MOST_BODIES:
@@ -147,9 +138,8 @@ def _motion_section(model: Model, result: Result) -> Iterator[Section]:
     yield Section("Motion", pictures=tuple(pictures))
 
 
-def _limits_section(model: Model, result: Result) -> Iterator[Section]:
+def _limits_section(found: Sequence[ReachedLimit]) -> Iterator[Section]:
     """Yield the section of the file's limits, if it has any."""
-    found = reached_limits(model.mechanism, result) if len(result.t) else ()
     if not found:
         return
     headings = ("quantity", "limit", "reached", "at t [s]", "")
@@ -163,9 +153,7 @@ def _limits_section(model: Model, result: Result) -> Iterator[Section]:
         )
         for each in found
     )
-    broken = list(dict.fromkeys(each.name for each in found if not each.is_met))
-    text = f"Exceeded: {', '.join(broken)}." if broken else f"The run keeps {plural(len(found), 'limit')} of the file."
-    yield Section("Limits", (text,), tables=(DocumentTable("", headings, rows),))
+    yield Section("Limits", tables=(DocumentTable("", headings, rows),))
 
 
 def _events_section(result: Result) -> Iterator[Section]:
@@ -202,12 +190,12 @@ def _load_tables(result: Result, along: Labelled) -> Iterator[DocumentTable]:
                 continue
             k = int(np.nanargmax(np.abs(values)))
             place = (f"{along.values[k, 0]:.4g}",) if where else ()
-            rows.append((abs(values[k]), (name, f"{values[k]:.4g}", f"{result.t[k]:.4g}", *place)))
+            rows.append((abs(values[k]), (name, engineering_number(values[k], unit), f"{result.t[k]:.4g}", *place)))
         rows.sort(key=lambda row: -row[0])
         if rows:
             first = fit_lines(len(rows), MOST_ROWS)
             notes = (f"{len(rows) - first} smaller ones are left out.",) if len(rows) > first else ()
-            yield DocumentTable(f"{title} [{unit}]", headings, tuple(row for _, row in rows[:first]), notes=notes)
+            yield DocumentTable(title, headings, tuple(row for _, row in rows[:first]), notes=notes)
 
 
 def _curve_pictures(result: Result, along: Labelled) -> Iterator[Picture]:

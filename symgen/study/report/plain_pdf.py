@@ -29,6 +29,8 @@ def plain_pdf(document: ReportDocument) -> bytes:
     need_library("report", "matplotlib", extra="plot")
     paper = _Paper()
     paper.write_paragraph(document.title, _HEADINGS[0], bold=True)
+    if document.verdict is not None:
+        paper.write_paragraph(document.verdict.text, bold=True)
     for text in document.lead:
         paper.write_paragraph(text)
     for section in document.sections:

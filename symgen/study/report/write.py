@@ -153,6 +153,7 @@ def html_report(document: ReportDocument) -> str:
 def markdown_report(document: ReportDocument, folder: str) -> str:
     """Return a document as Markdown with tables, pictures being files in `folder`."""
     lines = [f"# {markdown_text(document.title)}", ""]
+    lines += [f"**{markdown_text(document.verdict.text)}**", ""] if document.verdict else []
     lines += [x for text in document.lead for x in (markdown_text(text), "")]
     lines += [f"[Play the motion]({document.page})", ""] if document.page else []
     for section in document.sections:

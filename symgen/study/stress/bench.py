@@ -14,13 +14,14 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from symgen.base.errors import SymgenError
+from symgen.base.errors import InputError, SymgenError
 from symgen.base.settings import Settings
 from symgen.describe.files.load import read_raw
 from symgen.describe.files.validate import validate
 from symgen.describe.forces import FORCES
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
+from symgen.describe.modal.modal_file import with_whole_paths
 
 #: Handles of a stressed mechanism and their neutral values.
 STIFFNESS, DAMPING, FREE_LENGTH = "stress_stiffness", "stress_damping", "stress_free_length"
@@ -123,8 +124,8 @@ class Base:
         InputError
             If the model does not exist or is wrong.
         """
-        raw, _ = read_raw(model)
-        return cls(str(model), raw)
+        raw, source = read_raw(model)
+        return cls(str(model), with_whole_paths(raw, source))
 
     def without_events(self, but: Collection[str] = ()) -> Base:
         """Return the base without its events, but for events of some actions."""
@@ -173,8 +174,13 @@ class Base:
 
     @property
     def middle(self) -> str:
-        """The body in the middle of the list: it carries the spring and the factor on its mass."""
-        names = [body.name for body in self.mechanism.bodies]
+        """The body in the middle of the list: it carries the spring and the factor on its mass.
+
+        Modal bodies have their masses from files, and no material at their centres.
+        """
+        names = [body.name for body in self.mechanism.bodies if body.modal is None and body.carried is None]
+        if not names:
+            raise InputError(self.name, "a body that is not modal, which stress can change", "modal bodies alone")
         return names[len(names) // 2]
 
     def build_level(self, label: str, *values: float, **changes: object) -> Level:

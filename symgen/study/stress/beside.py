@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from statistics import median
 from typing import TYPE_CHECKING
 
-from symgen.study.comparison.comparison_rows import YARDSTICK
 from symgen.study.stress.cell_outcome import GOOD, INACCURATE
 from symgen.study.stress.stress_rows import Map
+from symgen.study.yardstick import YARDSTICK
 
 if TYPE_CHECKING:
     from symgen.study.stress.stress_rows import Stress, StressRow

@@ -176,6 +176,32 @@ def test_force_of_the_graph_is_that_of_a_complex_step_of_the_energy(space, keys,
     assert abs(power + (slopes @ v) @ lost) <= 1e-12 * abs(power)
 
 
+@pytest.mark.parametrize(
+    ("space", "keys", "element"), [("planar", PLANAR, element_in_plane), ("spatial", SPATIAL, element_in_space)]
+)
+def test_each_strain_has_a_time_of_its_own(space, keys, element):
+    """The forces are -s'^T F^-1 F_T F^-1 s' v: F_T is F of an element whose compliances are multiplied by the times."""
+    q, v = pose(space, 11)
+    times = {"axial": 0.02, "shear": 0.01, "bending": 0.05} | ({"torsion": 0.03} if space == "spatial" else {})
+    softer = keys | {
+        key: [x / time for x in keys[key]] if isinstance(keys[key], list) else keys[key] / time
+        for key, time in times.items()
+    }
+    slopes = np.array([element(moved(q, space, i, STEP * 1j), keys)[0].imag / STEP for i in range(len(v))]).T
+    flexibility, delayed = (element(q.astype(complex), part)[2].real for part in (keys, softer))
+    lost = np.linalg.solve(flexibility, delayed @ np.linalg.solve(flexibility, slopes @ v))
+    damped, free = (formulate(mechanism_of(raw(space, damping, **keys))) for damping in (times, 0.0))
+    inputs = state_inputs(0.0, q, v)
+    forces, still = (np.array(node_values(e.graph, e.forces, inputs)) for e in (damped, free))
+    assert np.abs(still - forces - slopes.T @ lost).max() <= 1e-12 * np.abs(forces).max()
+    power = node_values(damped.graph, [damped.power], inputs)[0]
+    assert power < 0.0 and abs(power + (slopes @ v) @ lost) <= 1e-12 * abs(power)
+    alike = formulate(mechanism_of(raw(space, dict.fromkeys(times, DAMPING), **keys)))
+    one = formulate(mechanism_of(raw(space, DAMPING, **keys)))
+    same = [np.array(node_values(e.graph, e.forces, inputs)) for e in (alike, one)]
+    assert np.abs(same[0] - same[1]).max() <= 1e-12 * np.abs(same[1]).max()
+
+
 @pytest.mark.parametrize(("space", "keys"), [("planar", PLANAR), ("spatial", SPATIAL)])
 def test_tangent_is_exact_and_symmetric_along_the_motion(space, keys):
     """Second derivatives by the graph against central differences of forces; in the plane K is symmetric."""

@@ -3,12 +3,12 @@
 import os
 import subprocess
 import sys
-from itertools import product
 from pathlib import Path
 
 import numpy as np
 import pytest
 from support.emitted import mechanism_of
+from support.in_coordinates import in_coordinates
 from support.locks import LOCKED, parts
 from support.rotation import of_turn
 from support.switching import with_switchable
@@ -24,7 +24,13 @@ from tests.result.targets.compilers import called, compiled, written
 
 STATES = 1000
 NAMES = [entry.name for entry in (*entries(), *entries(MACHINES)) if not entry.sized] + ["chain:4", "n-four-bar:2"]
-QUICK = [("four-bar", "absolute"), ("bricard", "joint"), ("wiper", "absolute"), ("rolling-disc", "absolute")]
+QUICK = [
+    ("four-bar", "absolute"),
+    ("bricard", "joint"),
+    ("wiper", "absolute"),
+    ("rolling-disc", "absolute"),
+    ("curved-lever", "absolute"),
+]
 
 
 def agree(name, coordinates, folder):
@@ -78,7 +84,7 @@ def test_rates_and_corrections_are_those_of_numba(name, coordinates, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "coordinates"), of_turn(product(NAMES, ("absolute", "joint")), 3))
+@pytest.mark.parametrize(("name", "coordinates"), of_turn(in_coordinates(NAMES), 3))
 def test_the_whole_catalogue(name, coordinates, tmp_path):
     rates, corrections = agree(name, coordinates, tmp_path)
     # strains of a stiff beam are small differences of positions
@@ -94,7 +100,9 @@ def rows_of(program, *words):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "coordinates"), [("four-bar", "joint"), ("slider-crank", "absolute")])
+@pytest.mark.parametrize(
+    ("name", "coordinates"), [("four-bar", "joint"), ("slider-crank", "absolute"), ("curved-lever", "absolute")]
+)
 def test_the_program_runs_as_simulate_does(name, coordinates, tmp_path):
     model = load(name)
     names, rows = rows_of(compiled(written(model.mechanism, tmp_path, coordinates=coordinates)), "0.5")

@@ -222,8 +222,8 @@ def test_an_fmu_passes_corners(tmp_path: Path) -> None:
 
 
 def test_smooth_gaps_have_no_code_for_corners(tmp_path: Path) -> None:
-    for gap, word in (("b.y - 0.1*sin(b.x)", False), (RAMPS[0], True)):
-        folder = tmp_path / str(word)
+    for gap, word in (("b.y - 0.1*sin(b.x)", False), (RAMPS[0], False), (EDGES[0], True)):
+        folder = tmp_path / f"{word}{len(gap)}"
         folder.mkdir()
         loaded(block(gap, 1.5), folder).generate(folder / "c", target="c")
         assert ("corner" in (folder / "c" / "block.c").read_text()) == word

@@ -21,6 +21,12 @@ def driven():
     return model, model.simulate(until=1.0, output_step=0.01)
 
 
+def si_number(text: str) -> float:
+    """Return the number of a text such as 39.2 kN."""
+    number, unit = re.fullmatch(r"([-\d.]+) (.*)", text).groups()
+    return float(number) * {"k": 1e3, "M": 1e6, "m": 1e-3, "µ": 1e-6}.get(unit[0], 1.0)
+
+
 @pytest.mark.slow
 def test_the_largest_loads_are_those_of_the_run(driven):
     model, result = driven
@@ -30,11 +36,12 @@ def test_the_largest_loads_are_those_of_the_run(driven):
     assert {*rows} == {"motor.effort", "motor.power", "A.F", "B.F", "C.F", "D.F"}
     for name, (_, largest, at, place) in rows.items():
         k = int(np.argmax(np.abs(result[name])))
-        assert float(largest) == pytest.approx(result[name][k], rel=1e-3)
+        assert si_number(largest) == pytest.approx(result[name][k], rel=5e-3)
         assert float(at) == pytest.approx(result.t[k], rel=1e-3, abs=1e-12)
         assert float(place) == pytest.approx(result["crank.theta"][k], rel=1e-3)
     # the motor's power is its torque times the speed of the crank, which is constant
-    assert float(rows["motor.power"][1]) == pytest.approx(2 * np.pi * float(rows["motor.effort"][1]), rel=1e-3)
+    power, torque = (si_number(rows[f"motor.{name}"][1]) for name in ("power", "effort"))
+    assert power == pytest.approx(2 * np.pi * torque, rel=1e-2)
 
 
 @pytest.mark.slow
@@ -113,7 +120,7 @@ def test_the_command_writes_its_file(cli, tmp_path, monkeypatch):
     assert re.search(r"symgen report driven-four-bar --until 0.2 --over crank.theta", page)
     assert "Play the motion" not in page
     code, _, err = cli("report", "driven-four-bar", "-o", "a.doc")
-    assert code == 2 and "--output: expected a file ending in .html, .md, .pdf, got 'a.doc'" in err
+    assert code == 2 and "--output: expected a file ending in .html, .md, .pdf, .tex, got 'a.doc'" in err
 
 
 def test_a_report_links_to_the_page_beside_it(cli, tmp_path, monkeypatch):

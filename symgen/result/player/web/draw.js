@@ -53,7 +53,8 @@ function makeScene(canvas, scene, solid = null) {
       const o = 12 * i;
       poses[o] = poses[o + 4] = poses[o + 8] = 1;
       if (i >= frames.length) continue;
-      const [, first, n] = frames[i];
+      const [, first, n, bent] = frames[i];
+      if (bent) { bend(o, bent, q); continue; }
       for (let k = 0; k < size; k++) poses[o + 9 + k] = q[first + k];
       if (!spatial && n === 3) {
         const c = Math.cos(q[first + 2]), s = Math.sin(q[first + 2]);
@@ -70,6 +71,21 @@ function makeScene(canvas, scene, solid = null) {
       }
     }
     carry();
+  }
+
+  // A frame that modes of a body move, whose own frame comes before it: turned by the Euler parameters (1, p).
+  function bend(o, [host, first, at, shape, turn], q) {
+    const place = [...at], p = [0, 0, 0], h = 12 * host;
+    shape.forEach((u, i) => { for (let k = 0; k < 3; k++) { place[k] += q[first + i] * u[k]; p[k] += 0.5 * q[first + i] * turn[i][k]; } });
+    if (!spatial) p[2] = Math.tan(p[2]);
+    const l = Math.hypot(1, ...p), [a, b, c, d] = [1 / l, p[0] / l, p[1] / l, p[2] / l];
+    const R = [a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c), 2 * (b * c + a * d), a * a - b * b + c * c - d * d,
+      2 * (c * d - a * b), 2 * (b * d - a * c), 2 * (c * d + a * b), a * a - b * b - c * c + d * d];
+    const origin = out(host, place);
+    for (let i = 0; i < 3; i++) {
+      for (let j = 0; j < 3; j++) poses[o + 3 * i + j] = poses[h + 3 * i] * R[j] + poses[h + 3 * i + 1] * R[3 + j] + poses[h + 3 * i + 2] * R[6 + j];
+      poses[o + 9 + i] = origin[i];
+    }
   }
 
   // Where frames are that go with a point of one body and have the directions of another one, or of the ground.

@@ -326,7 +326,7 @@ function restart(row) {
   if (failed) return false;
   state = begun;
   clock = 0;
-  const end = motions[0].end, spacing = frameSpacing(end, data.live.step);
+  const end = data.live.until, spacing = frameSpacing(end, data.live.step);
   follow = { t: [], rows: [], values: [], groups: [], moments: [], facts: [], status: "ok", end, spacing, whole: false };
   record(0, true);
   show(follow);
@@ -336,7 +336,7 @@ function restart(row) {
 function compute(budget) {
   const began = performance.now(), h = data.live.step;
   while (performance.now() - began < budget) {
-    const due = Math.min(follow.t.length * follow.spacing, follow.end);
+    const next = follow.t.length * follow.spacing, due = next > follow.end - 1e-9 * h ? follow.end : next;
     while (clock < due - 1e-12 && performance.now() - began < 2 * budget) {
       const step = Math.min(h, due - clock);
       if (!live.step(clock, state, step)) return stopped(step);
@@ -638,6 +638,7 @@ window.symgen = {
   get q() { return motions[0].rows.map((row) => Array.from(row)); },
   get names() { return data.names; },
   get live() { return Boolean(live); },
+  get step() { return live ? data.live.step : null; },
   get parameters() { return live ? data.live.parameters.map((x) => x.name) : []; },
   get state() { return live ? data.live.state : []; },
   get y0() { return live ? data.live.y0 : null; },

@@ -54,11 +54,15 @@ class Impulse(Record):
     order: Integers
 
 
+def sizes_of_impulse(n: int, k: int) -> tuple[int, ...]:
+    """Return the lengths of the arrays of numbers of a problem with `n` velocities and up to `k` rows."""
+    most = max(n, k)
+    return n * n, k * n, k, n, k, n, k, n, n * n, most * max(n, 1), most, most, most * min(most, n) + 2 * most
+
+
 def new_impulse(n: int, k: int) -> Any:
     """Return memory for a problem with `n` velocities and up to `k` rows."""
-    most = max(n, k)
-    sizes = n * n, k * n, k, n, k, n, k, n, n * n, most * max(n, 1), most, most, most * min(most, n) + 2 * most
-    return Impulse._make((*(np.zeros(size) for size in sizes), np.zeros(most, dtype=np.int64)))
+    return Impulse._make((*(np.zeros(size) for size in sizes_of_impulse(n, k)), np.zeros(max(n, k), dtype=np.int64)))
 
 
 @exact()

@@ -8,7 +8,7 @@ from symgen.compile.loopcode.exact import compiled_form, plain_form
 from symgen.run.effects.accumulation import accumulation
 from symgen.run.effects.applying import apply_effects
 from symgen.run.effects.effects import impulse_along
-from symgen.run.effects.impulse import new_impulse, smallest_impulse
+from symgen.run.starts.impulse import new_impulse, smallest_impulse
 
 
 def problem(seed, n, k, rank, massless=0):

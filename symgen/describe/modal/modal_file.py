@@ -1,0 +1,292 @@
+"""The file of a modal body: plain arrays of NumPy's format, read without NumPy and without running anything in them.
+
+Describing a mechanism imports no numerical library, so arrays become nested tuples of numbers here.
+"""
+
+from __future__ import annotations
+
+import ast
+import functools
+import math
+import os
+import struct
+import zipfile
+import zlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from symgen.base.errors import InputError, quote, suggest
+from symgen.describe.modal_body import MOST_MODES, InterfaceLoad, Matrix, ModalRow, Numbers, Outline
+from symgen.describe.parts.bodies import is_modal
+
+#: End of the name, and version of the content.
+SUFFIX, VERSION = ".npz", 1
+#: Bytes of the file, and of all that is in it, at most.
+LARGEST, LARGEST_CONTENT = 4_000_000, 40_000_000
+_MAGIC = b"\x93NUMPY"
+#: Array -> its shape: d components of a place, r of a turn, k modes, n interfaces, and any number of others.
+_SHAPES: dict[str, tuple[str, ...]] = {
+    **{"version": (), "mass": (), "inner": (), "centre": ("d",), "inertia": ("r", "r"), "stiffness": ("k",)},
+    **{"growth": ("k", "r", "r"), "second": ("k", "k", "r", "r"), "cross": ("k", "k", "r")},
+    **{"interfaces": ("n",), "place": ("n", "d"), "shape": ("n", "k", "d"), "turn": ("n", "k", "r")},
+    **{"elastic": ("n", "d", "k"), "shifted": ("n", "d", "d"), "spread": ("n", "d", "d", "d")},
+    **{"modal": ("n", "d", "k"), "bearing_stiffness": ("n",), "bearing_length": ("n",)},
+    **{"row_names": ("rows",), "row_units": ("rows",), "rows": ("rows", "k")},
+    **{"points": ("points", "d"), "point_shapes": ("points", "k", "d"), "lines": ("lines", "two")},
+}
+_TEXTS = ("interfaces", "row_names", "row_units")
+_WHOLE = ("version", "inner", "lines")
+
+
+class InterfaceFile(NamedTuple):
+    """An interface in a file: its place from the origin of the body's frame, and what modes move it by."""
+
+    place: Numbers
+    shape: tuple[Numbers, ...]
+    turn: tuple[Numbers, ...]
+    load: InterfaceLoad
+
+
+class ModalFile(NamedTuple):
+    """The content of a file; see `symgen.describe.modal_body`."""
+
+    mass: float
+    centre: Numbers
+    inertia: Matrix
+    stiffness: Numbers
+    inner: int
+    growth: tuple[Matrix, ...]
+    second: tuple[tuple[Matrix, ...], ...]
+    cross: tuple[tuple[Numbers, ...], ...]
+    interfaces: dict[str, InterfaceFile]
+    rows: tuple[ModalRow, ...]
+    outline: Outline
+
+    @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return len(self.centre)
+
+
+def find_modal_file(where: str, folder: str, name: str) -> str:
+    """Return the path of a file that a table names.
+
+    Parameters
+    ----------
+    where : str
+        File and key, for the message.
+    folder : str
+        Of the mechanism file; where a mechanism has none, any path is taken as it is.
+    name : str
+        As written.
+
+    Raises
+    ------
+    InputError
+        If there is no such file in the folder or below it.
+    """
+    inside = f"the path of a {SUFFIX} file that symgen.reduced has written"
+    if folder:
+        inside += ", in the folder of the mechanism file or below it"
+    plain = name.isprintable() and "\\" not in name and Path(name).suffix == SUFFIX
+    outside = Path(name).is_absolute() or ".." in Path(name).parts
+    if not plain or (folder and outside):
+        raise InputError(where, inside, quote(name))
+    try:
+        path = (Path(folder or ".") / name).resolve()
+        if (not folder or path.is_relative_to(Path(folder).resolve())) and path.is_file():
+            return str(path)
+        there = sorted(x.name for x in path.parent.glob(f"*{SUFFIX}")) if path.parent.is_dir() else []
+    except (OSError, RuntimeError, ValueError):  # a name too long, or links in a circle
+        there = []
+    raise InputError(where, inside, f"{quote(name)}, which is none", suggest(path.name, there) if there else "")
+
+
+def with_whole_paths(raw: Mapping[str, Any], source: str) -> dict[str, Any]:
+    """Return a description with whole paths of its modal files, for reading it again without its folder.
+
+    Parameters
+    ----------
+    raw : mapping
+        The description.
+    source : str
+        Its origin; one without a folder leaves names as they are.
+    """
+    folder, bodies = getattr(source, "folder", ""), raw.get("bodies", {})
+    if not folder or not isinstance(bodies, Mapping):
+        return dict(raw)
+    tables = {
+        name: {**table, "file": str(Path(folder) / table["file"])}
+        for name, table in bodies.items()
+        if is_modal(table) and isinstance(table.get("file"), str)
+    }
+    return {**raw, "bodies": {**bodies, **tables}} if tables else dict(raw)
+
+
+def read_modal_file(where: str, path: str) -> ModalFile:
+    """Return the content of a file.
+
+    Parameters
+    ----------
+    where : str
+        File and key that name it, for messages.
+    path : str
+        Its path.
+
+    Raises
+    ------
+    InputError
+        If it is another file, or of another version.
+    """
+    try:
+        status = os.stat(path)
+        return _read(path, status.st_mtime_ns, status.st_size)
+    except OSError as error:
+        raise InputError(where, "a file that can be read", f"{quote(Path(path).name)} ({error.strerror})") from None
+    except _NotModal as error:
+        name = quote(Path(path).name)
+        hint = "symgen.reduced(...).save(...) writes it" if error.hint is None else error.hint
+        raise InputError(where, error.expected, f"{name} {error.got}", hint) from None
+
+
+class _NotModal(Exception):
+    """A file is none of a modal body."""
+
+    def __init__(self, got: str, expected: str = "a file of a modal body", hint: str | None = None) -> None:
+        super().__init__(got)
+        self.got, self.expected, self.hint = got, expected, hint
+
+
+@functools.lru_cache(maxsize=64)
+def _read(path: str, changed: int, size: int) -> ModalFile:
+    if size > LARGEST:
+        raise _NotModal(f"of {size} bytes, more than {LARGEST}")
+    arrays = _arrays_of_file(path)
+    if "version" not in arrays:
+        raise _NotModal("without a version")
+    if arrays["version"] != VERSION:
+        got = f"of version {arrays['version']}"
+        raise _NotModal(got, f"a file of version {VERSION}", "write it again by symgen.reduced")
+    missing = [name for name in _SHAPES if name not in arrays]
+    if missing:
+        raise _NotModal(f"without the array '{missing[0]}'")
+    _check_shapes(arrays)
+    names = arrays["row_names"]
+    rows = tuple(
+        ModalRow(name, 0 if names.count(name) == 1 else 1 + names[:i].count(name), unit, factors)
+        for i, (name, unit, factors) in enumerate(zip(names, arrays["row_units"], arrays["rows"], strict=True))
+    )
+    loads = zip(
+        *(arrays[name] for name in ("elastic", "shifted", "spread", "modal", "bearing_stiffness", "bearing_length")),
+        strict=True,
+    )
+    frames = zip(
+        arrays["place"], arrays["shape"], arrays["turn"], (InterfaceLoad(*load) for load in loads), strict=True
+    )
+    return ModalFile(
+        **{
+            name: arrays[name]
+            for name in ("mass", "centre", "inertia", "stiffness", "inner", "growth", "second", "cross")
+        },
+        interfaces={name: InterfaceFile(*frame) for name, frame in zip(arrays["interfaces"], frames, strict=True)},
+        rows=rows,
+        outline=Outline(arrays["points"], arrays["point_shapes"], arrays["lines"]),
+    )
+
+
+def _check_shapes(arrays: dict[str, Any]) -> None:
+    """Refuse arrays of sizes that do not fit each other, and numbers that are not finite."""
+    sizes = {"d": len(arrays["centre"]) if isinstance(arrays["centre"], tuple) else 0, "two": 2}
+    sizes["r"] = {2: 1, 3: 3}.get(sizes["d"], 0)
+    if not sizes["r"]:
+        raise _NotModal("that is neither of the plane nor of space")
+    for name, symbols in _SHAPES.items():
+        _check_size(name, arrays[name], symbols, sizes)
+        if not _is_right(arrays[name], str if name in _TEXTS else int if name in _WHOLE else float):
+            what = "a text" if name in _TEXTS else "a finite number"
+            raise _NotModal(f"whose array '{name}' has an entry that is not {what}")
+    if not 1 <= sizes["k"] <= MOST_MODES:
+        raise _NotModal(f"with {sizes['k']} modes, not 1 to {MOST_MODES}")
+    if any(not 0 <= end < sizes["points"] for line in arrays["lines"] for end in line):
+        raise _NotModal("whose outline has lines between points that it does not have")
+    if not arrays["mass"] > 0.0 or not all(k > 0.0 for k in arrays["stiffness"]):
+        raise _NotModal("with a mass or a stiffness that is not above 0")
+
+
+def _check_size(name: str, array: object, symbols: tuple[str, ...], sizes: dict[str, int]) -> None:
+    if not symbols:
+        if isinstance(array, tuple):
+            raise _NotModal(f"whose array '{name}' is not one number")
+        return
+    if not isinstance(array, tuple) or sizes.setdefault(symbols[0], len(array)) != len(array):
+        raise _NotModal(f"whose array '{name}' has a size that does not fit the others")
+    for part in array:
+        _check_size(name, part, symbols[1:], sizes)
+
+
+def _is_right(array: object, kind: type) -> bool:
+    if isinstance(array, tuple):
+        return all(_is_right(part, kind) for part in array)
+    return isinstance(array, kind) and (not isinstance(array, float) or math.isfinite(array))
+
+
+# -- arrays of NumPy's format ------------------------------------------------------------------------------------------
+
+
+def _arrays_of_file(path: str) -> dict[str, Any]:
+    """Return the arrays of a file as nested tuples."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            if sum(info.file_size for info in archive.infolist()) > LARGEST_CONTENT:
+                raise _NotModal("with too much in it")
+            return {
+                info.filename.removesuffix(".npy"): _array_of_bytes(info.filename, archive.read(info))
+                for info in archive.infolist()
+            }
+    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError):
+        raise _NotModal("which is no archive of arrays") from None
+
+
+def _array_of_bytes(name: str, content: bytes) -> Any:
+    """Return an array: a number or a text, or nested tuples of these."""
+    wrong = _NotModal(f"whose part {quote(name)} is no plain array")
+    if not name.endswith(".npy") or content[:6] != _MAGIC or len(content) < 12:
+        raise wrong
+    wide = content[6] > 1
+    (length,) = struct.unpack_from("<I" if wide else "<H", content, 8)
+    start = (12 if wide else 10) + length
+    try:
+        header = ast.literal_eval(content[12 if wide else 10 : start].decode("latin1"))
+        kind, shape, fortran = header["descr"], header["shape"], header["fortran_order"]
+    except (SyntaxError, ValueError, KeyError, TypeError, MemoryError, RecursionError):
+        raise wrong from None
+    if not isinstance(kind, str) or "O" in kind:
+        raise _NotModal(f"whose array '{name.removesuffix('.npy')}' is a pickle, which nothing here runs")
+    sizes_right = isinstance(shape, tuple) and len(shape) <= 4 and all(isinstance(n, int) and n >= 0 for n in shape)
+    if not sizes_right or (fortran and len(shape) > 1):
+        raise wrong
+    values = _values(kind, content[start:], math.prod(shape), wrong)
+    return _nested(values, shape)
+
+
+def _values(kind: str, content: bytes, count: int, wrong: _NotModal) -> list[Any]:
+    letter = {"<f8": "d", "<i8": "q"}.get(kind)
+    if letter is not None:
+        if len(content) != 8 * count:
+            raise wrong
+        return list(struct.unpack(f"<{count}{letter}", content))
+    if kind[:2] != "<U" or not kind[2:].isdigit() or len(kind) > 6 or len(content) != 4 * int(kind[2:]) * count:
+        raise wrong
+    width = 4 * int(kind[2:])
+    try:
+        return [content[width * i : width * (i + 1)].decode("utf-32-le").rstrip("\0") for i in range(count)]
+    except UnicodeDecodeError:
+        raise wrong from None
+
+
+def _nested(values: list[Any], shape: tuple[int, ...]) -> Any:
+    if not shape:
+        return values[0]
+    step = len(values) // shape[0] if shape[0] else 0
+    return tuple(_nested(values[step * i : step * (i + 1)], shape[1:]) for i in range(shape[0]))

@@ -1,0 +1,33 @@
+"""Why steps of a run with bounded rows have become too short: what its formulas are just behind the end."""
+
+from __future__ import annotations
+
+import math
+
+from symgen.compile.loopcode.exact import exact
+from symgen.compile.native.annotations import Array, Integers
+from symgen.run.layout import abi
+from symgen.run.layout.scales import larger_number
+from symgen.run.modes.bounded_rows import NO_NUMBER, SAME, Choice
+from symgen.run.modes.choice import copy_state, find_fault, read_rows, write_rates
+
+#: How far behind the end formulas are looked at, over what the time resolves.
+_AHEAD = 64.0
+
+
+@exact(entry=True)
+def find_undefined(t: float, step: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers) -> int:
+    """Return `NO_NUMBER`, with the row named, where one of its formulas is no number just behind a state; else `SAME`.
+
+    The state goes on along its rates: a formula may lose its meaning over time or over coordinates. It is looked at
+    behind a step that has failed, of `step` seconds, and behind what the time resolves.
+    """
+    h = larger_number(2.0 * step, _AHEAD * larger_number(abi.RESOLVED_TIME * abs(t), abi.SHORTEST_STEP))
+    copy_state(c, y, w, iw)
+    write_rates(t, c, p)
+    for i in range(y.shape[0]):
+        c.y[i] += h * c.rate[i]
+    c.depth[0] = math.inf
+    if read_rows(t + h, c, c.y, p, c.w) == SAME:
+        return SAME
+    return NO_NUMBER if find_fault(c, c.w) == NO_NUMBER else SAME

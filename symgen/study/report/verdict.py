@@ -1,0 +1,60 @@
+"""The verdict on a run, first in its report: what was asked, what came, where and when."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from symgen.analyses.reached_limits import ReachedLimit
+from symgen.base.errors import fit_lines, plural
+from symgen.study.report.document import TableCell
+from symgen.study.report.words import engineering_number, enumeration, rounded_number
+
+if TYPE_CHECKING:
+    from symgen.result.result import Result
+
+#: Limits that a verdict names at most.
+MOST_NAMED = 4
+
+
+def verdict_on_run(result: Result, limits: Sequence[ReachedLimit]) -> TableCell:
+    """Return one sentence, good or bad: a failure before limits that are exceeded, these before doubts."""
+    if result.status == "failed":
+        return TableCell(f"Failed{_end_of_run(result)}: {result.reason}.", "bad")
+    broken = [each for each in limits if not each.is_met]
+    if broken:
+        return TableCell(_sentence_on_broken_limits(broken, len(limits)), "bad")
+    if result.status != "ok":
+        return TableCell(f"Not verified: {result.reason}.", "bad")
+    kept = f" and keeps {plural(len(limits), 'limit')} of the file" if limits else ""
+    reached = f" reaches {result.t[-1]:g} s" if len(result.t) else " ends"
+    return TableCell(f"The run{reached}{kept}{_trust_in_run(result)}.", "good")
+
+
+def _end_of_run(result: Result) -> str:
+    """Return when a run ended, where its reason does not say so."""
+    return "" if " at t = " in (result.reason or "") or not len(result.t) else f" at t = {result.t[-1]:.6g} s"
+
+
+def _sentence_on_broken_limits(broken: Sequence[ReachedLimit], count: int) -> str:
+    first = fit_lines(len(broken), MOST_NAMED)
+    named = [_broken_limit(each) for each in broken[:first]]
+    named += [f"{len(broken) - first} more"] if len(broken) > first else []
+    verb = "is" if len(broken) == 1 else "are"
+    return f"{len(broken)} of {plural(count, 'limit')} {verb} exceeded: {enumeration(named)}."
+
+
+def _broken_limit(each: ReachedLimit) -> str:
+    reached, limit = engineering_number(each.reached, each.unit), engineering_number(each.limit, each.unit)
+    when = "" if each.t is None else f", at t = {each.t:.4g} s"
+    return f"{each.name} ({reached} for {'at most' if each.side == 'largest' else 'at least'} {limit}{when})"
+
+
+def _trust_in_run(result: Result) -> str:
+    """Return how far a motion and its energies can be trusted."""
+    estimate, drift = result.error_estimate, result.energy_drift_max
+    parts = [] if estimate is None else [f"its error is {rounded_number(estimate)} m by a second run"]
+    parts += [f"its energy is in balance to {engineering_number(drift, 'J')}"] if np.isfinite(drift) else []
+    return f"; {enumeration(parts)}" if parts else ""
