@@ -26,11 +26,12 @@ from symgen.api import load
 from symgen.describe.catalogue import MACHINES, CatalogueEntry, entries
 from symgen.describe.drawing.traced import traced_points
 from symgen.describe.facts.digest import digest
-from symgen.study.comparison.comparison_rows import YARDSTICK, Row
+from symgen.study.comparison.comparison_rows import Row
 from symgen.study.comparison.comparison_study import Study
 from symgen.study.machine_class import library_versions, machine_class
 from symgen.study.report import words
 from symgen.study.report.document import Picture
+from symgen.study.yardstick import YARDSTICK
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 FOLDER = DOCS / "gallery"

@@ -10,6 +10,9 @@ from benchmarks.bounded.draw import KINDS, Drawn, drawn
 from benchmarks.bounded.rows import Bounded, Measure
 from benchmarks.bounded.tree import Moving, Point, State
 
+#: Least height over the ground at a start [m].
+CLEAR = 0.01
+
 
 def over_slope(point: Point, level: float, slope: float, foot: float) -> Measure:
     """Return the height of a point in the plane over ``level + slope (x - foot)``."""
@@ -35,6 +38,10 @@ def cornered(kind: str, seed: int) -> Drawn:
     slope = round(float(rng.choice([-1.0, 1.0]) * rng.uniform(0.2, 1.5)), 4)
     e = float(rng.choice([0.0, 0.0, 0.3, 0.7]))
     edge = bool(rng.random() < 0.5)
+    ramp = slope * (float(place[0]) - foot)
+    above = float(place[1]) - level - (min(0.0, ramp) if edge else max(0.0, ramp))
+    if above < CLEAR:  # the start lies over the ground
+        level = round(level - (CLEAR - above), 4)
     flat, tilted = over_slope(centre, level, 0.0, 0.0), over_slope(centre, level, slope, foot)
     rows = [row for row in mechanism.rows if row.name not in ("rope", "floor")]
     raised = f"{name}.y - ({level!r})", f"{slope!r}*({name}.x - ({foot!r}))"

@@ -36,7 +36,7 @@ COLOURS = {"ok": "green", "unverified": "yellow", "failed": "red"}
 def make_console() -> Console:
     """Return a console on standard output; where that is no terminal, wide enough that no figure is cut."""
     wide = Console(highlight=False, markup=False)
-    return wide if wide.is_terminal else Console(highlight=False, markup=False, width=200)
+    return wide if wide.is_terminal else Console(highlight=False, markup=False, width=240)
 
 
 def show_rows(
@@ -331,6 +331,7 @@ def show_across(lines: Sequence[Across]) -> None:
 
 def show_stress(study: Stress) -> None:
     """Print a stress study."""
+    from symgen.study.stress.beside import beside_yardstick, cells_beside, families_beside
     from symgen.study.stress.findings import findings_of_study
     from symgen.study.stress.stress_rows import LEGEND, Map
 
@@ -342,6 +343,16 @@ def show_stress(study: Stress) -> None:
         rows = [(*line, *(shown.entry(line, family).text for family in shown.families)) for line in shown.lines]
         show_rows(out, headings, rows, headings, first=2)
         out.print(f"accurate cells of those judged; {LEGEND}", style="dim")
+    lines = beside_yardstick(study)
+    if len(lines) > 1:
+        families, searched = families_beside(lines)
+        headings = (
+            *("methods", "integrator", *(family.replace("-", " ") for family in families)),
+            *(f"step, {family}" for family in searched),
+        )
+        cells = [(", ".join(x.methods), x.integrator, *cells_beside(x, families, searched)) for x in lines]
+        title = "error of lagrange with the same integrator over the error: medians; largest steps that follow [s]"
+        show_rows(out, headings, cells, headings[:2], title, first=2)
     if study.limits:
         out.print("largest constant step [s] that follows the motion, and with an error below 1e-3 of the length")
         steps = [["none" if h is None else f"{h:.3g}" for h in (x.stable_step, x.accurate_step)] for x in study.limits]

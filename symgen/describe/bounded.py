@@ -142,7 +142,17 @@ class BoundedRow(Protocol):
 
     @property
     def pressed(self) -> tuple[str, ...]:
-        """Rows of a joint whose forces are the reaction that bounds depend on; none where they do not."""
+        """Rows whose forces are what bounds depend on: the reaction of a joint, or a gap's; none where they do not."""
+        ...
+
+    @property
+    def signed(self) -> bool:
+        """Whether what presses is the force of a one-sided row, which has a sign, and not the reaction of a joint."""
+        ...
+
+    @property
+    def in_contact(self) -> bool:
+        """Whether it is a row of a contact, of a gap or of the friction along it."""
         ...
 
     @property

@@ -2,7 +2,8 @@
 
     python simulate.py [METHOD [UNTIL [STEP]]]
 
-METHOD is a module of this folder; UNTIL and STEP are in seconds. Needs numpy and numba alone. Written by symgen.
+METHOD is a method of this folder, such as direct-correction; UNTIL and STEP are in seconds. Needs numpy and numba
+alone. Written by symgen.
 """
 
 import json
@@ -11,6 +12,7 @@ from importlib import import_module
 from pathlib import Path
 
 import numpy as np
+from numba import njit
 
 FOLDER = Path(__file__).resolve().parent
 MODEL = json.loads((FOLDER / "model.json").read_text(encoding="utf-8"))
@@ -22,7 +24,11 @@ class System:
     """The equations of a method: parameters `p`, scratch `w`, counters `iw`, and a consistent start `y`."""
 
     def __init__(self, method=RUN["method"], step=RUN["step"]):
-        law, model, self.law = MODEL["methods"][method], import_module("model"), import_module(method)
+        name = method.replace("-", "_")  # as a module
+        if name not in MODEL["methods"]:
+            known = ", ".join(each.replace("_", "-") for each in MODEL["methods"])
+            raise SystemExit(f"simulate.py: expected a method of this folder, one of {known}, got '{method}'")
+        law, model, self.law = MODEL["methods"][name], import_module("model"), import_module(name)
         values, own = list(RUN["parameters"].values()), [default for _, default in law["parameters"]]
         first = law["parameter_offset"]
         self.p = np.zeros(first + len(own) + law["hoisted"])
@@ -38,7 +44,7 @@ class System:
         self.w[RUN["step_at"]] = step
 
     def rate(self, t, y):
-        """Return the rate of a state."""
+        """Return the rate of a state, as integrators of other libraries call it."""
         ydot = np.zeros(len(y))
         if self.law.rhs(t, y, self.p, self.w, self.iw, ydot):  # a pivot is doubtful
             self.law.confirm(t, y, self.p, self.w, self.iw, ydot)
@@ -51,19 +57,43 @@ class System:
         return y
 
 
+def loop_of(law):
+    """Return the loop over steps of a method, compiled with its functions."""
+    rhs, confirm, accept = law.rhs, getattr(law, "confirm", law.rhs), law.accept
+
+    @njit(error_model="numpy")
+    def rate(t, y, p, w, iw, ydot):
+        if rhs(t, y, p, w, iw, ydot) != 0:  # a pivot is doubtful
+            confirm(t, y, p, w, iw, ydot)
+
+    @njit(error_model="numpy")
+    def run(states, h, p, w, iw):
+        """Fill the rows of states behind the first one; return the number of whole steps."""
+        n = states.shape[1]
+        k1, k2, k3, k4 = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
+        for i in range(len(states) - 1):
+            t, y = i * h, states[i]
+            rate(t, y, p, w, iw, k1)
+            rate(t + h / 2, y + h / 2 * k1, p, w, iw, k2)
+            rate(t + h / 2, y + h / 2 * k2, p, w, iw, k3)
+            rate(t + h, y + h * k3, p, w, iw, k4)
+            states[i + 1] = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+            if accept((i + 1) * h, states[i + 1], p, w, iw) & 1 or not np.isfinite(states[i + 1]).all():
+                return i
+        return len(states) - 1
+
+    return run
+
+
 def simulate(method=RUN["method"], until=RUN["until"], step=RUN["step"]):
     """Return times and states: positions, velocities, and the work of forces without potential and of drivers."""
-    system, h = System(method, step), step
-    times, states = [0.0], [system.y]
-    for i in range(round(until / h)):
-        t, y = i * h, states[-1]
-        k1 = system.rate(t, y)
-        k2 = system.rate(t + h / 2, y + h / 2 * k1)
-        k3 = system.rate(t + h / 2, y + h / 2 * k2)
-        k4 = system.rate(t + h, y + h * k3)
-        times.append((i + 1) * h)
-        states.append(system.corrected(times[-1], y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)))
-    return np.array(times), np.array(states)
+    system, count = System(method, step), round(until / step)
+    states = np.zeros((count + 1, len(system.y)))
+    states[0] = system.y
+    done = loop_of(system.law)(states, step, system.p, system.w, system.iw)
+    if done < count:
+        raise ArithmeticError(f"the state at t = {(done + 1) * step} cannot be corrected")
+    return step * np.arange(count + 1), states
 
 
 if __name__ == "__main__":

@@ -67,7 +67,7 @@ def agrees(name, alone, tmp_path, coordinates="absolute", steps=20, compiled=Fal
     assert main(["generate", name, "-o", str(folder), *arguments]) == 0
     start = json.loads((folder / "model.json").read_text())["run"]
     until = steps * start["step"]
-    found = simulated(folder, alone, tmp_path, start["method"], until, compiled=compiled)
+    found = simulated(folder, alone, tmp_path, method, until, compiled=compiled)
     settings = {"integrator": "rk4", "step": start["step"], "until": until, "coordinates": coordinates}
     result = symgen.load(name).simulate(method=method, shape="straight", **settings)
     assert result.status == "ok", result.reason
@@ -104,6 +104,16 @@ def test_a_package_has_a_module_a_method_and_says_what_it_is(tmp_path, capsys):
     first = {path.name: path.read_bytes() for path in folder.iterdir()}
     assert main(wanted) == 0
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == first
+
+
+def test_a_method_that_is_not_in_the_folder_is_named_with_those_that_are(tmp_path):
+    symgen.load("pendulum").generate(tmp_path / "emitted")
+    command = [sys.executable, str(tmp_path / "emitted" / "simulate.py"), "direct-corection"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert done.stderr == (
+        "simulate.py: expected a method of this folder, one of direct-correction, got 'direct-corection'\n"
+    )
 
 
 def test_a_module_imports_the_model_alone(tmp_path):

@@ -32,7 +32,7 @@ WITHOUT = {
     "sweep": {"verify", "repeat", "shape", "events"},
 }
 #: Defaults of commands that are not those of a single run.
-OTHER = {("compare", "repeat"): 3}
+OTHER = {("compare", "repeat"): 5}
 
 
 def options(command):

@@ -184,7 +184,7 @@ def test_scipy_s_solvers_agree_within_what_they_say(name, until, solver):
 
 def test_an_unknown_solver_is_refused():
     model = symgen.load("pendulum")
-    with pytest.raises(InputError, match=r"reference_by: .*scipy-radau.*did you mean 'scipy-radau'"):
+    with pytest.raises(InputError, match=r"reference_by: got 'scipy-rado'; did you mean 'scipy-radau'.*scipy-dop853"):
         reference_motion(model.mechanism, {}, *start_of(model), np.linspace(0.0, 1.0, 3), solver="scipy-rado")
 
 

@@ -429,7 +429,7 @@ def test_rows_come_in_order_and_fit_the_contract(tmp_path):
         "limits",
         "skipped",
     }
-    assert set(found) == keys | {"unusable", "left_out", "false_successes", "findings"}
+    assert set(found) == keys | {"unusable", "left_out", "false_successes", "findings", "beside"}
     assert found["cells"] == len(study.rows) == sum(found["outcomes"].values())
     assert not [row for row in study.false_successes if row.method == "auto"]
     path = save_stress_csv(study, tmp_path / "cells.csv")

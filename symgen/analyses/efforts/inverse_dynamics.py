@@ -18,6 +18,7 @@ from symgen.analyses.prescribed.prescribed import driver_names
 from symgen.base import arguments
 from symgen.base.digits import clean
 from symgen.base.errors import InputError, plural
+from symgen.describe.bounds.bounded_modes import refuse_contacts
 from symgen.describe.bounds.smooth import sliding_rows_as_forces
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.input_data import are_words_of_data
@@ -173,6 +174,7 @@ def inverse_dynamics(
     weights: Mapping[str, float] | None = None,
 ) -> Inverse:
     """Return the efforts that a motion needs; see `symgen.api.Model.inverse`, which has these arguments and errors."""
+    refuse_contacts("inverse dynamics", mechanism)
     contacts = Contacts.of_mechanism(mechanism)
     mechanism = sliding_rows_as_forces(WHERE, mechanism, contacts.rows)
     names = arguments.words(WHERE, actuators)

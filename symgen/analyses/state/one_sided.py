@@ -76,7 +76,7 @@ def rows_in_force_at(
 
 def _gaps_by_name(bounded: Sequence[BoundedRow]) -> list[tuple[str, Expr]]:
     """Return gaps by name; of a gap that a formula describes the formula, as its text selects the kept code."""
-    return [(row.name, row.measure.of if isinstance(row.measure, FormulaMeasure) else row.place[1]) for row in bounded]
+    return [(row.label, row.measure.of if isinstance(row.measure, FormulaMeasure) else row.place[1]) for row in bounded]
 
 
 def _scale_of_gap(row: BoundedRow, w: Array, place: int) -> float:
@@ -87,7 +87,7 @@ def _scale_of_gap(row: BoundedRow, w: Array, place: int) -> float:
 def rows_as_joints(mechanism: Mechanism, bounded: Sequence[BoundedRow]) -> Mechanism:
     """Return a mechanism in which one-sided rows are joints with the row that is in force at times."""
     # formulas, which a tree does not take for coordinates that are prescribed: the force is that of a row
-    rows = [(each.name, Holonomic(each.held.label, FormulaMeasure(each.place[1]), unit=each.unit)) for each in bounded]
+    rows = [(each.label, Holonomic(each.held.label, FormulaMeasure(each.place[1]), unit=each.unit)) for each in bounded]
     return replaced(
         mechanism, joints=(*mechanism.joints, *(Joint(name, "rows", tied_bodies(row), (row,)) for name, row in rows))
     )
@@ -98,7 +98,7 @@ def mode_in_words(shut: Sequence[BoundedRow], opened: Sequence[BoundedRow]) -> t
     sentences = list[str]()
     for family in dict.fromkeys(row.family for row in (*shut, *opened)):
         named = (shut, f"{family.in_force}, held as rows"), (opened, f"{family.off}, left out")
-        own = [(", ".join(row.name for row in rows if row.family == family), words) for rows, words in named]
+        own = [(", ".join(row.label for row in rows if row.family == family), words) for rows, words in named]
         parts = [f"{names} {words}" for names, words in own if names]
         sentences.append(f"{family.noun} as at the start: {'; '.join(parts)}")
     return tuple(sentences)
@@ -120,7 +120,7 @@ def fault_of_mode(subject: Subject, y: Array, lam: Array) -> str:
         at, words = rows[row.row], row.family
         if not -lam[at] / subject.loads[at] > least:
             return (
-                f"the {words.in_force} {words.one} {row.name} does not push there "
+                f"the {words.in_force} {words.one} {row.label} does not push there "
                 f"(force {-lam[at]:.6g} {unit_of_effort(row)}): start with it {words.off}"
             )
     if subject.opened:
@@ -130,7 +130,7 @@ def fault_of_mode(subject: Subject, y: Array, lam: Array) -> str:
             if not gap >= -TOUCHING * _scale_of_gap(row, subject.w, abi.LENGTH):
                 words, gap_there = row.family, f"its gap is {gap:.6g} {row.unit}"
                 return (
-                    f"the {words.one} {row.name}, {words.off} at the start, is passed there ({gap_there}): "
+                    f"the {words.one} {row.label}, {words.off} at the start, is passed there ({gap_there}): "
                     f"start with it {words.in_force}"
                 )
     return ""

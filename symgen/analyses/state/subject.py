@@ -15,7 +15,7 @@ from symgen.analyses.state.one_sided import mode_in_words, rows_as_joints, rows_
 from symgen.base.errors import InputError, suggest
 from symgen.base.settings import Settings
 from symgen.derive.lower.windings import winding_order
-from symgen.describe.bounds.bounded_modes import one_sided_rows, without_bounds
+from symgen.describe.bounds.bounded_modes import one_sided_rows, refuse_contacts, without_bounds
 from symgen.describe.facts.digest import digest
 from symgen.run.compiling.linearised import DescriptorForm, LinearisedState, compile_linearised
 from symgen.run.compiling.pipeline import straight_alone
@@ -324,6 +324,7 @@ def make_subject(mechanism: Mechanism, settings: Settings, by: Sequence[str] = (
     InputError
         If a setting is wrong, or a name of `by` is no parameter.
     """
+    refuse_contacts("analyses at a state", mechanism, friction=True)
     settings = _without_bounded_state(mechanism, settings)
     mechanism, pushing = without_bounds(mechanism), one_sided_rows(mechanism)
     placed, inputs = put_inputs_at_start(mechanism, settings), mechanism.inputs

@@ -129,6 +129,12 @@ class Bearing(msgspec.Struct, frozen=True, tag="bearing"):
     quarter: Direction
 
 
+class Swing(Bearing, frozen=True, tag="swing"):
+    """A bearing whose markers may meet: nearer than `least` [m] it has the rate of a vector with this length."""
+
+    least: Expr
+
+
 class RimHeight(msgspec.Struct, frozen=True, tag="rim-height"):
     """s = n . (c - p) - R sqrt(1 - (n . k)^2) [m]: height of a thin disc's lowest point over a plane of the ground.
 

@@ -23,6 +23,7 @@ from symgen.compile.native.calls import (
     slot_values,
     trampoline,
 )
+from symgen.compile.native.compiler import is_by_numba
 from symgen.compile.store.jit import MachineFunction, object_file
 
 Array = NDArray[np.float64]
@@ -59,7 +60,7 @@ class ArgumentBlock:
     @classmethod
     def of(cls, function: object, signature: types.Signature | None, arguments: tuple[Any, ...]) -> Self | None:
         """Return the block of a function, or None if it is not compiled here or takes other arguments."""
-        if not isinstance(function, MachineFunction) or signature is None:
+        if not isinstance(function, MachineFunction) or signature is None or is_by_numba():
             return None
         if len(signature.arguments) != len(arguments):
             return None

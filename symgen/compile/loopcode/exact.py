@@ -38,6 +38,11 @@ class Exact:
             self.py_func, inlined=not self._entry, contracted=False, entry=self._entry, once=self._once
         )
 
+    @property
+    def _numba_type_(self) -> Any:
+        """Type of the compiled function where code compiled by Numba names it."""
+        return self.compiled._numba_type_
+
     @cached_property
     def plain(self) -> Any:
         """The function and its callees as plain Python; functions passed as arguments stay as they are."""

@@ -9,9 +9,9 @@ from symgen.base.errors import InputError, suggest
 
 #: Environment variable: "source", the default, for machine code from the source by symgen's own route; "explain" for
 #: the same with a line on standard error for each function that is compiled; "libm" for the same with sines of the C
-#: library, one by one.
+#: library, one by one; "numba" for Numba's compiler.
 COMPILER = "SYMGEN_COMPILER"
-_COMPILERS = ("source", "explain", "libm")
+_COMPILERS = ("source", "explain", "libm", "numba")
 
 
 def selected_compiler() -> str:
@@ -26,6 +26,12 @@ def selected_compiler() -> str:
     if name not in _COMPILERS:
         raise InputError(COMPILER, "one of " + ", ".join(_COMPILERS), f"'{name}'", suggest(name, _COMPILERS))
     return name
+
+
+@functools.cache
+def is_by_numba() -> bool:
+    """Whether Numba compiles everything, read once a process."""
+    return selected_compiler() == "numba" and not is_interpreted()
 
 
 @functools.cache

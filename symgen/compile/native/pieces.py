@@ -41,6 +41,11 @@ class Piece:
         """Call the plain form."""
         return self.plain(*arguments)
 
+    @property
+    def _numba_type_(self) -> Any:
+        """Type of the plain form where code compiled by Numba names it."""
+        return importlib.import_module("symgen.compile.store.numba_route").type_of_plain(self.plain)
+
 
 def piece_of(name: str, plain: _Function, result: types.NumberType = types.void, writers: str = "") -> _Function:
     """Return a `Piece` as a function with the types of its plain form; parameters as there."""

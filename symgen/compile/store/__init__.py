@@ -5,5 +5,5 @@ functions whose machine code is kept; `modules`: emitted modules as Python modul
 
 In: sources, metadata and machine code, with keys made of content.
 Out: the same, in this process or another.
-Imports: filelock, llvmlite, platformdirs; `native` and rooms below.
+Imports: filelock, llvmlite, platformdirs; Numba when needed; `native` and rooms below.
 """

@@ -15,7 +15,7 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast
 
 from symgen.compile.native import types
-from symgen.compile.native.compiler import is_interpreted, selected_compiler
+from symgen.compile.native.compiler import is_by_numba, is_interpreted, selected_compiler
 from symgen.compile.native.read_tables import Written
 from symgen.compile.store.identity import combined_digest, file_content
 from symgen.compile.store.jit import (
@@ -231,6 +231,10 @@ def import_library(name: str, *arguments: Any) -> Any:
     names = arguments[2] if len(arguments) > 2 else ()
     if name.partition(".")[0] != "numba" or "cuda" in names:
         return builtins.__import__(name, *arguments)
+    if is_by_numba():
+        from symgen.compile.store.numba_route import library
+
+        return library(builtins.__import__(name, *arguments), names, _decorate_emitted)
     return _INSTEAD
 
 

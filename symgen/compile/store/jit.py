@@ -23,7 +23,7 @@ from symgen.base.memory import without_garbage_collection
 from symgen.compile.native import types
 from symgen.compile.native.annotations import signature_from
 from symgen.compile.native.calls import argument_type, lockless_caller
-from symgen.compile.native.compiler import is_interpreted, selected_compiler
+from symgen.compile.native.compiler import is_by_numba, is_interpreted, selected_compiler
 from symgen.compile.native.machine import load_machine_code, lock, processor_features
 from symgen.compile.store.entries import get_or_make_data, plain_name
 from symgen.compile.store.identity import combined_digest, file_content, file_digest
@@ -119,17 +119,32 @@ class MachineFunction(ABC):
 
     def address(self, signature: types.Signature) -> int:
         """Return the address of the machine code."""
+        if is_by_numba():
+            from symgen.compile.store.numba_route import address
+
+            return address(self, signature)
         return self.code(signature.arguments).address
 
     def caller(self, arguments: Arguments) -> Callable[..., Any]:
         """Return a function that calls the machine code with arguments of some types."""
+        if is_by_numba():
+            from symgen.compile.store.numba_route import called
+
+            return functools.partial(called, self)
         if arguments not in self._callers:
             self._callers[arguments] = lockless_caller(*self.code(arguments))
         return self._callers[arguments]
 
     def __call__(self, *arguments: object) -> Any:
         """Call the machine code for the types of the arguments."""
-        return self.caller(tuple(map(argument_type, arguments)))(*arguments)
+        return self.caller(() if is_by_numba() else tuple(map(argument_type, arguments)))(*arguments)
+
+    @property
+    def _numba_type_(self) -> Any:
+        """Type of the function where code compiled by Numba names it."""
+        from symgen.compile.store.numba_route import type_in_callers
+
+        return type_in_callers(self)
 
     def __reduce__(self) -> str:
         return str(self.__qualname__)  # pickled by name, as functions are: another process compiles or loads its own

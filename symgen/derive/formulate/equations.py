@@ -110,6 +110,8 @@ class Drag:
         Of each component of N the rows in it, and nodes by which their multipliers count.
     noun : str
         What it is.
+    signed : bool
+        Whether N has one component, whose sign counts: it is the force of a one-sided row.
     """
 
     row: int
@@ -118,6 +120,7 @@ class Drag:
     rate: int
     pressed: tuple[tuple[tuple[int, int], ...], ...]
     noun: str
+    signed: bool = False
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,7 @@ from symgen.derive.formulate.modal_inertia import add_modal_inertia
 from symgen.derive.formulate.of_time import time_function
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import name_of_number, places_of_first_modes
-from symgen.describe.bounds.by_reaction import refuse_shared_reactions, rows_bounded_by_reactions
+from symgen.describe.bounds.by_reaction import pressed_rows, refuse_shared_reactions
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.mechanism import Mechanism, Rotor, SpatialBody
 from symgen.describe.parts.topology import UNITS, state_quantities
@@ -105,7 +105,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         metric=() if model.tree is None else model.tree.metric_of_bodies(),
         states=tuple(Quantity(x.name, x.unit) for x in mechanism.states),
         state_rates=rates,
-        drags=tuple(_drag_of_reaction(model, row, rows, repeats) for row in rows_bounded_by_reactions(mechanism)),
+        drags=tuple(_drag_of_reaction(model, row, rows, repeats) for row in pressed_rows(mechanism)),
     )
 
 
@@ -172,7 +172,7 @@ def _equations_of_bounded_row(model: ModelNodes, bounded: BoundedRow, first: int
 def _drag_of_reaction(
     model: ModelNodes, bounded: BoundedRow, rows: Sequence[ConstraintRow], repeats: Iterable[tuple[str, str]]
 ) -> Drag:
-    """Return the effort by the reaction of a joint."""
+    """Return the effort by the reaction of a joint, or by the force of a gap."""
     places = {row.name: i for i, row in enumerate(rows)}
     refuse_shared_reactions(bounded, repeats)
     rate = model.measure(bounded.measure).rate(model.graph, model.velocities)
@@ -186,7 +186,9 @@ def _drag_of_reaction(
     if bounded.across:
         cosines = [[model.measure(cosine).value for cosine in line] for line in bounded.across]
         pressed = tuple(tuple(zip(rows_of, line, strict=True)) for line in cosines)
-    return Drag(places[bounded.row], sign, coefficient, rate, pressed, bounded.family.one)
+    if bounded.signed:  # a force that pushes is minus the multiplier of its row
+        coefficient = model.graph.neg(coefficient)
+    return Drag(places[bounded.row], sign, coefficient, rate, pressed, bounded.family.one, bounded.signed)
 
 
 def _switchable_row(model: ModelNodes, row: ConstraintRow, first: int) -> ConstraintRow:

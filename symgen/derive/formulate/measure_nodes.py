@@ -29,6 +29,7 @@ from symgen.base.vocabulary.measures import (
     Speed,
     Spin,
     Sum,
+    Swing,
     Turn,
     Turning,
     axes,
@@ -358,6 +359,9 @@ class ModelNodes(Formulas):
         else:
             y, x = self.measure(Component(m.a, m.b, m.quarter)), self.measure(Component(m.a, m.b, m.zero))
         square = g.add(g.mul(x.value, x.value), g.mul(y.value, y.value))
+        if isinstance(m, Swing):
+            least = self.expression(m.least)
+            square = g.call("max", square, g.mul(least, least))
         across, along = g.div(x.value, square), g.div(y.value, square)
         row = {
             i: g.sub(g.mul(across, y.row.get(i, g.zero)), g.mul(along, x.row.get(i, g.zero)))

@@ -3,7 +3,8 @@
 The reaction of an element is ``N = N0 - sum of c_j n_j``: N0 without drags, n_j of a unit force of element j
 along its coordinate, one solution with the factor of the equations. A coefficient has the sign of the element's rate.
 For one element the equation is quadratic and has one root of each sign where coefficient |n| < 1. For several it is
-solved by Newton's iteration, which doubles the digits.
+solved by Newton's iteration, which doubles the digits. Where reactions have one component whose sign counts, as those
+of contacts do, equations are linear.
 """
 
 from __future__ import annotations
@@ -59,6 +60,18 @@ def drag_forces(
     allowed = g.mul(g.constant(_CONVERGED**2), g.dot(forces, forces))
     forces = [g.add(c, x) for c, x in zip(forces, change, strict=True)]
     return forces, g.call("lt", allowed, g.dot(change, change))
+
+
+def linear_drag_forces(
+    g: Graph, coefficients: Sequence[int], alone: Sequence[Nodes], parts: Sequence[Sequence[Nodes]]
+) -> list[int]:
+    """Return the forces c of all elements with ``c = coefficient N(c)``; parameters as for `drag_forces`."""
+    matrix = [
+        [g.add(g.mul(k, n), g.one if i == j else g.zero) for j, (n,) in enumerate(parts[i])]
+        for i, k in enumerate(coefficients)
+    ]
+    right = [g.mul(k, n) for k, (n,) in zip(coefficients, alone, strict=True)]
+    return _solve_factors(g, _factorise(g, matrix), right)
 
 
 def length_of_vector(g: Graph, vector: Sequence[int]) -> int:

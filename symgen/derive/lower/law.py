@@ -14,6 +14,7 @@ from symgen.base.ir.program import (
     HELD_RHS,
     JAMMING,
     Block,
+    Correction,
     EliminationPlan,
     LawProgram,
     ModelLayout,
@@ -74,10 +75,10 @@ def lower_law(
     InputError
         If velocities shall be scaled to the energy where drivers prescribe coordinates of a tree.
     """
-    correction = method.correction(options)
+    correction = _correction_of_rows(equations, method.correction(options))
     _refuse_method(equations, method, options, implicit)
     names = [p.name for p in method.parameters]
-    recorded = record_law(method, options, equations.driving is not None)
+    recorded = record_law(method, options, equations.driving is not None, correction)
     eliminates = _uses_elimination(recorded)
     apart = frozenset(("constrained",) if equations.drags and eliminates else ())
     record = recorded.choose_solution(model.plan.schur, apart)
@@ -131,6 +132,12 @@ def lower_law(
         unique_multipliers=method.unique_multipliers,
     )
     return LawProgram(info, record.form, correction.stages, correction, layout, tuple(blocks), degrees)
+
+
+def _correction_of_rows(equations: Equations, correction: Correction) -> Correction:
+    """Return the correction of a method; none where no row could be violated, as on a tree or of a free body."""
+    closes = correction.any and not correction.energy and correction.metric != "independent"
+    return Correction() if closes and not equations.m else correction
 
 
 def _reserve_hoisted(hoister: Hoister, accelerations: Iterable[tuple[ScalarNodes, Part]]) -> None:

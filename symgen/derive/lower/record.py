@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import assert_never
 
+from symgen.base.ir.program import Correction
 from symgen.derive.methods._base import Acceleration, Dense, Iteration, Law, Method, Tangent, multiplier_law
 from symgen.derive.methods._system import System
 from symgen.derive.methods._tape import ALTERNATIVES, Factor, FormulaStep, Scalar, Value, Vector
@@ -114,14 +115,17 @@ class RecordedLaw:
         return replace(self, operations=tuple(operations), parts=tuple(part for part in parts if part.outputs))
 
 
-def record_law(method: Method, options: Mapping[str, str], driven: bool = False) -> RecordedLaw:
+def record_law(
+    method: Method, options: Mapping[str, str], driven: bool = False, correction: Correction | None = None
+) -> RecordedLaw:
     """Record a method: its acceleration law, and its correction where it differs from the model's.
 
-    `driven`: drivers prescribe coordinates of a tree, and their power is work.
+    `driven`: drivers prescribe coordinates of a tree, and their power is work. `correction` takes the place of the
+    method's own.
     """
     recording = _Law(driven)
     recording.add_law(method.law(recording.system, options))
-    correction = method.correction(options)
+    correction = method.correction(options) if correction is None else correction
     recording.role = "metric"
     if correction.any and correction.metric != "scaled":  # which is the model's own
         recording.share = correction.share

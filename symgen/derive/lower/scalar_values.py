@@ -97,7 +97,8 @@ class NodeValues(Replay):
         """Yield drags by the unknown multipliers, as forces along the coordinates."""
         g = self.graph
         for drag in self.equations.drags if self.pressing else ():
-            size = length_of_vector(g, self.reaction(drag, self.pressing))
+            reaction = self.reaction(drag, self.pressing)
+            size = reaction[0] if drag.signed else length_of_vector(g, reaction)
             yield drag, g.mul(drag.sign, g.mul(drag.coefficient, size))
 
     def reaction(self, drag: Drag, multipliers: Nodes) -> Nodes:

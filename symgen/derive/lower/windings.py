@@ -54,9 +54,13 @@ def measures_of_element(element: Joint | Force) -> list[Any]:
 
 
 def counts_turns(mechanism: Mechanism) -> bool:
-    """Return whether a mechanism may have angles whose turns are counted; in the plane only joints report these."""
+    """Return whether a mechanism may have angles whose turns are counted.
+
+    In the plane only joints report these, and rows with bounds are along them.
+    """
     reported = (m for joint in mechanism.joints for _, m in joint.coordinates)
-    return mechanism.space != "planar" or any(isinstance(m, Turning) for m in reported)
+    turned = any(isinstance(m, Turning) for m in reported) or counted_turns(row.measure for row in mechanism.bounded)
+    return bool(mechanism.space != "planar" or turned)
 
 
 def follows_places(mechanism: Mechanism) -> bool:

@@ -27,6 +27,8 @@ SLIP, REVERSE, STICK = "slip", "reverse", "stick"
 JAM = "jam"
 #: Last words of the names of events of one-sided rows: an impact, the row comes into force, it is off again.
 HIT, REST, LEAVE = "hit", "rest", "leave"
+#: Last word of the event at which a contact opens.
+LIFT = "lift"
 
 
 # -- formulas of one row -----------------------------------------------------------------------------------------------
@@ -51,7 +53,13 @@ def bounds_from_carried_force(row: BoundedRow, beside: Sequence[BoundedRow]) -> 
     place = next(i for i, other in enumerate(beside, 1) if other.row == row.row)
     terms = list[Expr]()
     for other in beside:
-        if other.changing and not other.pressed and other.row != row.row:
+        if other.signed and other.row != row.row:  # its bound is that of the force that presses it
+            pressing = Reading(other.pressed[0], Driven(other.pressed[0], other.measure))
+            held, constant, limit = (name_of_number(other, number) for number in ("held", "constant", "limit"))
+            carries = call("mul", call("sub", ONE, held), equals_whole_number(constant, place))
+            carried = call("mul", carries, call("abs", limit))
+            terms.append(call("mul", carried, call("mul", other.numbers[0][1], pressing)))
+        elif other.changing and not other.pressed and other.row != row.row:
             held, constant, limit = (name_of_number(other, number) for number in ("held", "constant", "limit"))
             carries = call("mul", call("sub", ONE, held), equals_whole_number(constant, place))
             terms.append(call("mul", call("mul", carries, limit), other.numbers[0][1]))
@@ -65,7 +73,12 @@ def equals_whole_number(number: Expr, value: int) -> Expr:
 
 def formula_of_closed(row: BoundedRow) -> Expr:
     """Return the formula that is 1 where a one-sided row is closed, else 0."""
-    held, limit = name_of_number(row, "held"), name_of_number(row, "limit")
+    return closed_by(row.row)
+
+
+def closed_by(row: str) -> Expr:
+    """Return the formula that is 1 where the one-sided row of some name is closed, else 0."""
+    held, limit = Name(f"{row}.held"), Name(f"{row}.limit")
     return call("add", held, call("mul", call("sub", ONE, held), limit))
 
 
@@ -187,4 +200,18 @@ def refuse_bounds(where: str, mechanism: Mechanism) -> None:
     """
     for family, rows in rows_by_family(mechanism).items():
         names = ", ".join(row.name for row in rows)
+        raise InputError(where, f"a mechanism without {family.noun}", family.named.format(names), family.hint)
+
+
+def refuse_contacts(where: str, mechanism: Mechanism, friction: bool = False) -> None:
+    """Refuse a mechanism with contacts, or with friction of contacts, where nothing takes them.
+
+    Raises
+    ------
+    InputError
+        If it has any.
+    """
+    rows = [row for row in mechanism.bounded if (row.signed if friction else row.in_contact)]
+    if rows:
+        family, names = rows[0].family, ", ".join(dict.fromkeys(row.name for row in rows))
         raise InputError(where, f"a mechanism without {family.noun}", family.named.format(names), family.hint)

@@ -69,7 +69,12 @@ def size_of_reaction(row: BoundedRow) -> Expr:
 
 
 def rows_bounded_by_reactions(mechanism: Mechanism) -> tuple[BoundedRow, ...]:
-    """Return the rows whose bounds depend on a reaction."""
+    """Return the rows whose bounds depend on the reaction of a joint."""
+    return tuple(row for row in mechanism.bounded if row.pressed and not row.signed)
+
+
+def pressed_rows(mechanism: Mechanism) -> tuple[BoundedRow, ...]:
+    """Return the rows whose bounds depend on forces of other rows: reactions of joints, or forces of gaps."""
     return tuple(row for row in mechanism.bounded if row.pressed)
 
 
@@ -89,4 +94,4 @@ def refuse_shared_reactions(row: BoundedRow, repeats: Iterable[tuple[str, str]])
 
 def jamming_names(mechanism: Mechanism) -> dict[str, int]:
     """Return the names of jamming numbers, with their places in the section ``jamming``."""
-    return {f"{row.row}.{JAMMING}": i for i, row in enumerate(rows_bounded_by_reactions(mechanism))}
+    return {f"{row.row}.{JAMMING}": i for i, row in enumerate(pressed_rows(mechanism))}

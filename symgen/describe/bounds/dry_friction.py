@@ -264,13 +264,14 @@ class Friction(Bounds, frozen=True):
             off = call("mul", off, call("add", call("sub", ONE, shares), call("mul", shares, own)))
         if self.pressed:
             limit_at_rest = call("add", call("mul", self.static, size_of_reaction(self)), limit)
-        left = call("sub", limit_at_rest, call("abs", effort_in_force(self)))
-        resting = call("add", call("mul", held, left), off)
+        effort = effort_in_force(self)
+        left = call("sub", limit_at_rest, effort), call("add", limit_at_rest, effort)  # smooth, as their least is not
         locked = call("sub", held, call("mul", call("sub", ONE, held), call("abs", measure_derivative(self))))
         resting_rate = call("mul", call("sub", ONE, call("mul", sign, sign)), locked)
         moving = call("add", call("mul", sign, measure_derivative(self)), resting_rate)
+        resting = (call("add", call("mul", held, each), off) for each in left)
         events = (
-            event_of_mode(self, SLIP, resting, "effort at rest at its bound"),
+            *(event_of_mode(self, SLIP, each, "effort at rest at a bound") for each in resting),
             event_of_mode(self, REVERSE, moving, "rate of sliding 0"),
         )
         if not self.pressed:

@@ -14,6 +14,8 @@ class Bounds(msgspec.Struct, frozen=True):
     """Base of the kinds: two bounds, which depend on no reaction (`symgen.describe.bounded.BoundedRow`)."""
 
     one_sided: ClassVar[bool] = False
+    signed: ClassVar[bool] = False
+    in_contact: ClassVar[bool] = False
 
     @property
     def reversed(self) -> bool:

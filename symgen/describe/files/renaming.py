@@ -46,7 +46,7 @@ def rename_in_text(text: str, path: str, name: str, source: str) -> str:
     """
     raw, parts = parse_toml(text, source), outline_of_document(text)
     where = _path_from_text(raw, path)
-    check_identifier(name, f"{source}: {path}", "name")
+    check_identifier(name, f"{source}: {path}", "new")
     siblings = _value_at_path(raw, where[:-1])
     if name in siblings and name != where[-1]:
         raise InputError(f"{source}: {path}", "a name that is free", quote(name))

@@ -29,7 +29,7 @@ from symgen.run.planning.start_lines import (
     is_described,
     written_start,
 )
-from symgen.run.single.turn_memory import WORDS
+from symgen.run.single.turn_memory import words_of_run
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -193,8 +193,9 @@ def modes_data(mechanism: Mechanism, run: PrintedRun) -> dict[str, Any]:
         for name, array in run.memory.items()
         if name not in ("y", "p", "w", "iw") and np.any(array)
     }
-    rows = [row.name for row in mechanism.bounded]
-    return {"rows": rows, "words": list(WORDS), "kept": OF_LOG, "status": abi.N_STATUS, "initial": initial}
+    rows, watched = [row.name for row in mechanism.bounded], run.watched
+    words = list(words_of_run(() if watched is None else watched.turning))
+    return {"rows": rows, "words": words, "kept": OF_LOG, "status": abi.N_STATUS, "initial": initial}
 
 
 def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]:

@@ -113,11 +113,12 @@ class CModel:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Another name of the mechanism in C, in words."""
+        """Another name of the mechanism in C, and what an FMU is not for, in words."""
         name = self.mechanism.name.replace("-", "_")
-        if self.prefix == name:
-            return ()
-        return (f"in C, names of '{self.mechanism.name}' begin with {self.prefix}: {name} has another meaning there",)
+        words = f"in C, names of '{self.mechanism.name}' begin with {self.prefix}: {name} has another meaning there"
+        alone = "the FMU is for co-simulation alone: an importer that integrates does not find modes of contacts"
+        has_contacts = any(row.in_contact for row in self.mechanism.bounded)
+        return (words,) * (self.prefix != name) + (alone,) * (has_contacts and self.target == "fmu")
 
     @cached_property
     def text(self) -> str:
@@ -264,8 +265,8 @@ class CModel:
 
     @property
     def exchanges(self) -> bool:
-        """Whether an importer may integrate: in FMUs without a named integrator."""
-        return self.target == "fmu" and not self.named
+        """Whether an importer may integrate: in FMUs without a named integrator, and without contacts."""
+        return self.target == "fmu" and not self.named and not any(row.in_contact for row in self.mechanism.bounded)
 
     @cached_property
     def partition(self) -> Any:

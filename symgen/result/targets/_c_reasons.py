@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from string import Formatter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,8 +11,7 @@ from symgen.describe.bounds.advice import JUMPING
 from symgen.describe.bounds.bounded_modes import MODE
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.modes.bounded_rows import TWO_PIECES
-from symgen.run.modes.refusals import SENTENCES, fixed_words
+from symgen.run.modes.refusals import OF_KIND, SENTENCES, fixed_words
 from symgen.run.planning.dead_centre import ENDS
 from symgen.run.printed.kept_run import END_CODE, END_TIME
 from symgen.run.single.run import STIFF
@@ -97,20 +96,21 @@ def _reasons(run: PrintedRun) -> Iterator[tuple[int, str, str]]:
         reset = "reset: expected velocities that the joints and each other allow, got others"
         yield e.IMPOSSIBLE, f"event '%s': {reset}{_AT}", "event, t"
     if run.watched is not None and run.watched.bounded is not None:
-        yield from _faults(run.watched.bounded, bool(run.watched.corners))
+        yield from _faults(run.watched.bounded, run.watched.turning)
 
 
-def _faults(rows: BoundedRows, corners: bool) -> Iterator[tuple[int, str, str]]:
+def _faults(rows: BoundedRows, turning: Sequence[str]) -> Iterator[tuple[int, str, str]]:
     """Yield the faults of modes with the sentences of runs; their codes are negative, codes of ends positive."""
     fixed, of_row = (
         fixed_words(rows),
         {"kind": "kinds[at]", "kinds": "all[at]", "name": "bounded[at]", "row": "rows[at]"},
     )
     of_row |= {"names": "names", "hits": "hits", "t": "t"}
+    of_row |= {"modes": c_text("modes of contacts"), "others": c_text("other ones")}
     of_row |= {"first": f"(double)model->run_events[{e.FIRST_NUMBER}]"}
     of_row |= {"second": f"(double)model->run_events[{e.SECOND_NUMBER}]"}
     for fault, sentence in SENTENCES.items():
-        if fault == TWO_PIECES and not corners:
+        if OF_KIND.get(fault, "") not in ("", *turning):
             continue
         where, expected, got, hint = sentence
         text = f"{where}: expected {expected}, got {got}" + (f"; {hint}" if hint else "")

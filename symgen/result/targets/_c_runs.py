@@ -15,7 +15,7 @@ from symgen.run.layout import abi
 from symgen.run.modes.transition_log import OF_LOG
 from symgen.run.planning.outputs import DEFAULT_OUTPUTS
 from symgen.run.printed import kept_run
-from symgen.run.single.turn_memory import WORDS
+from symgen.run.single.turn_memory import words_of_run
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -57,7 +57,7 @@ def values_of_run(mechanism: Mechanism, run: PrintedRun, used: Collection[str], 
     watched = run.watched
     return {
         "bounded": [row.name for row in mechanism.bounded],
-        "words": WORDS,
+        "words": words_of_run(() if watched is None else watched.turning),
         "of_log": OF_LOG,
         "functions_of_events": 0 if watched is None else len(watched.names) + len(watched.switches),
         "ending": kept_run.ENDING,

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from symgen.base.ir.interpolation import Interpolation
 from symgen.base.vocabulary.expressions import ZERO, Expr
+from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import measure_derivative, mode_events, one_sided_rows, two_sided_rows
 from symgen.describe.bounds.by_reaction import reaction_components, rows_bounded_by_reactions
 from symgen.describe.bounds.losses import places_of_losses
@@ -116,10 +117,26 @@ def bounded_names(mechanism: Mechanism) -> BoundedNames:
         tuple(row.family.one for row in every),
         tuple(row.family.noun for row in every),
         len(two_sided_rows(mechanism)),
-        tuple(i for i, row in enumerate(every) if row.pressed),
+        tuple(i for i, row in enumerate(every) if row.pressed and not row.signed),
         tuple(joint.name for joint in mechanism.joints if joint.kind == "driver"),
-        tuple(i for i in range(1, len(every)) if every[i].one_sided and every[i].name == every[i - 1].name),
+        tuple(
+            i
+            for i in range(1, len(every))
+            if every[i - 1].one_sided and every[i].one_sided and every[i].name == every[i - 1].name
+        ),
+        tuple(i for i, row in enumerate(every) if row.in_contact and row.one_sided),
+        _partners_of(every),
     )
+
+
+def _partners_of(rows: Sequence[BoundedRow]) -> tuple[int, ...]:
+    """Return for each row the gap that presses it, or the row that it presses; -1 for others."""
+    partners, places = [-1] * len(rows), {row.row: i for i, row in enumerate(rows)}
+    for i, row in enumerate(rows):
+        if row.signed:
+            gap = places[row.pressed[0]]
+            partners[i], partners[gap] = gap, i
+    return tuple(partners)
 
 
 def row_jumps(mechanism: Mechanism, compiled: CompiledModel) -> RowJumps:

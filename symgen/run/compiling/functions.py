@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import refuse_overflow
 from symgen.compile.native import types
 from symgen.compile.native.array_entry import EntrySlots, array_entry, batch_function, entry_slots, supports_entries
+from symgen.compile.native.compiler import is_by_numba
 from symgen.compile.store.jit import MachineFunction, object_file
 from symgen.compile.store.loaded_modules import load_module
 from symgen.run.compiling.side import side_module
@@ -74,7 +75,7 @@ class StateFunction:
         self, default: Array, otherwise: Callable[..., Any], views: type[np.ndarray[Any, Any]] = np.ndarray
     ) -> EntrySlots | None:
         """Return the slots of an entry, None where only plain Python can be called; see `entry_slots`."""
-        if not isinstance(self.function, MachineFunction) or not supports_entries():
+        if not isinstance(self.function, MachineFunction) or is_by_numba() or not supports_entries():
             return None
         vector = types.float64[::1]
         address = self.function.address(types.int64(*(vector,) * (len(self.lengths) + 1)))

@@ -33,7 +33,7 @@ from symgen.derive.lower.looped.looped_law import LoopedLawInfo, refuse_dense
 from symgen.derive.lower.looped.shape import LoopedShape
 from symgen.derive.lower.record import BEHIND
 from symgen.derive.lower.record_form import record_form
-from symgen.describe.bounds.by_reaction import rows_bounded_by_reactions
+from symgen.describe.bounds.by_reaction import pressed_rows
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.folders import generator_digest, shared_folder
 from symgen.run.compiling.looped_model import LoopedModel, describe_model, filler_of_hoisted, mass_diagonal_of
@@ -311,7 +311,7 @@ class LoopedStages(PipelineStages[Mapping[str, "Element"], LoopedPrograms]):
 def _refuse_loops(mechanism: Mechanism, choice: MethodChoice) -> None:
     """Refuse methods that loops, or efforts that depend on reactions, do not take."""
     refuse_dense(choice.method, choice.options, choice.implicit)
-    for row in rows_bounded_by_reactions(mechanism):
+    for row in pressed_rows(mechanism):
         refuse_bounded_rows(choice.method, choice.options, choice.implicit, row.family.noun)
 
 

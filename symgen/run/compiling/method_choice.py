@@ -9,7 +9,7 @@ from symgen.base.errors import InputError
 from symgen.compile.store.identity import combined_digest
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS, Method
-from symgen.describe.bounds.by_reaction import rows_bounded_by_reactions
+from symgen.describe.bounds.by_reaction import pressed_rows
 from symgen.describe.mechanism import Mechanism
 
 #: Characters of a file stem that say which velocities are free, at most.
@@ -81,7 +81,7 @@ def choice_for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = T
     """
     if not mechanism.has_massless:
         return choice
-    if pressed := rows_bounded_by_reactions(mechanism):
+    if pressed := pressed_rows(mechanism):
         name = next(body.name for body in mechanism.bodies if body.massless)
         expected = (
             f"a mass and moments of inertia above 0, as {pressed[0].family.one} depends on the reaction of a joint"

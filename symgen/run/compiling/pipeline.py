@@ -147,6 +147,8 @@ def refuse_loops(mechanism: Mechanism) -> None:
 
 def straight_alone(mechanism: Mechanism) -> str:
     """Return what of a file exists as straight code alone; empty where loops take all of it."""
+    if any(row.signed for row in mechanism.bounded):
+        return "friction of contacts"
     if mechanism.has_modal_bodies:
         return "modal bodies"
     return "rows that may be off" if mechanism.switchable else ""

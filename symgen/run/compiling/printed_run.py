@@ -235,7 +235,7 @@ class PrintedRun:
 
     @cached_property
     def _decide(self) -> Any:
-        return deciding(_NOTES, self.watched is not None and bool(self.watched.corners))
+        return deciding(_NOTES, self._rows is not None, self.watched is not None and bool(self.watched.corners))
 
     def _search_record(self, watched: Watched, hunt: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the data of events with room for few notes, as all are taken before the next step."""

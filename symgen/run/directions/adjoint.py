@@ -18,6 +18,7 @@ from symgen.base.errors import InputError
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.native import types
 from symgen.compile.native.accesses import Accesses, array_accesses
+from symgen.compile.native.compiler import is_by_numba
 from symgen.compile.native.read_values import Foreign
 from symgen.compile.native.straightening import has_early_end, straight_correction
 from symgen.compile.store.emitted import AdjointFunction, EmittedFunction
@@ -59,6 +60,8 @@ def check_covered(compiled: CompiledModel, integrator: Integrator, spec: RunSpec
     if start.saved is not None:
         raise reason_against_adjoint("a run from its start", "one that goes on from another run")
     law = compiled.law_module
+    if is_by_numba():
+        raise reason_against_adjoint("symgen's own compiler, which derives functions", "SYMGEN_COMPILER=numba")
     if not isinstance(law.rhs, EmittedFunction):
         raise reason_against_adjoint("compiled functions", "NUMBA_DISABLE_JIT, where plain Python runs")
     _check_functions(form_for_derivatives(law, "rhs"), law.accept, compiled.law.method, compiled.info.windings)

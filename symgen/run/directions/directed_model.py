@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.base.ir.program import SLOPES
+from symgen.compile.native.compiler import is_by_numba
 from symgen.compile.store.emitted import EmittedFunction, TangentFunction, with_directions
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
@@ -114,6 +115,8 @@ class DirectedModel:
         InputError
             Where nothing is compiled.
         """
+        if is_by_numba():
+            raise InputError("sensitivities", "symgen's own compiler, which derives functions", "SYMGEN_COMPILER=numba")
         if not isinstance(function, EmittedFunction):
             raise InputError("sensitivities", "compiled functions", "NUMBA_DISABLE_JIT, where plain Python runs")
         places = self.sizes | {"out": length}

@@ -37,10 +37,13 @@ class Struck:
         Their numbers.
     at : Moment
         The state before them.
+    ties : tuple or None
+        Of contacts, which velocities impulses hold, and signs of multiples (`symgen.run.effects.pushing.Ties`).
     """
 
     numbers: tuple[int, ...]
     at: Moment
+    ties: tuple[NDArray[np.int64], Array] | None = None
 
 
 @dataclass(frozen=True)
@@ -87,7 +90,9 @@ class PassingSimulation(Simulation):
     def _struck(self) -> tuple[Struck, ...]:
         """Return what events have just changed, in order."""
         effects = [] if self.turn is None else self.turn.effects_in_order
-        return tuple(Struck(numbers, Moment(self._time, y, self.state.p.copy(), w)) for numbers, y, w in effects)
+        return tuple(
+            Struck(numbers, Moment(self._time, y, self.state.p.copy(), w), ties) for numbers, y, w, ties in effects
+        )
 
     @property
     def _time(self) -> float:

@@ -156,7 +156,7 @@ class ResetDirections:
         jacobian[off], nu[off] = 0.0, 0.0
         slopes = np.concatenate([jacobian, own[struck]])
         right = np.concatenate([nu, values[struck] - rest[struck]])
-        mass, more = self._masses(entries)
+        mass, more = self._masses(entries, own, rest)
         before, after = self.y[info.nq : info.work], self.impact.v
         directions = self.model.directions_after(self.y, "y")[info.nq : info.work]
         change = after - before
@@ -200,8 +200,45 @@ class ResetDirections:
                 slopes[row, column] = directions[first + slot]
         return slopes, directions[nu : nu + m].copy()
 
-    def _masses(self, entries: Array) -> tuple[Array, Any]:
-        """Return the directions of M, shape (nv, nv, L), and a function: directions of the energy of driven bodies."""
+    @property
+    def _first_entry(self) -> int:
+        """Place of the first entry of M among the numbers of formulas."""
+        return 2 * len(self.changes.owners) + len(self.changes.writes) // 2
+
+    def _masses(self, entries: Array, own: Array, rest: Array) -> tuple[Array, Any]:
+        """Return the directions of M, shape (nv, nv, L), and a function: directions of the energy of driven parts.
+
+        Parameters
+        ----------
+        entries : Array
+            Directions of the entries of bodies, of the rates of rotors and of their inertias.
+        own, rest : Array
+            From `_probe_velocities`, of all formulas.
+        """
+        count = len(self.changes.entries) // 2
+        mass, of_bodies = self._masses_of_bodies(entries[:count])
+        rotors, of_rotors = self._masses_of_rotors(entries, own, rest)
+        return mass + rotors, lambda change, slopes: of_bodies(change, slopes) + of_rotors(change, slopes)
+
+    def _masses_of_rotors(self, entries: Array, own: Array, rest: Array) -> tuple[Array, Any]:
+        """Return what `_masses` does, of rotors alone: J r^T r of each with the rate r v."""
+        changes, count = self.changes, self.changes.rotors
+        first = self._first_entry + len(changes.entries) // 2
+        turning, turned = self.work.turning.reshape(count, self.info.nv), self.work.turned
+        inertias, slopes_of_inertias = self.work.out[first + count :], entries[len(entries) - count :]
+        by, drift = own[first : first + count], rest[first : first + count]
+        one = np.einsum("r,rik,rj->ijk", inertias, by, turning)
+        mass = one + one.transpose(1, 0, 2) + np.einsum("rk,ri,rj->ijk", slopes_of_inertias, turning, turning)
+
+        def more(change: Array, directions: Array) -> Array:
+            along, momenta = turning @ change, inertias * turned
+            slope = np.einsum("r,rik,i->k", momenta, by, change) + directions.T @ (turning.T @ momenta)
+            return np.asarray(slope + (along * inertias) @ drift + (along * turned) @ slopes_of_inertias)
+
+        return mass, more
+
+    def _masses_of_bodies(self, entries: Array) -> tuple[Array, Any]:
+        """Return what `_masses` does, of bodies alone."""
         info, changes, lanes = self.info, self.changes, self.model.lanes
         mass, places = np.zeros((info.nv, info.nv, lanes)), changes.entries.reshape(-1, 2).tolist()
         if not changes.bodies:
@@ -215,9 +252,7 @@ class ResetDirections:
         by, drift = coefficients[bodies], rest[bodies]
         carried, still = self.work.carried.reshape(changes.bodies, info.nv), self.work.drift
         full, slopes = np.zeros((changes.bodies, changes.bodies)), np.zeros((changes.bodies, changes.bodies, lanes))
-        for (i, j), value, slope in zip(
-            places, self.work.out[len(self.work.out) - len(places) :], entries, strict=True
-        ):
+        for (i, j), value, slope in zip(places, self.work.out[self._first_entry :], entries, strict=False):
             full[i, j] = full[j, i] = value
             slopes[i, j] = slopes[j, i] = slope
         one = np.einsum("bik,bc,cj->ijk", by, full, carried)

@@ -18,12 +18,13 @@ from numpy.typing import NDArray
 from symgen.describe.bounds.bounded_modes import HIT
 from symgen.run.directions.free_directions import TOGETHER, Free, constraint_directions
 from symgen.run.directions.moments import Directions, Moment, Moments, modes_of_moment
+from symgen.run.directions.push_directions import PushDirections, push_state, tied_impact
 from symgen.run.directions.reset_directions import ResetDirections
 from symgen.run.layout import abi
 from symgen.run.modes.bounded_rows import CONSTANT, EFFORT, HELD, LIMIT, SIGN, STILL
 
 if TYPE_CHECKING:
-    from symgen.run.directions.passages import RunPassage
+    from symgen.run.directions.passages import RunPassage, Struck
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.loops.run_spec import RunSpec, Watched
 
@@ -114,7 +115,7 @@ class Transfer:
             y = y + np.outer(rate, later)
         self._compare(passage, later, free)
         for struck in passage.effects:
-            y = self._through_effects(struck.numbers, self._plain(struck.at), y, later)
+            y = self._through_effects(struck, self._plain(struck.at), y, later)
         here = Directions(self._with(y), self._with(later), self._with(modes))
         return y, self._modes(passage, before, after, here, free), later
 
@@ -196,18 +197,23 @@ class Transfer:
 
     # -- what events change --------------------------------------------------------------------------------------------
 
-    def _through_effects(self, numbers: tuple[int, ...], now: Moment, y: Array, later: Array) -> Array:
+    def _through_effects(self, struck: Struck, now: Moment, y: Array, later: Array) -> Array:
         """Return the directions of the state after the effects of events."""
-        watched = self.watched
+        watched, numbers = self.watched, struck.numbers
         assert watched is not None, "the run has events"
         effects = watched.effects
         work = effects.memory(len(now.y), len(now.w))
         state, scratch = now.y.copy(), now.w.copy()
-        impact = effects.apply_to_state(numbers, now.t, state, now.p.copy(), scratch, work)
+        if struck.ties is None:
+            impact, ties = effects.apply_to_state(numbers, now.t, state, now.p.copy(), scratch, work), None
+        else:
+            ties = tied_impact(watched, struck.ties, now)
+            impact = push_state(effects, numbers, now, (state, scratch), work, ties)
         by = Directions(self._with(y), self._with(later), self._with(np.zeros((self._count, y.shape[1]))))
         chosen, columns = effects.chosen(numbers), list[Array]()
         for _, own, p, w in self.moments.chunks_of_states(now, by):
-            reset = ResetDirections(effects, self.moments.model, chosen, now.t, own, p, w, work, impact, self._losses)
+            given = effects, self.moments.model, chosen, now.t, own, p, w, work, impact, self._losses
+            reset = ResetDirections(*given) if ties is None else PushDirections(*given, ties, watched)
             columns.append(reset.directions())
         return np.concatenate(columns, axis=1)[:, : y.shape[1]]
 
@@ -254,7 +260,8 @@ class Transfer:
             constant = line[CONSTANT].copy() if held[i] and was[i] else directions[i] * held[i]
             line[:] = 0.0
             line[CONSTANT] = constant
-            if held[i] and i < rows.dry and i not in rows.pressed and i not in rows.varying:
+            tied = rows.partners and rows.partners[i] >= 0
+            if held[i] and i < rows.dry and i not in rows.pressed and i not in rows.varying and not tied:
                 line[LIMIT] = directions[2 * k + i]
         self._share_of_row(rows, own, new, slopes, values, directions, after, by)
         rests = (held & ~was) | ((new[:, CONSTANT] != 0.0) & (new[:, SIGN] == 0.0) & (old[:, CONSTANT] == 0.0))
@@ -332,5 +339,7 @@ class Transfer:
             factor, slope = abs(parts[at]), np.sign(parts[at]) * change[at]
             if i in rows.varying:  # margins read the bound itself, times this factor
                 slopes[own[i], LIMIT] = slope
+            elif rows.partners and rows.partners[i] >= 0:  # the factor of a contact has a sign
+                slopes[own[i], LIMIT] = change[at]
             else:
                 slopes[own[owner], LIMIT] += factor * directions[2 * k + i] + slope * values[2 * k + i]

@@ -7,7 +7,7 @@ from typing import Any
 from symgen.compile.store.emitted import plain
 from symgen.run.layout import abi
 from symgen.run.loops.frame_parts import DOUBT, LOW, NOTHING
-from symgen.run.loops.inside import slope_between, slopes_of_forces
+from symgen.run.loops.inner_points import slope_between, slopes_of_forces
 from symgen.run.loops.search_records import (
     ACCEPTED,
     ACTION,

@@ -26,7 +26,8 @@ from symgen.run.loops import search_records as searching
 from symgen.run.loops.frame_parts import DOUBT, LOOK, NOTHING, REMEMBER, TRY, evaluate
 from symgen.run.loops.frame_parts import correct as plain_correct
 from symgen.run.loops.frame_parts import open_run as plain_opened
-from symgen.run.loops.inside import enter_point, stays_away
+from symgen.run.loops.inner_points import enter_point
+from symgen.run.loops.inside import stays_away
 from symgen.run.loops.searching import remember
 from symgen.run.loops.switching import cubic
 from symgen.run.loops.unbound import inside
@@ -239,6 +240,7 @@ def notes_at(n: int, width: int, nw: int) -> int:
 MEANINGS = Meanings(
     "runs with events or switches",
     EVENTS=True,
+    MARGINS=True,
     open_run=open_event_run,
     ModelSystem=EventSystem,
     locate_event=search_step,

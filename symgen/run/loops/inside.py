@@ -13,20 +13,19 @@ from typing import Any
 
 from symgen.compile.store.emitted import plain
 from symgen.run.loops.frame_parts import LOW, TRY
+from symgen.run.loops.inner_points import slope_at, time_of, value_at
 from symgen.run.loops.search_records import (
     ACCEPTED,
     ACTION,
     ANEW,
     ASLEEP,
     COARSEST,
-    D_END,
     D_HIGH,
     D_INSIDE,
     D_LOW,
     D_START,
     DIVIDED,
     FIRED,
-    G_END,
     G_HIGH,
     G_INSIDE,
     G_LOW,
@@ -36,7 +35,9 @@ from symgen.run.loops.search_records import (
     INSIDE,
     LOCAL,
     LONGEST,
-    MEASURE,
+    LOOKED,
+    MARGIN,
+    MARGINS,
     N_COLUMNS,
     N_HEAD,
     NOTED,
@@ -47,11 +48,10 @@ from symgen.run.loops.search_records import (
     RESOLUTION,
     SIDE,
     SIZE,
-    SPREAD,
     STEEPEST,
     WHOLE,
 )
-from symgen.run.loops.switching import dip, is_finite, side_of, taken_for, wake
+from symgen.run.loops.switching import dip, is_finite, side_of, wake
 
 A = Any
 #: A function stays away from zero if its values at both ends are this many times its largest way in a step. Slopes of
@@ -59,13 +59,14 @@ A = Any
 _AWAY, _FADING, _LEAST = 2.0, 0.7, 1e-300
 #: The error of a cubic over the one that its neighbours show, and at most over the change by the slopes at its ends.
 _STRICT, _CAP = 2.0, 0.25
-#: States between steps are not corrected: sleeping margins count there with this part of their size.
-_UNCORRECTED = 1e-6
 #: Largest number of attempts at such points up to an event.
 _MOST_PROBES = 24
 #: A step is too long with more than this error of cubics between its points, over the range of a function that is
 #: nearer to zero than this multiple of it; number of divisions without a gain after which there are none.
 _COARSE, _NEAR, _IN_VAIN = 0.01, 20.0, 3.0
+#: A step may be this many times as long as one inside which margins of forces have been seen, unless it is looked into;
+#: part of the range of such a margin that is seen between two points, if they show its waves; how badly they do else.
+_GROWN, _WAVE, _LEAPS = 2.0, 0.5, 1.0
 #: Steps below this part of the proposed one cross jumps at known times.
 _AT_A_JUMP = 1e-6
 
@@ -91,6 +92,11 @@ def stays_away(hunt: A, n: int, h: float) -> int:
         if hunt[at + ACTION * n + k] >= float(ANEW) or hunt[at + GRAZING * n + k] != 0.0:
             away = 0
         hunt[at + STEEPEST * n + k] = max(max(_FADING * known, latest), _LEAST) if latest - latest == 0.0 else 0.0
+        if MARGINS and is_margin_of_force(hunt, n, k) == 1:  # between its ends a step may show nothing of its slopes
+            if h > _GROWN * hunt[at + LOOKED * n + k]:
+                away = 0
+            if hunt[at + STEEPEST * n + k] > 0.0:
+                hunt[at + STEEPEST * n + k] = max(hunt[at + STEEPEST * n + k], known)
     if away == 0:
         return 0
     for k in range(n):
@@ -106,97 +112,52 @@ def stays_away(hunt: A, n: int, h: float) -> int:
 
 
 @plain
-def enter_point(hunt: A, n: int, x: float) -> int:
-    """Store the functions evaluated at an inner point, x after the beginning of the step [s]."""
-    at, out, i = N_HEAD, N_HEAD + N_COLUMNS * n, int(hunt[INSIDE])
-    hunt[PLACES + i], hunt[INSIDE] = x, float(i + 1)
-    for k in range(n):
-        g, d = taken_for(hunt, n, k, x), hunt[out + n + k]
-        if hunt[at + ASLEEP * n + k] > 0.0:
-            g += max(0.0, _UNCORRECTED * hunt[at + MEASURE * n + k] - hunt[at + ASLEEP * n + k])
-        hunt[at + (G_INSIDE + i) * n + k], hunt[at + (D_INSIDE + i) * n + k] = g, d
-        if is_finite(d) == 1 and hunt[at + OF_FORCES * n + k] == 0.0:
-            hunt[at + STEEPEST * n + k] = max(hunt[at + STEEPEST * n + k], abs(d))
-    return 0
+def is_margin_of_force(hunt: A, n: int, k: int) -> int:
+    """Return 1 for a margin of a force or a part of a reaction, else 0."""
+    return 1 if hunt[N_HEAD + MARGIN * n + k] != 0.0 and hunt[N_HEAD + OF_FORCES * n + k] != 0.0 else 0
 
 
 @plain
-def value_at(hunt: A, n: int, k: int, i: int) -> float:
-    """Return g at point i of the whole step: 0 for its beginning, then inner points, then its end."""
-    count = int(hunt[INSIDE])
-    column = G_START if i == 0 else G_END if i > count else G_INSIDE + i - 1
-    return float(hunt[N_HEAD + column * n + k])
+def range_inside(hunt: A, n: int, k: int) -> float:
+    """Return the difference of the largest and the least value of a function at the points of a step."""
+    low = high = value_at(hunt, n, k, 0)
+    for i in range(1, int(hunt[INSIDE]) + 2):
+        g = value_at(hunt, n, k, i)
+        low, high = min(low, g), max(high, g)
+    return high - low
 
 
 @plain
-def slope_at(hunt: A, n: int, k: int, i: int) -> float:
-    """Return g' at such a point."""
-    count = int(hunt[INSIDE])
-    column = D_START if i == 0 else D_END if i > count else D_INSIDE + i - 1
-    return float(hunt[N_HEAD + column * n + k])
+def leaps(hunt: A, n: int, k: int, h: float) -> int:
+    """Return 1 where a step of h is too long to show the margin of a force that was seen in shorter steps, else 0.
 
-
-@plain
-def time_of(hunt: A, i: int) -> float:
-    """Return the time of such a point from the beginning of the step [s]."""
-    count = int(hunt[INSIDE])
-    return float(0.0 if i == 0 else hunt[WHOLE] if i > count else hunt[PLACES + i - 1])
-
-
-@plain
-def spread_points(hunt: A) -> int:
-    """Set the weights of the points of a step in the polynomial through all of them."""
-    last = int(hunt[INSIDE]) + 1
-    for i in range(last + 1):
-        product = 1.0
-        for j in range(last + 1):
-            if j != i:
-                product *= (time_of(hunt, i) - time_of(hunt, j)) / hunt[WHOLE]
-        hunt[SPREAD + i] = product
-    return 0
-
-
-@plain
-def difference_at(hunt: A, n: int, k: int, i: int) -> float:
-    """Return the slope at a point of the polynomial through the values at all of them."""
-    total = 0.0
-    for j in range(int(hunt[INSIDE]) + 2):
-        if j != i:
-            rise = (value_at(hunt, n, k, j) - value_at(hunt, n, k, i)) / (time_of(hunt, i) - time_of(hunt, j))
-            total += hunt[SPREAD + i] / hunt[SPREAD + j] * rise
-    return total
-
-
-@plain
-def slopes_of_forces(hunt: A, n: int) -> int:
-    """Set slopes of functions of forces by differences, at all points of a step.
-
-    After an event the rate of a force is not known otherwise.
+    With its slopes there it may reach zero between two points, whose distance is then no small part of a wave: waves
+    look as slow as one likes if they are seen seldom enough.
     """
-    at, last = N_HEAD, int(hunt[INSIDE]) + 1
-    spread_points(hunt)
-    for k in range(n):
-        if hunt[at + OF_FORCES * n + k] != 0.0:
-            for i in range(last + 1):
-                column = D_START if i == 0 else D_END if i == last else D_INSIDE + i - 1
-                d = difference_at(hunt, n, k, i)
-                hunt[at + column * n + k] = d
-                if is_finite(d) == 1:
-                    hunt[at + STEEPEST * n + k] = max(hunt[at + STEEPEST * n + k], abs(d))
-            hunt[at + D_LOW * n + k], hunt[at + D_HIGH * n + k] = hunt[at + D_START * n + k], hunt[at + D_END * n + k]
+    at, looked = N_HEAD, hunt[N_HEAD + LOOKED * n + k]
+    if hunt[at + ASLEEP * n + k] > 0.0 or looked == 0.0 or h <= looked:
+        return 0
+    known, side, most = hunt[at + STEEPEST * n + k], hunt[at + SIDE * n + k], _WAVE * range_inside(hunt, n, k)
+    for i in range(int(hunt[INSIDE]) + 1):
+        way = known * (time_of(hunt, i + 1) - time_of(hunt, i))
+        if way > most and side * (value_at(hunt, n, k, i) + value_at(hunt, n, k, i + 1)) < way:
+            return 1
     return 0
 
 
 @plain
-def slope_between(hunt: A, n: int, k: int, x: float, otherwise: float) -> float:
-    """Return the slope of a function of forces at a time x of the step, from those at its points."""
-    if hunt[INSIDE] == 0.0 or hunt[N_HEAD + OF_FORCES * n + k] == 0.0:
-        return otherwise
-    i = 0
-    while i < int(hunt[INSIDE]) and time_of(hunt, i + 1) < x:
-        i += 1
-    share = (x - time_of(hunt, i)) / (time_of(hunt, i + 1) - time_of(hunt, i))
-    return float((1.0 - share) * slope_at(hunt, n, k, i) + share * slope_at(hunt, n, k, i + 1))
+def learn_slopes(hunt: A, n: int, h: float) -> int:
+    """Take the slopes of margins of forces from the points of a step of h that shows them."""
+    at = N_HEAD
+    for k in range(n):
+        if is_margin_of_force(hunt, n, k) == 1:
+            steepest = max(_FADING * hunt[at + STEEPEST * n + k], _LEAST)
+            for i in range(int(hunt[INSIDE]) + 2):
+                d = slope_at(hunt, n, k, i)
+                steepest = max(steepest, abs(d)) if is_finite(d) == 1 else steepest
+            hunt[at + STEEPEST * n + k] = steepest
+            hunt[at + LOOKED * n + k] = max(hunt[at + LOOKED * n + k], h)
+    return 0
 
 
 @plain
@@ -259,6 +220,8 @@ def divides(hunt: A, n: int, h: float) -> int:
         awake = hunt[at + ASLEEP * n + k] == 0.0 and hunt[at + GRAZING * n + k] == 0.0
         if awake and hunt[at + ACTION * n + k] < float(ANEW) and hunt[at + SIDE * n + k] != 0.0:
             worst = max(worst, coarseness(hunt, n, k))
+        if MARGINS and is_margin_of_force(hunt, n, k) == 1 and leaps(hunt, n, k, h) == 1:
+            worst = max(worst, _LEAPS)
     change = 2.0 if worst * 64.0 < _COARSE else 0.8 * math.sqrt(math.sqrt(_COARSE / worst))
     before = hunt[COARSEST]
     hunt[COARSEST] = worst

@@ -100,6 +100,10 @@ class BoundedNames:
         Names of the drivers of the mechanism.
     pieces : tuple of int
         One-sided rows that are further pieces of the gap of the row before them.
+    contacts : tuple of int
+        One-sided rows that are gaps of contacts.
+    partners : tuple of int
+        Of each row the other one of its contact, a gap or the friction along it; -1 for others.
     """
 
     names: tuple[str, ...]
@@ -109,6 +113,8 @@ class BoundedNames:
     pressed: tuple[int, ...]
     drivers: tuple[str, ...]
     pieces: tuple[int, ...] = ()
+    contacts: tuple[int, ...] = ()
+    partners: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -117,7 +123,7 @@ class BoundedRows(BoundedNames):
 
     Attributes
     ----------
-    names, kinds, nouns, dry, pressed, drivers, pieces
+    names, kinds, nouns, dry, pressed, drivers, pieces, contacts, partners
         See `BoundedNames`.
     state, accelerations : callable
         ``(t, y, p, w, rate)`` -> coordinates and gaps, their rates, bounds at rest and bounds at the beginning
@@ -207,7 +213,12 @@ class Watched:
         rows = self.bounded
         if rows is None:
             return ()
-        has = {"pressed": rows.pressed, "corners": self.corners, "pieces": rows.pieces}
+        has = {
+            "pressed": rows.pressed,
+            "corners": self.corners,
+            "pieces": rows.pieces,
+            "contacts": rows.contacts,
+        }
         return tuple(kind for kind, those in has.items() if those)
 
     def events_of_rows(self, word: str, rows: int) -> list[int]:

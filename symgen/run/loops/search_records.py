@@ -54,6 +54,10 @@ STEEPEST, G_INSIDE, D_INSIDE, AT_END = 34, 35, 35 + N_INSIDE, 35 + 2 * N_INSIDE
 FORCE, GAP, RATE, PART, CORNER = range(1, 6)
 #: Whether gaps have corners; otherwise none are sought.
 CORNERS = False
+#: Whether rows have bounds; otherwise there are no margins.
+MARGINS = False
+#: Of a margin, which has no table: the longest step since modes were chosen inside which its force is known.
+LOOKED = PLACE
 N_HEAD, N_COLUMNS, N_VALUES = SPREAD + N_INSIDE + 2, AT_END + 3, 3
 #: A state and its rate, another state, and rates at the beginning and at the end of the step.
 N_STATES = 5

@@ -35,7 +35,7 @@ from symgen.run.loops.frame_parts import (
     TAKE,
     TRY,
 )
-from symgen.run.loops.inside import concealed, divides
+from symgen.run.loops.inside import concealed, divides, learn_slopes
 from symgen.run.loops.search_records import (
     ACCEPTED,
     ACTION,
@@ -61,6 +61,7 @@ from symgen.run.loops.search_records import (
     KEEP,
     LEAVE,
     MARGIN,
+    MARGINS,
     MEASURE,
     N_COLUMNS,
     N_HEAD,
@@ -281,6 +282,8 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
     take_values(hunt, n, h, following, search)
     if search == NOTHING and hunt[INSIDE] > 0.0 and hunt[REACH] < _ENDLESS and divides(hunt, n, h) == 1:
         return DIVIDE
+    if MARGINS and search == NOTHING and hunt[INSIDE] > 0.0:
+        learn_slopes(hunt, n, h)
     if search == TAKE:
         return int(ended(hunt, n, notes, following, width, y))
     if (
@@ -341,17 +344,21 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
     return TAKE
 
 
-def deciding(notes: int, corners: bool) -> A:
+def deciding(notes: int, margins: bool, corners: bool) -> A:
     """Return `decide` for a caller that takes notes after each step.
 
     Parameters
     ----------
     notes : int
         Room for notes, less than `NOTES`.
-    corners : bool
-        Whether gaps have corners.
+    margins, corners : bool
+        Whether rows have bounds, and whether gaps have corners.
     """
-    return _instance({"NOTES": notes, "CORNERS": True} if corners else {"NOTES": notes}, "decide")
+    return _instance({"NOTES": notes, **_meanings(margins, corners)}, "decide")
+
+
+def _meanings(margins: bool, corners: bool) -> dict[str, Any]:
+    return ({"MARGINS": True} if margins else {}) | ({"CORNERS": True} if corners else {})
 
 
 def _instance(meanings: dict[str, Any], name: str) -> A:
@@ -364,5 +371,11 @@ def _instance(meanings: dict[str, Any], name: str) -> A:
     return Instances(meanings, compiled).of(decide)
 
 
-#: The same where gaps have corners.
-decide_at_corners = _instance({"CORNERS": True}, "decide_at_corners")
+#: The same where rows have bounds, and where gaps have corners too.
+decide_on_margins = _instance(_meanings(margins=True, corners=False), "decide_on_margins")
+decide_at_corners = _instance(_meanings(margins=True, corners=True), "decide_at_corners")
+
+
+def search_of(margins: bool, corners: bool) -> A:
+    """Return `decide` of runs with bounded rows, or without, and with corners of gaps."""
+    return decide_at_corners if corners else decide_on_margins if margins else decide

@@ -64,6 +64,9 @@ IMMOVABLE = 16
 FURTHER_PIECE = 2
 #: Both pieces of a gap push at a corner.
 TWO_PIECES = 17
+#: Codes of contacts: no modes with forces within bounds; several with different motions; an impact that adds energy;
+#: more contacts that depend on each other than are tried.
+NO_CONTACT_MODES, SEVERAL_MODES, GAINED, TOO_MANY = range(24, 28)
 #: A formula of a row is no number at the end of a run, or just behind it.
 NO_NUMBER = 18
 #: Gaps leave what lies between them no way to move: of opposed ones that meet, none opens.
@@ -142,6 +145,11 @@ class Choice(Record):
         Arguments of emitted functions.
     room : Array
         Working memory of the choice of independent rows.
+    partner, gaps : Array of int64, shapes (k,)
+        Of each row the other one of its contact, -1 for others; 1 for gaps of contacts.
+    mode, best, other, carrier, part, option : Array of int64, shapes (k,)
+        Working memory of contacts: modes of a combination, of the first that is right and of a second one, rows that
+        carry others, parts of G, and the combination.
     moved : Array, shape (k,)
         Gaps that a start has put to 0, before that; else 0.
     rows, right, shift, space, order : Array, Array of int64
@@ -208,6 +216,14 @@ class Choice(Record):
     out: Array
     room: Array
     iw: Integers
+    partner: Integers
+    gaps: Integers
+    mode: Integers
+    best: Integers
+    other: Integers
+    carrier: Integers
+    part: Integers
+    option: Integers
     moved: Array
     rows: Array
     right: Array
@@ -306,6 +322,14 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         out=numbers(max(states, 1)),
         room=numbers(room_of_choice(info.m, info.nv)),
         iw=flags(abi.N_COUNTERS),
+        partner=np.array(rows.partners, dtype=np.int64) if rows.partners else np.full(k, -1),
+        gaps=marks(rows.contacts),
+        mode=flags(),
+        best=flags(),
+        other=flags(),
+        carrier=flags(),
+        part=flags(),
+        option=flags(),
         moved=numbers(k),
         rows=numbers(m * n),
         right=numbers(m),

@@ -22,7 +22,19 @@ from symgen.run.layout.redundancy import choose_rows, farthest_row, is_off
 from symgen.run.layout.scales import entry_of, larger_number
 from symgen.run.loops.afresh import forget_steps
 from symgen.run.loops.event_loop import EventState
-from symgen.run.loops.search_records import COUNT, FORCE, GAP, MARGIN, MEASURE, N_HEAD, PACE, RATE, ROW
+from symgen.run.loops.search_records import (
+    COUNT,
+    FORCE,
+    GAP,
+    LOOKED,
+    MARGIN,
+    MEASURE,
+    N_HEAD,
+    PACE,
+    RATE,
+    ROW,
+    STEEPEST,
+)
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
     CONSTANT,
@@ -387,6 +399,8 @@ def measure_margins(c: Choice, w: Array, hunt: Array) -> int:
         elif kind == RATE:
             size = math.inf if rests else row_scale(c, w, i, abi.SPEED)
         hunt[at + MEASURE * n + k], hunt[at + PACE * n + k] = size, pace
+        if kind != 0:
+            hunt[at + STEEPEST * n + k] = hunt[at + LOOKED * n + k] = 0.0
         found += 1 if kind != 0 else 0
     return found
 

@@ -12,11 +12,13 @@ from symgen.base.errors import InputError
 from symgen.run.modes.bounded_rows import (
     CONTRARY,
     DISAGREED,
+    GAINED,
     IMMOVABLE,
     JAMMED,
     NEGATIVE_GAP,
     NO_BOUND_IN_MOTION,
     NO_BOUNDS,
+    NO_CONTACT_MODES,
     NO_FORCES,
     NO_IMPULSES,
     NO_NUMBER,
@@ -25,7 +27,9 @@ from symgen.run.modes.bounded_rows import (
     NOT_DETERMINED,
     NOT_FINITE,
     REDUNDANT,
+    SEVERAL_MODES,
     SHARED,
+    TOO_MANY,
     TWO_PIECES,
 )
 
@@ -40,7 +44,8 @@ class Sentence(NamedTuple):
 
     Fields: ``kind``, ``kinds``, ``name`` of the row at fault; ``names`` of several rows; ``hits`` of their impacts;
     ``a_kind``, ``all`` of the first row; ``by_reaction``, ``pressed``, what depends on reactions and where; ``gaps``;
-    ``drivers``, all of them; ``row`` of the mechanism; ``first`` and ``second``, numbers; ``t``, the time [s].
+    ``drivers``, all of them; ``row`` of the mechanism; ``modes`` and ``others``, what contacts do; ``first`` and
+    ``second``, numbers; ``t``, the time [s].
     """
 
     where: str
@@ -49,6 +54,11 @@ class Sentence(NamedTuple):
     hint: str = ""
 
 
+#: Faults that only runs with these kinds of rows have (`symgen.run.loops.run_spec.Watched.turning`).
+OF_KIND = {
+    **{TWO_PIECES: "corners"},
+    **dict.fromkeys((NO_CONTACT_MODES, SEVERAL_MODES, GAINED, TOO_MANY), "contacts"),
+}
 #: Sentences by their codes.
 SENTENCES = {
     NEGATIVE_GAP: Sentence(
@@ -100,6 +110,19 @@ SENTENCES = {
         "two at t = {t:.6g} s",
         "a stop for each piece",
     ),
+    NO_CONTACT_MODES: Sentence(
+        "contact {name}",
+        "a finite force",
+        "none at t = {t:.9g} s: its mobility less that of its friction is {first:.6g} (at most 0 jams)",
+        "a smaller coefficient of friction",
+    ),
+    SEVERAL_MODES: Sentence("contacts", "one motion at t = {t:.9g} s", "several: {modes}, and {others}"),
+    GAINED: Sentence(
+        "contact {name}",
+        "an impact that adds no energy",
+        "one that adds {first:.12g} J at t = {t:.9g} s, as Newton's law may with friction or several impacts at once",
+    ),
+    TOO_MANY: Sentence("contact {name}", "at most four contacts that depend on each other", "more at t = {t:.9g} s"),
     NOT_APPLIED: Sentence(
         "{hits}: reset", "velocities that the joints and each other allow", "others at t = {t:.6g} s"
     ),
@@ -117,6 +140,22 @@ def fixed_words(rows: BoundedNames) -> dict[str, str]:
         "gaps": rows.nouns[rows.dry] if rows.dry < len(rows.names) else "",
         "drivers": "".join(f" and the driver {name}" for name in rows.drivers),
     }
+
+
+def modes_in_words(rows: BoundedNames, digits: float) -> str:
+    """Return what contacts do in modes that are the digits of a number to the base of 4."""
+    if not rows.contacts or not digits >= 0.0:
+        return ""
+    words, number = list[str](), int(digits)
+    modes = [number // 4**i % 4 for i in range(len(rows.names))]
+    for i in rows.contacts:
+        slip = modes[rows.partners[i]] if rows.partners[i] >= 0 else 1
+        words.append(f"{rows.names[i]} {'opens' if modes[i] == 0 else _DOES[slip]}")
+    return ", ".join(words)
+
+
+#: What a closed contact does by the mode of its friction.
+_DOES = ("slides freely", "sticks", "slides forwards", "slides backwards")
 
 
 def names_in(which: float, names: Sequence[str]) -> list[str]:
@@ -157,5 +196,7 @@ def refusal(
         **{"kind": rows.kinds[own], "kinds": rows.nouns[own], "name": rows.names[own]},
         **{"names": ", ".join(names), "hits": hits_of(names)},
         "row": every[place] if place < len(every) else "a row",
+        "modes": modes_in_words(rows, first),
+        "others": modes_in_words(rows, second),
     }
     return InputError(*(text.format(**words, first=first, second=second, t=t) for text in sentence))

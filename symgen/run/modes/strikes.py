@@ -18,6 +18,7 @@ from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.effects.accumulation import OF_EVENT, accumulation, add_resets
 from symgen.run.effects.applying import APPLIED, apply_effects
+from symgen.run.effects.pushing import Ties, new_ties
 from symgen.run.effects.resets import KeptEffect, OfEffects, new_kept_effect
 from symgen.run.layout import abi
 from symgen.run.layout.scales import larger_number
@@ -77,6 +78,8 @@ class Strikes(Record):
         Time until the impacts of a gap that comes to rest would have accumulated [s], else nan.
     struck, rested : KeptEffect
         The latest impact; impulses that have brought gaps to rest where impacts accumulate.
+    ties : Ties
+        Of the latest impact of contacts, which impulses are multiples of others.
     """
 
     effects: OfEffects
@@ -91,6 +94,7 @@ class Strikes(Record):
     left: Array
     struck: KeptEffect
     rested: KeptEffect
+    ties: Ties
 
 
 def new_strikes(effects: OfEffects, hits: Sequence[int], losses: Sequence[int], keeps: bool) -> Strikes:
@@ -119,6 +123,7 @@ def new_strikes(effects: OfEffects, hits: Sequence[int], losses: Sequence[int], 
         left=np.zeros(k),
         struck=new_kept_effect(effects.model[0], effects.work, keeps),
         rested=new_kept_effect(effects.model[0], effects.work, keeps),
+        ties=new_ties(len(effects.model[4].owners), effects.model[0].nv, effects.model[0].m),
     )
 
 

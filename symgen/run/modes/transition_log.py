@@ -12,6 +12,8 @@ from symgen.run.modes.bounded_rows import FURTHER_PIECE, SIGN, Choice, is_held, 
 #: What a row with bounds does at a transition: rest ends, rest begins, its rate changes sign, an impact, the row comes
 #: into force, it is off again.
 SLIP, STICK, REVERSE, HIT, REST, LEAVE = range(6)
+#: What a gap of a contact does where the row is off again.
+LIFT = 6
 #: Transitions that are kept, the latest ones.
 OF_LOG = 64
 
@@ -112,4 +114,20 @@ def log_changes_in_pieces(t: float, c: Choice, w: Array, log: Transitions) -> in
         if c.pushes[i] != 0 and closed != before:
             log_transition(t, log, i, LEAVE if before else REST)
         i = j
+    return int(log.count[0])
+
+
+# -- contacts ----------------------------------------------------------------------------------------------------------
+
+
+@exact(entry=True)
+def log_changes_of_contacts(t: float, c: Choice, w: Array, log: Transitions) -> int:
+    """Do what `log_changes` does, where the friction of a contact has transitions as long as it is closed."""
+    for i in range(c.count):
+        sign, before, j = w[c.first + MODE_NUMBERS * i + SIGN], log.signs[i], c.partner[i]
+        if c.pushes[i] == 0 and sign != before and (j < 0 or (log.shut[j] != 0 and is_held(c, w, j))):
+            log_transition(t, log, i, SLIP if before == 0.0 else STICK if sign == 0.0 else REVERSE)
+        if c.pushes[i] != 0 and (1 if is_held(c, w, i) else 0) != log.shut[i]:
+            opens = LIFT if c.gaps[i] != 0 else LEAVE
+            log_transition(t, log, i, opens if log.shut[i] != 0 else REST)
     return int(log.count[0])

@@ -28,10 +28,12 @@ from symgen.run.modes.agreement import choose_pressed
 from symgen.run.modes.bounded_rows import (
     CONTRARY,
     DEEP,
+    GAINED,
     IMMOVABLE,
     JAMMED,
     NEGATIVE_GAP,
     NO_BOUNDS,
+    NO_CONTACT_MODES,
     NO_IMPULSES,
     NO_RESTITUTION,
     NOT_APPLIED,
@@ -39,6 +41,7 @@ from symgen.run.modes.bounded_rows import (
     OTHERS,
     OUT_OF_RANGE,
     SAME,
+    SEVERAL_MODES,
     SHARED,
     SIGN,
     TOUCHING,
@@ -55,6 +58,8 @@ from symgen.run.modes.choice import (
     measure_margins,
     read_rows,
 )
+from symgen.run.modes.contact_impacts import find_struck_contacts, gather_contacts, strike_contacts
+from symgen.run.modes.contacts import choose_contacts
 from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_corners
 from symgen.run.modes.ends import find_undefined
 from symgen.run.modes.placing import put_gaps
@@ -65,12 +70,13 @@ from symgen.run.modes.transition_log import (
     is_struck_before,
     log_changes,
     log_changes_in_pieces,
+    log_changes_of_contacts,
     log_transition,
     remember_modes,
 )
 
-#: Whether gaps have several pieces, which are one in the log.
-PIECES = False
+#: Whether gaps have several pieces, which are one in the log; whether there are contacts.
+PIECES = CONTACTS = False
 
 
 class OfModes(Record):
@@ -121,6 +127,15 @@ def set_of(numbers: Integers, count: int) -> float:
     return total
 
 
+def modes_in_digits(c: Choice, of: Integers) -> float:
+    """Return the modes of the rows of contacts as the digits of a number to the base of 4."""
+    total, power = 0.0, 1.0
+    for i in range(c.count):
+        total += power * float(of[i])
+        power *= 4.0
+    return total
+
+
 def dry_at_rest(c: Choice) -> int:
     """Return the number of rows with two bounds among those at rest, of which they come first."""
     count = 0
@@ -164,6 +179,10 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
         first = c.value[row]
     elif code == IMMOVABLE:
         first = c.speed[row]
+    elif CONTACTS and (code == NO_CONTACT_MODES or code == GAINED):
+        first = c.jam[0]
+    elif CONTACTS and code == SEVERAL_MODES:
+        first, second = modes_in_digits(c, c.best), modes_in_digits(c, c.other)
     return refuse_fault(code, which, first, second, modes)
 
 
@@ -403,8 +422,18 @@ STRIKING = Meanings(
 CORNERED = Meanings("runs with corners of gaps", meet_impacts=strike_past_corners)
 PRESSED = Meanings("runs with bounds that depend on reactions", choose_modes=choose_pressed)
 IN_PIECES = Meanings("runs with gaps of several pieces", PIECES=True)
+TOUCHED = Meanings(
+    "runs with contacts",
+    CONTACTS=True,
+    choose_modes=choose_contacts,
+    find_struck=find_struck_contacts,
+    strike=strike_contacts,
+    gather=gather_contacts,
+    log_changes=log_changes_of_contacts,
+    log_changes_in_pieces=log_changes_of_contacts,
+)
 #: Meanings for what a run's rows with bounds have (`symgen.run.loops.run_spec.Watched.turning`).
-TURNING = {"pressed": PRESSED, "corners": CORNERED, "pieces": IN_PIECES}
+TURNING = {"pressed": PRESSED, "corners": CORNERED, "pieces": IN_PIECES, "contacts": TOUCHED}
 #: Type of what follows the functions of a model, where events change a run, and where rows have bounds.
 FURTHER = {"effects": record_type(OfEffects), "modes": record_type(OfModes)}
 

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
+#: How the sentence on one begins.
+DEAD_CENTRE = "dead centre"
 #: Rows below this share of the largest one do not hold.
 _HOLDS = 1e-9**0.5
 #: Kind of the joints that drive.
@@ -74,7 +76,7 @@ def dead_centre(t: float, drivers: Sequence[str], free: Sequence[str]) -> str:
     """Return the sentence on a motion that ends at a dead centre, at a time [s]."""
     who = " and ".join(f"'{name}'" for name in drivers)
     names = ", ".join(free)
-    return f"dead centre at t = {t:.9g} s: {who or 'the drivers'} can go no further; {names} would have to jump"
+    return f"{DEAD_CENTRE} at t = {t:.9g} s: {who or 'the drivers'} can go no further; {names} would have to jump"
 
 
 def dead_centre_at_end(mechanism: Mechanism, outcome: Outcome) -> str:

@@ -23,7 +23,7 @@ from symgen.derive.emit.module import render_template
 from symgen.derive.lower.law import refuse_bounded_rows
 from symgen.derive.lower.looped.looped_law import is_loopable
 from symgen.derive.methods import METHODS
-from symgen.describe.bounds.by_reaction import rows_bounded_by_reactions
+from symgen.describe.bounds.by_reaction import pressed_rows
 from symgen.describe.bounds.keys import nouns_of_families
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.event_sections import DOES
@@ -174,7 +174,7 @@ def _suits_target(choice: MethodChoice, mechanism: Mechanism, shape: str, target
     """Whether a method can be emitted for a mechanism in a shape and for a target."""
     if mechanism.bounded:
         try:
-            pressed = next((row.family.one for row in rows_bounded_by_reactions(mechanism)), "")
+            pressed = next((row.family.one for row in pressed_rows(mechanism)), "")
             refuse_bounded_rows(choice.method, choice.options, choice.implicit, pressed)
         except InputError:
             return False

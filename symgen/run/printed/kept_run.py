@@ -331,6 +331,7 @@ _OF_ROWS_BETWEEN_SEAMS = Meanings(
     begin_at_seams=row_events.begin_row_between_seams,
     take_change=row_events.choose_after_change,
 )
+_UNBOUNDED = Meanings("printed runs with events and without bounded rows", MARGINS=False)
 _SEAMED = Meanings(
     "printed runs with seams",
     return_before_seams=forget_later_seams,
@@ -368,7 +369,7 @@ class Traits(NamedTuple):
         """Meanings of names in this module and in the frame."""
         meanings: dict[str, Any] = dict(_KEPT)
         if self.events:
-            meanings |= MEANINGS | rows.EVENTS
+            meanings |= MEANINGS | rows.EVENTS | ({} if self.modes else _UNBOUNDED)
         if self.modes:
             meanings |= rows.MODES | _OF_ROWS | turn.meanings_of_turn(self.effects, self.turning)
             meanings |= _OF_ROWS_BETWEEN_SEAMS if self.seams else {}

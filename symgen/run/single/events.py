@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.ir.program import MODE_NUMBERS
-from symgen.describe.bounds.bounded_modes import HIT, JAM, LEAVE, REVERSE, SLIP
+from symgen.describe.bounds.bounded_modes import HIT, JAM, LEAVE, LIFT, REVERSE, SLIP
 from symgen.describe.facts.corners import CORNER
 from symgen.describe.parts.event_sections import RECORD, STOP
 from symgen.run.effects.effects import Impact
@@ -62,7 +62,7 @@ def event_state(watched: Watched, sizes: Sizes, state: State) -> event_loop.Even
 
 #: Kinds of margins by the words of events.
 _MARGINS = {
-    **{SLIP: searching.FORCE, LEAVE: searching.FORCE},
+    **{SLIP: searching.FORCE, LEAVE: searching.FORCE, LIFT: searching.FORCE},
     **{HIT: searching.GAP, REVERSE: searching.RATE, JAM: searching.PART, CORNER: searching.CORNER},
 }
 

@@ -132,11 +132,11 @@ class Simulation:
     def _watch(self, watched: Watched) -> None:
         """Look for events."""
         from symgen.run.loops.event_loop import loop_with_events
-        from symgen.run.loops.searching import decide, decide_at_corners
+        from symgen.run.loops.searching import search_of
         from symgen.run.single.events import Events
 
         rates, _ = rate_functions(self.compiled.law_module)
-        search = decide_at_corners if watched.corners else decide
+        search = search_of(watched.bounded is not None, bool(watched.corners))
         functions = *self.setup.functions, watched.function, search, rates
         self.setup = replace(self.setup, loop=loop_with_events(self.setup.loop), functions=functions)
         self.events = Events(self.compiled, watched, self.spec.until)

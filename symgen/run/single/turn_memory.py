@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.bounds.bounded_modes import HIT, JAM, LEAVE, MODE, REST, REVERSE, SLIP, STICK
+from symgen.describe.bounds.bounded_modes import HIT, JAM, LEAVE, LIFT, MODE, REST, REVERSE, SLIP, STICK
 from symgen.describe.parts.event_sections import RESET, STOP
 from symgen.run.effects.accumulation import new_past
 from symgen.run.effects.effects import Effects
@@ -15,6 +16,7 @@ from symgen.run.effects.resets import OfEffects, new_effects
 from symgen.run.layout.probe import rate_functions
 from symgen.run.modes.bounded_rows import first_step, new_choice
 from symgen.run.modes.strikes import new_strikes
+from symgen.run.modes.transition_log import LIFT as LIFT_NUMBER
 from symgen.run.modes.transition_log import OF_LOG, new_transitions
 from symgen.run.modes.turn import OfModes
 from symgen.run.single.new_state import model_sizes
@@ -26,7 +28,12 @@ if TYPE_CHECKING:
     from symgen.run.loops.run_spec import BoundedRows, Watched
 
 #: Words of transitions, by the numbers of `symgen.run.modes.transition_log`.
-WORDS = (SLIP, STICK, REVERSE, HIT, REST, LEAVE)
+WORDS = (SLIP, STICK, REVERSE, HIT, REST, LEAVE, LIFT)
+
+
+def words_of_run(turning: Sequence[str]) -> tuple[str, ...]:
+    """Return the words of transitions that a run may have; `turning` is what its switching functions say."""
+    return WORDS if "contacts" in turning else WORDS[:LIFT_NUMBER]
 
 
 def what_changes(compiled: CompiledModel, watched: Watched) -> Effects:
@@ -99,7 +106,7 @@ def modes_of_runs(
         breaks=rows_of_turn(SLIP),
         reverses=rows_of_turn(REVERSE),
         jams=rows_of_turn(JAM),
-        leaves=rows_of_turn(LEAVE),
+        leaves=np.maximum(rows_of_turn(LEAVE), rows_of_turn(LIFT)),
         renewed=np.zeros(1, dtype=np.int64),
     )
 

@@ -227,19 +227,25 @@ class TurnOfRun:
         return float(ends[e.ACCUMULATION]), tuple(names_in(float(ends[e.GATHERING]), self.watched.names))
 
     @property
-    def effects_in_order(self) -> list[tuple[tuple[int, ...], Array, Array]]:
-        """Effects of the latest turn in their order: numbers of events, state before, and scratch after each."""
+    def effects_in_order(self) -> list[tuple[tuple[int, ...], Array, Array, Any]]:
+        """Effects of the latest turn in their order.
+
+        Numbers of events, state before, scratch after each, and of contacts which impulses held velocities, and the
+        signs of the multiples that others were; else None.
+        """
         resets = self._resets
-        found = [(resets.kept, np.flatnonzero(resets.chosen), resets.kept.w)]
+        found: list[Any] = [(resets.kept, np.flatnonzero(resets.chosen), resets.kept.w, None)]
         if self.rows is not None:
             choice, strikes = self.memory.choice, self.memory.strikes
-            active = np.flatnonzero(strikes.active)
+            active, ties = np.flatnonzero(strikes.active), strikes.ties
             w = strikes.rested.w.copy()  # the formulas of rows that come to rest read their signs
             w[choice.first + MODE_NUMBERS * active + SIGN] = 1.0
-            found += [(strikes.struck, strikes.events[active], strikes.struck.w)]
-            found += [(strikes.rested, strikes.events[active], w)]
+            tied = (ties.kept.copy(), ties.kept_ways.copy()), (ties.held.copy(), ties.ways.copy())
+            both = tied if self.rows.contacts else (None, None)
+            found += [(strikes.struck, strikes.events[active], strikes.struck.w, both[0])]
+            found += [(strikes.rested, strikes.events[active], w, both[1])]
         happened = [x for x in found if not np.isnan(x[0].energy[0])]
-        return [(tuple(numbers.tolist()), kept.y.copy(), w.copy()) for kept, numbers, w in happened]
+        return [(tuple(numbers.tolist()), kept.y.copy(), w.copy(), ties) for kept, numbers, w, ties in happened]
 
     def forget_after(self, happened: Sequence[Happening]) -> None:
         """Remember the resets of some events alone, as a run goes on from an earlier state."""

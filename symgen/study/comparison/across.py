@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from symgen.study.comparison.comparison_rows import YARDSTICK, Row
+from symgen.study.comparison.comparison_rows import Row
 from symgen.study.comparison.comparison_study import Study
 from symgen.study.comparison.turns import interval_of_median
+from symgen.study.yardstick import YARDSTICK
 
 
 @dataclass(frozen=True)

@@ -14,9 +14,6 @@ from symgen.result.result import FAILED, OK, UNVERIFIED
 if TYPE_CHECKING:
     pass
 
-#: Ratios of run time are to this method, with the same integrator and the same step or tolerance.
-YARDSTICK = "lagrange"
-
 
 #: Units of columns.
 UNITS = {

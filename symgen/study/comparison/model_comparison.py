@@ -20,7 +20,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.run.planning.plan import Plan, Purpose
 from symgen.run.planning.prepare import Assembled, Preparation, Prepared, prepare
 from symgen.study.comparison.combinations import words_of_variant
-from symgen.study.comparison.comparison_rows import YARDSTICK, check_entry, from_entry, to_entry
+from symgen.study.comparison.comparison_rows import check_entry, from_entry, to_entry
 from symgen.study.comparison.comparison_study import Study
 from symgen.study.comparison.distances import Distances, reference_rates, reference_reactions
 from symgen.study.comparison.equal_error import ROUNDS, times_at
@@ -34,6 +34,7 @@ from symgen.study.references.routes import fastest_decay, motion_by_two_routes, 
 from symgen.study.references.solvers import AUTO
 from symgen.study.runner import Cell, run_cells
 from symgen.study.unlimited_runs import WATCHES, without_limits
+from symgen.study.yardstick import YARDSTICK
 
 #: Default number of rounds a row, their least total time, and the total from which on none is repeated [s]: noise is a
 #: small part of a long run.

@@ -20,7 +20,7 @@ from symgen.run.layout.start_records import Instant
 from symgen.run.loops.afresh import begin_afresh
 from symgen.run.loops.event_loop import loop_with_events
 from symgen.run.loops.seams import arguments_with_table, preparing_functions, seams_of_loop
-from symgen.run.loops.searching import decide, decide_at_corners
+from symgen.run.loops.searching import search_of
 from symgen.run.rows.row_observers import observe_rows_between_seams, observe_rows_left
 from symgen.run.rows.rows import observe_nothing_of_coordinates, over_rows
 from symgen.run.single.events import event_state
@@ -99,7 +99,7 @@ class LoopRuns:
             chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
         system, inner = (sizes, *setup.functions), self.integrator.loop(adaptive)
         if self.watched is not None:
-            search = decide_at_corners if self.watched.corners else decide
+            search = search_of(self.watched.bounded is not None, bool(self.watched.corners))
             system, inner = (*system, self.watched.function, search, rates), loop_with_events(inner)
             state = event_state(self.watched, sizes, state)
             if out.events.shape[1]:

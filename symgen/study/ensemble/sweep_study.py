@@ -30,6 +30,7 @@ from symgen.run.compiling.events import bounded_names
 from symgen.run.layout.ensemble_abi import ASSEMBLED
 from symgen.study.ensemble.axes import Grid
 from symgen.study.ensemble.lines import table_lines
+from symgen.study.ensemble.locked_rows import dead_centres_of_rows
 from symgen.study.ensemble.row_quantities import NUMBERS, event_columns
 from symgen.study.ensemble.samples import contributions
 from symgen.study.ensemble.unmoved_axes import unmoved_axes
@@ -117,10 +118,13 @@ class Sweep:
         """Status of every run: ``ok``, ``unverified``, ``failed``, or ``not run`` where it was interrupted."""
         return self._verdicts[0]
 
-    @property
+    @cached_property
     def reason(self) -> NDArray[np.object_]:
         """Why a run is not ok, empty where it is."""
-        return self._verdicts[1]
+        reasons = self._verdicts[1]
+        for row, why in dead_centres_of_rows(self.ensemble, self.summary):
+            reasons[row] = why
+        return reasons
 
     @cached_property
     def warnings(self) -> NDArray[np.object_]:

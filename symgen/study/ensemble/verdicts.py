@@ -139,8 +139,8 @@ def _reason_of_events(row: Array, looked: EventNames, info: ModelInfo) -> str | 
         return f"{abi.REASONS[code]} at t = {time:.6g} s"
     if code == e.NO_MODES and looked.bounded is not None:
         failure, which, first, second = (float(x) for x in further[e.FAILURE : e.SECOND_NUMBER + 1])
-        every = [] if looked.tree else [row.name for row in info.rows]
-        return str(refusal(looked.bounded, every, int(failure), which, first, second, time))
+        rows = [] if looked.tree else [row.name for row in info.rows]
+        return str(refusal(looked.bounded, rows, int(failure), which, first, second, time))
     if code != e.IMPOSSIBLE:
         return None
     if not len(further) or np.isnan(further[e.IMPOSSIBLE_EVENT]):

@@ -7,9 +7,10 @@ from collections.abc import Iterable, Sequence
 from statistics import median
 
 from symgen.result.result import FAILED, OK, UNVERIFIED
-from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Trace
+from symgen.study.comparison.comparison_rows import Row, Trace
 from symgen.study.comparison.comparison_study import Study
 from symgen.study.report import words
+from symgen.study.yardstick import YARDSTICK
 
 #: The integrator and the step of the source, used to compare methods that were run with them.
 USUAL = "rk4"

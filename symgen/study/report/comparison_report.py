@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from symgen.describe.bounds.keys import nouns_of_families
 from symgen.describe.bounds.smooth import WITH_LAWS
 from symgen.study.comparison.across import across_mechanisms
-from symgen.study.comparison.comparison_rows import YARDSTICK, Row
+from symgen.study.comparison.comparison_rows import Row
 from symgen.study.comparison.comparison_study import BEYOND, FRONT, LOADED, ONE_RUN, Study
 from symgen.study.machine_class import machine_class, version_list
 from symgen.study.report import words
@@ -23,6 +23,7 @@ from symgen.study.report.document import DocumentTable, ReportDocument, Section,
 from symgen.study.report.figures import pictures_of_study
 from symgen.study.report.picture import sketches_section
 from symgen.study.report.source import section_beside_source
+from symgen.study.yardstick import YARDSTICK
 
 #: Findings beside the front, on the first screen.
 FIRST = 3

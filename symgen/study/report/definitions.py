@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from symgen.study.comparison.comparison_rows import YARDSTICK
 from symgen.study.comparison.comparison_study import Study
 from symgen.study.report import words
 from symgen.study.report.document import DocumentTable, Section
+from symgen.study.yardstick import YARDSTICK
 
 _TEXT = (
     "All numbers are of one run a row, on the mechanism's equations as they are solved: its duration, coordinates, "

@@ -104,7 +104,7 @@ def _lead_sentence(result: Result) -> str:
 
 
 def _loads_section(result: Result, along: Labelled) -> Iterator[Section]:
-    """Yield the section of the largest loads; a failed run has none, whose last loads are those of the failure."""
+    """Yield the section of the largest loads; a failed run has none, as its last loads tell of the failure alone."""
     if result.status == "failed":
         return
     text = f"Largest absolute values over {plural(len(result.t), 'output')}; a peak between two outputs can be higher."

@@ -13,6 +13,7 @@ from symgen.study.report import words
 from symgen.study.report.document import DocumentTable, ReportDocument, Section, TableCell
 from symgen.study.report.picture import sketches_section
 from symgen.study.report.stress_figures import outcome_maps, overview_picture, region_pictures
+from symgen.study.stress.beside import beside_yardstick, cells_beside, families_beside
 from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES
 from symgen.study.stress.findings import cause_of_failure, findings_of_study
 from symgen.study.stress.stress_rows import LEGEND, Map, Stress, StressRow, outcomes_of_models
@@ -89,11 +90,33 @@ def _map_section(study: Stress) -> Section:
     table = DocumentTable("Accurate cells of those judged.", headings, rows, words=2, notes=(f"{LEGEND}.",))
     outcomes = tuple((name, _MEANINGS[name].format(*explicit_limits(study.quick))) for name in OUTCOMES)
     meanings = DocumentTable("Outcomes.", ("outcome", "meaning"), outcomes, words=2)
-    tables: tuple[DocumentTable, ...] = (table, meanings)
+    tables: tuple[DocumentTable, ...] = (table, *_beside_table(study), meanings)
     pictures = outcome_maps(study)
     if len(study.models) > FEW_MODELS:
         tables, pictures = (_models_table(study), *tables), (overview_picture(study), *pictures)
     return Section("Map of methods and cases", tables=tables, pictures=pictures, pictures_first=True)
+
+
+def _beside_table(study: Stress) -> tuple[DocumentTable, ...]:
+    """Return the errors of methods beside the yardstick with the same integrator."""
+    lines = beside_yardstick(study)
+    if len(lines) < 2:
+        return ()
+    families, searched = families_beside(lines)
+    headings = (
+        *("methods", "integrator", *(family.replace("-", " ") for family in families)),
+        *(f"largest step, {family} [s]" for family in searched),
+    )
+    rows = tuple(
+        (words.enumeration(x.methods), x.integrator, *(c or words.NONE for c in cells_beside(x, families, searched)))
+        for x in lines
+    )
+    caption = (
+        "Beside lagrange with the same integrator: its error over the error of the method, above 1 where the method is "
+        "better, medians over the cases that both follow; and the largest constant steps that follow the motion. "
+        "Methods with the same numbers are one line."
+    )
+    return (DocumentTable(caption, headings, rows, words=2),)
 
 
 def _models_table(study: Stress) -> DocumentTable:

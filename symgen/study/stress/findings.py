@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from symgen.base.errors import plural
 from symgen.run.planning.automatic import AUTO
+from symgen.study.stress.beside import beside_yardstick
 from symgen.study.stress.cell_outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, WRONG_BRANCH, count_outcomes
 from symgen.study.stress.stress_rows import Map, map_rows, plane_rows, shares_of_models
 
@@ -26,14 +27,13 @@ OPEN = 1e-4
 def findings_of_study(study: Stress) -> tuple[str, ...]:
     """Return a study's findings: counts, the toughest methods, each family, gains and penalties, steps, and trust."""
     shown = Map.of_study(study)
-    pairs = [
-        (_line_of_finding(line), entry.good, entry.judged) for line in shown.lines for entry in [shown.entry(line)]
-    ]
+    pairs, count = _shares_of_common_cells(shown)
     return (
         *_count_outcomes(study),
         *_finding_on_underived(study),
         *_finding_on_extremes("models", shares_of_models(study.rows)),
-        *_finding_on_extremes("pairs of method and integrator", pairs),
+        *_finding_on_extremes(f"pairs of method and integrator, of the {count} that most of them have", pairs),
+        *_finding_beside(study),
         *_finding_on_families(shown),
         *_finding_on_gains(study),
         *gain_law(study),
@@ -93,6 +93,35 @@ def _finding_on_families(shown: Map) -> Iterator[str]:
         rows = [row for entry in entries.values() for row in entry.rows if row.outcome not in (REFUSED, UNJUDGED)]
         share = f"{len(whole)} of {len(entries)} pairs are accurate in every case that was judged{which}"
         yield f"{_title_of_case(family)}: {share}; hardest: {_hardest_cases(rows)}."
+
+
+def _shares_of_common_cells(shown: Map) -> tuple[list[tuple[str, int, int]], int]:
+    """Return (name, accurate, judged) over the cells that most lines have, of the lines that have all of these.
+
+    Shares of other cells are not compared: whoever ran one easy case has all of them.
+    """
+    judged = {
+        line: {(r.model, r.family, r.case): r for r in shown.entry(line).rows if r.outcome not in (REFUSED, UNJUDGED)}
+        for line in shown.lines
+    }
+    counts = Counter(key for rows in judged.values() for key in rows)
+    common = [key for key, count in counts.items() if 2 * count > len(judged)]
+    whole = {line: [rows[key] for key in common] for line, rows in judged.items() if all(key in rows for key in common)}
+    pairs = [(_line_of_finding(x), sum(r.outcome == GOOD for r in rows), len(common)) for x, rows in whole.items()]
+    return pairs, len(common)
+
+
+def _finding_beside(study: Stress) -> Iterator[str]:
+    """Yield how many methods differ beside `lagrange` with the same integrator."""
+    lines = beside_yardstick(study)
+    for integrator in dict.fromkeys(line.integrator for line in lines):
+        own = [line for line in lines if line.integrator == integrator]
+        count = sum(len(line.methods) for line in own)
+        if count > 1:
+            yield (
+                f"With {integrator} {len(own)} of {count} methods differ in their errors beside lagrange or in their "
+                "largest steps."
+            )
 
 
 def _hardest_cases(rows: Sequence[StressRow]) -> str:
@@ -156,6 +185,7 @@ def fitted_slope(points: Sequence[tuple[float, float]]) -> float | None:
 
 def _finding_on_penalties(study: Stress) -> Iterator[str]:
     rows = [row for row in study.rows if row.family == "penalty-factor" and row.outcome not in (UNJUDGED, REFUSED)]
+    alike = dict[str, list[str]]()
     for line in dict.fromkeys((row.method, row.integrator) for row in rows):
         own = [row for row in rows if (row.method, row.integrator) == line]
         runs = Counter(row.values[0] for row in own)
@@ -163,10 +193,11 @@ def _finding_on_penalties(study: Stress) -> Iterator[str]:
         shares = {a: good[a] / runs[a] for a in sorted(runs)}
         best = [a for a, share in shares.items() if share == max(shares.values())]
         cells = f"{good[best[0]]} of {runs[best[0]]} cells" if max(shares.values()) < 1.0 else "all cells"
-        yield (
-            f"Penalty of {_line_of_finding(line)}: accurate most often with a = "
-            f"{_names_in_words([f'{a:g}' for a in best])}, in {cells}."
-        )
+        text = f"accurate most often with a = {_names_in_words([f'{a:g}' for a in best])}, in {cells}"
+        if len(best) == len(shares) > 1:
+            text = f"the factor makes no difference from {best[0]:g} to {best[-1]:g}, in {cells}"
+        alike.setdefault(text, []).append(_line_of_finding(line))
+    yield from (f"Penalty of {_names_in_words(lines)}: {text}." for text, lines in alike.items())
 
 
 def _finding_on_steps(study: Stress) -> Iterator[str]:

@@ -146,6 +146,7 @@ class Stress:
 
     def to_json(self) -> dict[str, Any]:
         """Return the contract of ``symgen stress --json``."""
+        from symgen.study.stress.beside import beside_yardstick
         from symgen.study.stress.findings import explain_failures, findings_of_study
 
         constant, adaptive = explicit_limits(self.quick)
@@ -160,6 +161,7 @@ class Stress:
             "outcomes": count_outcomes([row.outcome for row in self.rows]),
             "rows": [asdict(row) for row in self.rows],
             "limits": [asdict(limit) for limit in self.limits],
+            "beside": [asdict(line) for line in beside_yardstick(self)],
             "skipped": [dict(zip(("model", "family", "why"), s, strict=True)) for s in self.skipped],
             "unusable": [dict(zip(("model", "family", "case", "why"), s, strict=True)) for s in self.unusable],
             "left_out": [

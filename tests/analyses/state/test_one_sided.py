@@ -8,6 +8,7 @@ import pytest
 import symgen
 from symgen.api import Model
 from symgen.base.errors import AnalysisError, InputError
+from symgen.describe.files.load import parse_toml
 from symgen.describe.files.validate import validate
 
 G = 9.81
@@ -158,3 +159,25 @@ def test_starts_that_no_mode_has(start: dict[str, float], sentence: str) -> None
     for analysis in (rope().equilibrium, rope().linearise, rope().modes):
         with pytest.raises(InputError, match=sentence):
             analysis(start=start)
+
+
+def test_pieces_of_a_gap_are_rows_of_their_own() -> None:
+    """A point on a floor that becomes a ramp: it lies on the first piece, and swings along it on a spring."""
+    text = """
+[mechanism]
+name = "valley"
+gravity = [0.0, -9.81]
+[bodies.point]
+type = "point"
+mass = 2.0
+[forces.spring]
+type = "force"
+body = "point"
+force = ["-50*point.x", 0.0]
+[stops.floor]
+gap = "point.y - max(0, point.x - 1)"
+"""
+    model = symgen.Model(validate(parse_toml(text, "valley.toml"), "valley.toml"))
+    modes = model.modes(at="start")
+    assert [abs(x.imag) for x in modes.eigenvalues] == pytest.approx([5.0, 5.0], abs=1e-12)
+    assert any("floor.1" in note and "floor.2" in note for note in modes.notes)

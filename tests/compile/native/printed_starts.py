@@ -20,13 +20,14 @@ from symgen.compile.native import language as lang
 from symgen.compile.store.jit import RuntimeFunction
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout import manifold
-from symgen.run.starts import assembler, decisions, start_solvers, starting
+from symgen.run.starts import assembler, decisions, masses, start_solvers, starting
 from symgen.run.starts.held import Held
 
 DEFECTS = Path(__file__).resolve().parents[2] / "data" / "defects"
 #: Functions of the runtime that a start calls by their address.
 PASSED = (
     *(start_solvers.dense_change, start_solvers.choose_turns, start_solvers.choose_no_turns),
+    *(masses.project_velocities, masses.project_nothing),
     *(manifold.turn_nothing, starting.follow_nothing, starting.observe_nothing, starting.set_no_rates),
 )
 

@@ -22,15 +22,15 @@ from symgen.run.starts import assembler, decisions
 from symgen.run.starts.assembler import Assembly
 from symgen.run.starts.starting import close_row
 
-KINDS = (abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, None, None, abi.RHS, abi.OBSERVE)
-NAMES = ("geometry", "measure", "move", "spread", "solve", "turns", "rhs")
+KINDS = (abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, None, None, None, None, abi.RHS, abi.OBSERVE)
+NAMES = ("geometry", "measure", "move", "spread", "solve", "formulas", "project", "turns", "rhs")
 HEAD = printed.HEAD + "#define FINE(x, y) x\n"
 
 
 class Bound:
     """The bound start of a model as C, with its memory."""
 
-    def __init__(self, compiled, layout, others, folder):
+    def __init__(self, compiled, layout, table, others, folder):
         joints, now, conditions, work = others
         *own, observe = Assembly(compiled).own
         emitted = {
@@ -38,7 +38,7 @@ class Bound:
             for f, kind in zip((*own, observe), KINDS, strict=True)
             if hasattr(f, "read")
         }
-        arguments = ((layout, *own), observe, joints), now, conditions, work
+        arguments = ((layout, table, *own), observe, joints), now, conditions, work
 
         def room(name):
             owner, _, own = name.partition(".")
@@ -118,11 +118,11 @@ def starts_of(name, tmp_path, monkeypatch, compare):
     compiled = model.compile("lagrange", shape="straight")
 
     def both(*arguments):
-        ((layout, *_), _, joints), now, conditions, work = printed.copied(arguments[:4])
-        bound = Bound(compiled, layout, (joints, now, conditions, work), tmp_path)
-        (first, *functions), *others = arguments[0]
+        ((layout, table, *_), _, joints), now, conditions, work = printed.copied(arguments[:4])
+        bound = Bound(compiled, layout, table, (joints, now, conditions, work), tmp_path)
+        (first, second, *functions), *others = arguments[0]
         functions = [bound.printed(n, f) for n, f in zip(NAMES, functions, strict=True)]
-        done = plain(((first, *functions), *others), *arguments[1:])
+        done = plain(((first, second, *functions), *others), *arguments[1:])
         compare(bound, (now, conditions), printed.arrays(arguments[1:3]))
         return done
 

@@ -137,7 +137,7 @@ class TestSetting:
 
     def test_another_word_is_an_error(self, law, monkeypatch):
         monkeypatch.setenv("SYMGEN_COMPILER", "gcc")
-        with pytest.raises(InputError, match=r"SYMGEN_COMPILER.*one of source, explain, libm.*'gcc'"):
+        with pytest.raises(InputError, match=r"SYMGEN_COMPILER.*one of source, explain, libm, numba.*'gcc'"):
             load_module(law).rhs(*state())
 
 

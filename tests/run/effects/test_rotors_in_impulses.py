@@ -164,3 +164,17 @@ def test_wheels_in_space_share_a_rotor(coordinates: str) -> None:
     j = 0.1 * 2.0**2
     assert run.status == "ok" and run["b.wz"][-1] == pytest.approx(j / (0.5 + j), rel=1e-11)
     assert run.events[0].work == pytest.approx(0.5 * (0.6 + 0.5 * j / (0.5 + j)), rel=1e-11)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("text", [ARM + ROTOR, ARM + ROTOR + KICK], ids=["impact", "reset and impact"])
+def test_derivatives_pass_impulses_with_rotors(text: str, coordinates: str) -> None:
+    model, h = arm(text), 1e-4
+    run = model.simulate(parameters={"ratio": 20.0}, coordinates=coordinates, sensitivities=["ratio"], **SETTINGS)
+    both = [
+        model.simulate(parameters={"ratio": 20.0 + s * h}, coordinates=coordinates, **SETTINGS)["lower.theta"][-1]
+        for s in (1.0, -1.0)
+    ]
+    slope = run.gradient("lower.theta").values[-1].item()
+    assert slope == pytest.approx((both[0] - both[1]) / (2.0 * h), rel=1e-7)

@@ -5,7 +5,7 @@ import pytest
 
 from symgen.compile.loopcode.exact import plain_form
 from symgen.run.layout import abi
-from symgen.run.loops import event_loop, frame_parts, inside, search_records, searching, switching
+from symgen.run.loops import event_loop, frame_parts, inner_points, inside, search_records, searching, switching
 
 
 def test_the_search_is_in_the_language_of_emitted_code():
@@ -135,7 +135,7 @@ def test_slopes_of_forces_at_inner_points_are_those_of_the_polynomial_through_th
     hunt[at + search_records.OF_FORCES] = 1.0
     hunt[at + search_records.G_START], hunt[at + search_records.G_END] = force(0.0), force(step)
     hunt[at + search_records.G_INSIDE : at + search_records.G_INSIDE + inner] = force(times)
-    inside.slopes_of_forces(hunt, 1)
+    inner_points.slopes_of_forces(hunt, 1)
     slopes = [hunt[at + search_records.D_START], *hunt[at + search_records.D_INSIDE :][:inner]]
     slopes.append(hunt[at + search_records.D_END])
     np.testing.assert_allclose(slopes, force.deriv()(np.array([0.0, *times, step])), rtol=1e-8)

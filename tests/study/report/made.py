@@ -2,9 +2,10 @@
 
 from dataclasses import replace
 
-from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Trace
+from symgen.study.comparison.comparison_rows import Row, Trace
 from symgen.study.comparison.comparison_study import Study
 from symgen.study.stress.stress_rows import StressRow
+from symgen.study.yardstick import YARDSTICK
 
 
 def row(method, step, error, seconds, **changes):

@@ -30,7 +30,7 @@ from symgen.base.vocabulary.expressions import (
 from symgen.base.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Sum
 from symgen.derive.lower.windings import counted_turns, measures_of_element
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.bounds.by_reaction import refuse_shared_reactions, rows_bounded_by_reactions
+from symgen.describe.bounds.by_reaction import pressed_rows, refuse_shared_reactions
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.formula_nodes import Formulas
 from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter, Rotor, StateVariable
@@ -91,7 +91,7 @@ def instances_of_mechanism(mechanism: Mechanism) -> tuple[Instance, ...]:
         A validated mechanism.
     """
     mechanism, repeats = without_repeats(mechanism)
-    rewriting, pressed = _Rewriting(mechanism), rows_bounded_by_reactions(mechanism)
+    rewriting, pressed = _Rewriting(mechanism), pressed_rows(mechanism)
     for row in pressed:
         refuse_shared_reactions(row, repeats)
     return (

@@ -1,0 +1,307 @@
+"""Rows of a contact: a gap with a force that only pushes, and friction along it, which that force bounds.
+
+Both rows have the contact's name. In motion the friction is a fraction of the force of the gap, which laws solve for
+(`symgen.derive.lower.drag`); at rest it is a row in force, held as long as its force is within the fraction of at rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, ClassVar
+
+from symgen.base.ir.program import JAMMING
+from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, Reading, call, sum_of_terms
+from symgen.base.vocabulary.measures import Driven, Effort, Holonomic, Measure
+from symgen.describe.bounded import BoundedRow, RowFamily
+from symgen.describe.bounds.bounded_modes import (
+    HIT,
+    JAM,
+    LIFT,
+    REVERSE,
+    SLIP,
+    bounds_from_carried_force,
+    closed_by,
+    effort_in_force,
+    equals_whole_number,
+    event_of_mode,
+    formula_of_closed,
+    measure_derivative,
+    name_of_number,
+)
+from symgen.describe.bounds.end_stop import EndStop
+from symgen.describe.bounds.row import Bounds
+from symgen.describe.formulas.formula_text import to_text
+from symgen.describe.mechanism import ModeEvent, Output
+
+#: Bound in place of none, by which forces may be divided [N].
+_LEAST_BOUND = Number(1e-300)
+
+
+def _line_of_gap(facts: Mapping[str, Any]) -> str:
+    """Return the line of `symgen inspect` on the gap of a contact."""
+    x = facts
+    return (
+        f"contact {x['name']}: row {x['row']} in force where it is closed, pushing [N]; restitution {x['restitution']}"
+    )
+
+
+def _line_of_friction(facts: Mapping[str, Any]) -> str:
+    """Return the line of `symgen inspect` on the friction of a contact."""
+    x = facts
+    jam = "" if x["jamming_number"] is None else f"; jamming number {x['jamming_number']:.3g} at the start"
+    bounds = f"up to {x['static']} times the force of {x['reaction'][0]}; {x['sliding']} in motion"
+    return f"friction of contact {x['name']}: row {x['row']} in force at rest {bounds}{jam}"
+
+
+CONTACTS = RowFamily(
+    one="contact",
+    some="a contact",
+    noun="contacts",
+    in_force="closed",
+    off="open",
+    part="contacts",
+    fact="contacts",
+    named="{}",
+    hint="runs and sweeps have them",
+    held="while it is closed, {}",
+    line=_line_of_gap,
+)
+TANGENTS = RowFamily(
+    one="friction of contact",
+    some="friction of contacts",
+    noun="friction of contacts",
+    in_force="at rest",
+    off="in motion",
+    part="tangents",
+    fact="contact_friction",
+    named="that of {}",
+    hint="runs and sweeps have it",
+    held="while it sticks, {} does not change",
+    line=_line_of_friction,
+)
+
+
+class Tangent(Bounds, frozen=True):
+    """Dry friction along a contact: a coordinate, and a bound that the force of its gap presses.
+
+    Parameters
+    ----------
+    name : str
+        Of the contact.
+    measure : Measure
+        The slip.
+    sliding, static : Expr
+        Bounds in motion and at rest over the force of the gap.
+    """
+
+    family: ClassVar[RowFamily] = TANGENTS
+    signed: ClassVar[bool] = True
+    in_contact: ClassVar[bool] = True
+
+    name: str
+    measure: Measure
+    sliding: Expr
+    static: Expr
+    unit: str = "m"
+
+    @property
+    def label(self) -> str:
+        """The name with the word for its coordinate, as the gap has the name alone."""
+        return f"{self.name}.slip"
+
+    @property
+    def row(self) -> str:
+        """Name of the row that is in force at rest."""
+        return f"{self.name}.tangent"
+
+    @property
+    def owner(self) -> str:
+        """The contact."""
+        return self.name
+
+    @property
+    def along(self) -> str:
+        """No coordinate of a joint."""
+        return ""
+
+    @property
+    def where(self) -> str:
+        """Its place in a file."""
+        return f"contacts.{self.name}.friction"
+
+    @property
+    def held(self) -> Holonomic:
+        """The row in force."""
+        return Holonomic("tangent", self.measure, unit=self.unit)
+
+    @property
+    def pressed(self) -> tuple[str, ...]:
+        """The row of the gap."""
+        return (f"{self.name}.normal",)
+
+    @property
+    def coefficient(self) -> Expr:
+        """Bound in motion over the force of the gap."""
+        return self.sliding
+
+    @property
+    def effort(self) -> Effort:
+        """The effort by which transitions probe accelerations; laws solve for that in motion."""
+        return Effort("friction", self.measure, call("neg", name_of_number(self, "effort")))
+
+    @property
+    def without_reaction(self) -> Tangent:
+        """The row, whose effort depends on no reaction."""
+        return self
+
+    @property
+    def place(self) -> tuple[str, Expr]:
+        """The coordinate."""
+        return f"slip of {self.name}", measure_derivative(self, 0)
+
+    @property
+    def numbers(self) -> tuple[tuple[str, Expr], ...]:
+        """Bounds at rest and in motion over the force of the gap."""
+        return (
+            (f"coefficient of {self.name} at rest", self.static),
+            (f"coefficient of {self.name} in motion", self.sliding),
+        )
+
+    def total_effort(self, beside: Sequence[BoundedRow] = ()) -> Expr:
+        """Return the effort at rest and in motion along the slip, a formula of outputs.
+
+        Where one row in force carries the friction of others beside it, each has an equal part of its bound.
+        """
+        against = call("mul", name_of_number(self, "sign"), call("mul", self.sliding, self.pressing))
+        own = call("add", against, name_of_number(self, "effort"))
+        others = [(i, row) for i, row in enumerate(beside, 1) if isinstance(row, Tangent) and row.row != self.row]
+        if not others:
+            return call("sub", effort_in_force(self), own)
+        place = next(i for i, row in enumerate(beside, 1) if row.row == self.row)
+        total = call("mul", effort_in_force(self), self._part_of_bounds(place, [row for _, row in others]))
+        for i, row in others:
+            its = call(
+                "mul", effort_in_force(row), row._part_of_bounds(i, [x for x in beside if x.row != row.row], self)
+            )
+            carried = call("mul", self._is_carried_by(i), call("sign", name_of_number(self, "limit")))
+            total = call("add", total, call("mul", carried, its))
+        return call("sub", total, own)
+
+    def _is_carried_by(self, place: int) -> Expr:
+        """Return the formula that is 1 where the row at a place carries the friction of this one, else 0."""
+        held, constant = name_of_number(self, "held"), name_of_number(self, "constant")
+        return call("mul", call("sub", ONE, held), equals_whole_number(constant, place))
+
+    def _part_of_bounds(self, place: int, others: Sequence[BoundedRow], of: Tangent | None = None) -> Expr:
+        """Return the bound of a row, by default its own, over the sum of all bounds that it carries."""
+        total: Expr = call("max", call("mul", self.static, self.pressing), _LEAST_BOUND)
+        own = total if of is None else call("mul", of.static, of.pressing)
+        for row in others:
+            if isinstance(row, Tangent):
+                size = call("mul", call("abs", name_of_number(row, "limit")), call("mul", row.static, row.pressing))
+                total = call("add", total, call("mul", row._is_carried_by(place), size))
+        return call("div", own, total)
+
+    @property
+    def pressing(self) -> Reading:
+        """The force of the gap."""
+        (row,) = self.pressed
+        return Reading(row, Driven(row, self.measure))
+
+    @property
+    def taking(self) -> Expr:
+        """The effort that takes energy, a formula of outputs."""
+        return self.total_effort()
+
+    def events(self, beside: Sequence[BoundedRow]) -> tuple[ModeEvent, ...]:
+        """Return the events at which its mode is chosen anew.
+
+        They sleep while the contact is open. A closed contact at rest whose row is not in force, as joints lock it or
+        other rows carry it, is watched by its rate. Where several do, it has an effort of its own, which its bound may
+        reach; ``limit`` is then what counts as none.
+        """
+        held, sign, limit = (name_of_number(self, number) for number in ("held", "sign", "limit"))
+        bounds = call("mul", self.static, self.pressing), limit, *bounds_from_carried_force(self, beside)
+        left = call("sub", sum_of_terms(*bounds), call("abs", effort_in_force(self)))
+        off, closed = call("sub", ONE, held), closed_by(f"{self.name}.normal")
+        shares = equals_whole_number(name_of_number(self, "constant"), -1)
+        own = call("sub", sum_of_terms(*bounds[:2]), call("abs", name_of_number(self, "effort")))
+        apart = call("add", call("sub", ONE, shares), call("mul", shares, own))
+        resting = call("add", call("mul", held, left), call("mul", off, apart))
+        still = call("sub", ONE, call("mul", sign, sign))
+        watched = call("mul", call("mul", off, closed), call("abs", measure_derivative(self)))
+        asleep = call("add", held, call("mul", off, call("sub", ONE, closed)))
+        moving = sum_of_terms(
+            call("mul", sign, measure_derivative(self)), call("mul", still, call("sub", asleep, watched))
+        )
+        free = call("sub", ONE, name_of_number(self, JAMMING))
+        return (
+            event_of_mode(self, SLIP, resting, "friction at its bound"),
+            event_of_mode(self, REVERSE, moving, "rate of slip 0"),
+            event_of_mode(self, JAM, free, "jamming number 1"),
+        )
+
+    def outputs(self, beside: Sequence[BoundedRow]) -> Iterator[Output]:
+        """Yield the friction, along the slip; what both rows share is reported by the gap."""
+        yield Output(f"{self.name}.friction", self.total_effort(beside), "N")
+        yield Output(f"{self.name}.slip", measure_derivative(self), "m/s")
+
+    def facts(self) -> dict[str, Any]:
+        """Return what `symgen inspect` says of it."""
+        return {"static": to_text(self.static), "sliding": to_text(self.sliding)}
+
+
+class ContactGap(EndStop, frozen=True):
+    """The gap of a contact: the row of a stop, beside which there may be friction.
+
+    Parameters
+    ----------
+    tangent : Tangent or None
+        The friction along it.
+    distance : Expr or None
+        The distance that is reported, where the gap is another function of it.
+    """
+
+    family: ClassVar[RowFamily] = CONTACTS
+    in_contact: ClassVar[bool] = True
+
+    tangent: Tangent | None = None
+    distance: Expr | None = None
+
+    @property
+    def row(self) -> str:
+        """Name of the row that is in force where the contact is closed."""
+        return f"{self.name}.normal"
+
+    @property
+    def held(self) -> Holonomic:
+        """The row in force."""
+        return Holonomic("normal", self.measure, self.value, self.unit)
+
+    @property
+    def along(self) -> str:
+        """No coordinate of a joint."""
+        return ""
+
+    @property
+    def where(self) -> str:
+        """Its place in a file."""
+        return f"contacts.{self.name}"
+
+    def events(self, beside: Sequence[BoundedRow]) -> tuple[ModeEvent, ...]:
+        """Return the events at which the contact closes or opens; an impact sets the rate of slip as well."""
+        hit, opens = super().events(beside)
+        reset = hit.reset if self.tangent is None else (*hit.reset, (measure_derivative(self.tangent), ZERO))
+        lift = event_of_mode(self, LIFT, opens.when, "force of a closed contact 0")
+        return (event_of_mode(self, HIT, hit.when, hit.text, reset), lift)
+
+    def outputs(self, beside: Sequence[BoundedRow]) -> Iterator[Output]:
+        """Yield mode (0 open, 1 closed, and of it with friction 1 at rest, 2 or -2 in motion), force and gap."""
+        closed: Expr = formula_of_closed(self)
+        if self.tangent is not None:
+            sign = name_of_number(self.tangent, "sign")
+            still = call("mul", closed, call("sub", ONE, call("mul", sign, sign)))
+            closed = call("add", still, call("mul", Number(2.0), sign))
+        yield Output(f"{self.name}.mode", closed, "")
+        yield Output(f"{self.name}.force", effort_in_force(self), "N")
+        yield Output(f"{self.name}.gap", self.place[1] if self.distance is None else self.distance, "m")

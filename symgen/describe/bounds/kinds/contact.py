@@ -1,0 +1,155 @@
+"""The section ``contacts`` of files: shapes that touch, with friction and impacts along their surfaces."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import msgspec
+
+from symgen.base.vocabulary.expressions import ZERO, Expr, Number, product
+from symgen.base.vocabulary.measures import FormulaMeasure
+from symgen.describe.bounded import BoundedRow
+from symgen.describe.bounds.contact_rows import CONTACTS, ContactGap, Tangent
+from symgen.describe.bounds.keys import SectionOfFiles
+from symgen.describe.bounds.kinds.stop import read_restitution
+from symgen.describe.contacts.slopes import slopes_of_places
+from symgen.describe.contacts.surfaces import Touch, read_pair
+from symgen.describe.parts.fields import Scalar, StateFunction, read_table, value_in_words
+from symgen.describe.parts.scope import Scope
+
+#: Largest difference of slopes that are one.
+_SAME = 1e-9
+
+
+class FrictionOfContact(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Coefficients of friction.
+
+    Parameters
+    ----------
+    sliding : scalar
+        Friction in motion over the force of the contact.
+    static : scalar
+        The same at rest, at least that in motion; by default the same.
+    """
+
+    sliding: Scalar
+    static: Scalar | None = None
+
+
+class ContactSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A contact of two bodies, or of a body and the ground, in the plane.
+
+    Parameters
+    ----------
+    between : list of two tables
+        Shapes, ``{ body = "wheel", at = [0.0, 0.0], disc = 0.3 }`` beside another disc,
+        ``{ line = "ground", on = [0.0, 0.0], normal = [0.0, 1.0] }`` or
+        ``{ body = "table", segment = [[0.0, 0.0], [1.0, 0.0]] }``. A disc of radius 0 is a point, one below 0 a hole.
+    gap : str
+        In place of shapes, a formula as that of a stop [m].
+    slip : str
+        Beside a gap with friction, the formula of a coordinate along the contact [m], whose rate is the speed of slip.
+    friction : scalar or table
+        Friction over the force of the contact, or ``{ static = 0.4, sliding = 0.3 }``; none by default.
+    restitution : scalar
+        Rate of the gap after an impact over that before, from 0 to 1; 0 by default.
+    """
+
+    between: list[dict[str, Any]] | None = None
+    gap: StateFunction | None = None
+    slip: StateFunction | None = None
+    friction: float | str | dict[str, float | str] | None = None
+    restitution: Scalar = 0.0
+
+
+def read_contact(scope: Scope, raw: object) -> tuple[BoundedRow, ...]:
+    """Return the rows of a contact: its gap, and with friction the slip along it.
+
+    Raises
+    ------
+    InputError
+        With the key that is wrong.
+    """
+    section = read_table(ContactSection, raw, scope.where(""))
+    if scope.spatial:
+        raise scope.error("", "a contact in a mechanism in the plane", "one in space")
+    touch = read_touch(scope, section)
+    return rows_of_contact(scope, "", scope.name, touch, section.friction, section.restitution)
+
+
+def rows_of_contact(
+    scope: Scope, key: str, name: str, touch: Touch, friction: object, restitution: float | str
+) -> tuple[BoundedRow, ...]:
+    """Return the rows of a contact with some name, whose keys are in a table at `key`."""
+    within = f"{key}." if key else ""
+    law = read_restitution(scope, f"{within}restitution", restitution)
+    tangent = None if friction is None else _read_friction(scope, f"{within}friction", name, touch, friction)
+    gap = ContactGap(name, name, touch.gap, touch.value, "m", law, tangent, touch.distance)
+    return (gap,) if tangent is None else (tangent, gap)
+
+
+def _read_friction(scope: Scope, key: str, name: str, touch: Touch, raw: object) -> Tangent:
+    """Return the friction of a contact."""
+    table = {"sliding": raw} if not isinstance(raw, dict) else raw
+    given = read_table(FrictionOfContact, table, scope.where(key))
+    at = {"sliding": key if table is not raw else f"{key}.sliding", "static": f"{key}.static"}
+    sliding = scope.constant(at["sliding"], given.sliding)
+    static = sliding if given.static is None else scope.constant(at["static"], given.static)
+    sizes = {word: scope.value(e, at[word]) for word, e in (("sliding", sliding), ("static", static))}
+    for word, size in sizes.items():
+        if size < 0.0:
+            raise scope.error(at[word], "a value of at least 0", repr(size))
+    if sizes["static"] < sizes["sliding"]:
+        raise scope.error(
+            at["static"], f"a value of at least that of sliding ({sizes['sliding']!r})", repr(sizes["static"])
+        )
+    return Tangent(name, touch.slip, sliding, static)
+
+
+def read_touch(scope: Scope, section: ContactSection) -> Touch:
+    """Return gap and slip of a contact, from shapes or from formulas."""
+    if (section.between is None) == (section.gap is None):
+        raise scope.error(
+            "between", "shapes, or the key gap in their place", "neither" if section.gap is None else "both"
+        )
+    if section.between is not None:
+        if section.slip is not None:
+            raise scope.error("slip", "no such key beside between, whose shapes have one", value_in_words(section.slip))
+        return read_pair(scope, "between", section.between)
+    assert section.gap is not None, "one of both keys is there"
+    of = scope.of_row("gap", section.gap, speeds=False, inputs=True)
+    if section.friction is None:
+        if section.slip is not None:
+            raise scope.error("slip", "the key friction beside it", value_in_words(section.slip))
+        return Touch(FormulaMeasure(of), ZERO, FormulaMeasure(of))
+    if section.slip is None:
+        raise scope.error("slip", "a coordinate along the contact, as it has friction", "no such key")
+    along = scope.of_row("slip", section.slip, speeds=False, inputs=True)
+    return Touch(FormulaMeasure(_with_unit_slope(scope, of)), ZERO, FormulaMeasure(along), of)
+
+
+def _with_unit_slope(scope: Scope, gap: Expr) -> Expr:
+    """Return a gap over the length of its derivative by the place of a body, so that its force is the contact's.
+
+    Raises
+    ------
+    InputError
+        If bodies differ in that length, or it is no number.
+    """
+    slopes = slopes_of_places(gap)
+    if slopes is None:
+        expected = "a gap that is linear in places of bodies, where friction is over its force"
+        raise scope.error("friction", expected, "another one", "shapes in 'between' have such a gap")
+    lengths = {body: math.hypot(*slope) for body, slope in slopes.items() if any(slope)}
+    if not lengths:
+        return gap
+    (one, length), *others = lengths.items()
+    for other, size in others:
+        if abs(size - length) > _SAME * length:
+            got = f"{length:.6g} for '{one}' and {size:.6g} for '{other}'"
+            raise scope.error("friction", "a gap that changes equally with the place of each body", got)
+    return gap if abs(length - 1.0) <= _SAME else product(Number(1.0 / length), gap)
+
+
+KIND = SectionOfFiles("contacts", CONTACTS, ContactSection, read_contact)

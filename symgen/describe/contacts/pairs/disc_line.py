@@ -1,0 +1,42 @@
+"""A disc over a line, which belongs to the ground or to a body."""
+
+from __future__ import annotations
+
+import msgspec
+
+from symgen.base.vocabulary.expressions import ONE, call
+from symgen.base.vocabulary.measures import Component, Direction
+from symgen.describe.contacts.surfaces import Disc, Pair, Touch, slip_with_turns
+from symgen.describe.parts.fields import Point, Vector
+from symgen.describe.parts.scope import Scope
+
+
+class LineTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A line without ends.
+
+    Parameters
+    ----------
+    line : str
+        Its body, or ``"ground"``.
+    on : point
+        A point on it; the origin by default.
+    normal : vector
+        Its direction towards what it meets; the second axis by default.
+    """
+
+    line: str
+    on: Point = (0.0, 0.0)
+    normal: Vector = (0.0, 1.0)
+
+
+def read_line(scope: Scope, key: str, table: LineTable, disc: Disc) -> Touch:
+    """Return the height over the line less the radius, and the way along the line plus what the disc has turned."""
+    body = scope.body(f"{key}.line", table.line)
+    on, normal = scope.marker(f"{key}.on", body, table.on), scope.direction(f"{key}.normal", body, table.normal)
+    x, y = normal.vector
+    along = Component(on, disc.centre, Direction(body, (y, call("neg", x))))
+    slip = slip_with_turns(scope, ((ONE, along),), disc.radius, (body, disc.body))
+    return Touch(Component(on, disc.centre, normal), disc.radius, slip)
+
+
+KIND = Pair("line", LineTable, read_line, lambda table: str(table.line))

@@ -1,0 +1,160 @@
+"""Shapes of contacts: a disc of a body, and what it meets, which is read where the pair is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import msgspec
+
+from symgen.base.errors import quote, suggest
+from symgen.base.registry import Registry
+from symgen.base.vocabulary.expressions import ZERO, Expr, call
+from symgen.base.vocabulary.measures import GROUND, Angle, Marker, Measure, Sum
+from symgen.describe.parts.fields import Point, Scalar, read_table, value_in_words
+from symgen.describe.parts.scope import Scope
+
+#: The word for the shape that each pair has.
+DISC = "disc"
+
+
+class DiscTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A disc: a point where its radius is 0, a hole where it is below 0.
+
+    Parameters
+    ----------
+    body : str
+        Its body, or ``"ground"``.
+    at : point
+        Its centre; the origin of the body by default.
+    disc : scalar
+        Its radius [m].
+    """
+
+    body: str
+    at: Point = (0.0, 0.0)
+    disc: Scalar = 0.0
+
+
+class Disc(msgspec.Struct, frozen=True):
+    """A disc: its centre, its radius with the sign of the file, and its number."""
+
+    centre: Marker
+    radius: Expr
+    size: float
+
+    @property
+    def body(self) -> str:
+        """Its body."""
+        return self.centre.body
+
+
+class Touch(msgspec.Struct, frozen=True):
+    """What a pair of shapes is: its gap [m], the coordinate along it [m], and the bodies.
+
+    Parameters
+    ----------
+    gap : Measure
+        Distance of the shapes less `value`, with a derivative of length 1 over either body's place where they touch.
+    value : Expr
+        Where the shapes touch.
+    slip : Measure
+        Coordinate whose rate is the speed of one surface along the other.
+    distance : Expr or None
+        The distance that is reported, where the gap is another function of it.
+    """
+
+    gap: Measure
+    value: Expr
+    slip: Measure
+    distance: Expr | None = None
+
+
+class Pair(msgspec.Struct, frozen=True):
+    """A pair of shapes: a disc, and another one.
+
+    Parameters
+    ----------
+    word : str
+        The key that names the other shape.
+    table : type
+        The table of the other shape.
+    read : callable
+        Scope, key of the other shape, its table and the disc -> `Touch`.
+    body : callable
+        Table of the other shape -> its body.
+    """
+
+    word: str
+    table: type[msgspec.Struct]
+    read: Callable[[Scope, str, Any, Disc], Touch]
+    body: Callable[[Any], str]
+
+
+PAIRS: Registry[Pair] = Registry("symgen.describe.contacts.pairs", "pair of shapes")
+
+
+def read_disc(scope: Scope, key: str, table: DiscTable) -> Disc:
+    """Return a disc from its table."""
+    body = scope.body(f"{key}.body", table.body)
+    centre = scope.marker(f"{key}.at", body, table.at)
+    radius = scope.constant(f"{key}.disc", table.disc)
+    return Disc(centre, radius, scope.value(radius, f"{key}.disc"))
+
+
+def read_pair(scope: Scope, key: str, raw: object) -> Touch:
+    """Return gap and slip of two shapes.
+
+    Raises
+    ------
+    InputError
+        With the shape that is wrong.
+    """
+    if not isinstance(raw, list | tuple) or len(raw) != 2:
+        raise scope.error(key, "two shapes, [{ body = BODY, disc = RADIUS }, SHAPE]", value_in_words(raw))
+    tables = [table if isinstance(table, Mapping) else {} for table in raw]
+    words = {pair.word: pair for _, pair in PAIRS.items()}
+    kinds = [_word_of(scope, f"{key}[{i}]", table, words) for i, table in enumerate(tables)]
+    if DISC not in kinds:
+        raise scope.error(key, "a disc, or a point, beside another shape", f"a {kinds[0]} and a {kinds[1]}")
+    first = 1 if kinds[0] != DISC else 0
+    own, other = f"{key}[{first}]", f"{key}[{1 - first}]"
+    disc = read_disc(scope, own, read_table(DiscTable, tables[first], scope.where(own)))
+    pair = words[kinds[1 - first]]
+    table = read_table(pair.table, tables[1 - first], scope.where(other))
+    body = scope.body(other, pair.body(table))
+    if body == disc.body:
+        raise scope.error(key, "two different bodies", f"'{body}' twice")
+    return pair.read(scope, other, table, disc)
+
+
+def _word_of(scope: Scope, key: str, table: Mapping[str, Any], words: Mapping[str, Pair]) -> str:
+    """Return the word for the shape that a table describes; a body with a point alone is a disc of radius 0."""
+    found = [word for word in words if word in table and word != DISC]
+    if found:
+        return found[0]
+    unknown = [word for word in table if word not in DiscTable.__struct_fields__]
+    if unknown or "body" not in table:
+        got = f"the unknown key {quote(unknown[0])}" if unknown else value_in_words(dict(table))
+        hint = suggest(str(unknown[0]), list(words)) if unknown else ""
+        raise scope.error(key, f"a shape: {', '.join(words)}", got, hint)
+    return DISC
+
+
+def slip_with_turns(
+    scope: Scope, terms: tuple[tuple[Expr, Measure], ...], radius: Expr, bodies: tuple[str, str]
+) -> Sum:
+    """Return a sum of measures, with the radius times the angle of the second body relative to the first one."""
+    one, other = bodies
+    if radius != ZERO:
+        terms += tuple(
+            (sign_of(radius, sign), Angle(GROUND, body))
+            for body, sign in ((other, 1.0), (one, -1.0))
+            if body != GROUND and scope.turns(body)
+        )
+    return Sum(terms)
+
+
+def sign_of(value: Expr, sign: float) -> Expr:
+    """Return a value, or its negative."""
+    return value if sign > 0.0 else call("neg", value)

@@ -1,0 +1,152 @@
+"""Directions of impacts with friction: how velocities after one depend on the state before it, and on all numbers.
+
+Impulses hold velocities along rows C and push along columns that are other ones where contacts slide:
+
+    M (v+ - v-) = P^T i,    C v+ = c,    P_N = C_N - s mu W_T
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base.errors import InputError
+from symgen.compile.loopcode.exact import compiled_form
+from symgen.describe.bounds.bounded_modes import HIT
+from symgen.run.directions.moments import Moment
+from symgen.run.directions.reset_directions import ResetDirections
+from symgen.run.effects.applying import EffectWork
+from symgen.run.effects.effects import Effects, Impact
+from symgen.run.effects.pushing import Ties, new_ties, push_contacts
+from symgen.run.layout.start_records import Instant
+from symgen.run.loops.run_spec import Watched
+
+Array = NDArray[np.float64]
+
+
+def rows_of_velocities(watched: Watched) -> list[int]:
+    """Return for each velocity that events set the row of friction that it is the rate of; -1 for others."""
+    rows, owners = watched.bounded, watched.effects.changes.owners
+    assert rows is not None, "a run with contacts"
+    hits = {hit: i for i, hit in enumerate(watched.events_of_rows(HIT, len(rows.names))) if hit >= 0}
+    repeated = [k > 0 and owners[k - 1] == owners[k] for k in range(len(owners))]
+    return [rows.partners[hits[e]] if again else -1 for e, again in zip(owners.tolist(), repeated, strict=True)]
+
+
+def numbers_of_state(watched: Watched) -> int:
+    """Return the length of what the function of rows with bounds writes."""
+    rows = watched.bounded
+    assert rows is not None, "a run with contacts"
+    return 3 * len(rows.names) + rows.dry
+
+
+def tied_impact(watched: Watched, kept: tuple[NDArray[np.int64], Array], now: Moment) -> Ties:
+    """Return the ties of an impact: what is held, and multiples by the coefficients of friction at its state."""
+    rows, effects = watched.bounded, watched.effects
+    assert rows is not None, "a run with contacts"
+    ties: Ties = new_ties(len(kept[0]), effects.compiled.info.nv, effects.compiled.info.m)
+    k, dry = len(rows.names), rows.dry
+    width = len(now.y)
+    values = rows.state(now.t, now.y.copy(), now.p.copy(), now.w.copy(), np.zeros(width))
+    ties.held[:], ties.ways[:] = kept
+    for j, row in enumerate(rows_of_velocities(watched)):
+        if row >= 0:
+            ties.ratio[j] = ties.ways[j] * values[2 * k + dry + row]
+    return ties
+
+
+def push_state(
+    effects: Effects,
+    numbers: tuple[int, ...],
+    now: Moment,
+    changed: tuple[Array, Array],
+    work: EffectWork,
+    ties: Ties,
+) -> Impact:
+    """Change a state and its scratch by an impact of contacts, and return it; working memory keeps its problem."""
+    y, w = changed
+    count, chosen, formulas = len(ties.held), effects.chosen(numbers), effects.model[2]
+    compiled_form(formulas)(now.t, y, now.p.copy(), w.copy(), np.zeros(len(y)), work.out)
+    ties.values[:] = work.out[count : 2 * count]
+    compiled_form(push_contacts)(effects.model, now.t, Instant(y, now.p.copy(), w), chosen, work, ties)
+    return effects.impact(numbers, y[effects.compiled.info.nq : effects.compiled.info.work], work.impulse.impulses, 0.0)
+
+
+class PushDirections(ResetDirections):
+    """An impact of contacts, and how it changes along the directions of the state at its event.
+
+    Parameters
+    ----------
+    *given
+        As for `ResetDirections`.
+    ties : Ties
+        What impulses hold, and what they are multiples of.
+    watched : Watched
+        Switching functions of the run.
+    """
+
+    def __init__(self, *given: Any) -> None:
+        *others, self.ties, self.watched = given
+        super().__init__(*others)
+        if self.losses:
+            raise InputError("derivatives", "outputs without the energy that contacts take", "one that reads it")
+
+    def _strike_directions(self, struck: list[int], values: Array, entries: Array) -> tuple[Array, Array, Array]:
+        """Return the directions of velocities after an impact, of its energy, and of impulses at events."""
+        info, ties, impulse, n = self.info, self.ties, self.work.impulse, self.info.nv
+        held = [k for k in struck if ties.held[k] > 0]
+        slides = [k for k in struck if ties.held[k] < 0]
+        joints, mass = impulse.rows[: info.m * n].reshape(info.m, n), impulse.mass.reshape(n, n)
+        push = ties.push.reshape(-1, n)
+        c = np.concatenate([joints, push[held]])
+        own, rest = self._probe_velocities(self.effects.formulas, len(self.work.out))
+        jacobian, nu = self._joints()
+        off = ~np.any(joints != 0.0, axis=1)
+        jacobian[off], nu[off] = 0.0, 0.0
+        slopes = np.concatenate([jacobian, own[held]])
+        right = np.concatenate([nu, values[held] - rest[held]])
+        columns, turned = c.copy(), slopes.copy()
+        ratios = self._slopes_of_ratios()
+        for k in slides:
+            at = info.m + held.index(k - 1)
+            columns[at] += ties.ratio[k] * push[k]
+            turned[at] += ties.ratio[k] * own[k] + push[k][:, np.newaxis] * ratios[k]
+        masses, more = self._masses(entries, own, rest)
+        before, after = self.y[info.nq : info.work], self.impact.v
+        directions = self.model.directions_after(self.y, "y")[info.nq : info.work]
+        change = after - before
+        impulses = np.concatenate([self.impact.impulses[: info.m], ties.impulses[held]])
+        # P^T di = M (dv+ - dv-) + dM (v+ - v-) - dP^T i,  C dv+ = dc - dC v+
+        right = right - np.einsum("ijk,j->ik", slopes, after)
+        loads = mass @ directions - np.einsum("ijk,j->ik", masses, change) + np.einsum("ijk,i->jk", turned, impulses)
+        own_masses = np.diag(mass)
+        unit = 1.0 / np.sqrt(np.where(own_masses > 0.0, own_masses, own_masses.mean() or 1.0))
+        rows = c * unit
+        lengths = np.linalg.norm(rows, axis=1)
+        scale = np.divide(1.0, lengths, out=np.zeros(len(c)), where=lengths > 1e-11 * lengths.max())
+        k, scaled = len(c), unit[:, np.newaxis] * mass * unit
+        system = np.zeros((n + k, n + k))
+        system[:n, :n], system[:n, n:] = scaled, -(columns * unit * scale[:, np.newaxis]).T
+        system[n:, :n] = rows * scale[:, np.newaxis]
+        both = np.concatenate([unit[:, np.newaxis] * loads, right * scale[:, np.newaxis]])
+        solution = np.linalg.lstsq(system, both, rcond=1e-12)[0]
+        velocities = unit[:, np.newaxis] * solution[:n]
+        energy = 0.5 * (
+            (velocities - directions).T @ (mass @ (after + before))
+            + np.einsum("i,ijk,j->k", change, masses, after + before)
+            + (velocities + directions).T @ (mass @ change)
+        )
+        return velocities, energy + more(change, velocities - directions), np.zeros((len(struck), self.model.lanes))
+
+    def _slopes_of_ratios(self) -> Array:
+        """Return the directions of the multiples that impulses along contacts are, shape (count, L)."""
+        rows, watched = self.watched.bounded, self.watched
+        out = self._evaluate_reset(rows.state.function, numbers_of_state(watched), self.y)
+        first = 2 * len(rows.names) + rows.dry
+        slopes = np.zeros((len(self.ties.held), self.model.lanes))
+        for j, row in enumerate(rows_of_velocities(watched)):
+            if row >= 0:
+                slopes[j] = self.ties.ways[j] * out[first + row]
+        return slopes

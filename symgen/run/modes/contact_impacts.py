@@ -1,0 +1,298 @@
+"""Impacts of contacts, compiled: Newton's law for gaps, Coulomb's for impulses along them, and rest.
+
+The rates behind an impact have ``u_N+ + e min(u_N-, 0) >= 0`` beside an impulse that pushes, and friction whose impulse
+is at most mu times that. All combinations of modes are tried and verified as modes at rest are
+(`symgen.run.modes.contacts`); the velocities follow from a linear problem in the modes that are right.
+
+Where impacts of one contact accumulate, or of several in turn, impulses in the modes of the last impact take what
+is left of their rates: friction counts for the impacts that are left out, less what it does at rest in their place.
+"""
+
+from __future__ import annotations
+
+import math
+
+from symgen.base.ir.program import MODE_NUMBERS
+from symgen.compile.loopcode.exact import exact
+from symgen.compile.native.annotations import Array, Integers
+from symgen.run.effects.accumulation import OF_EVENT, accumulation, add_resets
+from symgen.run.effects.applying import APPLIED
+from symgen.run.effects.pushing import push_contacts
+from symgen.run.layout import abi
+from symgen.run.layout.scales import larger_number
+from symgen.run.layout.start_records import Instant
+from symgen.run.modes.bounded_rows import (
+    GAINED,
+    IMMOVABLE,
+    NOT_APPLIED,
+    NOT_FINITE,
+    OTHERS,
+    SAME,
+    SIGN,
+    STILL,
+    TOUCHING,
+    Choice,
+    is_held,
+    is_shut,
+    row_scale,
+    sign_of_number,
+    switch_off,
+)
+from symgen.run.modes.contacts import LOWER, OFF, ON, UPPER, find_parts, probe_contacts, try_combinations
+from symgen.run.modes.strikes import (
+    OF_SERIES,
+    Strikes,
+    accelerate_in_force,
+    choose_events,
+    follow_series,
+)
+
+#: Impulses below this part of the largest are rounding.
+_NOTHING = 1e-12
+#: An impact adds energy where its work is above this part of the work of its impulses, one by one.
+_GAIN = 1e-9
+
+
+@exact()
+def is_closing(c: Choice, w: Array, i: int) -> bool:
+    """Return whether a gap that touches strikes: its rate is below 0, and no mode holds it."""
+    return bool(not is_held(c, w, i) and c.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED))
+
+
+@exact(entry=True)
+def find_struck_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
+    """Set the gaps that touch with the friction along them, and G; returns what `strikes.find_struck` does."""
+    n, strikes = 0, False
+    for i in range(c.count):
+        c.taken[i] = 0
+        c.signs[i] = w[c.first + MODE_NUMBERS * i + SIGN] if c.pushes[i] == 0 and c.partner[i] < 0 else 0.0
+    for i in range(c.dry, c.count):
+        if is_shut(c, w, i):
+            c.rest[n], c.taken[i] = i, 1
+            n += 1
+            strikes = strikes or is_closing(c, w, i)
+    if not strikes:
+        return SAME
+    for i in range(c.dry):
+        j = c.partner[i]
+        if j >= 0 and c.taken[j] != 0:
+            c.rest[n], c.taken[i] = i, 1
+            n += 1
+    c.at_rest[0] = n
+    if probe_contacts(t, c, y, p, w, iw, control) != SAME:
+        return NOT_FINITE
+    for i in range(c.dry, c.count):
+        if c.taken[i] != 0 and is_closing(c, w, i) and c.matrix[i * c.count + i] == 0.0:
+            c.named[0] = i
+            return IMMOVABLE
+    return OTHERS
+
+
+@exact()
+def ask_rates_of_gaps(t: float, c: Choice, s: Strikes, now: Instant) -> None:
+    """Set the rates of gaps after an impact, of which each event has the first velocity."""
+    _, _, formulas, _, changes = s.effects.model
+    work, count = s.effects.work, changes.owners.shape[0]
+    for i in range(work.scratch.shape[0]):
+        work.scratch[i] = now.w[i]
+    formulas(t, now.y, now.p, work.scratch, work.rate, work.out)
+    for k in range(count):
+        j = count - 1 - k
+        for i in range(c.dry, c.count):
+            if changes.owners[j] == s.events[i]:
+                s.asked[i] = work.out[count + j]
+
+
+@exact()
+def find_impulses(c: Choice, s: Strikes) -> int:
+    """Find the modes of an impact; return `SAME`, or why there are none."""
+    rows = c.at_rest[0]
+    for r in range(rows):
+        i = c.rest[r]
+        c.offset[i] = c.speed[i] - (s.asked[i] if c.pushes[i] != 0 else 0.0)
+        c.loose[i] = 0 if c.pushes[i] != 0 else 1  # impulses of friction have the bound of motion
+        c.best[i], c.forces[i], c.signs[i] = OFF, 0.0, 0.0
+    find_parts(c)
+    for first in range(c.count):
+        count = 0
+        for r in range(rows):
+            if c.part[c.rest[r]] == first:
+                c.box.order[count] = c.rest[r]
+                count += 1
+        if count > 0:
+            code = try_combinations(c, count)
+            if code != SAME:
+                return int(code)
+            for a in range(count):
+                c.part[c.box.order[a]] = c.count
+    return SAME
+
+
+@exact()
+def find_pushing(c: Choice, s: Strikes) -> int:
+    """Find the gaps that push at the impact; return their number."""
+    most, count = 0.0, 0
+    for i in range(c.count):
+        s.active[i] = 0
+    for r in range(c.at_rest[0]):
+        most = larger_number(most, abs(c.forces[c.rest[r]]) if c.pushes[c.rest[r]] != 0 else 0.0)
+    for r in range(c.at_rest[0]):
+        i = c.rest[r]
+        if c.pushes[i] != 0 and -c.forces[i] > _NOTHING * most:
+            s.active[i] = 1
+            count += 1
+    return count
+
+
+@exact()
+def tie_velocities(c: Choice, s: Strikes, rests: bool) -> None:
+    """Say which velocities of the events that push impulses hold, and at which values."""
+    _, _, _, _, changes = s.effects.model
+    owners, ties = changes.owners, s.ties
+    for j in range(owners.shape[0]):
+        ties.held[j], ties.ratio[j], ties.values[j], ties.ways[j] = 0, 0.0, 0.0, 0.0
+        for i in range(c.dry, c.count):
+            if owners[j] == s.events[i] and s.active[i] != 0:
+                friction = c.partner[i]
+                if j == 0 or owners[j - 1] != owners[j]:
+                    ties.held[j], ties.values[j] = 1, 0.0 if rests else s.asked[i]
+                elif c.mode[friction] >= UPPER:
+                    sign = 1.0 if c.mode[friction] == UPPER else -1.0
+                    ties.held[j], ties.ways[j], ties.ratio[j] = -1, -sign, -sign * c.sliding[friction]
+                elif c.mode[friction] == ON:
+                    ties.held[j] = 1
+        if not rests:
+            ties.kept[j], ties.kept_ways[j] = ties.held[j], ties.ways[j]
+
+
+@exact()
+def lose_at_contacts(c: Choice, s: Strikes, y: Array, before: bool) -> float:
+    """Add what an impact takes to the losses of its contacts; return the work of its impulses, nan without a gain.
+
+    Each impulse does work by the sum of the rates before and after it.
+    """
+    _, _, _, _, changes = s.effects.model
+    owners, ties, n = changes.owners, s.ties, c.layout.nv
+    work, size = 0.0, 0.0
+    for j in range(owners.shape[0]):
+        for i in range(c.dry, c.count):
+            if owners[j] == s.events[i] and s.active[i] != 0:
+                gap = j == 0 or owners[j - 1] != owners[j]
+                place = i if gap else c.partner[i]
+                rate = c.speed[place] if before or not gap else s.asked[i]
+                after = rate
+                for q in range(n):
+                    after += ties.push[j * n + q] * (y[c.layout.nq + q] - s.effects.work.still[q])
+                done = 0.5 * ties.impulses[j] * (rate + after)
+                work += done
+                size += 0.5 * abs(ties.impulses[j]) * (abs(rate) + abs(after))
+                if s.losses[i] >= 0:
+                    y[s.losses[i]] -= done
+    return work if work > _GAIN * size else math.nan
+
+
+@exact(entry=True)
+def strike_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -> int:
+    """Change the velocities by the impact of `find_struck_contacts`; all rows with bounds are off after it.
+
+    Returns `SAME`, or why there is none: no modes or several, `NOT_APPLIED`, or `GAINED` where it adds energy.
+    """
+    now = Instant(y, p, w)
+    for r in range(c.at_rest[0]):
+        c.shut[c.rest[r]] = 1 if c.pushes[c.rest[r]] != 0 else 0
+    switch_off(c, w)
+    for r in range(c.at_rest[0]):
+        c.shut[c.rest[r]] = 1 if c.pushes[c.rest[r]] != 0 else 0
+    for i in range(c.count):
+        s.left[i], s.before[i] = math.nan, c.speed[i]
+    ask_rates_of_gaps(t, c, s, now)
+    code = find_impulses(c, s)
+    if code != SAME:
+        return int(code)
+    count = find_pushing(c, s)
+    for i in range(c.count):
+        c.mode[i] = c.best[i]
+    choose_events(c, s, False)
+    tie_velocities(c, s, False)
+    if push_contacts(s.effects.model, t, now, s.chosen, s.effects.work, s.ties) != APPLIED:
+        return NOT_APPLIED
+    gain = lose_at_contacts(c, s, y, True)
+    if gain == gain:
+        for i in range(c.count):
+            c.named[0] = i if s.active[i] != 0 else c.named[0]
+        c.jam[0] = gain
+        return GAINED
+    choose_events(c, s, True)
+    add_resets(s.effects.past, s.chosen, t)
+    s.pushing[0] = count
+    return SAME
+
+
+@exact()
+def turns_back(c: Choice, s: Strikes, w: Array, i: int) -> bool:
+    """Return whether a gap opens behind the impact of another one, and has been struck before."""
+    touches = c.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH) and c.speed[i] > 0.0
+    return bool(touches and s.active[i] == 0 and s.effects.past.counts[s.events[i]] > 0)
+
+
+@exact()
+def rest_contacts(t: float, c: Choice, s: Strikes, end: float, now: Instant) -> int:
+    """Bring the gaps that push, or turn back, to rest, in the modes of the latest impact; friction has its part."""
+    for i in range(c.dry, c.count):
+        if turns_back(c, s, now.w, i):
+            s.active[i] = 1
+            j = c.partner[i]
+            if j >= 0:
+                still = abs(c.speed[j]) <= STILL * row_scale(c, now.w, j, abi.SPEED)
+                c.mode[j] = ON if still else (UPPER if sign_of_number(c.speed[j]) > 0.0 else LOWER)
+    choose_events(c, s, False)
+    tie_velocities(c, s, True)
+    if push_contacts(s.effects.model, t, now, s.chosen, s.effects.work, s.ties) != APPLIED:
+        return NOT_APPLIED
+    lose_at_contacts(c, s, now.y, True)
+    for i in range(c.dry, c.count):
+        if s.active[i] != 0:
+            s.left[i] = larger_number(end - t, 0.0)
+            s.effects.past.counts[s.events[i]] = 0
+    for number in range(OF_SERIES * c.count):
+        s.series[number] = 0.0
+    return SAME
+
+
+@exact()
+def end_in_turn(t: float, c: Choice, s: Strikes) -> float:
+    """Return the end of impacts in turn, by the times between impacts of the gap that has just been struck."""
+    past, end = s.effects.past, t
+    for i in range(c.dry, c.count):
+        k = s.events[i]
+        if s.active[i] != 0 and past.counts[k] > 2:
+            at = OF_EVENT * k + past.counts[k] - 1
+            last, before = past.times[at] - past.times[at - 1], past.times[at - 1] - past.times[at - 2]
+            if past.times[at] == t and last < before:
+                end = larger_number(end, t + last * last / (before - last))
+    return end
+
+
+@exact(entry=True)
+def gather_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, iw: Integers, hunt: Array) -> int:
+    """Bring the gaps of the latest impact to rest where impacts accumulate, of one contact or of several in turn.
+
+    Returns as `symgen.run.modes.strikes.gather` does.
+    """
+    now, count = Instant(y, p, w), int(s.pushing[0])
+    s.pushing[0] = 0
+    if count == 0:
+        return SAME
+    choose_events(c, s, True)
+    for i in range(c.dry, c.count):
+        if turns_back(c, s, w, i):
+            s.chosen[s.events[i]] = 1
+    functions = c.rates, c.confirm, s.effects.happens
+    end = accumulation(functions, t, c.layout.nq, now, iw, hunt, s.chosen, s.effects.past)
+    accelerate_in_force(t, c, now, iw)
+    series = follow_series(c, s, t, count)
+    if not end == end:
+        return SAME
+    switch_off(c, w)
+    end = series if series == series else end_in_turn(t, c, s)
+    return OTHERS if rest_contacts(t, c, s, end, now) == SAME else NOT_APPLIED

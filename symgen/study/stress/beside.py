@@ -1,0 +1,110 @@
+"""Methods beside `lagrange` with the same integrator: what a stress study says of methods and not of a scheme.
+
+Whether a run of an explicit scheme ends well at a stiff case is decided by the scheme, so that outcomes of most methods
+are alike. Beside the same scheme without a correction errors tell them apart, and so do the largest steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from statistics import median
+from typing import TYPE_CHECKING
+
+from symgen.study.stress.cell_outcome import GOOD, INACCURATE
+from symgen.study.stress.stress_rows import Map
+from symgen.study.yardstick import YARDSTICK
+
+if TYPE_CHECKING:
+    from symgen.study.stress.stress_rows import Stress, StressRow
+
+#: Ratios that differ by less than this digit are one.
+DIGITS = 2
+
+
+@dataclass(frozen=True)
+class Beside:
+    """Methods with the same numbers, on one integrator.
+
+    Attributes
+    ----------
+    methods : tuple of str
+        Their names.
+    integrator : str
+        The integrator.
+    ratios : mapping of str to (float or None)
+        By family: median over its cases of the error of the yardstick over the error of the method, above 1 where the
+        method is better; None where no case resolves both.
+    reached : mapping of str to float
+        By family with a search: largest constant step that follows the motion [s].
+    """
+
+    methods: tuple[str, ...]
+    integrator: str
+    ratios: dict[str, float | None]
+    reached: dict[str, float | None]
+
+
+def beside_yardstick(study: Stress) -> tuple[Beside, ...]:
+    """Return all methods beside `lagrange`, those with the same numbers as one; none without `lagrange`."""
+    shown = Map.of_study(study)
+    groups: dict[tuple[str, ...], list[str]] = {}
+    numbers: dict[tuple[str, ...], tuple[dict[str, float | None], dict[str, float | None]]] = {}
+    bases = {(row.integrator, row.model, row.family, row.case): row for row in shown.rows if row.method == YARDSTICK}
+    with_base = {key[0] for key in bases}
+    for method, integrator in shown.lines:
+        if integrator not in with_base:
+            continue
+        rows = shown.entry((method, integrator)).rows
+        ratios = {family: _median_of(_ratios(rows, family, bases)) for family in shown.families}
+        own = [x for x in study.limits if (x.method, x.integrator) == (method, integrator)]
+        reached = {family: _median_of(_steps(own, family)) for family in dict.fromkeys(x.family for x in own)}
+        key = (integrator, *map(_text, ratios.values()), *map(_text, reached.values()))
+        groups.setdefault(key, []).append(method)
+        numbers[key] = ratios, reached
+    return tuple(Beside(tuple(names), key[0], *numbers[key]) for key, names in groups.items())
+
+
+def _ratios(
+    rows: Sequence[StressRow], family: str, bases: dict[tuple[str, str, str, str], StressRow]
+) -> Iterator[float]:
+    """Yield the ratios of errors of cases that the reference resolves and both runs followed."""
+    for row in rows:
+        base = bases.get((row.integrator, row.model, row.family, row.case))
+        if row.family != family or base is None:
+            continue
+        floor = row.reference_error or 0.0
+        followed = {row.outcome, base.outcome} <= {GOOD, INACCURATE}
+        if followed and row.error and base.error and min(row.error, base.error) > floor:
+            yield base.error / row.error
+
+
+def _steps(limits: Sequence[object], family: str) -> Iterator[float]:
+    for limit in limits:
+        step = getattr(limit, "stable_step", None)
+        if getattr(limit, "family", "") == family and step is not None:
+            yield float(step)
+
+
+def _median_of(values: Iterator[float]) -> float | None:
+    known = list(values)
+    return median(known) if known else None
+
+
+def _text(value: float | None) -> str:
+    return "" if value is None else f"{value:.{DIGITS}g}"
+
+
+def cells_beside(line: Beside, families: Sequence[str], searched: Sequence[str]) -> tuple[str, ...]:
+    """Return the cells of a line: ratios by family, and largest steps."""
+    return (
+        *(_text(line.ratios.get(family)) for family in families),
+        *(_text(line.reached.get(family)) for family in searched),
+    )
+
+
+def families_beside(lines: Sequence[Beside]) -> tuple[list[str], list[str]]:
+    """Return the families in which a ratio is other than 1 for some line, and those with searches."""
+    names = list(dict.fromkeys(family for line in lines for family in line.ratios))
+    telling = [x for x in names if {_text(line.ratios[x]) for line in lines if x in line.ratios} - {"", "1"}]
+    return telling, list(dict.fromkeys(family for line in lines for family in line.reached))
