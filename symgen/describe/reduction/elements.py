@@ -13,6 +13,8 @@ from scipy import sparse
 from symgen.base.arguments import kind_of_value
 from symgen.base.errors import InputError, plural, quote
 from symgen.describe.formulas.identifiers import check_identifier
+from symgen.describe.mechanism import names_of_modal_body
+from symgen.describe.modal_body import MOST_MODES
 
 Array = NDArray[np.float64]
 #: A sparse array, in compressed columns; the types of SciPy do not tell what their products with arrays are.
@@ -25,6 +27,8 @@ ROUNDING = 1e-9
 #: A body that weighs less than this over the cube of its size [kg/m^3] is not in SI units: a steel wire as thin as a
 #: twenty-thousandth of its length weighs more.
 LIGHTEST = 1e-5
+#: Names that interfaces do not have: of points, axes and the force of the springs.
+RESERVED = ("centre", "origin", "ex", "ey", "ez", "elastic")
 #: Names of the directions of rigid motions.
 DIRECTIONS = {
     2: ("translation along x", "translation along y", "rotation about z"),
@@ -235,6 +239,8 @@ def read_interfaces(given: object, elements: Elements) -> dict[str, NDArray[np.i
     for name, nodes in given.items():
         where = f"interfaces[{quote(name)}]"
         check_identifier(name, "interfaces", "interface")
+        if name in (*RESERVED, *names_of_modal_body(elements.dimension, MOST_MODES)):
+            raise InputError("interfaces", "another name", f"'{name}', which a modal body has already")
         sets[name] = own = _node_numbers(where, nodes, len(elements.x))
         for node in own.tolist():
             if node in taken:

@@ -135,6 +135,10 @@ WRONG = {
     ),
     "unknown": ({"interfaces": {"a": [0, N]}}, f"interfaces['a']: expected nodes from 0 to {N - 1}, got node {N}"),
     "name": ({"interfaces": {"1a": [0, 1]}}, "interfaces: expected an interface name"),
+    "taken name": (
+        {"interfaces": {"ex": [0, 1]}},
+        "interfaces: expected another name, got 'ex', which a modal body has",
+    ),
     "one node": (
         {"interfaces": {"a": [0]}, "inner": 2},
         "expected two nodes or more, as nodes of solids do not turn, got 1 node; its turn is undetermined",
