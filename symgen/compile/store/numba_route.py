@@ -7,7 +7,8 @@ calls. Numba compiles in every process anew, as its cache does not know function
 from __future__ import annotations
 
 import functools
-from types import SimpleNamespace
+from collections.abc import Callable, Sequence
+from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numba
@@ -38,7 +39,9 @@ def signature_of(signature: types.Signature) -> Any:
 
 
 @functools.cache
-def dispatcher(function: Any, inlined: bool, contracted: bool = True, *signatures: types.Signature) -> Any:
+def dispatcher(
+    function: Callable[..., Any], inlined: bool, contracted: bool = True, *signatures: types.Signature
+) -> Any:
     """Return Numba's form of a plain function; with a signature it is compiled at once."""
     with CompilationClock():
         return numba.njit(
@@ -66,7 +69,7 @@ def _names_a_function(kind: types.Kind) -> bool:
     return any(isinstance(part, types.FunctionType) or _names_a_function(part) for part in parts)
 
 
-def argument(value: Any) -> Any:
+def argument(value: object) -> Any:
     """Return an argument as Numba's functions take it: functions, also those in records, as Numba's own."""
     from symgen.compile.store.jit import MachineFunction
 
@@ -74,8 +77,9 @@ def argument(value: Any) -> Any:
         parts = tuple(map(argument, value))
         return type(value)(*parts) if hasattr(value, "_fields") else parts
     # an argument is compiled for the type of its parameter, which one with a signature of its own does not allow
-    passed = isinstance(value, MachineFunction)
-    return dispatcher(value.py_func, value.inlined, value.contracted) if passed else value
+    if isinstance(value, MachineFunction):
+        return dispatcher(value.py_func, value.inlined, value.contracted)
+    return value
 
 
 def called(function: MachineFunction, *arguments: object) -> Any:
@@ -93,11 +97,11 @@ def type_in_callers(function: MachineFunction) -> Any:
     return Dispatcher(form_of(function))
 
 
-def type_of_plain(function: Any) -> Any:
+def type_of_plain(function: Callable[..., Any]) -> Any:
     """Return the type of a plain function where compiled code names it, copied into its callers."""
     return Dispatcher(dispatcher(function, True))
 
 
-def library(module: Any, names: tuple[str, ...], decorator: Any) -> Any:
+def library(module: ModuleType, names: Sequence[str], decorator: object) -> Any:
     """Return what an emitted module imports from Numba, with symgen's decorator in the place of ``njit``."""
     return SimpleNamespace(**{name: decorator if name == "njit" else getattr(module, name) for name in names})
