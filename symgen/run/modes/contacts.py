@@ -19,6 +19,7 @@ from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout.scales import larger_number
+from symgen.run.loops.search_records import COUNT, MARGIN, MEASURE, N_HEAD, RATE, ROW
 from symgen.run.modes.bounded_rows import (
     AT_REST,
     CONSTANT,
@@ -35,6 +36,7 @@ from symgen.run.modes.bounded_rows import (
     SIGN,
     TOO_MANY,
     Choice,
+    row_scale,
     usual_of,
 )
 from symgen.run.modes.choice import (
@@ -42,6 +44,7 @@ from symgen.run.modes.choice import (
     copy_state,
     find_mobility,
     find_rest,
+    measure_margins,
     size_forces,
     solve_rest,
     symmetrise,
@@ -528,3 +531,19 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
         c.shut[i] = 0
     add_forces(c)
     return int(write_modes(c, w)) if code == SAME else int(code)
+
+
+@exact(entry=True)
+def measure_margins_of_contacts(c: Choice, w: Array, hunt: Array) -> int:
+    """Do what `symgen.run.modes.choice.measure_margins` does; friction at rest that others carry is watched as well.
+
+    A drive may move it, though the rows in force stay at rest.
+    """
+    n, at, found = int(hunt[COUNT]), N_HEAD, measure_margins(c, w, hunt)
+    for k in range(n):
+        i = int(hunt[at + ROW * n + k])
+        numbers = c.first + MODE_NUMBERS * i
+        still = w[numbers + HELD] == 0.0 and w[numbers + SIGN] == 0.0
+        if hunt[at + MARGIN * n + k] == float(RATE) and c.pushes[i] == 0 and c.partner[i] >= 0 and still:
+            hunt[at + MEASURE * n + k] = row_scale(c, w, i, abi.SPEED)
+    return int(found)

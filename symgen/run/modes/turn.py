@@ -59,7 +59,7 @@ from symgen.run.modes.choice import (
     read_rows,
 )
 from symgen.run.modes.contact_impacts import find_struck_contacts, gather_contacts, strike_contacts
-from symgen.run.modes.contacts import choose_contacts
+from symgen.run.modes.contacts import choose_contacts, measure_margins_of_contacts
 from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_corners
 from symgen.run.modes.ends import find_undefined
 from symgen.run.modes.placing import put_gaps
@@ -383,6 +383,8 @@ def take_turn(code: int, modes: OfModes, state: EventState) -> int:
                 c.broken[modes.breaks[k]] = 1
             if modes.reverses[k] >= 0 and is_sliding(c, state.w, modes.reverses[k]):  # others begin to move
                 c.stopped[modes.reverses[k]] = 1
+            if CONTACTS and modes.reverses[k] >= 0 and c.partner[modes.reverses[k]] >= 0:  # a drive moves what rests
+                c.stopped[modes.reverses[k]] = 1
             if modes.leaves[k] >= 0:
                 c.left[modes.leaves[k]] = 1
             jammed = modes.jams[k] if modes.jams[k] >= 0 and jammed < 0 else jammed
@@ -392,6 +394,8 @@ def take_turn(code: int, modes: OfModes, state: EventState) -> int:
     ended = change_state(last, effects, state)
     if ended == e.IMPOSSIBLE:
         return int(ended)
+    if CONTACTS and jammed >= 0:
+        return int(refuse_fault(NO_CONTACT_MODES, float(jammed), 0.0, math.nan, modes))
     if jammed >= 0:
         return int(refuse_fault(JAMMED, float(jammed), 1.0, math.nan, modes))
     if chooses and choose_here(modes, state) != abi.DONE:
@@ -426,6 +430,7 @@ TOUCHED = Meanings(
     "runs with contacts",
     CONTACTS=True,
     choose_modes=choose_contacts,
+    measure_margins=measure_margins_of_contacts,
     find_struck=find_struck_contacts,
     strike=strike_contacts,
     gather=gather_contacts,

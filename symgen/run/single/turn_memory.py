@@ -87,7 +87,8 @@ def modes_of_runs(
     """
     choice = new_choice(compiled, rows, rate_functions(compiled.law_module), width, nw)
     choice.step[0] = first_step(span)
-    effects = effects_of_runs(compiled, watched, span.end, width, nw, keeps)
+    end = span.end if np.isfinite(span.end) else span.duration  # a run that is stepped has no end of its own
+    effects = effects_of_runs(compiled, watched, end, width, nw, keeps)
     hits = watched.events_of_rows(HIT, len(rows.names))
     losses = [-1] * rows.dry + [-1 if place is None else place for place in rows.losses]
 
