@@ -152,7 +152,7 @@ class BoundedRow(Protocol):
 
     @property
     def in_contact(self) -> bool:
-        """Whether it is a row of a contact, of a gap or of the friction along it."""
+        """Whether it is a row of a contact: of its gap, or along it."""
         ...
 
     @property

@@ -363,7 +363,7 @@ def test_code_of_dry_friction_and_stops_is_that_of_runs(name, tmp_path, monkeypa
     """Callers choose modes: with rows in force, with signs and with none, accelerations are those of runs."""
     assert main(["generate", name, "-o", str(tmp_path)]) == 0
     assert not (tmp_path / "simulate.py").exists()
-    assert "modes of dry friction and stops" in (tmp_path / "README.md").read_text()
+    assert "modes of contacts, dry friction and stops are chosen" in (tmp_path / "README.md").read_text()
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.delitem(sys.modules, "model", raising=False)
     law = load_module(tmp_path / "direct_correction.py")

@@ -55,7 +55,7 @@ REFUSED = {
     "cache inof": "no such command 'inof'",
     "new Crane": "expected lower-case words joined by dashes",
     "completion csh": "'csh' is not one of",
-    "compare pendulum -o report.doc": "--output: expected a file ending in .html, .md, .pdf, got 'report.doc'",
+    "compare pendulum -o report.doc": "--output: expected a file ending in .html, .md, .pdf, .tex, got 'report.doc'",
     "compare pendulum --resume nowhere/rows.journal": "expected a file in a folder that exists",
     "compare pendulum --jobs 0": "--jobs: expected a whole number from 1 to 4096, got 0",
     "compare pendulum --output": "requires an argument",

@@ -22,8 +22,12 @@ from symgen.describe.mechanism import Joint, Mechanism
 from symgen.describe.parts.scope import Scope
 
 PACKAGE = Path(symgen.__file__).parent
-#: Who may name a kind: its own room, formats of other programs, whose keys these are, and rolling, by its forces.
-NAMING = ("describe/bounds/", "describe/formats/", "describe/joints/rolling", "cli/compare.py")
+#: Who may name a kind: its own room, formats of other programs, whose keys these are, and rolling, by its forces; and
+#: the law of contacts, which is one of a gap and of the friction along it.
+NAMING = (
+    *("describe/bounds/", "describe/formats/", "describe/joints/rolling", "cli/compare.py"),
+    *("run/modes/contact", "run/modes/refusals.py", "run/effects/pushing.py", "run/directions/push_directions.py"),
+)
 PENDULUM = """
 [mechanism]
 name = "brake"

@@ -324,7 +324,7 @@ def make_subject(mechanism: Mechanism, settings: Settings, by: Sequence[str] = (
     InputError
         If a setting is wrong, or a name of `by` is no parameter.
     """
-    refuse_contacts("analyses at a state", mechanism, friction=True)
+    refuse_contacts("analyses at a state", mechanism, only_along=True)
     settings = _without_bounded_state(mechanism, settings)
     mechanism, pushing = without_bounds(mechanism), one_sided_rows(mechanism)
     placed, inputs = put_inputs_at_start(mechanism, settings), mechanism.inputs

@@ -203,7 +203,7 @@ def refuse_bounds(where: str, mechanism: Mechanism) -> None:
         raise InputError(where, f"a mechanism without {family.noun}", family.named.format(names), family.hint)
 
 
-def refuse_contacts(where: str, mechanism: Mechanism, friction: bool = False) -> None:
+def refuse_contacts(where: str, mechanism: Mechanism, only_along: bool = False) -> None:
     """Refuse a mechanism with contacts, or with friction of contacts, where nothing takes them.
 
     Raises
@@ -211,7 +211,7 @@ def refuse_contacts(where: str, mechanism: Mechanism, friction: bool = False) ->
     InputError
         If it has any.
     """
-    rows = [row for row in mechanism.bounded if (row.signed if friction else row.in_contact)]
+    rows = [row for row in mechanism.bounded if (row.signed if only_along else row.in_contact)]
     if rows:
         family, names = rows[0].family, ", ".join(dict.fromkeys(row.name for row in rows))
         raise InputError(where, f"a mechanism without {family.noun}", family.named.format(names), family.hint)

@@ -71,9 +71,10 @@ def all_families() -> tuple[RowFamily, ...]:
     return tuple(dict.fromkeys(kind.family for _, kind in BOUNDS.items()))
 
 
-def nouns_of_families(word: str = "noun", joined: str = " and ") -> str:
-    """Return a word of all families, joined: what rows with bounds are."""
-    return joined.join(getattr(family, word) for family in all_families())
+def nouns_of_families(word: str = "noun", joined: str = "and") -> str:
+    """Return a word of all families as an enumeration: what rows with bounds are."""
+    *words, last = (str(getattr(family, word)) for family in all_families())
+    return f"{', '.join(words)} {joined} {last}"
 
 
 def inspection_lines(facts: Mapping[str, Any]) -> Iterator[str]:

@@ -147,8 +147,8 @@ def refuse_loops(mechanism: Mechanism) -> None:
 
 def straight_alone(mechanism: Mechanism) -> str:
     """Return what of a file exists as straight code alone; empty where loops take all of it."""
-    if any(row.signed for row in mechanism.bounded):
-        return "friction of contacts"
+    if signed := [row for row in mechanism.bounded if row.signed]:
+        return signed[0].family.noun
     if mechanism.has_modal_bodies:
         return "modal bodies"
     return "rows that may be off" if mechanism.switchable else ""

@@ -103,7 +103,7 @@ class BoundedNames:
     contacts : tuple of int
         One-sided rows that are gaps of contacts.
     partners : tuple of int
-        Of each row the other one of its contact, a gap or the friction along it; -1 for others.
+        Of each row the other row of its contact, the gap or what acts along it; -1 for others.
     """
 
     names: tuple[str, ...]

@@ -122,7 +122,7 @@ def log_changes_in_pieces(t: float, c: Choice, w: Array, log: Transitions) -> in
 
 @exact(entry=True)
 def log_changes_of_contacts(t: float, c: Choice, w: Array, log: Transitions) -> int:
-    """Do what `log_changes` does, where the friction of a contact has transitions as long as it is closed."""
+    """Do what `log_changes` does, where the row along a gap has transitions as long as the gap is closed."""
     for i in range(c.count):
         sign, before, j = w[c.first + MODE_NUMBERS * i + SIGN], log.signs[i], c.partner[i]
         if c.pushes[i] == 0 and sign != before and (j < 0 or (log.shut[j] != 0 and is_held(c, w, j))):
