@@ -21,7 +21,7 @@ from symgen.base.settings import COORDINATES, SHAPES
 from symgen.describe import catalogue
 from symgen.describe.files.origins import Source
 from symgen.describe.modal.modal_file import ModalFile, read_modal_file, with_whole_paths
-from symgen.describe.modal_body import COORDINATE, PREFIXES, SPEED, mode_names
+from symgen.describe.modal_body import COORDINATE, PREFIXES, SPEED, names_of_modes
 from symgen.describe.parts.bodies import is_modal
 
 #: Files above this size in bytes are not read at a key press.
@@ -170,7 +170,7 @@ def _columns_of_body(table: Mapping[str, Any], spatial: bool) -> Iterator[str]:
     for point in _names_of_section(table, "points"):
         yield from (point, *(f"{point}.{x}" for x in _POINT[spatial]))
     if modal is not None:
-        yield from (name for x in PREFIXES for name in mode_names(x, len(modal.stiffness)))
+        yield from (name for x in PREFIXES for name in names_of_modes(x, len(modal.stiffness)))
         yield from (row.label for row in modal.rows)
         for interface in modal.interfaces:
             yield from (interface, *(f"{interface}.{x}" for x in _POINT[spatial]))
@@ -195,7 +195,7 @@ def _complete_start(context: click.Context) -> list[str]:
     for body in _names_of_section(raw, "bodies"):
         modal = _modal_file(raw["bodies"][body])
         count = 0 if modal is None else len(modal.stiffness)
-        names += [f"{body}.{x}" for x in (*own, *mode_names(COORDINATE, count), *mode_names(SPEED, count))]
+        names += [f"{body}.{x}" for x in (*own, *names_of_modes(COORDINATE, count), *names_of_modes(SPEED, count))]
     return names
 
 

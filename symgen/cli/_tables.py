@@ -13,7 +13,7 @@ from rich.text import Text
 
 from symgen.base.digits import digits, format_column, scale_of
 from symgen.base.errors import InputError, fit_lines, plural
-from symgen.describe.modal_body import COORDINATE, MOST_MODES, SPEED, mode_names
+from symgen.describe.modal_body import COORDINATE, MOST_MODES, SPEED, names_of_modes
 
 if TYPE_CHECKING:
     import numpy as np
@@ -168,8 +168,8 @@ def _final_state(result: Result, most: int = 12) -> tuple[list[str], list[tuple[
 #: Coordinates and velocities of bodies in the order in which they are shown.
 _LABELS = (
     *("x", "y", "z", "theta", "e0", "e1", "e2", "e3", "vx", "vy", "vz", "omega", "wx", "wy", "wz"),
-    *mode_names(COORDINATE, MOST_MODES),
-    *mode_names(SPEED, MOST_MODES),
+    *names_of_modes(COORDINATE, MOST_MODES),
+    *names_of_modes(SPEED, MOST_MODES),
 )
 
 

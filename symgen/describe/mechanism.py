@@ -14,7 +14,15 @@ from symgen.base.vocabulary.expressions import ZERO, Expr
 from symgen.base.vocabulary.measures import Direction, Effort, Flexure, Marker, Measure, Row
 from symgen.base.vocabulary.rotations import IDENTITY, Orientation
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.modal_body import ACCELERATION, COORDINATE, MOST_MODES, SPEED, Carried, Modal, mode_names
+from symgen.describe.modal_body import (
+    ACCELERATION,
+    COORDINATE,
+    MOST_MODES,
+    SPEED,
+    CarriedInterface,
+    Modal,
+    names_of_modes,
+)
 from symgen.describe.spanning_tree import Topology
 from symgen.describe.table_functions import Table
 
@@ -29,7 +37,7 @@ ACCELERATIONS = {
     "wx": "alphax",
     "wy": "alphay",
     "wz": "alphaz",
-    **dict(zip(mode_names(SPEED, MOST_MODES), mode_names(ACCELERATION, MOST_MODES), strict=True)),
+    **dict(zip(names_of_modes(SPEED, MOST_MODES), names_of_modes(ACCELERATION, MOST_MODES), strict=True)),
 }
 
 
@@ -86,7 +94,7 @@ class Body(msgspec.Struct, frozen=True):
     velocity: tuple[Expr | None, ...] = (None, None)  # of the centre of mass; None: completed by assembly
     angular_velocity: Expr | None = None
     modal: Modal | None = None
-    carried: Carried | None = None
+    carried: CarriedInterface | None = None
 
     @property
     def is_point(self) -> bool:
@@ -132,7 +140,7 @@ class SpatialBody(msgspec.Struct, frozen=True):
     velocity: tuple[Expr | None, ...] = (None, None, None)
     angular_velocity: tuple[Expr | None, ...] = (None, None, None)
     modal: Modal | None = None
-    carried: Carried | None = None
+    carried: CarriedInterface | None = None
 
     @property
     def is_point(self) -> bool:
@@ -175,8 +183,8 @@ def names_of_modal_body(dimension: int, count: int) -> tuple[str, ...]:
     """Return the names of coordinates, velocities and accelerations that a modal body has."""
     moving, turning = tuple("xyz"[:dimension]), ("theta",) if dimension == 2 else ("e0", "e1", "e2", "e3")
     speeds = tuple(f"v{x}" for x in moving) + (("omega",) if dimension == 2 else ("wx", "wy", "wz"))
-    speeds += mode_names(SPEED, count)
-    return (*moving, *turning, *mode_names(COORDINATE, count), *speeds, *(ACCELERATIONS[speed] for speed in speeds))
+    speeds += names_of_modes(SPEED, count)
+    return (*moving, *turning, *names_of_modes(COORDINATE, count), *speeds, *(ACCELERATIONS[speed] for speed in speeds))
 
 
 class Shape(msgspec.Struct, frozen=True):

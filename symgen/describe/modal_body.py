@@ -18,7 +18,7 @@ Numbers = tuple[float, ...]
 Matrix = tuple[Numbers, ...]
 
 
-class Outline(msgspec.Struct, frozen=True):
+class ModalOutline(msgspec.Struct, frozen=True):
     """Lines of a modal body in pictures: points from its origin, how modes move them, and pairs that lines join."""
 
     points: tuple[Numbers, ...] = ()
@@ -72,7 +72,7 @@ class Modal(msgspec.Struct, frozen=True):
         How many modes there are besides those of interfaces.
     rows : tuple of ModalRow
         Quantities that formulas read.
-    outline : Outline
+    outline : ModalOutline
         For pictures.
     start : tuple of (str, Expr)
         Coordinates and velocities of modes that the file gives.
@@ -85,7 +85,7 @@ class Modal(msgspec.Struct, frozen=True):
     mass: float
     inner: int
     rows: tuple[ModalRow, ...] = ()
-    outline: Outline = Outline()
+    outline: ModalOutline = ModalOutline()
     start: tuple[tuple[str, Expr], ...] = ()
 
     @property
@@ -95,7 +95,7 @@ class Modal(msgspec.Struct, frozen=True):
 
     def names(self, prefix: str) -> tuple[str, ...]:
         """Return the names of coordinates, velocities or accelerations of modes, without the body's."""
-        return mode_names(prefix, len(self.stiffness))
+        return names_of_modes(prefix, len(self.stiffness))
 
 
 class InterfaceLoad(msgspec.Struct, frozen=True):
@@ -113,7 +113,7 @@ class InterfaceLoad(msgspec.Struct, frozen=True):
     length: float
 
 
-class Carried(msgspec.Struct, frozen=True):
+class CarriedInterface(msgspec.Struct, frozen=True):
     """An interface of a modal body: a frame at `place` + `shape` m from the centre of mass, turned by `turn` m."""
 
     host: str
@@ -128,7 +128,7 @@ class Carried(msgspec.Struct, frozen=True):
         return self.host, self.place, self.shape, self.turn
 
 
-def mode_names(prefix: str, count: int) -> tuple[str, ...]:
+def names_of_modes(prefix: str, count: int) -> tuple[str, ...]:
     """Return the names m1, m2, ... of what modes have."""
     return tuple(f"{prefix}{i}" for i in range(1, count + 1))
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.modal_body import Carried
+from symgen.describe.modal_body import CarriedInterface
 
 Array = NDArray[np.float64]
 
@@ -32,12 +32,12 @@ class InterfacePoses(NamedTuple):
         return np.asarray(self.origins + (self.turns @ own[:, :, np.newaxis])[:, :, 0])
 
 
-def interface_poses(carried: Carried, modes: Array) -> InterfacePoses:
+def interface_poses(carried: CarriedInterface, modes: Array) -> InterfacePoses:
     """Return the poses of an interface.
 
     Parameters
     ----------
-    carried : Carried
+    carried : CarriedInterface
         The interface.
     modes : Array, shape (k, modes)
         Coordinates of the modes of its body [m].

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import AnyBody, Mechanism
-from symgen.describe.modal_body import Carried, Modal
+from symgen.describe.modal_body import CarriedInterface, Modal
 from symgen.result.points import rotation_matrices
 
 if TYPE_CHECKING:
@@ -129,7 +129,7 @@ class _Moving(NamedTuple):
             own_a[:, d + r :],
         )
 
-    def forces_on(self, carried: Carried, gravity: Array) -> Array:
+    def forces_on(self, carried: CarriedInterface, gravity: Array) -> Array:
         """Return the force on an interface in body axes, whatever exerts it, shape (k, d)."""
         load = carried.load
         falling = (np.swapaxes(self.axes, 1, 2) @ (self.acceleration - gravity)[:, :, np.newaxis])[:, :, 0]

@@ -18,7 +18,7 @@ from symgen.base.vocabulary.rotations import rotation_matrix_of
 from symgen.describe.facts.lengths import origin_of_sizes, own_length
 from symgen.describe.formulas.evaluate import scalar_values
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.modal_body import Carried
+from symgen.describe.modal_body import CarriedInterface
 from symgen.result.interface_poses import interface_poses
 
 Array = NDArray[np.float64]
@@ -40,7 +40,7 @@ class Points:
         The place that a point is measured from (`symgen.describe.facts.lengths.origin_of_sizes`).
     speeds : tuple of int
         For each body where its velocities begin.
-    carried : tuple of (int, int, Carried)
+    carried : tuple of (int, int, CarriedInterface)
         Interfaces of modal bodies: where the coordinates of the body begin, and where its modes do.
     """
 
@@ -49,13 +49,13 @@ class Points:
     slender: bool = False
     datum: tuple[float, ...] = ()
     speeds: tuple[int, ...] = ()
-    carried: tuple[tuple[int, int, Carried], ...] = ()
+    carried: tuple[tuple[int, int, CarriedInterface], ...] = ()
 
     @classmethod
     def of_mechanism(cls, mechanism: Mechanism, parameters: Mapping[str, float]) -> Points:
         """Collect the bodies of `mechanism` with the lengths that they have at these parameters."""
         bodies, speeds, first, first_speed = [], [], 0, 0
-        carried, places = list[tuple[int, int, Carried]](), dict[str, tuple[int, int]]()
+        carried, places = list[tuple[int, int, CarriedInterface]](), dict[str, tuple[int, int]]()
         for body in mechanism.bodies:
             if body.carried is not None:
                 carried.append((*places[body.carried.host], body.carried))
@@ -115,7 +115,7 @@ class Points:
             largest = np.maximum(largest, np.linalg.norm(away, axis=1))
         return largest
 
-    def _interface_places(self, interface: tuple[int, int, Carried], q: Array) -> Array:
+    def _interface_places(self, interface: tuple[int, int, CarriedInterface], q: Array) -> Array:
         """Return the places of an interface, shape (k, dimension)."""
         (first, modes, carried), n = interface, self.dimension
         turn = slice(first + n, first + n + (1 if n == 2 else 4))

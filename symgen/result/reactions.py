@@ -14,7 +14,7 @@ from symgen.base.ir.program import MODE_NUMBERS
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.facts.carriers import bodies_of_reactions
 from symgen.describe.formulas.evaluate import evaluate
-from symgen.describe.modal_body import COORDINATE, mode_names
+from symgen.describe.modal_body import COORDINATE, names_of_modes
 from symgen.result.interface_poses import interface_poses
 from symgen.result.labelled import Array, Labelled
 from symgen.result.points import rotation_matrices
@@ -23,7 +23,7 @@ from symgen.run.layout import abi
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.describe.modal_body import Carried
+    from symgen.describe.modal_body import CarriedInterface
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
     from symgen.run.single.outcome import Motion
 
@@ -38,7 +38,7 @@ class Seat:
 
     body: str
     place: tuple[float, ...] | Array
-    carried: Carried | None = None
+    carried: CarriedInterface | None = None
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ class Acting:
         """Return the place of a seat from the centre of mass of its body, in axes of the body."""
         if seat.carried is None:
             return np.asarray(seat.place)
-        names = mode_names(COORDINATE, len(seat.carried.shape))
+        names = names_of_modes(COORDINATE, len(seat.carried.shape))
         modes = np.column_stack(self._coordinates_of_body(seat.body, names))
         return interface_poses(seat.carried, modes).place(np.asarray(seat.place))
 

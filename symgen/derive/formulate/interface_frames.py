@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from symgen.derive.formulate.vector_algebra import PlaneVectors, Triple, Vectors
-from symgen.describe.modal_body import Carried, Numbers
+from symgen.describe.modal_body import CarriedInterface, Numbers
 
 if TYPE_CHECKING:
     from symgen.derive.formulate.measure_nodes import ModelNodes
@@ -44,7 +44,7 @@ class InterfaceFrame:
     angle: int = 0
 
 
-def interface_frame(model: ModelNodes, carried: Carried) -> InterfaceFrame:
+def interface_frame(model: ModelNodes, carried: CarriedInterface) -> InterfaceFrame:
     """Return the frame of an interface."""
     return _in_space(model, carried) if model.spatial else _in_plane(model, carried)
 
@@ -63,7 +63,7 @@ def _columns(model: ModelNodes, parts: Sequence[tuple[int, tuple[int, ...]]], si
     return [{i: column[a] for i, column in parts if column[a] != model.graph.zero} for a in range(size)]
 
 
-def _in_plane(model: ModelNodes, carried: Carried) -> InterfaceFrame:
+def _in_plane(model: ModelNodes, carried: CarriedInterface) -> InterfaceFrame:
     g, v = model.graph, PlaneVectors(model.graph)
     first, (m, rates) = model.first[carried.host], model.modes(carried.host)
     x, y, c, s, vx, vy, w = model.frame_inputs(carried.host)
@@ -86,7 +86,7 @@ def _in_plane(model: ModelNodes, carried: Carried) -> InterfaceFrame:
     return InterfaceFrame(slots, (*_columns(model, moving, 2), turning), (*bias, g.zero), angle)
 
 
-def _in_space(model: ModelNodes, carried: Carried) -> InterfaceFrame:
+def _in_space(model: ModelNodes, carried: CarriedInterface) -> InterfaceFrame:
     g, v = model.graph, Vectors(model.graph)
     first, (m, rates) = model.first[carried.host], model.modes(carried.host)
     host = model.frame_inputs(carried.host)

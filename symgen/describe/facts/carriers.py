@@ -15,7 +15,7 @@ from symgen.base.vocabulary.expressions import (
 )
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.mechanism import Mechanism, Vec
-from symgen.describe.modal_body import COORDINATE, Carried, Numbers, mode_names
+from symgen.describe.modal_body import COORDINATE, CarriedInterface, Numbers, names_of_modes
 
 
 def carrier_of(mechanism: Mechanism, body: str) -> str:
@@ -56,9 +56,9 @@ def seats_on_carriers(mechanism: Mechanism) -> dict[str, tuple[Vec, Vec]]:
     return found
 
 
-def point_of_interface(carried: Carried, point: Vec) -> Vec:
+def point_of_interface(carried: CarriedInterface, point: Vec) -> Vec:
     """Return a point of an interface from the centre of mass of its body, in the axes of that body."""
-    modes = [Name(f"{carried.host}.{m}") for m in mode_names(COORDINATE, len(carried.shape))]
+    modes = [Name(f"{carried.host}.{m}") for m in names_of_modes(COORDINATE, len(carried.shape))]
 
     def combined(start: Numbers, parts: tuple[Numbers, ...], factor: float = 1.0) -> Vec:
         return tuple(

@@ -64,7 +64,7 @@ from symgen.base.vocabulary.measures import (
     axes,
 )
 from symgen.describe.mechanism import AnyBody, Force, Joint, Mechanism
-from symgen.describe.modal_body import COORDINATE, Modal, ModalRow, mode_names
+from symgen.describe.modal_body import COORDINATE, Modal, ModalRow, names_of_modes
 
 if TYPE_CHECKING:
     from symgen.describe.parts.context import Context
@@ -114,7 +114,7 @@ def readings_of_interface(body: AnyBody, dimension: int, order: int) -> Table:
 
 def row_formula(body: str, row: ModalRow) -> Expr:
     """Return a row of the file of a modal body as a formula of the coordinates of its modes."""
-    names = mode_names(COORDINATE, len(row.factors))
+    names = names_of_modes(COORDINATE, len(row.factors))
     terms = (call("mul", literal_of(x), Name(f"{body}.{m}")) for x, m in zip(row.factors, names, strict=True))
     return sum_of_terms(*terms)
 

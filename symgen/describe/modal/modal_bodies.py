@@ -24,7 +24,7 @@ from symgen.base.vocabulary.expressions import (
 from symgen.base.vocabulary.measures import Effort, FormulaMeasure
 from symgen.describe.mechanism import AnyBody, Body, Force, Hold, SpatialBody
 from symgen.describe.modal.modal_file import ModalFile, find_modal_file, read_modal_file
-from symgen.describe.modal_body import COORDINATE, SPEED, Carried, Modal
+from symgen.describe.modal_body import COORDINATE, SPEED, CarriedInterface, Modal
 from symgen.describe.parts.bodies import is_modal, optional_vector, read_orientation
 from symgen.describe.parts.collected import Errors
 from symgen.describe.parts.fields import Held, ModeStart, Scalar, Text, Vector, read_table
@@ -214,7 +214,7 @@ class ModalBodies:
         content = self._files[host]
         frame = content.interfaces[name]
         place = tuple(x - c for x, c in zip(frame.place, content.centre, strict=True))
-        carried = Carried(host, place, frame.shape, frame.turn, frame.load)
+        carried = CarriedInterface(host, place, frame.shape, frame.turn, frame.load)
         if scope.spatial:
             return SpatialBody(scope.name, ZERO, (ONE, ONE, ONE, ZERO, ZERO, ZERO), carried=carried)
         return Body(scope.name, ZERO, ONE, carried=carried)

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from symgen.base.errors import InputError, quote, suggest
-from symgen.describe.modal_body import MOST_MODES, InterfaceLoad, Matrix, ModalRow, Numbers, Outline
+from symgen.describe.modal_body import MOST_MODES, InterfaceLoad, Matrix, ModalOutline, ModalRow, Numbers
 from symgen.describe.parts.bodies import is_modal
 
 #: End of the name, and version of the content.
@@ -61,7 +61,7 @@ class ModalFile(NamedTuple):
     cross: tuple[tuple[Numbers, ...], ...]
     interfaces: dict[str, InterfaceFile]
     rows: tuple[ModalRow, ...]
-    outline: Outline
+    outline: ModalOutline
 
     @property
     def dimension(self) -> int:
@@ -191,7 +191,7 @@ def _read(path: str, changed: int, size: int) -> ModalFile:
         },
         interfaces={name: InterfaceFile(*frame) for name, frame in zip(arrays["interfaces"], frames, strict=True)},
         rows=rows,
-        outline=Outline(arrays["points"], arrays["point_shapes"], arrays["lines"]),
+        outline=ModalOutline(arrays["points"], arrays["point_shapes"], arrays["lines"]),
     )
 
 

@@ -15,14 +15,14 @@ from symgen.base.vocabulary.measures import GROUND, Angle, Driven, Holonomic, Me
 from symgen.base.vocabulary.quantities import Quantity
 from symgen.describe.formulas.readings import integrals_of_outputs
 from symgen.describe.mechanism import ACCELERATIONS, Joint, Mechanism, SpatialBody
-from symgen.describe.modal_body import MOST_MODES, UNITS_OF_MODES, mode_names
+from symgen.describe.modal_body import MOST_MODES, UNITS_OF_MODES, names_of_modes
 from symgen.describe.parts.kinds import JOINTS
 from symgen.describe.spanning_tree import Articulation, Link, Prescribed, Topology
 
 #: Units of the coordinates and velocities of bodies.
 UNITS = {
     **{"x": "m", "y": "m", "theta": "rad", "vx": "m/s", "vy": "m/s", "omega": "rad/s"},
-    **{name: unit for prefix, unit in UNITS_OF_MODES.items() for name in mode_names(prefix, MOST_MODES)},
+    **{name: unit for prefix, unit in UNITS_OF_MODES.items() for name in names_of_modes(prefix, MOST_MODES)},
     **{"z": "m", "e0": "1", "e1": "1", "e2": "1", "e3": "1", "vz": "m/s", "wx": "rad/s", "wy": "rad/s", "wz": "rad/s"},
 }
 

@@ -15,7 +15,7 @@ from scipy import linalg, sparse
 from scipy.sparse.linalg import LinearOperator, SuperLU, eigsh, splu
 
 from symgen.base.errors import InputError, plural
-from symgen.describe.reduction.elements import Array, Elements, Sparse
+from symgen.describe.reduction.finite_elements import Array, FiniteElements, Sparse
 
 #: From this many unknowns on eigenvalues are found one by one.
 DENSE = 600
@@ -26,7 +26,7 @@ SOFT = 1e-12
 
 
 @dataclass(frozen=True)
-class Modes:
+class ModeBasis:
     """Modes of a body.
 
     Attributes
@@ -53,12 +53,12 @@ class Modes:
     inside: NDArray[np.int64]
 
 
-def modes_of(elements: Elements, x: Array, sets: Mapping[str, NDArray[np.int64]], inner: int) -> Modes:
+def modes_of(elements: FiniteElements, x: Array, sets: Mapping[str, NDArray[np.int64]], inner: int) -> ModeBasis:
     """Return the modes of a body.
 
     Parameters
     ----------
-    elements : Elements
+    elements : FiniteElements
         The body.
     x : Array, shape (n, d)
         Nodes from the centre of mass.
@@ -91,7 +91,7 @@ def modes_of(elements: Elements, x: Array, sets: Mapping[str, NDArray[np.int64]]
             basis = np.hstack([static, whole])
         count = basis.shape[1] - rigid.shape[1]
     shapes, squares = _without_rigid_motions(elements, basis, rigid, count)
-    return Modes(shapes, squares, seats, static, factor, inside)
+    return ModeBasis(shapes, squares, seats, static, factor, inside)
 
 
 def _factor(k: Sparse) -> SuperLU:
@@ -131,7 +131,7 @@ def _free_modes(m: Sparse, k: Sparse, rigid: Array, count: int) -> Array:
     return np.asarray(eigsh(k, more, m, sigma=shift, v0=start)[1])
 
 
-def _without_rigid_motions(elements: Elements, basis: Array, rigid: Array, count: int) -> tuple[Array, Array]:
+def _without_rigid_motions(elements: FiniteElements, basis: Array, rigid: Array, count: int) -> tuple[Array, Array]:
     """Return the modes that a basis has besides rigid motions, and the squares of their frequencies."""
     m, k = elements.mass, elements.stiffness
     momenta = np.linalg.inv(rigid.T @ (m @ rigid))

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from symgen.describe.reduction.basis import Modes
-from symgen.describe.reduction.elements import Array, Elements
+from symgen.describe.reduction.basis import ModeBasis
+from symgen.describe.reduction.finite_elements import Array, FiniteElements
 
 #: Integrals below this part of the mass, or of the mass times the size of the body, are rounding.
 ROUNDING = 1e-12
@@ -35,7 +35,7 @@ class Integrals:
     cross: Array
 
 
-def integrals_of(elements: Elements, x: Array, modes: Modes) -> Integrals:
+def integrals_of(elements: FiniteElements, x: Array, modes: ModeBasis) -> Integrals:
     """Return the integrals over a body, whose nodes are at `x` from its centre of mass.
 
     Rotary inertias of nodes are part of the inertia; that they turn with the modes is of second order, and left out.
@@ -61,7 +61,7 @@ def _without_rounding(numbers: Array, scale: float) -> Array:
     return np.where(np.abs(numbers) > ROUNDING * scale, numbers, 0.0)
 
 
-def _displacements(elements: Elements, shapes: Array) -> Array:
+def _displacements(elements: FiniteElements, shapes: Array) -> Array:
     """Return the displacements of all nodes, shape (k, n, d)."""
     n, d = elements.x.shape
     return np.ascontiguousarray(shapes.T.reshape(-1, n, elements.unknowns)[:, :, :d])
@@ -81,7 +81,7 @@ def _axis(s: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Bearing:
+class InterfaceStiffness:
     """What an interface carries, and from when on linear modes are in doubt; d components of a place.
 
     The force on an interface, in body axes, is what balances its static shape of a unit motion, all others held:
@@ -113,7 +113,7 @@ class Bearing:
 FARTHER = 1.2
 
 
-def bearings_of(elements: Elements, x: Array, modes: Modes) -> list[Bearing]:
+def bearings_of(elements: FiniteElements, x: Array, modes: ModeBasis) -> list[InterfaceStiffness]:
     """Return what each interface carries."""
     d, r = elements.dimension, elements.rotations
     motions = d + r
@@ -121,7 +121,7 @@ def bearings_of(elements: Elements, x: Array, modes: Modes) -> list[Bearing]:
     weighted = np.array([elements.density @ field for field in fields])
     springs = elements.stiffness @ modes.shapes
     stiffness = modes.static.T @ (elements.stiffness @ modes.static)
-    seats, bearings = list(modes.seats.values()), list[Bearing]()
+    seats, bearings = list(modes.seats.values()), list[InterfaceStiffness]()
     for i, seat in enumerate(seats):
         moves = modes.static[:, motions * i : motions * i + d]
         shapes = _displacements(elements, moves)
@@ -132,7 +132,7 @@ def bearings_of(elements: Elements, x: Array, modes: Modes) -> list[Bearing]:
             pairs.append(_free_end(elements, x, modes, seat))
         least, length = min(pairs, key=lambda pair: pair[0] * pair[1])
         bearings.append(
-            Bearing(
+            InterfaceStiffness(
                 elastic=moves.T @ springs,
                 shifted=heavy.sum(axis=1),
                 spread=np.einsum("anb,nc->abc", heavy, x),
@@ -160,7 +160,7 @@ def _pairs(stiffness: Array, seats: list[Array], i: int, motions: int) -> list[t
     return pairs
 
 
-def _free_end(elements: Elements, x: Array, modes: Modes, seat: Array) -> tuple[float, float]:
+def _free_end(elements: FiniteElements, x: Array, modes: ModeBasis, seat: Array) -> tuple[float, float]:
     """Return the least stiffness of the node that is farthest from an interface, all interfaces held."""
     away = np.linalg.norm(x - seat, axis=1)
     far = int(np.argmax(away))

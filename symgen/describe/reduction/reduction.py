@@ -24,9 +24,9 @@ from symgen.describe.mechanism import names_of_modal_body
 from symgen.describe.modal.modal_file import SUFFIX, VERSION
 from symgen.describe.modal_body import MOST_MODES
 from symgen.describe.reduction.basis import modes_of
-from symgen.describe.reduction.elements import (
+from symgen.describe.reduction.finite_elements import (
     Array,
-    Elements,
+    FiniteElements,
     read_elements,
     read_interfaces,
     read_lines,
@@ -213,7 +213,7 @@ def _plain(array: NDArray[np.generic]) -> NDArray[np.generic]:
 
 
 def _interface_motions(
-    elements: Elements, x: Array, shapes: Array, sets: Mapping[str, NDArray[np.int64]], seats: Mapping[str, Array]
+    elements: FiniteElements, x: Array, shapes: Array, sets: Mapping[str, NDArray[np.int64]], seats: Mapping[str, Array]
 ) -> tuple[Array, Array]:
     """Return what each mode moves and turns each interface by, shapes (i, k, d), (i, k, r)."""
     d, r, k = elements.dimension, elements.rotations, shapes.shape[1]
@@ -226,7 +226,7 @@ def _interface_motions(
 
 
 def _read_rows(
-    given: Mapping[str, object] | None, elements: Elements, shapes: Array, interfaces: tuple[str, ...]
+    given: Mapping[str, object] | None, elements: FiniteElements, shapes: Array, interfaces: tuple[str, ...]
 ) -> tuple[list[str], list[str], Array]:
     """Return the name and the unit of each row, and the rows over the coordinates of modes."""
     names, units, values = list[str](), list[str](), [np.zeros((0, shapes.shape[1]))]
@@ -260,7 +260,7 @@ def _read_rows(
 
 
 def _outline(
-    given: object, elements: Elements, sets: Mapping[str, NDArray[np.int64]]
+    given: object, elements: FiniteElements, sets: Mapping[str, NDArray[np.int64]]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return the nodes of the outline, and pairs of places in them that lines join."""
     x = elements.x
@@ -279,7 +279,7 @@ def _outline(
     return points, ends.astype(np.int64)
 
 
-def _ways(elements: Elements, sets: Mapping[str, NDArray[np.int64]]) -> list[NDArray[np.int64]]:
+def _ways(elements: FiniteElements, sets: Mapping[str, NDArray[np.int64]]) -> list[NDArray[np.int64]]:
     """Return the shortest ways along elements from the first interface to all others, or through the whole body."""
     x, u = elements.x, elements.unknowns
     coupled = abs(elements.stiffness[::u, ::u]).tocoo()

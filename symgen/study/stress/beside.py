@@ -23,7 +23,7 @@ DIGITS = 2
 
 
 @dataclass(frozen=True)
-class Beside:
+class LineBeside:
     """Methods with the same numbers, on one integrator.
 
     Attributes
@@ -45,7 +45,7 @@ class Beside:
     reached: dict[str, float | None]
 
 
-def beside_yardstick(study: Stress) -> tuple[Beside, ...]:
+def beside_yardstick(study: Stress) -> tuple[LineBeside, ...]:
     """Return all methods beside `lagrange`, those with the same numbers as one; none without `lagrange`."""
     shown = Map.of_study(study)
     groups: dict[tuple[str, ...], list[str]] = {}
@@ -62,7 +62,7 @@ def beside_yardstick(study: Stress) -> tuple[Beside, ...]:
         key = (integrator, *map(_text, ratios.values()), *map(_text, reached.values()))
         groups.setdefault(key, []).append(method)
         numbers[key] = ratios, reached
-    return tuple(Beside(tuple(names), key[0], *numbers[key]) for key, names in groups.items())
+    return tuple(LineBeside(tuple(names), key[0], *numbers[key]) for key, names in groups.items())
 
 
 def _ratios(
@@ -95,7 +95,7 @@ def _text(value: float | None) -> str:
     return "" if value is None else f"{value:.{DIGITS}g}"
 
 
-def cells_beside(line: Beside, families: Sequence[str], searched: Sequence[str]) -> tuple[str, ...]:
+def cells_beside(line: LineBeside, families: Sequence[str], searched: Sequence[str]) -> tuple[str, ...]:
     """Return the cells of a line: ratios by family, and largest steps."""
     return (
         *(_text(line.ratios.get(family)) for family in families),
@@ -103,7 +103,7 @@ def cells_beside(line: Beside, families: Sequence[str], searched: Sequence[str])
     )
 
 
-def families_beside(lines: Sequence[Beside]) -> tuple[list[str], list[str]]:
+def families_beside(lines: Sequence[LineBeside]) -> tuple[list[str], list[str]]:
     """Return the families in which a ratio is other than 1 for some line, and those with searches."""
     names = list(dict.fromkeys(family for line in lines for family in line.ratios))
     telling = [x for x in names if {_text(line.ratios[x]) for line in lines if x in line.ratios} - {"", "1"}]

@@ -37,7 +37,7 @@ DIRECTIONS = {
 
 
 @dataclass(frozen=True)
-class Elements:
+class FiniteElements:
     """The finite elements of a body.
 
     Attributes
@@ -103,7 +103,7 @@ class Elements:
         return np.asarray((nodes[:, None] * self.unknowns + np.arange(self.unknowns)).ravel())
 
 
-def read_elements(nodes: object, mass: object, stiffness: object) -> Elements:
+def read_elements(nodes: object, mass: object, stiffness: object) -> FiniteElements:
     """Return finite elements whose arrays are right.
 
     Raises
@@ -124,7 +124,7 @@ def read_elements(nodes: object, mass: object, stiffness: object) -> Elements:
     whole = float(density.sum())
     if not whole > 0.0:
         raise InputError("M", "a mass above 0", f"{whole:g} kg", "the density of the material is missing")
-    elements = Elements(x, lumped, k, density, rotary)
+    elements = FiniteElements(x, lumped, k, density, rotary)
     if whole < LIGHTEST * elements.size**3:
         got = f"{whole:.3g} kg in a body of {elements.size:.3g} m"
         raise InputError("nodes, M", "SI units: metres, kilograms, seconds", got, "tonnes and mm?")
@@ -207,7 +207,7 @@ def _row_sums(m: Sparse, n: int, unknowns: int) -> Array:
     return np.asarray((m @ ones).todense()).reshape(n, unknowns, unknowns)
 
 
-def _refuse_held(elements: Elements) -> None:
+def _refuse_held(elements: FiniteElements) -> None:
     """Refuse a stiffness that holds the body."""
     x, k = elements.x, elements.stiffness
     motions = elements.rigid_motions(x, x.mean(axis=0))
@@ -223,7 +223,7 @@ def _refuse_held(elements: Elements) -> None:
             raise InputError("K", "the stiffness of a body that nothing holds", got, hint)
 
 
-def read_interfaces(given: object, elements: Elements) -> dict[str, NDArray[np.int64]]:
+def read_interfaces(given: object, elements: FiniteElements) -> dict[str, NDArray[np.int64]]:
     """Return the nodes of each interface.
 
     Raises
@@ -274,7 +274,7 @@ def _node_numbers(where: str, nodes: object, count: int) -> NDArray[np.int64]:
     return np.unique(numbers.astype(np.int64))
 
 
-def refuse_massless(elements: Elements, inside: NDArray[np.int64]) -> None:
+def refuse_massless(elements: FiniteElements, inside: NDArray[np.int64]) -> None:
     """Refuse inner nodes without mass, which would move freely."""
     masses = np.asarray(elements.density.sum(axis=0)).ravel()
     least = float(masses.max()) * 1e-12
