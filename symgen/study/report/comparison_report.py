@@ -100,7 +100,7 @@ def _section_across_mechanisms(studies: Sequence[Study]) -> Section:
         for method in every
         if method != YARDSTICK
     )
-    text = "; ".join(f"{study.mechanism}: {settings_text(study)}" for study in studies)
+    text = "; ".join(f"{study.mechanism}, {study.until:g} s: {settings_text(study)}" for study in studies)
     tables = [DocumentTable("Error [m].", ("method", *names), errors)]
     if any(x != words.NONE for row in ratios for x in row[1:]):
         tables.append(DocumentTable(f"Run time as a multiple of that of {YARDSTICK}.", ("method", *names), ratios))
@@ -182,7 +182,14 @@ def _summary_table(study: Study) -> DocumentTable:
             )
         )
     notes = _meanings_of_marks([row for row, _ in representative_rows(study)])
-    return DocumentTable(f"One row a method: {settings_text(study)}.", headings, tuple(rows), words=2, notes=notes)
+    return DocumentTable(
+        f"One row a method over {study.until:g} s: {settings_text(study)}; coordinates of bodies unless a row says "
+        "joint.",
+        headings,
+        tuple(rows),
+        words=2,
+        notes=notes,
+    )
 
 
 def _meanings_of_marks(rows: Sequence[Row]) -> tuple[str, ...]:
