@@ -106,3 +106,23 @@ def test_a_start_that_penetrates_names_its_depth(tmp_path: Path) -> None:
     path.write_text(FILE.replace("{}", BETWEEN).replace("position = [0.0, 0.2]", "position = [0.0, 0.05]"))
     with pytest.raises(InputError, match=r"contact pair: expected a gap of at least 0, got -0\.05 at t = 0 s"):
         symgen.load(path).simulate(until=0.1)
+
+
+@pytest.mark.parametrize(
+    ("kind", "keys", "sentence"),
+    [
+        ("revolute", "hole = 0.01, pin = 0.012", "joints.pin.clearance: expected a hole larger than its pin"),
+        (
+            "rigid",
+            "hole = 0.012, pin = 0.01",
+            "joints.pin.clearance: expected a revolute joint in the plane, got a rigid",
+        ),
+    ],
+)
+def test_bad_clearances(kind: str, keys: str, sentence: str, tmp_path: Path) -> None:
+    text = FILE.replace("{}", BETWEEN) + f'[joints.pin]\ntype = "{kind}"\nbetween = ["disc", "other"]\n'
+    text += f"at = [[0.0, 0.0], [0.0, 0.0]]\nclearance = {{ {keys} }}\n"
+    (tmp_path / "touch.toml").write_text(text)
+    with pytest.raises(InputError) as caught:
+        symgen.load(tmp_path / "touch.toml")
+    assert sentence in str(caught.value)
