@@ -29,6 +29,12 @@ def check_bounds(mechanism: Mechanism, source: str) -> None:
             raise InputError(
                 f"{source}: {row.where}", "a coordinate that no driver prescribes", f"one that '{driver}' prescribes"
             )
+    gaps = dict[tuple[Measure, object], str]()
+    for row in one_sided_rows(mechanism):
+        if row.in_contact and (row.measure, row.held.value) in gaps:
+            other = gaps[row.measure, row.held.value]
+            raise InputError(f"{source}: {row.where}", "one contact of two shapes", f"the shapes of '{other}'")
+        gaps[row.measure, row.held.value] = row.name
     for pressed, pushing in zip(
         rows_bounded_by_reactions(mechanism), one_sided_rows(mechanism), strict=False
     ):  # the first of each

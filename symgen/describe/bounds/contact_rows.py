@@ -92,6 +92,8 @@ class Tangent(Bounds, frozen=True):
         The slip.
     sliding, static : Expr
         Bounds in motion and at rest over the force of the gap.
+    table : str
+        Its table in a file, where that is not an entry of the section.
     """
 
     family: ClassVar[RowFamily] = TANGENTS
@@ -103,6 +105,7 @@ class Tangent(Bounds, frozen=True):
     sliding: Expr
     static: Expr
     unit: str = "m"
+    table: str = ""
 
     @property
     def label(self) -> str:
@@ -127,7 +130,7 @@ class Tangent(Bounds, frozen=True):
     @property
     def where(self) -> str:
         """Its place in a file."""
-        return f"contacts.{self.name}.friction"
+        return f"{self.table or f'contacts.{self.name}'}.friction"
 
     @property
     def held(self) -> Holonomic:
@@ -260,6 +263,8 @@ class ContactGap(EndStop, frozen=True):
         The friction along it.
     distance : Expr or None
         The distance that is reported, where the gap is another function of it.
+    table : str
+        Its table in a file, where that is not an entry of the section.
     """
 
     family: ClassVar[RowFamily] = CONTACTS
@@ -267,6 +272,7 @@ class ContactGap(EndStop, frozen=True):
 
     tangent: Tangent | None = None
     distance: Expr | None = None
+    table: str = ""
 
     @property
     def row(self) -> str:
@@ -286,7 +292,7 @@ class ContactGap(EndStop, frozen=True):
     @property
     def where(self) -> str:
         """Its place in a file."""
-        return f"contacts.{self.name}"
+        return self.table or f"contacts.{self.name}"
 
     def events(self, beside: Sequence[BoundedRow]) -> tuple[ModeEvent, ...]:
         """Return the events at which the contact closes or opens; an impact sets the rate of slip as well."""

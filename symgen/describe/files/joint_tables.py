@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+import msgspec
+
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.vocabulary.expressions import ONE, call
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.keys import keys_of_any_joint, rows_of_joint
 from symgen.describe.mechanism import Hold, Joint, Rotor
 from symgen.describe.parts.collected import Errors, Incomplete
-from symgen.describe.parts.fields import Flag, JointStart, Scalar, read_table, read_value
+from symgen.describe.parts.fields import Flag, JointStart, Scalar, read_table, read_value, value_in_words
 from symgen.describe.parts.holds import joint_holds
 from symgen.describe.parts.kinds import JOINTS, kind_and_keys
 from symgen.describe.parts.topology import articulation_of_joint
@@ -105,6 +107,12 @@ class JointTables:
         if (rotor := rotor_of(scope, joint, whole)) is not None:
             self.rotors[name] = rotor
         self._scopes[name] = scope, joint
+        if "clearance" in whole:  # a contact is in place of its rows
+            for key in ("friction", "cut"):
+                if key in whole:
+                    raise scope.error(key, "no such key beside clearance", value_in_words(whole[key]))
+            joint = msgspec.structs.replace(joint, kind="place", rows=())
+            self._joints[name] = joint
         return joint
 
     def bounded_rows(self, joints: Sequence[Joint]) -> list[BoundedRow]:

@@ -126,3 +126,18 @@ def test_uncoupled_discs_are_chosen_apart(tmp_path: Path) -> None:
     result: Any = loaded(text, tmp_path).simulate(until=1.0, integrator="dop853", verify=False)
     wanted = [(1.0 + 0.1 * i) / 3.0 / (0.2 * G) for i in range(8)]
     assert np.allclose([event.t for event in result.events], wanted, rtol=0.0, atol=1e-10)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_a_pin_with_play_swings_against_its_hole(coordinates: str, tmp_path: Path) -> None:
+    """A bar hangs on a pin with play: it falls by the play, strikes without rebound, and hangs."""
+    text = head("play") + body("bar", 2.0, 0.05, (0.0, -0.3))
+    text += '[joints.pin]\ntype = "revolute"\nbetween = ["ground", "bar"]\nat = [[0.0, 0.0], [0.0, 0.3]]\n'
+    text += "clearance = { hole = 0.012, pin = 0.01, friction = 0.1 }\n"
+    result = loaded(text, tmp_path).simulate(
+        until=0.5, integrator="dop853", verify=False, rtol=1e-11, coordinates=coordinates
+    )
+    assert [event.name for event in result.events] == ["pin.hit", "pin.rest"]
+    assert abs(result.events[0].t - math.sqrt(2.0 * 0.002 / G)) < 1e-10
+    assert abs(result["bar.y"][-1] + 0.302) < 1e-12 and abs(result["pin.force"][-1] - 2.0 * G) < 1e-9
+    assert result["pin.angle"][-1] == 0.0

@@ -1,0 +1,128 @@
+"""The section ``contacts``: what is wrong in a file is said in one sentence."""
+
+from pathlib import Path
+
+import pytest
+
+import symgen
+from symgen.base.errors import InputError
+
+FILE = """
+[mechanism]
+name = "touch"
+gravity = [0.0, -9.81]
+[bodies.disc]
+mass = 1.0
+inertia = 0.01
+position = [0.0, 0.2]
+[bodies.other]
+mass = 1.0
+inertia = 0.01
+position = [1.0, 0.2]
+[contacts.pair]
+{}
+"""
+DISC, LINE = '{ body = "disc", disc = 0.1 }', '{ line = "ground" }'
+BETWEEN = f"between = [{DISC}, {LINE}]\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (f"{BETWEEN}friction = -0.1", "contacts.pair.friction: expected a value of at least 0, got -0.1"),
+        (f"{BETWEEN}restitution = 1.2", "contacts.pair.restitution: expected a value from 0 to 1, got 1.2"),
+        (
+            f"{BETWEEN}friction = {{ sliding = 0.4, static = 0.3 }}",
+            "contacts.pair.friction.static: expected a value of at least that of sliding (0.4), got 0.3",
+        ),
+        (
+            f'between = [{DISC}, {{ body = "other", disc = -0.05 }}]',
+            "contacts.pair.between[1]: expected a hole larger than its pin, got radii of 0.05 m and 0.1 m",
+        ),
+        (
+            f'between = [{DISC}, {{ body = "disc", disc = 0.2 }}]',
+            "contacts.pair.between: expected two different bodies, got 'disc' twice",
+        ),
+        (
+            f'{BETWEEN}gap = "disc.y"',
+            "contacts.pair.between: expected shapes, or the key gap in their place, got both",
+        ),
+        ("friction = 0.3", "contacts.pair.between: expected shapes, or the key gap in their place, got neither"),
+        (
+            'gap = "disc.y"\nfriction = 0.3',
+            "contacts.pair.slip: expected a coordinate along the contact, as it has friction, got no such key",
+        ),
+        (
+            f'between = [{DISC}, {{ body = "ground", segment = [[1.0, 0.0], [1.0, 0.0]] }}]',
+            "contacts.pair.between[1].segment: expected a segment with a length above 0, got two equal ends",
+        ),
+        (
+            f'between = [{DISC}, {{ line = "ground", normal = [0.0, 0.0] }}]',
+            "contacts.pair.between[1].normal: expected a direction, got a vector of length 0",
+        ),
+        (
+            f'between = [{DISC}, {{ lime = "ground" }}]',
+            "contacts.pair.between[1]: expected a shape: disc, line, segment, got the unknown key 'lime'; did you mean "
+            "'line'?",
+        ),
+        (
+            f'between = [{LINE}, {{ line = "other" }}]',
+            "contacts.pair.between: expected a disc, or a point, beside another shape, got a line and a line",
+        ),
+        (
+            'gap = "disc.y*disc.y - 0.01"\nslip = "disc.x"\nfriction = 0.3',
+            "contacts.pair.friction: expected a gap that is linear in places of bodies, where friction is over its "
+            "force, got another one; shapes in 'between' have such a gap",
+        ),
+        (
+            'gap = "disc.y - 2*other.y"\nslip = "disc.x"\nfriction = 0.3',
+            "contacts.pair.friction: expected a gap that changes equally with the place of each body, got 1 for 'disc' "
+            "and 2 for 'other'",
+        ),
+        (
+            f"{BETWEEN}[contacts.again]\n{BETWEEN}",
+            "contacts.again: expected one contact of two shapes, got the shapes of 'pair'",
+        ),
+    ],
+)
+def test_bad_contacts(text: str, sentence: str, tmp_path: Path) -> None:
+    (tmp_path / "touch.toml").write_text(FILE.replace("{}", text))
+    with pytest.raises(InputError) as caught:
+        symgen.load(tmp_path / "touch.toml")
+    assert sentence in str(caught.value)
+
+
+def test_a_disc_in_space_is_refused(tmp_path: Path) -> None:
+    text = FILE.replace("{}", BETWEEN).replace('name = "touch"', 'name = "touch"\nspace = "spatial"')
+    text = text.replace("[0.0, -9.81]", "[0.0, 0.0, -9.81]").replace("inertia = 0.01", "inertia = [0.01, 0.01, 0.01]")
+    text = text.replace("[0.0, 0.2]", "[0.0, 0.2, 0.0]").replace("[1.0, 0.2]", "[1.0, 0.2, 0.0]")
+    with pytest.raises(InputError, match="expected a contact in a mechanism in the plane, got one in space"):
+        (tmp_path / "touch.toml").write_text(text)
+        symgen.load(tmp_path / "touch.toml")
+
+
+def test_a_start_that_penetrates_names_its_depth(tmp_path: Path) -> None:
+    path = tmp_path / "deep.toml"
+    path.write_text(FILE.replace("{}", BETWEEN).replace("position = [0.0, 0.2]", "position = [0.0, 0.05]"))
+    with pytest.raises(InputError, match=r"contact pair: expected a gap of at least 0, got -0\.05 at t = 0 s"):
+        symgen.load(path).simulate(until=0.1)
+
+
+@pytest.mark.parametrize(
+    ("kind", "keys", "sentence"),
+    [
+        ("revolute", "hole = 0.01, pin = 0.012", "joints.pin.clearance: expected a hole larger than its pin"),
+        (
+            "rigid",
+            "hole = 0.012, pin = 0.01",
+            "joints.pin.clearance: expected a revolute joint in the plane, got a rigid",
+        ),
+    ],
+)
+def test_bad_clearances(kind: str, keys: str, sentence: str, tmp_path: Path) -> None:
+    text = FILE.replace("{}", BETWEEN) + f'[joints.pin]\ntype = "{kind}"\nbetween = ["disc", "other"]\n'
+    text += f"at = [[0.0, 0.0], [0.0, 0.0]]\nclearance = {{ {keys} }}\n"
+    (tmp_path / "touch.toml").write_text(text)
+    with pytest.raises(InputError) as caught:
+        symgen.load(tmp_path / "touch.toml")
+    assert sentence in str(caught.value)
