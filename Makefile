@@ -16,7 +16,7 @@ INSTALLED := $(VENV)/.installed
 DOCS_INSTALLED := $(VENV)/.installed-docs
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test slow browser lint format generated docs gallery findings peers bench clean
+.PHONY: help demo test slow browser lint format generated docs gallery findings paper peers bench clean
 
 help:  ## say what the targets do
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' $(MAKEFILE_LIST) | awk -F'|' '{ printf "make %-10s %s\n", $$1, $$2 }'
@@ -81,6 +81,9 @@ gallery: $(INSTALLED)  ## measure the catalogue anew: data, pictures and pages o
 
 findings: $(INSTALLED)  ## measure tables of pages and write them there: TABLES=names, TIMES=--times on a quiet machine
 	@"$(BIN)/python" -m benchmarks.findings $(TABLES) $(TIMES)
+
+paper: $(INSTALLED)  ## write the paper with tables of records and a lock file of libraries into out/paper; pdflatex sets it
+	@"$(BIN)/python" -m benchmarks.paper out/paper
 
 peers: $(INSTALLED)  ## measure other tools beside symgen into README, on a quiet machine; installs them into $(BENCH_VENV)
 	@test -x "$(BENCH_VENV)/bin/python" || { echo "installing other tools into $(BENCH_VENV), once"; \

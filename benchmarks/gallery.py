@@ -317,7 +317,7 @@ def index() -> str:
         "# Gallery",
         "",
         "All studied mechanisms of the catalogue, with measurements. Written by `python -m benchmarks.gallery`.",
-        "Times are of the loop alone, beside other work.",
+        "Times are of the loop alone. Those measured before 2026-11-29 are of the wall clock, beside other work.",
         "",
         "| | mechanism | most accurate row |",
         "| --- | --- | --- |",

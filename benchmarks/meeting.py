@@ -145,7 +145,7 @@ FEATURES: Mapping[str, str] = {
     "friction and stop": cart(pin=f"friction = {{ sliding = 0.3 }}\n{_STOP}"),
     "rope": cart(more=_ROPE),
     "corner in a gap": cart(more=_RAMP),
-    "rotor and stop": cart(pin="rotor_inertia = 1e-3\ngear_ratio = 10.0\nstop = { lower = -1.2, restitution = 0.3 }"),
+    "rotor and stop": cart(pin=f"rotor_inertia = 1e-3\ngear_ratio = 10.0\n{_STOP}"),
     "rotor, event with a reset": cart(
         pin="rotor_inertia = 1e-3\ngear_ratio = 10.0",
         more='[events.kick]\nwhen = "cart.x - 0.09"\nreset = { "cart.vx" = "0.5" }',
@@ -368,8 +368,8 @@ def record(features: list[str]) -> None:
         print(
             f"{feature}: {sum(c == '+' for c in table[feature].values())} of {len(PLACES)}", file=sys.stderr, flush=True
         )
-    whole = {feature: table[feature] for feature in FEATURES if feature in table}
-    RECORD.write_text(json.dumps(whole, indent=1) + "\n", encoding="utf-8")
+        whole = {feature: table[feature] for feature in FEATURES if feature in table}
+        RECORD.write_text(json.dumps(whole, indent=1) + "\n", encoding="utf-8")
     if len(whole) == len(FEATURES):
         PAGE.write_text(page(whole), encoding="utf-8")
 

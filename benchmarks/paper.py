@@ -1,6 +1,7 @@
 r"""The paper: its numbers and tables from records and measured pages, its pictures, and the PDF.
 
-    python -m benchmarks.paper FOLDER    writes paper.tex, numbers.tex, three pictures and, with pdflatex, paper.pdf
+    python -m benchmarks.paper FOLDER    writes paper.tex, numbers.tex, three pictures and, with pdflatex, paper.pdf;
+                                         tables.md has the tables of all records, lock.txt the libraries
 
 The text is ``docs/paper/paper.tex``, in which every measured number is ``\n{KEY}`` and every table of numbers
 ``\numbers{KEY}``. What it says in words about their order is in `claims`, and a test asks for it.
@@ -9,18 +10,20 @@ The text is ``docs/paper/paper.tex``, in which every measured number is ``\n{KEY
 from __future__ import annotations
 
 import math
+import platform
 import shutil
 import statistics as middle
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
+from importlib.metadata import distributions
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from benchmarks import equal_error, equal_work, literature, statistics
-from benchmarks.page_tables import ROOT, PageTable, cells_of, place
+from benchmarks.page_tables import ROOT, PageTable, cells_of, markdown, place
 from benchmarks.records import Line
 
 if TYPE_CHECKING:
@@ -206,6 +209,21 @@ def macros() -> str:
     return "\n".join(lines) + "\n"
 
 
+def tables_of_records() -> str:
+    """Return the tables that follow from records, and the sentences about them."""
+    lines = list[str]()
+    for table in (equal_error.page_table(), equal_work.page_table(), statistics.page_table()):
+        lines += [f"`python -m benchmarks.{table.command}`", "", *markdown(table.headings, table.measured()), ""]
+        lines += [*(f"- {claim}" for claim in table.claims()), ""]
+    return "\n".join(lines)
+
+
+def lock() -> str:
+    """Return the interpreter and the versions of all installed libraries, as pip reads them."""
+    found = sorted({f"{x.metadata['Name']}=={x.version}" for x in distributions()}, key=str.lower)
+    return "\n".join([f"# Python {platform.python_version()}, {platform.machine()}", *found, ""])
+
+
 def pictures(folder: Path) -> None:
     """Draw the three pictures."""
     import matplotlib as mpl
@@ -261,6 +279,8 @@ def main(arguments: Sequence[str]) -> int:
     folder.mkdir(parents=True, exist_ok=True)
     shutil.copy(SOURCE, folder)
     (folder / "numbers.tex").write_text(macros(), encoding="utf-8")
+    (folder / "tables.md").write_text(tables_of_records(), encoding="utf-8")
+    (folder / "lock.txt").write_text(lock(), encoding="utf-8")
     pictures(folder)
     engine = shutil.which("pdflatex")
     if engine is None:

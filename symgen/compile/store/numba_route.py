@@ -51,9 +51,19 @@ def dispatcher(function: Any, inlined: bool, contracted: bool = True, *signature
 
 
 def form_of(function: MachineFunction) -> Any:
-    """Return Numba's form of a function of the runtime or of an emitted module."""
+    """Return Numba's form of a function of the runtime or of an emitted module.
+
+    A loop has the types of its signature, so that all models share its machine code, unless a record with names holds a
+    function: Numba takes such a one by its own type only, and compiles the loop for each.
+    """
     own = getattr(function, "signature", None)
-    return dispatcher(function.py_func, function.inlined, function.contracted, *([] if own is None else [own]))
+    types_ = [] if own is None or any(map(_names_a_function, own.arguments)) else [own]
+    return dispatcher(function.py_func, function.inlined, function.contracted, *types_)
+
+
+def _names_a_function(kind: types.Kind) -> bool:
+    parts = list(kind) if isinstance(kind, types.RecordType) and kind.fields else []
+    return any(isinstance(part, types.FunctionType) or _names_a_function(part) for part in parts)
 
 
 def argument(value: Any) -> Any:

@@ -108,10 +108,11 @@ def saved_after_the_set(model: symgen.Model, u: float) -> tuple[float, float]:
 
 
 def ahead(model: symgen.Model, u: float) -> tuple[float, float]:
-    found = model.start(**STEP).horizon([[u, 3.0]] * PIECES, PIECE)
-    names = list(found.state_names) if hasattr(found, "state_names") else []
-    x = np.asarray(found.x)[-1]
-    return (x[names.index("wheel.theta")], x[names.index("wheel.omega")]) if names else (x[2], x[5])
+    run = model.start(**STEP)
+    found = run.horizon({"u": [u] * PIECES}, PIECE)
+    last = dict(zip(found.states, found.x[-1], strict=True))
+    assert state(run) == (0.0, 0.0)  # it stays where it is
+    return last["wheel.theta"], last["wheel.omega"]
 
 
 WAYS: dict[str, Callable[[symgen.Model, float], tuple[float, float]]] = {
@@ -127,6 +128,7 @@ WAYS: dict[str, Callable[[symgen.Model, float], tuple[float, float]]] = {
     "after a reset": after_reset,
     "after restoring": after_restoring,
     "saved after the set": saved_after_the_set,
+    "ahead": ahead,
 }
 
 
