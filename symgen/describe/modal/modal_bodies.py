@@ -164,12 +164,13 @@ class ModalBodies:
 
     # -- bodies --------------------------------------------------------------------------------------------------------
 
-    def read_body(self, scope: Scope, raw: Any) -> AnyBody:
+    def read_body(self, scope: Scope, raw: object) -> AnyBody:
         """Return the body that a scope names: a modal one, or an interface of one."""
         if scope.name in self.interfaces:
             return self._interface(scope, *self.interfaces[scope.name])
         content = self._files[scope.name]
-        table = {key: value for key, value in raw.items() if key != "shape"}
+        given = raw if isinstance(raw, Mapping) else {}
+        table = {key: value for key, value in given.items() if key != "shape"}
         section: Any = read_table(SpatialModalSection if scope.spatial else ModalSection, table, scope.where(""))
         damping = scope.constant("damping", section.damping)
         if scope.value(damping, "damping") < 0.0:

@@ -172,33 +172,44 @@ def _masses(m: Sparse, n: int, d: int) -> tuple[Sparse, Array, Sparse]:
     """Return the mass of one component, the rotary inertias, and M: as given for solids, else lumped at nodes.
 
     A lumped node has the sum of its row: mass is kept exactly, and what displacements and turns share is left out,
-    which is of the order of the elements' size.
+    which is of the order of the elements' size. Where such sums are negative, as at corners of quadratic elements, it
+    has its share of the diagonal (Hinton, Rock and Zienkiewicz).
     """
     unknowns, r = m.shape[0] // n, 1 if d == 2 else 3
-    rotary = np.zeros((n, r, r))
     if unknowns == d:
         density = sparse.csc_array(m[::d, ::d])
         apart = abs(sparse.kron(density, sparse.eye_array(d)) - m).max()
         if float(apart) <= ROUNDING * float(abs(m).max()):
-            return density, rotary, m
+            return density, np.zeros((n, r, r)), m
     sums = _row_sums(m, n, unknowns)
-    lumps = np.trace(sums[:, :d, :d], axis1=1, axis2=2) / d
-    if float(lumps.min()) < 0.0:
-        worst = int(np.argmin(lumps))
-        raise InputError("M", "masses of nodes that are not negative", f"{lumps[worst]:.3g} kg at node {worst}")
+    lumps, rotary = _lumped(sums, d, r)
+    if float(lumps.min()) < 0.0 or float(np.linalg.eigvalsh(rotary).min()) < -ROUNDING * float(np.abs(rotary).max()):
+        own = _diagonal_blocks(m, n, unknowns)
+        shares, rotary = _lumped(own, d, r)
+        factor = float(lumps.sum()) / (float(shares.sum()) or 1.0)
+        lumps, rotary = factor * shares, factor * rotary
     blocks = np.zeros((n, unknowns, unknowns))
     blocks[:, :d, :d] = lumps[:, None, None] * np.eye(d)
-    if unknowns > d:
-        rotary = sums[:, d:, d:]
-        rotary = (rotary + np.swapaxes(rotary, 1, 2)) / 2.0
-        least = np.linalg.eigvalsh(rotary)[:, 0]
-        if float(least.min()) < -ROUNDING * float(np.abs(rotary).max()):
-            worst = int(np.argmin(least))
-            raise InputError(
-                "M", "rotary inertias of nodes that are not negative", f"{least[worst]:.3g} at node {worst}"
-            )
-        blocks[:, d:, d:] = rotary
+    blocks[:, d:, d:] = rotary[:, : unknowns - d, : unknowns - d]
     return sparse.diags_array(lumps).tocsc(), rotary, sparse.csc_array(sparse.block_diag(list(blocks), format="csc"))
+
+
+def _lumped(blocks: Array, d: int, r: int) -> tuple[Array, Array]:
+    """Return the mass and the rotary inertia that a block for each node has; 0 for nodes without turns."""
+    rotary = np.zeros((len(blocks), r, r))
+    if blocks.shape[1] > d:
+        rotary = (blocks[:, d:, d:] + np.swapaxes(blocks[:, d:, d:], 1, 2)) / 2.0
+    return np.trace(blocks[:, :d, :d], axis1=1, axis2=2) / d, rotary
+
+
+def _diagonal_blocks(m: Sparse, n: int, unknowns: int) -> Array:
+    """Return for each node its own block, shape (n, unknowns, unknowns)."""
+    entries = m.tocoo()
+    same = entries.row // unknowns == entries.col // unknowns
+    row, col = entries.row[same], entries.col[same]
+    blocks = np.zeros((n, unknowns, unknowns))
+    blocks[row // unknowns, row % unknowns, col % unknowns] = entries.data[same]
+    return blocks
 
 
 def _row_sums(m: Sparse, n: int, unknowns: int) -> Array:
@@ -276,7 +287,7 @@ def _node_numbers(where: str, nodes: object, count: int) -> NDArray[np.int64]:
 
 def refuse_massless(elements: FiniteElements, inside: NDArray[np.int64]) -> None:
     """Refuse inner nodes without mass, which would move freely."""
-    masses = np.asarray(elements.density.sum(axis=0)).ravel()
+    masses = elements.density.diagonal()  # sums of rows are negative at corners of quadratic tetrahedra
     least = float(masses.max()) * 1e-12
     for node in inside.tolist():
         if masses[node] <= least:

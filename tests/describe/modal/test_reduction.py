@@ -71,6 +71,78 @@ def test_frames_are_lumped_and_ring_as_eulers(spatial):
     assert body.inertia[-1, -1] == pytest.approx(0.4 / 12.0, rel=2e-3)
 
 
+def triangles(count):
+    """Nodes, M and K of a bar of triangles with six nodes, whose corners have no mass in the sum of a row."""
+    mass = np.array(
+        [
+            [6.0, -1.0, -1.0, 0.0, -4.0, 0.0],
+            [-1.0, 6.0, -1.0, 0.0, 0.0, -4.0],
+            [-1.0, -1.0, 6.0, -4.0, 0.0, 0.0],
+            [0.0, 0.0, -4.0, 32.0, 16.0, 16.0],
+            [-4.0, 0.0, 0.0, 16.0, 32.0, 16.0],
+            [0.0, -4.0, 0.0, 16.0, 16.0, 32.0],
+        ]
+    )
+    numbers = {}
+    cells = []
+    for i in range(count):
+        for corners in (((i, 0), (i + 1, 0), (i + 1, 1)), ((i, 0), (i + 1, 1), (i, 1))):
+            a, b, c = (np.array(p, dtype=float) for p in corners)
+            six = [a, b, c, (a + b) / 2, (b + c) / 2, (c + a) / 2]
+            cells.append([numbers.setdefault(tuple(p), len(numbers)) for p in six])
+    x = np.array(list(numbers)) * [0.1, 0.1]
+    m, k = np.zeros((2 * len(x),) * 2), np.zeros((2 * len(x),) * 2)
+    law = 2e9 * np.diag([1.0, 1.0, 0.5])
+    for cell in cells:
+        sides = np.array([x[cell[1]] - x[cell[0]], x[cell[2]] - x[cell[0]]])
+        area = 0.5 * abs(float(np.linalg.det(sides)))
+        place = (np.array(cell)[:, None] * 2 + np.arange(2)).ravel()
+        m[np.ix_(place, place)] += 1000.0 * area / 180.0 * np.kron(mass, np.eye(2))
+        for r, s in ((1 / 6, 1 / 6), (2 / 3, 1 / 6), (1 / 6, 2 / 3)):
+            t = 1.0 - r - s
+            by_r = [1.0 - 4.0 * t, 4.0 * r - 1.0, 0.0, 4.0 * (t - r), 4.0 * s, -4.0 * s]
+            by_s = [1.0 - 4.0 * t, 0.0, 4.0 * s - 1.0, -4.0 * r, 4.0 * r, 4.0 * (t - s)]
+            g = np.linalg.solve(sides, np.array([by_r, by_s]))
+            b = np.zeros((3, 12))
+            b[0, ::2], b[1, 1::2], b[2, ::2], b[2, 1::2] = g[0], g[1], g[1], g[0]
+            k[np.ix_(place, place)] += area / 3.0 * b.T @ law @ b
+    return x, m, k
+
+
+def test_corners_of_quadratic_triangles_have_mass():
+    """Sums of their rows vanish, of quadratic tetrahedra they are negative, and M is still that of a body."""
+    x, m, k = triangles(6)
+    assert abs(m[0, ::2].sum()) < 1e-12 and m[0, 0] > 0.0
+    body = symgen.reduced(x, m, k, inner=2)
+    assert body.mass == pytest.approx(1000.0 * 0.06, rel=1e-12)
+    exact = linalg.eigh(k, m, eigvals_only=True)[3:5]
+    np.testing.assert_allclose((2.0 * np.pi * body.frequencies) ** 2, exact, rtol=1e-9)
+
+
+def test_sums_that_are_negative_are_shared_by_the_diagonal():
+    """Nodes of the triangles turn, stiffly: corners have masses, and the body that of its elements."""
+    x, m, k = triangles(6)
+    n = len(x)
+    place = (np.arange(n)[:, None] * 3 + np.arange(2)).ravel()
+    turning = np.arange(n) * 3 + 2
+    heavy, stiff = np.zeros((3 * n, 3 * n)), np.zeros((3 * n, 3 * n))
+    heavy[np.ix_(place, place)], stiff[np.ix_(place, place)] = m - 1e-3 * np.diag(np.diag(m)), k
+    heavy[turning, turning] = 1e-9
+    hang = np.zeros((n - 1, 3 * n))  # turns are tied to each other and to the chord
+    for i in range(n - 1):
+        away = x[i + 1] - x[i]
+        square = float(away @ away)
+        hang[i, [3 * i, 3 * i + 1, 3 * i + 3, 3 * i + 4]] = np.array([away[1], -away[0], -away[1], away[0]]) / square
+        hang[i, 3 * i + 2] = -1.0
+    last = np.zeros((1, 3 * n))
+    last[0, [3 * n - 4, 3 * n - 1]] = 1.0, -1.0
+    ties = np.vstack([hang, last])
+    stiff += 1e3 * ties.T @ ties
+    body = symgen.reduced(x, heavy, stiff, inner=2)
+    assert body.mass == pytest.approx(float(heavy[np.ix_(place, place)].sum()) / 2.0, rel=1e-9)
+    assert np.all(body.frequencies > 0.0)
+
+
 def test_a_reduction_is_the_same_again():
     mesh = bow()
     one, two = (symgen.reduced(mesh.x, mesh.mass, mesh.stiffness, mesh.ends, 3) for _ in range(2))
