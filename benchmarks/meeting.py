@@ -152,6 +152,7 @@ FEATURES: Mapping[str, str] = {
     ),
     "contact": cart(more=_WALL),
     "contact, two feet": cart(more=_SLED),
+    "clearance": cart(pin="clearance = { hole = 0.011, pin = 0.01, restitution = 0.3, friction = 0.1 }"),
     "beam element": cart(
         more="[bodies.end]\nmass = 0.5\ninertia = 0.01\nposition = [0.6, 0.0]\n"
         f"[forces.blade]\n{_BLADE}\naxial = 1e4\nbending = 10.0"

@@ -25,7 +25,13 @@ PACKAGE = Path(symgen.__file__).parent
 #: Who may name a kind: its own room, formats of other programs, whose keys these are, and rolling, by its forces; and
 #: the law of contacts, which is one of a gap and of the friction along it.
 NAMING = (
-    *("describe/bounds/", "describe/formats/", "describe/joints/rolling", "cli/compare.py"),
+    *(
+        "describe/bounds/",
+        "describe/formats/",
+        "describe/joints/rolling",
+        "cli/compare.py",
+        "describe/files/joint_tables.py",
+    ),
     *("run/modes/contact", "run/modes/refusals.py", "run/effects/pushing.py", "run/directions/push_directions.py"),
 )
 PENDULUM = """
