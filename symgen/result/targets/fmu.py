@@ -9,7 +9,8 @@ import subprocess
 import sys
 import tempfile
 import zipfile
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -118,7 +119,7 @@ def _variables(model: CModel, values: Mapping[str, Any], fmi: int) -> dict[str, 
     what = "independent coordinate or velocity, state or integral"
     states = [ModelVariable(f"state.{i + 1}", _STATE + i, "local", description=what) for i in range(count)]
     rates = [ModelVariable(f"der({s.name})", _RATE + i, "local", derivative=s) for i, s in enumerate(states)]
-    marks = [f"event.{name}" for name in indicator_names(model)] if fmi == 3 else []
+    marks = _named_apart([f"event.{name}" for name in indicator_names(model)]) if fmi == 3 else []
     indicators = [ModelVariable(name, _EVENT + i, "local") for i, name in enumerate(marks)]
     variables = [*parameters, *outputs, *states, *rates, *indicators]
     for i, variable in enumerate(variables, 1):
@@ -133,6 +134,15 @@ def _variables(model: CModel, values: Mapping[str, Any], fmi: int) -> dict[str, 
         "unknown_at": [*following, *outputs, *states, *rates],
         "indicators": indicators,
     }
+
+
+def _named_apart(names: Sequence[str]) -> list[str]:
+    """Return names of which each stands once: an event with two sides, such as slip, has a number for the second."""
+    seen, unique = Counter[str](), list[str]()
+    for name in names:
+        seen[name] += 1
+        unique.append(name if seen[name] == 1 else f"{name}.{seen[name]}")
+    return unique
 
 
 def _binaries(prefix: str, files: Mapping[str, bytes], fmi: int) -> dict[str, bytes]:
