@@ -23,7 +23,7 @@ pytestmark = pytest.mark.browser
 
 FUNCTIONS = {
     "geometry": abi.MEASURE, "measure": abi.MEASURE, "move": abi.MOVE, "spread": abi.MOVE, "solve": None,
-    "turns": None, "rhs": abi.RHS, "observe": abi.OBSERVE,
+    "formulas": None, "project": None, "turns": None, "rhs": abi.RHS, "observe": abi.OBSERVE,
 }  # fmt: skip
 
 
@@ -35,7 +35,7 @@ def functions():
 @pytest.mark.parametrize("case", [*FEW, *MANY], ids=str)
 def test_starts(case, functions, chromium: Chromium, monkeypatch: pytest.MonkeyPatch) -> None:
     def compare(arguments, done, after):
-        (layout, *own), observe, joints = arguments[0]
+        (layout, masses, *own), observe, joints = arguments[0]
         recorder, python, names = printed.Recorder(), [], []
         for (name, kind), function in zip(FUNCTIONS.items(), (*own, observe), strict=True):
             if isinstance(function, RuntimeFunction):
@@ -44,11 +44,11 @@ def test_starts(case, functions, chromium: Chromium, monkeypatch: pytest.MonkeyP
             else:
                 python.append(recorder.of(name, function, kind))
                 names.append(f"recorded('{name}')")
-        first = (layout, *python[:-1]), python[-1], joints
+        first = (layout, masses, *python[:-1]), python[-1], joints
         given = printed.copied((first, *arguments[1:]))
         assert close_rows.plain(*given) == done
         printed.assert_same_bits(printed.arrays(given), after)
-        for_script = ((layout, *names[:-1]), names[-1], joints), *arguments[1:]
+        for_script = ((layout, masses, *names[:-1]), names[-1], joints), *arguments[1:]
         kinds = close_rows.compiled.signature.arguments
         flat = [x for kind, value in zip(kinds, for_script, strict=True) for x in printed.leaves(kind, value)]
         text = printed.script(functions, "close_rows", flat, recorder.calls)

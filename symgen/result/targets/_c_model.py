@@ -19,7 +19,7 @@ from symgen.derive.emit.module import render_template
 from symgen.result.targets._c_names import defined_names, prefix_of
 from symgen.result.targets._c_runs import cells_of, check_integrator, places_of_scales, values_of_run
 from symgen.run.compiling.checked import check_kernels, checked_function
-from symgen.run.compiling.printed import Printed, PrintedEvents
+from symgen.run.compiling.printed import WEIGHED, Printed, PrintedEvents
 from symgen.run.compiling.printed_run import PrintedRun
 from symgen.run.compiling.side import compile_side
 from symgen.run.effects.locking import MOST_NAMED
@@ -123,7 +123,8 @@ class CModel:
     @cached_property
     def text(self) -> str:
         """Emitted functions in C."""
-        return c_functions(self.functions, self.bound, "mechanism", defined_names())
+        own = {name: function for name, function in self.functions.items() if name != WEIGHED}  # where a start calls it
+        return c_functions(own, self.bound, "mechanism", defined_names())
 
     @property
     def columns(self) -> tuple[Quantity, ...]:

@@ -38,6 +38,7 @@ from symgen.run.loops.search_records import (
     LOOKED,
     MARGIN,
     MARGINS,
+    MEASURE,
     N_COLUMNS,
     N_HEAD,
     NOTED,
@@ -67,6 +68,8 @@ _COARSE, _NEAR, _IN_VAIN = 0.01, 20.0, 3.0
 #: A step may be this many times as long as one inside which margins of forces have been seen, unless it is looked into;
 #: part of the range of such a margin that is seen between two points, if they show its waves; how badly they do else.
 _GROWN, _WAVE, _LEAPS = 2.0, 0.5, 1.0
+#: Range of a margin over its size at which it is rounding alone.
+_ROUNDED = 1e-9
 #: Steps below this part of the proposed one cross jumps at known times.
 _AT_A_JUMP = 1e-6
 
@@ -137,7 +140,10 @@ def leaps(hunt: A, n: int, k: int, h: float) -> int:
     at, looked = N_HEAD, hunt[N_HEAD + LOOKED * n + k]
     if hunt[at + ASLEEP * n + k] > 0.0 or looked == 0.0 or h <= looked:
         return 0
-    known, side, most = hunt[at + STEEPEST * n + k], hunt[at + SIDE * n + k], _WAVE * range_inside(hunt, n, k)
+    span = range_inside(hunt, n, k)
+    if not span > _ROUNDED * hunt[at + MEASURE * n + k]:  # rounding has slopes, and no waves
+        return 0
+    known, side, most = hunt[at + STEEPEST * n + k], hunt[at + SIDE * n + k], _WAVE * span
     for i in range(int(hunt[INSIDE]) + 1):
         way = known * (time_of(hunt, i + 1) - time_of(hunt, i))
         if way > most and side * (value_at(hunt, n, k, i) + value_at(hunt, n, k, i + 1)) < way:
