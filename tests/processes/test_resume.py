@@ -63,7 +63,7 @@ def test_a_sweep_of_other_code_is_refused_and_left(tmp_path):
     shell(copied, tmp_path, **more)
     done = (tmp_path / "folder" / DONE).read_text()
     shell(f"{copied} --resume", tmp_path, **more)
-    file = package / "run" / "effects" / "impulse.py"
+    file = package / "run" / "starts" / "impulse.py"
     file.write_text(file.read_text() + "\n")
     _, said = shell(f"{copied} --resume", tmp_path, code=2, **more)
     assert said.count("\n") == 1 and "one by another version of symgen" in said

@@ -262,6 +262,8 @@ class ModelComparison:
                 compiled.add(pair)
             show(words, 1.0 + i + PREPARATION * len(compiled))
             first_outcome = run.integrate()
+            if first_outcome.interrupted:
+                raise KeyboardInterrupt
             stopped = first_outcome if first_outcome.code in WATCHES else None
             timed = run if stopped is None else without_limits(run)  # a study measures what becomes of it
             base = self.yardsticks[i]

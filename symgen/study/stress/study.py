@@ -39,7 +39,7 @@ FURTHER = ("dop853", "picard", "radau5")
 #: Families that a quick study runs with an implicit integrator as well, as explicit ones say nothing of methods there;
 #: and methods that it has these runs of.
 STIFF, SUITED = ("stiffness", "damping"), "radau5"
-_INDEX_ONE = ("lagrange", "baumgarte", "velocity-projection", "post-stabilization", "direct-correction")
+INDEX_ONE = ("lagrange", "baumgarte", "velocity-projection", "post-stabilization", "direct-correction")
 #: Default base model.
 DEFAULT_MODEL = "four-bar"
 #: Work of a reference in steps of a run, its compilation included; runs that a search for the largest step takes.
@@ -268,7 +268,7 @@ class _Study:
         names = [n for n in self.methods if level.methods is None or n in level.methods]
         fitting = [method_pairs(name, level.constant_steps) for name in names]
         stiff = level.family in STIFF and not level.constant_steps
-        suited = [(name, SUITED) for name in names if name in _INDEX_ONE and (name, SUITED) in method_pairs(name)]
+        suited = [(name, SUITED) for name in names if name in INDEX_ONE and (name, SUITED) in method_pairs(name)]
         quick = dict.fromkeys([*(fit[0] for fit in fitting if fit), *(suited if stiff else ())])
         return tuple(quick) if self.quick else tuple(pair for fit in fitting for pair in fit)
 
