@@ -221,7 +221,7 @@ def _dense_inverse(matrix: Array) -> Callable[[Array], Array]:
         factors, pivots, code = lapack.dgetrf(matrix)
         if code == 0 and lapack.dgecon(factors, size)[0] > RANK:
             return lambda right: lapack.dgetrs(factors, pivots, right)[0]
-    return np.linalg.pinv(matrix, rcond=RANK).dot  # type: ignore[no-any-return]
+    return np.linalg.pinv(matrix, rcond=RANK).dot
 
 
 def solver_with_rows(stiffness: Any, rows: Any) -> Solver | None:
