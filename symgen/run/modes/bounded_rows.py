@@ -67,7 +67,7 @@ TWO_PIECES = 17
 #: Codes of contacts: no modes with forces within bounds; several with different motions; an impact that adds energy;
 #: more contacts that depend on each other than are tried.
 NO_CONTACT_MODES, SEVERAL_MODES, GAINED, TOO_MANY = range(24, 28)
-#: A formula of a row is no number at the end of a run, or just behind it.
+#: A formula of a row is no number at the end of a run, or just after it.
 NO_NUMBER = 18
 #: Gaps leave what lies between them no way to move: of opposed ones that meet, none opens.
 CONTRARY = 19

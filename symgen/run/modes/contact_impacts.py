@@ -1,6 +1,6 @@
 """Impacts of contacts, compiled: Newton's law for gaps, Coulomb's for impulses along them, and rest.
 
-The rates behind an impact have ``u_N+ + e min(u_N-, 0) >= 0`` beside an impulse that pushes, and friction whose impulse
+The rates after an impact have ``u_N+ + e min(u_N-, 0) >= 0`` beside an impulse that pushes, and friction whose impulse
 is at most mu times that. All combinations of modes are tried and verified as modes at rest are
 (`symgen.run.modes.contacts`); the velocities follow from a linear problem in the modes that are right.
 
@@ -230,7 +230,7 @@ def strike_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
 
 @exact()
 def turns_back(c: Choice, s: Strikes, w: Array, i: int) -> bool:
-    """Return whether a gap opens behind the impact of another one, and has been struck before."""
+    """Return whether a gap opens after the impact of another one, and has been struck before."""
     touches = c.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH) and c.speed[i] > 0.0
     return bool(touches and s.active[i] == 0 and s.effects.past.counts[s.events[i]] > 0)
 

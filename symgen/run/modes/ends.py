@@ -1,4 +1,4 @@
-"""Why steps of a run with bounded rows have become too short: what its formulas are just behind the end."""
+"""Why steps of a run with bounded rows have become too short: what its formulas are just after the end."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from symgen.run.layout.scales import larger_number
 from symgen.run.modes.bounded_rows import NO_NUMBER, SAME, Choice
 from symgen.run.modes.choice import copy_state, find_fault, read_rows, write_rates
 
-#: How far behind the end formulas are looked at, over what the time resolves.
+#: How long after the end formulas are looked at, over what the time resolves.
 _AHEAD = 64.0
 
 
 @exact(entry=True)
 def find_undefined(t: float, step: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers) -> int:
-    """Return `NO_NUMBER`, with the row named, where one of its formulas is no number just behind a state; else `SAME`.
+    """Return `NO_NUMBER`, with the row named, where one of its formulas is no number just after a state; else `SAME`.
 
     The state goes on along its rates: a formula may lose its meaning over time or over coordinates. It is looked at
     behind a step that has failed, of `step` seconds, and behind what the time resolves.
