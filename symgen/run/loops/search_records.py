@@ -58,6 +58,8 @@ CORNERS = False
 MARGINS = False
 #: Of a margin, which has no table: the longest step since modes were chosen inside which its force is known.
 LOOKED = PLACE
+#: Margins below this part of their size are rounding.
+UNCERTAIN = 2.0**-42
 N_HEAD, N_COLUMNS, N_VALUES = SPREAD + N_INSIDE + 2, AT_END + 3, 3
 #: A state and its rate, another state, and rates at the beginning and at the end of the step.
 N_STATES = 5

@@ -81,6 +81,7 @@ from symgen.run.loops.search_records import (
     SINCE,
     SIZE,
     TO_EVENT,
+    UNCERTAIN,
     WHOLE,
     WHOLE_STEP,
 )
@@ -91,8 +92,8 @@ A = Any
 _COUNTERS = abi.N_COUNTERS
 #: Changes of g by a reset below this fraction of its size in the step before are rounding.
 _SAME = 1e-6
-#: Margins below this part of their size are rounding; below the negative of this part they contradict their mode.
-_UNCERTAIN, _DEEP = 2.0**-42, 1e-4
+#: Margins below the negative of this part of their size contradict their mode.
+_DEEP = 1e-4
 #: Number of switches within this fraction of the time that stall a motion.
 _CROWDED, _HEAP = 50.0, 1e-7
 #: The proposed step of constant ones is infinite.
@@ -118,7 +119,7 @@ def put_to_sleep(hunt: A, n: int, k: int) -> int:
     """
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     g, size = hunt[out + k], hunt[at + MEASURE * n + k]
-    rounding = _UNCERTAIN * size
+    rounding = UNCERTAIN * size
     asleep, grazing = rounding if g <= rounding else 0.0, 0.0
     if g < -0.5 * rounding:
         asleep = -2.0 * g if -g <= _DEEP * size else 0.0

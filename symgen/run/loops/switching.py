@@ -21,13 +21,11 @@ from symgen.run.loops.search_records import (
     G_HIGH,
     G_LOW,
     G_START,
-    GAP,
     GRAIN,
     GRAZING,
     HIGH,
     LOCAL,
     MARGIN,
-    MEASURE,
     N_COLUMNS,
     N_HEAD,
     ROUNDS,
@@ -41,8 +39,6 @@ A = Any
 _ITERATIONS = 60
 #: Values below this fraction of g at both ends are rounding.
 _ROUNDING = 1e-14
-#: Part of its size by which a gap whose row has corners may be negative before it is struck: less than what sleeps.
-_TOUCHING = 2.0**-44
 #: Factor by which the final bracket grows each time that the root seems to be at an end of it.
 _WIDER = 8.0
 
@@ -161,12 +157,6 @@ def is_corner(hunt: A, n: int, k: int) -> int:
 
 
 @plain
-def is_gap(hunt: A, n: int, k: int) -> int:
-    """Return 1 for the gap of an open row."""
-    return 1 if hunt[N_HEAD + MARGIN * n + k] == float(GAP) else 0
-
-
-@plain
 def passes_corner(hunt: A, n: int) -> int:
     """Return 1 where the bracket passes a corner: a step ends before it, where the row holds that is in force."""
     for k in range(n):
@@ -265,9 +255,6 @@ def taken_for(hunt: A, n: int, k: int, h: float) -> float:
         # within its rounding formulas may be those behind the corner
         grain, touches = hunt[at + GRAIN * n + k], abs(g) <= hunt[at + GRAIN * n + k]
         return float(-hunt[at + SIDE * n + k] * grain if touches and abs(hunt[at + G_START * n + k]) > grain else g)
-    # where two gaps share a corner, one comes to 0 beside the other, tangentially: rounding would strike it long before
-    if CORNERS and is_gap(hunt, n, k) == 1 and hunt[at + GRAZING * n + k] == 0.0:
-        return float(g + _TOUCHING * hunt[at + MEASURE * n + k])
     before = abs(hunt[at + G_START * n + k])
     near = h * abs(hunt[at + D_START * n + k]) < 4.0 * before and abs(g) < 8.0 * before
     return float(hunt[at + SIDE * n + k] * before) if near and hunt[at + GRAZING * n + k] != 0.0 else float(g)

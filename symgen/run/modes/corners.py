@@ -12,8 +12,29 @@ from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout.scales import larger_number
 from symgen.run.layout.start_records import Instant
-from symgen.run.loops.search_records import CORNER, COUNT, D_START, FIRED, GRAIN, MARGIN, N_HEAD, ROW, SIDE
-from symgen.run.modes.bounded_rows import HELD, STILL, Choice, is_shut, open_rows, row_scale, sign_of_number, switch_off
+from symgen.run.loops.search_records import (
+    CORNER,
+    COUNT,
+    D_START,
+    FIRED,
+    GRAIN,
+    MARGIN,
+    N_HEAD,
+    ROW,
+    SIDE,
+    UNCERTAIN,
+)
+from symgen.run.modes.bounded_rows import (
+    HELD,
+    STILL,
+    Choice,
+    is_held,
+    is_shut,
+    open_rows,
+    row_scale,
+    sign_of_number,
+    switch_off,
+)
 from symgen.run.modes.choice import copy_state, write_rates
 from symgen.run.modes.strikes import Strikes, accelerate_in_force
 
@@ -88,6 +109,23 @@ def begin_at_corners(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arr
     if found == 0:
         open_rows(c, w)
     return int(found)
+
+
+@exact(entry=True)
+def spare_touching(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers) -> int:
+    """Take the rates of gaps that only touch for 0: they turn before they are as deep as rounding; return their number.
+
+    A gap shares the corner of the closed one that goes past it: beside that one it comes to 0 with a rate of 0, and
+    rounding finds it there long before. Rows have been read.
+    """
+    count = 0
+    accelerate_in_force(t, c, Instant(y, p, w), iw)
+    for i in range(c.dry, c.count):
+        rate, deep = c.speed[i], 2.0 * UNCERTAIN * row_scale(c, w, i, abi.LENGTH) * c.out[i]
+        if rate < 0.0 and rate * rate < deep and is_shut(c, w, i) and not is_held(c, w, i):
+            c.speed[i] = 0.0
+            count += 1
+    return count
 
 
 @exact(entry=True)

@@ -60,7 +60,7 @@ from symgen.run.modes.choice import (
 )
 from symgen.run.modes.contact_impacts import find_struck_contacts, gather_contacts, strike_contacts
 from symgen.run.modes.contacts import choose_contacts, measure_margins_of_contacts
-from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_corners
+from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_corners, spare_touching
 from symgen.run.modes.ends import find_undefined
 from symgen.run.modes.placing import put_gaps
 from symgen.run.modes.strikes import Strikes, find_struck, forget_passed, gather, strike
@@ -230,6 +230,8 @@ def strike_past_corners(t: float, modes: OfModes, state: EventState) -> int:
         passed = pass_corners(t, c, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt)
     if passed > 0 and read_rows(t, c, state.y, state.p, state.w) != SAME:
         return OUT_OF_RANGE
+    if passed == 0 and state.control[abi.BEGUN] != 0:
+        spare_touching(t, c, state.y, state.p, state.w, state.iw)
     code = int(strike_gaps(t, modes, state))
     if code == SAME and passed > 0 and find_both_pieces(t, c, modes.strikes, state.y, state.p, state.w, state.hunt) > 0:
         code = TWO_PIECES
