@@ -352,3 +352,44 @@ def test_a_geneva_wheel_misses_no_hit(settings: dict[str, Any], tmp_path: Path) 
     result = loaded(geneva(), tmp_path).simulate(**settings)
     assert result.status == "ok"
     assert len(result.events) == 99 and abs(result["wheel.theta"][-1] - 6.7964906980) < 1e-9
+
+
+def flanks(start: float, speed: float, turn: float) -> str:
+    """A ball of 50 mm on a flank that ends at a corner, where a second one goes down, all turned by an angle.
+
+    The ball flies off at the corner, as its weight does not bend its path as much as the corner does.
+    """
+    c, s = math.cos(turn), math.sin(turn)
+    u = f"({c!r}*(ball.x - 0.37) + {s!r}*(ball.y + 0.21))"
+    v = f"({c!r}*(ball.y + 0.21) - {s!r}*(ball.x - 0.37))"
+    along = f"max(0.6*{u} - 0.8*{v}, 0)"
+    return f"""
+[mechanism]
+name = "flanks"
+gravity = [{G * s!r}, {-G * c!r}]
+[run]
+until = {0.05 - start / speed!r}
+[bodies.ball]
+type = "point"
+mass = 0.3
+position = [{0.37 + c * start - s * 0.05!r}, {-0.21 + s * start + c * 0.05!r}]
+velocity = [{c * speed!r}, {s * speed!r}]
+[stops.top]
+gap = "sqrt(({u} - min({u}, 0))**2 + {v}**2) - 0.05"
+restitution = 0.2
+[stops.side]
+gap = "sqrt(({u} - 0.6*{along})**2 + ({v} + 0.8*{along})**2) - 0.05"
+restitution = 0.2
+"""
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize(("start", "speed", "turn"), [(-0.31, 1.0, 0.3), (-0.7, 2.3, 1.1), (-0.4, 3.0, 0.2)])
+def test_a_gap_that_is_touched_beside_a_closed_one_is_not_struck(
+    start: float, speed: float, turn: float, coordinates: str, tmp_path: Path
+) -> None:
+    result = loaded(flanks(start, speed, turn), tmp_path).simulate(coordinates=coordinates, verify=False)
+    c, s = math.cos(turn), math.sin(turn)
+    assert result.status == "ok" and [event.name for event in result.events] == ["top.leave"]
+    velocity = [c * speed + s * 0.05 * G, s * speed - c * 0.05 * G]
+    np.testing.assert_allclose([result["ball.vx"][-1], result["ball.vy"][-1]], velocity, rtol=0, atol=1e-11)
