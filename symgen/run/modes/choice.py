@@ -174,6 +174,20 @@ def write_rates(t: float, c: Choice, p: Array) -> None:
         c.confirm(t, c.y, p, c.w, c.iw, c.rate)
 
 
+@exact()
+def measure_accelerations(t: float, c: Choice, p: Array, control: Integers) -> int:
+    """Write the accelerations of coordinates in the modes of the copied state to ``out``."""
+    if c.w[abi.STEP_STATUS] == 0.0:  # of laws whose gains follow the step, before the first one
+        c.w[abi.STEP_STATUS] = c.step[0]
+    write_rates(t, c, p)
+    control[abi.EVALUATIONS] += 1
+    c.accelerations(t, c.y, p, c.w, c.rate, c.out)
+    for i in range(c.count):
+        if not math.isfinite(c.out[i]):
+            return NOT_FINITE
+    return SAME
+
+
 @exact(entry=True)
 def accelerate(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
     """Write the accelerations of coordinates with all rows off and efforts of the signs of ``trial`` to ``out``.
@@ -187,15 +201,7 @@ def accelerate(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, 
         c.w[at + SIGN] = c.trial[i]
     if c.pushed[0] >= 0:
         c.w[c.first + MODE_NUMBERS * c.pushed[0] + EFFORT] = 1.0
-    if c.w[abi.STEP_STATUS] == 0.0:  # of laws whose gains follow the step, before the first one
-        c.w[abi.STEP_STATUS] = c.step[0]
-    write_rates(t, c, p)
-    control[abi.EVALUATIONS] += 1
-    c.accelerations(t, c.y, p, c.w, c.rate, c.out)
-    for i in range(c.count):
-        if not math.isfinite(c.out[i]):
-            return NOT_FINITE
-    return SAME
+    return int(measure_accelerations(t, c, p, control))
 
 
 @exact(entry=True)

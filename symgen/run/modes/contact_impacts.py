@@ -2,7 +2,7 @@
 
 The rates after an impact have ``u_N+ + e min(u_N-, 0) >= 0`` beside an impulse that pushes, and friction whose impulse
 is at most mu times that. All combinations of modes are tried and verified as modes at rest are
-(`symgen.run.modes.contacts`); the velocities follow from a linear problem in the modes that are right.
+(`symgen.run.modes.verification`); the velocities follow from a linear problem in the modes that are right.
 
 Where impacts of one contact accumulate, or of several in turn, impulses in the modes of the last impact take what
 is left of their rates: friction counts for the impacts that are left out, less what it does at rest in their place.
@@ -32,31 +32,28 @@ from symgen.run.modes.bounded_rows import (
     STILL,
     TOUCHING,
     Choice,
-    is_held,
     is_shut,
     row_scale,
     sign_of_number,
     switch_off,
 )
-from symgen.run.modes.contacts import LOWER, OFF, ON, UPPER, find_parts, probe_contacts, try_combinations
+from symgen.run.modes.combinations import LOWER, OFF, ON, UPPER
+from symgen.run.modes.parts import choose_part, find_parts, probe_contacts
 from symgen.run.modes.strikes import (
     OF_SERIES,
     Strikes,
     accelerate_in_force,
+    ask_rates,
     choose_events,
     follow_series,
+    is_closing,
 )
+from symgen.run.modes.verification import try_combinations
 
 #: Impulses below this part of the largest are rounding.
 _NOTHING = 1e-12
 #: An impact adds energy where its work is above this part of the work of its impulses, one by one.
 _GAIN = 1e-9
-
-
-@exact()
-def is_closing(c: Choice, w: Array, i: int) -> bool:
-    """Return whether a gap that touches strikes: its rate is below 0, and no mode holds it."""
-    return bool(not is_held(c, w, i) and c.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED))
 
 
 @exact(entry=True)
@@ -89,21 +86,6 @@ def find_struck_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: 
 
 
 @exact()
-def ask_rates_of_gaps(t: float, c: Choice, s: Strikes, now: Instant) -> None:
-    """Set the rates of gaps after an impact, of which each event has the first velocity."""
-    _, _, formulas, _, changes = s.effects.model
-    work, count = s.effects.work, changes.owners.shape[0]
-    for i in range(work.scratch.shape[0]):
-        work.scratch[i] = now.w[i]
-    formulas(t, now.y, now.p, work.scratch, work.rate, work.out)
-    for k in range(count):
-        j = count - 1 - k
-        for i in range(c.dry, c.count):
-            if changes.owners[j] == s.events[i]:
-                s.asked[i] = work.out[count + j]
-
-
-@exact()
 def find_impulses(c: Choice, s: Strikes) -> int:
     """Find the modes of an impact; return `SAME`, or why there are none."""
     rows = c.at_rest[0]
@@ -114,11 +96,7 @@ def find_impulses(c: Choice, s: Strikes) -> int:
         c.best[i], c.forces[i], c.signs[i] = OFF, 0.0, 0.0
     find_parts(c)
     for first in range(c.count):
-        count = 0
-        for r in range(rows):
-            if c.part[c.rest[r]] == first:
-                c.box.order[count] = c.rest[r]
-                count += 1
+        count = choose_part(c, first, rows)
         if count > 0:
             code = try_combinations(c, count)
             if code != SAME:
@@ -201,11 +179,9 @@ def strike_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
     for r in range(c.at_rest[0]):
         c.shut[c.rest[r]] = 1 if c.pushes[c.rest[r]] != 0 else 0
     switch_off(c, w)
-    for r in range(c.at_rest[0]):
-        c.shut[c.rest[r]] = 1 if c.pushes[c.rest[r]] != 0 else 0
     for i in range(c.count):
         s.left[i], s.before[i] = math.nan, c.speed[i]
-    ask_rates_of_gaps(t, c, s, now)
+    ask_rates(t, c, s, now)
     code = find_impulses(c, s)
     if code != SAME:
         return int(code)

@@ -127,6 +127,15 @@ def new_strikes(effects: OfEffects, hits: Sequence[int], losses: Sequence[int], 
     )
 
 
+@exact()
+def is_closing(c: Choice, w: Array, i: int) -> bool:
+    """Return whether a gap that touches strikes: its rate is below 0, and no mode holds it.
+
+    The rate of a gap that its mode has closed is what a method leaves of it.
+    """
+    return bool(not is_held(c, w, i) and c.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED))
+
+
 @exact(entry=True)
 def find_struck(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
     """Set the gaps that touch, and G among them, where one strikes: `OTHERS`; else `SAME`, or why there is no impact.
@@ -138,8 +147,7 @@ def find_struck(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers,
         if is_shut(c, w, i):
             c.rest[n] = i
             n += 1
-            # the rate of a gap that its mode has closed is what a method leaves of it
-            strikes = strikes or (not is_held(c, w, i) and c.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED))
+            strikes = strikes or is_closing(c, w, i)
     if not strikes:
         return SAME
     c.at_rest[0] = n
@@ -150,8 +158,7 @@ def find_struck(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers,
         return NOT_FINITE
     for r in range(n):
         i = c.rest[r]
-        closes = not is_held(c, w, i) and c.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED)
-        if closes and c.matrix[i * c.count + i] == 0.0:
+        if is_closing(c, w, i) and c.matrix[i * c.count + i] == 0.0:
             c.named[0] = i
             return IMMOVABLE
     return OTHERS
@@ -194,13 +201,17 @@ def choose_events(c: Choice, s: Strikes, only_struck: bool) -> None:
 
 @exact()
 def ask_rates(t: float, c: Choice, s: Strikes, now: Instant) -> None:
-    """Set the rates of gaps after an impact at the present state: the law of impacts is the formula of the event."""
+    """Set the rates of gaps after an impact at the present state: the law of impacts is the formula of the event.
+
+    An event that sets several velocities has that of the gap first.
+    """
     _, _, formulas, _, changes = s.effects.model
     work, count = s.effects.work, changes.owners.shape[0]
     for i in range(work.scratch.shape[0]):
         work.scratch[i] = now.w[i]
     formulas(t, now.y, now.p, work.scratch, work.rate, work.out)
-    for j in range(count):
+    for k in range(count):
+        j = count - 1 - k
         for i in range(c.dry, c.count):
             if changes.owners[j] == s.events[i]:
                 s.asked[i] = work.out[count + j]

@@ -1,0 +1,147 @@
+"""Mobility among closed contacts and their friction, compiled, and the parts of it that do not depend on each other.
+
+G has the accelerations of rows by the forces of others. Rows at rest that G connects are one part, of which the modes
+are chosen together; a part without contacts is a box problem, see `symgen.run.modes.choice`.
+"""
+
+from __future__ import annotations
+
+import math
+
+from symgen.base.ir.program import MODE_NUMBERS
+from symgen.compile.loopcode.exact import exact
+from symgen.compile.native.annotations import Array, Integers
+from symgen.run.layout.scales import larger_number
+from symgen.run.modes.bounded_rows import (
+    CONSTANT,
+    EFFORT,
+    HELD,
+    LIMIT,
+    NOT_FINITE,
+    SAME,
+    SIGN,
+    Choice,
+    usual_of,
+)
+from symgen.run.modes.choice import copy_state, find_mobility, measure_accelerations, size_forces, symmetrise
+
+#: Rows depend on each other above this part of their own mobilities.
+_COUPLED = 1e-12
+
+
+@exact()
+def keep_touching(c: Choice, n: int) -> int:
+    """Leave the friction of open contacts out of the rows at rest, and their signs; return the number at rest."""
+    for r in range(n):
+        c.taken[c.rest[r]] = 1
+    kept = 0
+    for r in range(n):
+        i = c.rest[r]
+        j = c.partner[i]
+        if c.pushes[i] == 0 and j >= 0 and c.taken[j] == 0:
+            c.taken[i] = 0
+        else:
+            c.rest[kept] = i
+            kept += 1
+    for i in range(c.dry):
+        j = c.partner[i]
+        if j >= 0 and c.taken[j] == 0:
+            c.signs[i] = 0.0
+    c.at_rest[0] = kept
+    return kept
+
+
+@exact()
+def accelerate_by(
+    t: float, c: Choice, j: int, force: float, y: Array, p: Array, w: Array, iw: Integers, control: Integers
+) -> int:
+    """Write the accelerations of coordinates with all rows off, and a force of ``-force`` at row j, if any, to ``out``.
+
+    Dry friction without a contact has its sign; that of contacts has none.
+    """
+    copy_state(c, y, w, iw)
+    for i in range(c.count):
+        at = c.first + MODE_NUMBERS * i
+        c.w[at + HELD] = c.w[at + CONSTANT] = c.w[at + LIMIT] = c.w[at + EFFORT] = 0.0
+        c.w[at + SIGN] = c.signs[i] if c.pushes[i] == 0 and c.partner[i] < 0 else 0.0
+    if j < c.count:
+        at = c.first + MODE_NUMBERS * j
+        if c.pushes[j] != 0:
+            c.w[at + SIGN] = -force
+        else:
+            c.w[at + EFFORT] = force
+    return int(measure_accelerations(t, c, p, control))
+
+
+@exact()
+def probe_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
+    """Set G of the rows at rest and of the sliding friction of contacts, and accelerations without these forces."""
+    k, n = c.count, c.at_rest[0]
+    for i in range(k * k):
+        c.matrix[i] = 0.0
+    if accelerate_by(t, c, k, 0.0, y, p, w, iw, control) != SAME:
+        return NOT_FINITE
+    for i in range(k):
+        c.offset[i] = c.out[i]
+    find_mobility(c)
+    rows = n
+    for i in range(c.dry):
+        if c.partner[i] >= 0 and c.signs[i] != 0.0 and c.taken[i] == 0:
+            c.rest[rows] = i
+            rows += 1
+    for r in range(rows):
+        j = c.rest[r]
+        force, usual = 1.0, larger_number(abs(c.offset[j]), usual_of(c, w, j))
+        if c.alone[j] > 0.0 and usual > 0.0:  # accelerations as large as those that are there
+            force = usual / c.alone[j]
+        if accelerate_by(t, c, j, force, y, p, w, iw, control) != SAME:
+            return NOT_FINITE
+        for i in range(k):
+            c.matrix[i * k + j] = (c.offset[i] - c.out[i]) / force
+    c.at_rest[0] = rows
+    symmetrise(c)
+    size_forces(c, rows, w)
+    for r in range(rows):  # the rounding of a bound is that of what presses
+        i = c.rest[r]
+        if c.pushes[i] == 0 and c.partner[i] >= 0:
+            c.scale[i] += c.static[i] * c.scale[c.partner[i]]
+    return SAME
+
+
+@exact()
+def find_parts(c: Choice) -> int:
+    """Set the parts of G among the rows of ``rest``, as the least row of each; return the number of rows."""
+    k, n, again = c.count, c.at_rest[0], True
+    for r in range(n):
+        c.part[c.rest[r]] = c.rest[r]
+    while again:
+        again = False
+        for a in range(n):
+            for b in range(n):
+                i, j = c.rest[a], c.rest[b]
+                size = math.sqrt(abs(c.matrix[i * k + i] * c.matrix[j * k + j]))
+                tied = c.partner[i] == j or abs(c.matrix[i * k + j]) > _COUPLED * size
+                if tied and c.part[j] < c.part[i]:
+                    c.part[i], again = c.part[j], True
+    return int(n)
+
+
+@exact()
+def choose_part(c: Choice, part: int, rows: int) -> int:
+    """Set the rows of a part in the order of ``box``; return their number."""
+    count = 0
+    for r in range(rows):
+        i = c.rest[r]
+        if c.part[i] == part:
+            c.box.order[count] = i
+            count += 1
+    return int(count)
+
+
+@exact()
+def has_contact(c: Choice, count: int) -> bool:
+    """Return whether a part has a contact with friction."""
+    for a in range(count):
+        if c.partner[c.box.order[a]] >= 0:
+            return True
+    return False
