@@ -2,7 +2,7 @@
 
 The rates after an impact have ``u_N+ + e min(u_N-, 0) >= 0`` beside an impulse that pushes, and friction whose impulse
 is at most mu times that. All combinations of modes are tried and verified as modes at rest are
-(`symgen.run.modes.verification`); the velocities follow from a linear problem in the modes that are right.
+(`symgen.run.modes.contact_verification`); the velocities follow from a linear problem in the modes that are right.
 
 Where impacts of one contact accumulate, or of several in turn, impulses in the modes of the last impact take what
 is left of their rates: friction counts for the impacts that are left out, less what it does at rest in their place.
@@ -37,8 +37,9 @@ from symgen.run.modes.bounded_rows import (
     sign_of_number,
     switch_off,
 )
-from symgen.run.modes.combinations import LOWER, OFF, ON, UPPER
-from symgen.run.modes.parts import choose_part, find_parts, probe_contacts
+from symgen.run.modes.contact_combinations import LOWER, OFF, ON, UPPER
+from symgen.run.modes.contact_parts import choose_part, find_parts, probe_contacts
+from symgen.run.modes.contact_verification import try_combinations
 from symgen.run.modes.strikes import (
     OF_SERIES,
     Strikes,
@@ -48,7 +49,6 @@ from symgen.run.modes.strikes import (
     follow_series,
     is_closing,
 )
-from symgen.run.modes.verification import try_combinations
 
 #: Impulses below this part of the largest are rounding.
 _NOTHING = 1e-12

@@ -2,9 +2,10 @@
 
 A contact is a one-sided row N and the friction T along it, ``|T| <= mu N``. Each closed contact opens, sticks, or
 slides one of two ways; in motion the way is known. Rows that depend on each other are a part
-(`symgen.run.modes.parts`), all combinations of whose modes are solved (`symgen.run.modes.combinations`) and verified
-(`symgen.run.modes.verification`). Parts without contacts are left to `symgen.run.modes.choice`. The same combinations
-on rates are those of an impact (`symgen.run.modes.contact_impacts`).
+(`symgen.run.modes.contact_parts`), all combinations of whose modes are solved
+(`symgen.run.modes.contact_combinations`) and verified (`symgen.run.modes.contact_verification`). Parts without
+contacts are left to `symgen.run.modes.choice`. The same combinations on rates are those of an impact
+(`symgen.run.modes.contact_impacts`).
 """
 
 from __future__ import annotations
@@ -29,10 +30,10 @@ from symgen.run.modes.bounded_rows import (
     row_scale,
 )
 from symgen.run.modes.choice import add_forces, find_rest, measure_margins, solve_rest, write_modes
-from symgen.run.modes.combinations import LOWER, ON, UPPER
+from symgen.run.modes.contact_combinations import LOWER, ON, UPPER
+from symgen.run.modes.contact_parts import choose_part, find_parts, has_contact, keep_touching, probe_contacts
+from symgen.run.modes.contact_verification import try_combinations
 from symgen.run.modes.holding import hold_rows
-from symgen.run.modes.parts import choose_part, find_parts, has_contact, keep_touching, probe_contacts
-from symgen.run.modes.verification import try_combinations
 
 
 @exact()

@@ -112,20 +112,17 @@ def begin_at_corners(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arr
 
 
 @exact(entry=True)
-def spare_touching(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers) -> int:
-    """Take the rates of gaps that only touch for 0: they turn before they are as deep as rounding; return their number.
+def spare_touching(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers) -> None:
+    """Take the rates of gaps that only touch for 0: they turn before they are as deep as rounding.
 
     A gap shares the corner of the closed one that goes past it: beside that one it comes to 0 with a rate of 0, and
     rounding finds it there long before. Rows have been read.
     """
-    count = 0
     accelerate_in_force(t, c, Instant(y, p, w), iw)
     for i in range(c.dry, c.count):
         rate, deep = c.speed[i], 2.0 * UNCERTAIN * row_scale(c, w, i, abi.LENGTH) * c.out[i]
         if rate < 0.0 and rate * rate < deep and is_shut(c, w, i) and not is_held(c, w, i):
             c.speed[i] = 0.0
-            count += 1
-    return count
 
 
 @exact(entry=True)

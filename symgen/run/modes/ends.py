@@ -20,7 +20,7 @@ def find_undefined(t: float, step: float, c: Choice, y: Array, p: Array, w: Arra
     """Return `NO_NUMBER`, with the row named, where one of its formulas is no number just after a state; else `SAME`.
 
     The state goes on along its rates: a formula may lose its meaning over time or over coordinates. It is looked at
-    behind a step that has failed, of `step` seconds, and behind what the time resolves.
+    after twice the `step` that has failed [s], and after more than what the time resolves.
     """
     h = larger_number(2.0 * step, _AHEAD * larger_number(abi.RESOLVED_TIME * abs(t), abi.SHORTEST_STEP))
     copy_state(c, y, w, iw)

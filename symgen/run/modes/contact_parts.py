@@ -34,21 +34,21 @@ def keep_touching(c: Choice, n: int) -> int:
     """Leave the friction of open contacts out of the rows at rest, and their signs; return the number at rest."""
     for r in range(n):
         c.taken[c.rest[r]] = 1
-    kept = 0
+    count = 0
     for r in range(n):
         i = c.rest[r]
         j = c.partner[i]
         if c.pushes[i] == 0 and j >= 0 and c.taken[j] == 0:
             c.taken[i] = 0
         else:
-            c.rest[kept] = i
-            kept += 1
+            c.rest[count] = i
+            count += 1
     for i in range(c.dry):
         j = c.partner[i]
         if j >= 0 and c.taken[j] == 0:
             c.signs[i] = 0.0
-    c.at_rest[0] = kept
-    return kept
+    c.at_rest[0] = count
+    return count
 
 
 @exact()

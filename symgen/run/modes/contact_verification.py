@@ -17,7 +17,7 @@ from symgen.run.modes.bounded_rows import (
     TOO_MANY,
     Choice,
 )
-from symgen.run.modes.combinations import (
+from symgen.run.modes.contact_combinations import (
     OFF,
     ON,
     UPPER,
@@ -86,7 +86,7 @@ def try_combinations(c: Choice, count: int) -> int:
 
     Combinations with equal accelerations are one: forces may be several.
     """
-    box, found, contacts = c.box, 0, 0
+    box, solutions, contacts = c.box, 0, 0
     for a in range(count):
         i = box.order[a]
         contacts += 1 if c.pushes[i] != 0 else 0
@@ -97,25 +97,25 @@ def try_combinations(c: Choice, count: int) -> int:
     more = True
     while more:
         if set_combination(c, count) and solve_combination(c, count) and is_right(c, count):
-            if found == 0:
-                found = 1
+            if solutions == 0:
+                solutions = 1
                 for a in range(count):
                     i = box.order[a]
                     c.best[i], c.part[i] = c.mode[i], c.carrier[i]
                     c.forces[i], c.trial[i], c.bounds[i] = box.forces[i], box.left[i], c.sizes[i]
-            elif found == 1:
+            elif solutions == 1:
                 for a in range(count):
                     i = box.order[a]
                     if abs(box.left[i] - c.trial[i]) > _ONE * box.scale[i]:
-                        found = 2
-                if found == 2:
+                        solutions = 2
+                if solutions == 2:
                     for a in range(count):
                         c.other[box.order[a]] = c.mode[box.order[a]]
         more = next_combination(c, count)
-    if found == 0:
+    if solutions == 0:
         name_fault(c, count)
         return NO_CONTACT_MODES
-    if found == 2:
+    if solutions == 2:
         name_fault(c, count)
         return SEVERAL_MODES
     return SAME
