@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -163,8 +164,8 @@ def _breakable_text(text: str) -> str:
 
 
 def _latex_sentence(text: str) -> str:
-    """Return a sentence with names in it; long names may be broken."""
-    return latex_text(text).replace(r"\_", r"\_\allowbreak ").replace(".", r".\allowbreak ")
+    """Return a sentence with names and formulas in it; long ones may be broken."""
+    return re.sub(r"\\_|[.*]", r"\g<0>\\allowbreak ", latex_text(text))
 
 
 def _aligned_rows(rows: Sequence[str]) -> list[str]:

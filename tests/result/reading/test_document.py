@@ -197,5 +197,5 @@ def test_documents_of_the_catalogue_compile_without_overfull_boxes(name, coordin
     symbols = ["--symbols"] if coordinates == "joint" else []
     log = set_by_an_engine(document(capsys, name, "--coordinates", coordinates, *symbols), tmp_path)
     overfull = [float(points) for points in re.findall(r"Overfull \\hbox \(([\d.]+)pt too wide\)", log)]
-    assert max(overfull, default=0.0) <= 15.0, overfull
+    assert max(overfull, default=0.0) <= 10.0, overfull
     assert "undefined" not in log
