@@ -153,7 +153,8 @@ def test_another_branch_is_chosen_by_a_start(driven):
     assert any(note.startswith("2 ways to close it are known") for note in found.notes)
     described = driven.kinematics([0.0, 1.0], start={"rocker.theta": 2.0})
     assert np.abs(described.q.values - driven.kinematics([0.0, 1.0]).q.values).max() < 1e-12
-    with pytest.raises(InputError, match=r"start 'rocker\.omega': .*expected a coordinate of a body or joint"):
+    meant = r"start 'rocker\.omega': .*did you mean 'rocker\.theta'\? \(expected a coordinate of a body or joint"
+    with pytest.raises(InputError, match=meant):
         driven.kinematics([0.0, 1.0], start={"rocker.omega": 1.0})
 
 
