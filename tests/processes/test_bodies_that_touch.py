@@ -4,6 +4,7 @@ import csv
 import json
 
 import pytest
+
 from tests.processes.programs import shell
 
 #: The disc slides at mu g, its spin grows by 2 mu g/r: it rolls at 2/3 of its speed after v/(3 mu g).
