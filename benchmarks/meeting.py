@@ -124,6 +124,10 @@ FEATURES: Mapping[str, str] = {
     "rows of the file": cart().replace(_PIN, _ROWS),
     "table": cart(force="-profile(cart.x) - cart.vx", more=f"[tables.profile]\n{_TABLE}"),
     "jump in time": cart(force="-k*cart.x + (3.0 if t < 0.2 else 0.0)"),
+    "state that reads a reaction": cart(
+        force="-k*cart.x - cart.vx + 0.01*shown",
+        more='[states.shown]\nrate = "(pin.Fy + pole.alpha - shown)/0.1"',
+    ),
     "jump with the state": cart(force="-k*cart.x - (1.0 if cart.x > 0.05 else -1.0)"),
     "event, recorded": cart(more='[events.turn]\nwhen = "cart.x - 0.09"\naction = "record"'),
     "event with a reset": cart(more='[events.kick]\nwhen = "cart.x - 0.09"\nreset = { "cart.vx" = "0.5" }'),

@@ -195,7 +195,7 @@ CASES = [
     ("forces.motor.body", "bob", ": expected a body with an angle for 'torque', got the point mass 'bob'"),
     (
         *("forces.motor.torque", "rod.alpha"),
-        "got 'alpha', which body 'rod' does not have; it has x, y, theta, vx, vy, omega",
+        "got 'rod.alpha', which follows from all forces and may depend on this formula, a circle",
     ),
     ("forces.motor.torque", "lambda: 1", "got the word 'lambda' at column 1"),
     ("forces.motor.torque", "rod.__class__", "got the character '_' at column 5"),

@@ -258,7 +258,8 @@ def tangent_system(subject: Subject, y: Array, t: float | None = None) -> StateT
     q_rates = changes_of_group("motion")
     back = np.linalg.pinv((motion @ free) / subject.lengths[:, np.newaxis]) / subject.lengths
     along = (basis / subject.spans[:, np.newaxis] ** 2).T  # of orthonormal columns in spans
-    state_rates = np.vstack([back @ q_rates, along @ rates, changes_of_group("states")])
+    states = changes_of_group("states") + e.by("states", "a") @ rates + e.by("states", "lam") @ multipliers
+    state_rates = np.vstack([back @ q_rates, along @ rates, states])
     return StateTangent(
         *(subject, now, y, a, lam, e, positions, velocities, q, q_rates, v, rates, multipliers),
         *(state_rates, free, basis),

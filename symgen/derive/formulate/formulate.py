@@ -33,6 +33,7 @@ from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import name_of_number, places_of_first_modes
 from symgen.describe.bounds.by_reaction import pressed_rows, refuse_shared_reactions
 from symgen.describe.facts.repeats import without_repeats
+from symgen.describe.formulas.readings import reads_results
 from symgen.describe.mechanism import Mechanism, Rotor, SpatialBody
 from symgen.describe.parts.topology import UNITS, state_quantities
 
@@ -74,7 +75,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         mass, forces, driving = model.tree.dynamics(forces)
     mass, rotating = with_rotors(model, mass, forces)
     joint_coordinates = _joint_coordinates(model)
-    rates = tuple(model.expression(x.rate) for x in mechanism.states)
+    rates = _rates_of_states(model, rows)
     coordinates, velocities = state_quantities(mechanism)
     read = {table_of_payload(o.payload)[0] for o in model.graph.nodes if o.op == "table"}
     return Equations(
@@ -107,6 +108,15 @@ def formulate(mechanism: Mechanism) -> Equations:
         state_rates=rates,
         drags=tuple(_drag_of_reaction(model, row, rows, repeats) for row in pressed_rows(mechanism)),
     )
+
+
+def _rates_of_states(model: ModelNodes, rows: Sequence[ConstraintRow]) -> tuple[int, ...]:
+    """Return the rates of the file's states; those that read results have v' and multipliers among their inputs."""
+    states = model.mechanism.states
+    if any(reads_results(x.rate) for x in states):
+        model.places_of_rows = {row.name: i for i, row in enumerate(rows)}
+        model.name_accelerations()
+    return tuple(model.expression(x.rate) for x in states)
 
 
 def _coordinates_of_bodies(model: ModelNodes) -> tuple[int, ...]:

@@ -44,7 +44,7 @@ from symgen.derive.formulate.tree_space import SpatialTree
 from symgen.describe.bounds.bounded_modes import mode_names
 from symgen.describe.bounds.by_reaction import jamming_names
 from symgen.describe.formulas.formula_nodes import Formulas
-from symgen.describe.mechanism import is_speed
+from symgen.describe.mechanism import ACCELERATIONS, is_speed
 from symgen.describe.modal_body import mode_number
 
 
@@ -88,6 +88,8 @@ class ModelNodes(Formulas):
         self._memo: dict[object, DerivedMeasure] = {}
         self._frames: dict[str, list[int]] = {}
         self._interfaces: dict[str, InterfaceFrame] = {}
+        #: Place of each row among the multipliers, for formulas that may read forces of rows.
+        self.places_of_rows: Mapping[str, int] = {}
         #: Raw angles of measures with counted turns, in the order of their slots in the section ``winding``.
         self.windings: list[int] = []
 
@@ -174,13 +176,39 @@ class ModelNodes(Formulas):
             from symgen.derive.formulate.flexure import flexure_component
 
             return flexure_component(self, r.source)
-        assert not isinstance(r.source, Exerted | Driven | Integral), "what is exerted is read at outputs only"
+        if isinstance(r.source, Exerted):
+            from symgen.derive.formulate.flexure import exertions_of_force
+
+            exerted = exertions_of_force(self, r.source)
+            return self.graph.sum_of(self.graph.mul(e.total, e.rate) if r.source.power else e.total for e in exerted)
+        if isinstance(r.source, Driven):
+            return self._effort_of_row(r.source)
+        assert not isinstance(r.source, Integral), "integrals are read at outputs only"
         derived, g = self.measure_or_velocity(r.source), self.graph
         if r.order == 0:
             return derived.value
         if r.order == 1:
             return derived.rate(g, self.velocities)
         return g.add(derived.velocity_part(g, self.accelerations), derived.bias)
+
+    def _effort_of_row(self, source: Driven) -> int:
+        """Return what a row exerts along its measure, or the power of that."""
+        g, place = self.graph, self.places_of_rows.get(source.row)
+        # a row that repeats another one is left out: the other one carries the whole effort
+        effort = g.zero if place is None else g.neg(g.input("multipliers", place))
+        if not source.power:
+            return effort
+        return g.mul(effort, self.measure_or_velocity(source.measure).velocity_part(g, self.velocities))
+
+    def name_accelerations(self) -> None:
+        """Give the accelerations of bodies their names, for formulas that may read v'."""
+        speeds = [(body.name, speed) for body in self.mechanism.bodies for speed in body.speeds]
+        if self.tree is None:
+            rates = {f"{body}.{speed}": n for (body, speed), n in zip(speeds, self.accelerations, strict=True)}
+        else:
+            rates = self.tree.accelerations(self.state_rates)
+        for body, speed in speeds:
+            self.names[f"{body}.{ACCELERATIONS[speed]}"] = rates[f"{body}.{speed}"]
 
     @property
     def accelerations(self) -> tuple[int, ...]:

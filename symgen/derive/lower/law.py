@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from symgen.base.errors import InputError
 from symgen.base.ir.derivative import jacobian
+from symgen.base.ir.graph import Graph
 from symgen.base.ir.program import (
     BY_PIVOTS,
     BY_RESIDUAL,
@@ -28,6 +29,7 @@ from symgen.derive.lower.hoist import Hoister
 from symgen.derive.lower.plans import closing_plan
 from symgen.derive.lower.record import ARGUMENTS, BEHIND, EQUATIONS, Part, RecordedLaw, record_law
 from symgen.derive.lower.record_form import record_form
+from symgen.derive.lower.replay import Nodes
 from symgen.derive.lower.residual import outputs_by_residual
 from symgen.derive.lower.scalar import ScalarNodes
 from symgen.derive.lower.scalar_values import Outputs, to_status
@@ -77,8 +79,9 @@ def lower_law(
     """
     correction = _correction_of_rows(equations, method.correction(options))
     _refuse_method(equations, method, options, implicit)
-    names = [p.name for p in method.parameters]
     recorded = record_law(method, options, equations.driving is not None, correction)
+    _refuse_momenta(equations, method, recorded)
+    names = [p.name for p in method.parameters]
     eliminates = _uses_elimination(recorded)
     apart = frozenset(("constrained",) if equations.drags and eliminates else ())
     record = recorded.choose_solution(model.plan.schur, apart)
@@ -193,6 +196,13 @@ def _refuse_method(equations: Equations, method: Method, options: Mapping[str, s
         refuse_bounded_rows(method, options, implicit, next((drag.noun for drag in equations.drags), ""))
 
 
+def _refuse_momenta(equations: Equations, method: Method, law: RecordedLaw) -> None:
+    """Refuse states that read results where a method integrates momenta: it has no v'."""
+    if any(part.velocities is not None for part in law.parts) and _reads_results(equations.graph, equations):
+        expected = "one that integrates velocities, as a state reads accelerations or forces"
+        raise InputError(f"method '{method.name}'", expected, "one that integrates momenta", "--method lagrange")
+
+
 def refuse_bounded_rows(method: Method, options: Mapping[str, str], implicit: bool, pressed: str) -> None:
     """Refuse methods that do not take rows with bounds: those that project onto all rows after their equations.
 
@@ -284,7 +294,7 @@ def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
     outputs = [output for place, index in part.outputs for output in _outputs_of_parts(scalars, place, index)]
     if any(place == "rates.work" for place, _ in part.outputs):
         space, work = scalars.places["rates.work"]
-        rates = scalars.equations.state_rates
+        rates = _rates_over_results(scalars, part)
         if part.velocities is not None:
             rates = scalars.with_velocities(rates, scalars.values[part.velocities])
         outputs += [(OutputSlot(space, work + i), node) for i, node in enumerate(rates, 1)]
@@ -292,6 +302,26 @@ def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
     if part.name in _KEEPS_MASS:
         outputs += [(OutputSlot("mass_entry", k), node) for k, node in enumerate(scalars.mass_entries)]
     return outputs
+
+
+def _reads_results(g: Graph, e: Equations) -> bool:
+    """Whether the rates of states have v' or multipliers among their inputs."""
+    return not {space for space, _ in g.inputs_of(e.state_rates)}.isdisjoint(("ydot", "multipliers"))
+
+
+def _rates_over_results(scalars: ScalarNodes, part: Part) -> Nodes:
+    """Return the rates of states, with v' and multipliers of this part where they read results."""
+    g, e, outputs = scalars.graph, scalars.equations, dict(part.outputs)
+    if not _reads_results(g, e):
+        return e.state_rates
+    known = dict[tuple[str, int], int]()
+    if "rates.v" in outputs:  # else an earlier part has left them in ydot, and an iteration multipliers in w
+        known |= {("ydot", e.nq + i): n for i, n in enumerate(scalars.values[outputs["rates.v"]])}
+    if "multipliers" in outputs:
+        found = scalars.values[outputs["multipliers"]]
+        keys = [key for key in g.inputs_of(e.state_rates) if key[0] == "multipliers"]
+        known |= {key: found[key[1]] if key[1] < len(found) else g.zero for key in keys}  # no row with bounds in force
+    return tuple(g.replace_inputs(e.state_rates, known))
 
 
 def _outputs_of_parts(scalars: ScalarNodes, place: str, index: int) -> Outputs:
@@ -359,7 +389,10 @@ def _blocks_of_form(
         held = e.rows[(i - e.nq - e.nv) % e.m].held
         if held is not None:
             rows[i] = group, g.add(g.mul(held, node), g.mul(g.sub(g.one, held), g.input("k", i)))
-    rows[own:own] = [("states", g.sub(g.input("k", own + i), rate)) for i, rate in enumerate(e.state_rates)]
+    unknown = {("ydot", e.nq + i): g.input("k", e.nq + i) for i in range(e.nv)}
+    unknown |= {("multipliers", i): g.input("k", e.nq + e.nv + i) for i in range(e.m)}
+    rates = g.replace_inputs(e.state_rates, unknown) if _reads_results(g, e) else e.state_rates
+    rows[own:own] = [("states", g.sub(g.input("k", own + i), rate)) for i, rate in enumerate(rates)]
     arguments = ("t", "y", "k", "p", "w", "r")
     residual = [(OutputSlot("r", i), node) for i, (_, node) in enumerate(rows)]
     residual.append(to_status("power", groups["power"]))

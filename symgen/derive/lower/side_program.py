@@ -14,14 +14,13 @@ from symgen.base.ir.graph import Graph
 from symgen.base.ir.interpolation import Interpolation
 from symgen.base.ir.program import JAMMING, STATUS, Block, ModelLayout, OutputSlot
 from symgen.base.vocabulary.expressions import Expr, Reading
-from symgen.base.vocabulary.measures import Driven, Exerted, Integral, Measure
+from symgen.base.vocabulary.measures import Integral, Measure
 from symgen.base.vocabulary.quantities import Quantity
-from symgen.derive.formulate.flexure import exertions_of_force
 from symgen.derive.formulate.measure_nodes import ModelNodes
 from symgen.derive.lower.windings import Beside
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.formulas.readings import integrals_of_outputs
-from symgen.describe.mechanism import ACCELERATIONS, Mechanism
+from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import state_quantities
 
 #: Inputs of formulas that rates along the motion take as constant.
@@ -70,32 +69,14 @@ class SideModel(ModelNodes):
     def __post_init__(self) -> None:
         super().__post_init__()
         self._places = {measure: i for i, measure in enumerate(self.beside.turning)}
-        speeds = [(body.name, speed) for body in self.mechanism.bodies for speed in body.speeds]
-        if self.tree is None:
-            rates = {f"{body}.{speed}": n for (body, speed), n in zip(speeds, self.accelerations, strict=True)}
-        else:
-            rates = self.tree.accelerations(self.state_rates)
-        for body, speed in speeds:
-            self.names[f"{body}.{ACCELERATIONS[speed]}"] = rates[f"{body}.{speed}"]
+        self.places_of_rows = self.beside.rows
+        self.name_accelerations()
 
     def reading(self, r: Reading) -> int:
-        """Return the node of a reading: a measure, or the effort along measures."""
-        g, source = self.graph, r.source
-        if isinstance(source, Exerted):
-            exerted = exertions_of_force(self, source)
-            return g.sum_of(g.mul(e.total, e.rate) if source.power else e.total for e in exerted)
-        if isinstance(source, Integral):
-            own = len(self.mechanism.states)
-            return g.input("z", 1 + own + integrals_of_outputs(self.mechanism)[source])  # after the work and states
-        if isinstance(source, Driven):
-            place = self.beside.rows.get(source.row)
-            # a row that repeats another one is left out: the other one carries the whole effort
-            effort = g.zero if place is None else g.neg(g.input("multipliers", place))
-            return (
-                g.mul(effort, self.measure_or_velocity(source.measure).velocity_part(g, self.velocities))
-                if source.power
-                else effort
-            )
+        """Return the node of a reading: a measure, the effort along measures, or an integral."""
+        if isinstance(r.source, Integral):
+            place = 1 + len(self.mechanism.states) + integrals_of_outputs(self.mechanism)[r.source]
+            return self.graph.input("z", place)  # after the work and states
         return super().reading(r)
 
     def place_of_turn(self, m: Measure) -> int:

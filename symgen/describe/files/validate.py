@@ -11,6 +11,7 @@ import msgspec
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.memory import without_garbage_collection
 from symgen.base.units import unit_of
+from symgen.base.vocabulary.expressions import Expr
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import with_bounded_outputs
@@ -215,7 +216,7 @@ class _Validator:
             states=states,
             outputs=outputs,
             seats=tuple(self.joints.seats.items()),
-            cuts=self._joints_with_multipliers(joints, outputs),
+            cuts=self._joints_with_multipliers(joints, [*(x.rate for x in states), *(o.value for o in outputs)]),
             holds=tuple(holds),
             shapes=tuple(shapes),
             beams=b"" if beams is None else msgspec.json.encode(beams.count_elements()),
@@ -231,9 +232,9 @@ class _Validator:
             read_holds(mechanism, self.source)  # says what is held twice
         return mechanism
 
-    def _joints_with_multipliers(self, joints: Sequence[Joint], outputs: Sequence[Output]) -> tuple[str, ...]:
-        """Return joints that carry nothing in a tree, as their reactions are read: those that cut, and of outputs."""
-        read = {row.rpartition(".")[0] for output in outputs for row in rows_read_by_output(output.value)}
+    def _joints_with_multipliers(self, joints: Sequence[Joint], formulas: Sequence[Expr]) -> tuple[str, ...]:
+        """Return joints that carry nothing in a tree, as formulas read their reactions, and those that cut."""
+        read = {row.rpartition(".")[0] for formula in formulas for row in rows_read_by_output(formula)}
         drivers = {joint.name for joint in joints if joint.kind == "driver"}
         cuts = self.joints.cuts
         return (*cuts, *(j.name for j in joints if j.name in read - drivers - set(cuts)))
@@ -388,7 +389,7 @@ class _Validator:
             hint = f'a start may have one of its own: "5 {unit.text}"'
             raise InputError(f"{where}.unit", f"an SI unit such as {unit.si}, as formulas are", quote(unit.text), hint)
         scope.coordinates = {name: unit.si}
-        start, rate = scope.constant("start", section.start), scope.of_state("rate", section.rate)
+        start, rate = scope.constant("start", section.start), scope.of_motion("rate", section.rate, integrals=False)
         return StateVariable(name, start, rate, unit.text)
 
     def read_output(self, name: str, raw: object) -> Output:

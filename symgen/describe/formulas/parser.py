@@ -85,6 +85,8 @@ class FormulaNames(msgspec.Struct, frozen=True):
         Names that exist, though not in this formula; only the message differs.
     readings : Readings, optional
         Further dotted names: points of bodies, coordinates of joints.
+    results : Readings, optional
+        What outputs read besides; only the message differs.
     integrals : bool
         Whether ``integral(...)`` may be written.
     hints : mapping of str to str
@@ -97,6 +99,7 @@ class FormulaNames(msgspec.Struct, frozen=True):
     tables: Mapping[str, str] = {}
     elsewhere: frozenset[str] = frozenset()
     readings: Readings | None = None
+    results: Readings | None = None
     integrals: bool = False
     hints: Mapping[str, str] = {}
 
@@ -291,13 +294,26 @@ class _Reader:
             raise self.formula_error(f"the unknown {what} {quote(owner)}", suggest(owner, owners))
         reading = None if readings is None else readings.find_meaning(path, self.where)
         if reading is not None:
+            self.refuse_integral(reading, text)
             return reading
         if readings is not None and len(path) == 2 and path[1] in readings.speeds_of(owner):
             raise self.formula_error(f"'{text}', a velocity")
+        if (results := self.names.results) is not None and (
+            (len(path) == 2 and path[1] in results.accelerations_of(owner)) or results.find_meaning(path, self.where)
+        ):
+            raise self.formula_error(
+                f"'{text}', which follows from all forces and may depend on this formula, a circle",
+                f'a state that follows it breaks the circle: [states.filtered] rate = "({text} - filtered)/0.01"',
+            )
         names = (*own, *(() if readings is None else readings.names_of(owner, self.where)))
         what = f"{quote('.'.join(path[1:]))}, which {'body ' if own else ''}'{owner}' does not have"
         listed = f"it has {', '.join(names)}" if names else "it has nothing to read"
         raise self.formula_error(what, listed if len(names) <= 20 else suggest(text, [f"{owner}.{k}" for k in names]))
+
+    def refuse_integral(self, reading: Expr, text: str) -> None:
+        """Refuse an energy that only outputs integrate, where formulas have no integrals."""
+        if not self.names.integrals and any(isinstance(r.source, Integral) for r in readings_in(reading)):
+            raise self.formula_error(f"'{text}', an integral", f"a state with the rate '{text}.rate' is the same")
 
     def convert_binary(self, function: str, left: Expr, right: Expr) -> Expr:
         if function == "pow" and isinstance(right, Number) and abs(right.value) > LARGEST_EXPONENT:
@@ -327,6 +343,8 @@ class _Reader:
         if function == INTEGRAL and self.names.integrals:
             self.check_argument_count(function, nodes, 1)
             return self.convert_integral(nodes[0], depth)
+        if function == INTEGRAL and self.names.readings is not None and self.names.results is None:
+            raise self.formula_error("an integral", "a state of its own has the integrand as its rate")
         if function not in CALLABLE:
             if function in self.names.elsewhere:
                 hint = self.names.hints.get(function, "")

@@ -18,6 +18,9 @@
 | ``rod.e3.N``, ``.Q``, ``.M`` | force and moment of the section there | outputs, events |
 | ``spring.force``, ``.torque``, ``.Fx`` ..., ``.power`` | what a force exerts | outputs |
 | ``pin.dissipated``, ``pin.lower.dissipated`` | energy that a row with bounds takes | outputs |
+| ``pin.dissipated.rate`` | the power of that | outputs |
+
+Rates of states read what is for outputs but integrals: no force can read a rate, so that no circle closes.
 
 `symgen.describe.formulas.readings` makes columns of results from the same table.
 """
@@ -63,7 +66,7 @@ from symgen.base.vocabulary.measures import (
     Sum,
     axes,
 )
-from symgen.describe.mechanism import AnyBody, Force, Joint, Mechanism
+from symgen.describe.mechanism import ACCELERATIONS, AnyBody, Force, Joint, Mechanism
 from symgen.describe.modal_body import COORDINATE, Modal, ModalRow, names_of_modes
 
 if TYPE_CHECKING:
@@ -77,6 +80,8 @@ ORDERS = {"": "m", "v": "m/s", "a": "m/s^2"}
 #: Largest order in functions of state, and in outputs, where v' and efforts are available.
 STATE, OUTPUT = 1, 2
 
+#: Ending of the name of a rate.
+RATE = ".rate"
 #: Axes of a body's frame in space.
 AXES = ("ex", "ey", "ez")
 #: Components of the strain of a beam element, and of force and moment, in the plane and in space.
@@ -85,6 +90,8 @@ SPACE = (
     ("strain", "shear_y", "shear_z", "twist", "curvature_y", "curvature_z"),
     ("N", "Qy", "Qz", "T", "My", "Mz"),
 )
+
+_ACCELERATIONS = frozenset(ACCELERATIONS.values())
 
 #: Names after an owner's -> quantity and unit.
 Table = dict[str, tuple[Expr, str]]
@@ -298,13 +305,17 @@ class Readings:
         body = self._context.bodies.get(owner)
         return () if body is None else body.speeds
 
+    def accelerations_of(self, owner: str) -> tuple[str, ...]:
+        """Return the accelerations of a body; none of what is no body."""
+        return tuple(ACCELERATIONS[speed] for speed in self.speeds_of(owner))
+
     def names_of(self, owner: str, where: str) -> tuple[str, ...]:
         """Return the readings of a body, joint or force besides a body's own coordinates."""
         if owner in self._context.bodies:
             own = self._body_readings(self._context.bodies[owner])
             points = self._context.points[owner]
             return (*own, *(f"{p}.{label}" for p in points for label in self._point_readings(owner, p)))
-        lost = (name.partition(".") for name in self._losses)
+        lost = (name.partition(".") for loss in self._losses for name in (loss, loss + RATE))
         return (*self._element_readings(owner, where), *(label for head, _, label in lost if head == owner))
 
     def find_meaning(self, path: tuple[str, ...], where: str) -> Expr | None:
@@ -325,6 +336,8 @@ class Readings:
         owner, *words = path
         if (name := ".".join(path)) in self._losses:
             return self._losses[name], "J"
+        if name.endswith(RATE) and name.removesuffix(RATE) in self._losses:
+            return integrand_of(self._losses[name.removesuffix(RATE)]), "W"
         if owner not in self._context.bodies:
             return self._element_readings(owner, where).get(".".join(words))
         if len(words) == 1 and (meaning := self._body_readings(self._context.bodies[owner]).get(words[0])) is not None:
@@ -415,6 +428,14 @@ def columns_of_outputs(mechanism: Mechanism) -> tuple[Column, ...]:
     return (*states, *rows, *(Column(o.name, o.unit, o.value) for o in mechanism.outputs))
 
 
+def integrand_of(loss: Expr) -> Expr:
+    """Return the rate of a sum of integrals: the sum of what they integrate."""
+    if isinstance(loss, Reading) and isinstance(loss.source, Integral):
+        return loss.source.of
+    assert isinstance(loss, Call), "a loss is an integral or a sum of them"
+    return call(loss.function, *map(integrand_of, loss.arguments))
+
+
 def rows_read_by_output(value: Expr) -> set[str]:
     """Return the rows whose efforts a formula of outputs reads, in integrals as well."""
     rows = set[str]()
@@ -424,6 +445,16 @@ def rows_read_by_output(value: Expr) -> set[str]:
         elif isinstance(reading.source, Integral):
             rows |= rows_read_by_output(reading.source.of)
     return rows
+
+
+def reads_results(value: Expr) -> bool:
+    """Whether a formula reads accelerations, or forces of rows or of force elements: what a motion results in."""
+    return any(
+        x.name.rpartition(".")[2] in _ACCELERATIONS
+        if isinstance(x, Name)
+        else x.order == OUTPUT or isinstance(x.source, Driven | Exerted)
+        for x in moving_quantities(value)
+    )
 
 
 def integrals_of_outputs(mechanism: Mechanism) -> dict[Integral, int]:

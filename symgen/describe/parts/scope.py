@@ -276,11 +276,16 @@ class Scope:
         what = f"{kind} or an expression of t{listed}, parameters and body coordinates"
         plain = ChainMap(own, self.context.states)
         names = FormulaNames(
-            what, plain, self.context.coordinates, self.context.functions, readings=Readings(self.context)
+            what,
+            plain,
+            self.context.coordinates,
+            self.context.functions,
+            readings=Readings(self.context),
+            results=Readings(self.context, OUTPUT),
         )
         return self._parse_expression(key, value, names, conditions)
 
-    def of_motion(self, key: str, value: float | str) -> Expr:
+    def of_motion(self, key: str, value: float | str, *, integrals: bool = True) -> Expr:
         """Return a number or an expression of t, parameters and all quantities available at outputs."""
         what = "a number or an expression of t, parameters and what is known of the motion"
         own = {
@@ -288,7 +293,8 @@ class Scope:
             for name, coordinates in self.context.coordinates.items()
         }
         readings = Readings(self.context, OUTPUT)
-        names = FormulaNames(what, self.context.states, own, self.context.functions, readings=readings, integrals=True)
+        plain, tables = self.context.states, self.context.functions
+        names = FormulaNames(what, plain, own, tables, readings=readings, integrals=integrals)
         return self._parse_expression(key, value, names)
 
     def potential(self, key: str, value: float | str, words: Mapping[str, str]) -> Expr:

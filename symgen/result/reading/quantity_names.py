@@ -41,6 +41,11 @@ def input_names(e: Equations) -> dict[tuple[str, int], str]:
     names = {(space, i): x.name for space, quantities in spaces.items() for i, x in enumerate(quantities)}
     names |= {("z", i): x.name for i, x in enumerate(e.states, 1)}
     names |= {("winding", i): f"turned_{i}" for i in range(len(e.windings))}
+    read = {space for space, _ in e.graph.inputs_of(e.state_rates)}  # results, by rates of states alone
+    if "ydot" in read:
+        names |= {("ydot", e.nq + i): f"{x.name}.rate" for i, x in enumerate(e.velocities)}
+    if "multipliers" in read:
+        names |= {("multipliers", i): f"{row.name}.multiplier" for i, row in enumerate(e.rows)}
     switched = (row.name for row in e.rows if row.held is not None)
     modes = (f"{row}.{number}" for row in switched for number in MODES)
     return {("t", 0): "t", **names, **{("modes", i): name for i, name in enumerate(modes)}}

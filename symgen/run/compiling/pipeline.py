@@ -13,6 +13,7 @@ from dataclasses import replace
 from typing import Any
 
 from symgen.base.errors import InputError
+from symgen.describe.formulas.readings import reads_results
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.closing import choice_at_start
 from symgen.run.compiling.method_choice import MethodChoice, choice_for_coordinates, choose_method
@@ -151,6 +152,8 @@ def straight_alone(mechanism: Mechanism) -> str:
         return signed[0].family.noun
     if mechanism.has_modal_bodies:
         return "modal bodies"
+    if any(reads_results(x.rate) for x in mechanism.states):
+        return "states that read accelerations or forces"
     return "rows that may be off" if mechanism.switchable else ""
 
 

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.describe.bounds.bounded_modes import rows_by_family
 from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.readings import reads_results
 from symgen.describe.mechanism import Body, Mechanism
 from symgen.study.references.differences import difference_jacobian
 from symgen.study.references.sympy_formulas import TENSOR, ReferenceFormulas
@@ -53,6 +54,10 @@ class IndependentEquations:
             raise InputError(
                 mechanism.name, expected, f"one with {family.noun}", "symgen run --verify estimates errors"
             )
+        if any(reads_results(x.rate) for x in mechanism.states):
+            expected = "a mechanism that is derived a second time, for references"
+            got = "one whose states read accelerations or forces"
+            raise InputError(mechanism.name, expected, got, "symgen run --verify estimates errors")
         self.mechanism = mechanism
         self.parameters = parameters
         self.rank: int | None = None

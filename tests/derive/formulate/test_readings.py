@@ -122,7 +122,7 @@ def test_an_angle_in_space_is_the_one_that_the_joint_reports():
 
 REFUSED = [
     ("arm.tpi.x", "got 'tpi.x', which body 'arm' does not have; it has x, y, theta, vx, vy, omega, foot.x"),
-    ("arm.tip.ax", "got 'tip.ax', which body 'arm' does not have"),
+    ("arm.tip.ax", "got 'arm.tip.ax', which follows from all forces"),
     ("arm.tip", "got 'tip', which body 'arm' does not have"),
     ("arm.tip.z", "got 'tip.z', which body 'arm' does not have"),
     ("pni.angle", "got the unknown body or joint 'pni'; did you mean 'pin'?"),

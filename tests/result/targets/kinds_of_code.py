@@ -57,6 +57,9 @@ FILES = {
     "spatial": _TOP,
     "input": _cart(force="-k*cart.x + push", more='[inputs]\npush = { default = 0.1, unit = "N" }'),
     "own state": _cart(force="-k*cart.x + lag", more='[states.lag]\nstart = 0.3\nrate = "-lag + cart.x"'),
+    "state of a reaction": _cart(
+        force="-k*cart.x + lag", more='[states.lag]\nrate = "(pin.Fy + pole.alpha - lag)/0.1"'
+    ),
     "state with a formula": _cart(force="lag", more='[states.lag]\nstart = "k*size**2"\nrate = "min(-lag, cart.x)"'),
     "linear table": _cart(force="-profile(cart.x)", more=_TABLE.format("linear")),
     "cubic table": _cart(force="-profile(cart.x)", more=_TABLE.format("cubic")),
