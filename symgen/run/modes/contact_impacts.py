@@ -255,14 +255,14 @@ def gather_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
 
     Returns as `symgen.run.modes.strikes.gather` does.
     """
-    now, count = Instant(y, p, w), int(s.pushing[0])
+    now, count, in_turn = Instant(y, p, w), int(s.pushing[0]), False
     s.pushing[0] = 0
     if count == 0:
         return SAME
     choose_events(c, s, True)
     for i in range(c.dry, c.count):
         if turns_back(c, s, w, i):
-            s.chosen[s.events[i]] = 1
+            s.chosen[s.events[i]], in_turn = 1, True
     functions = c.rates, c.confirm, s.effects.happens
     end = accumulation(functions, t, c.layout.nq, now, iw, hunt, s.chosen, s.effects.past)
     accelerate_in_force(t, c, now, iw)
@@ -270,5 +270,6 @@ def gather_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
     if not end == end:
         return SAME
     switch_off(c, w)
-    end = series if series == series else end_in_turn(t, c, s)
+    # an impact in turn stays closed: whether it would fly again, and when, would be rounding
+    end = end_in_turn(t, c, s) if in_turn or not series == series else series
     return OTHERS if rest_contacts(t, c, s, end, now) == SAME else NOT_APPLIED
