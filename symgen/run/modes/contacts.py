@@ -29,7 +29,8 @@ from symgen.run.modes.bounded_rows import (
     Choice,
     row_scale,
 )
-from symgen.run.modes.choice import add_forces, find_rest, measure_margins, solve_rest, write_modes
+from symgen.run.modes.choice import add_forces, find_rest, solve_rest, write_modes
+from symgen.run.modes.choice import measure_margins as measure_margins_of_rows
 from symgen.run.modes.contact_combinations import LOWER, ON, UPPER
 from symgen.run.modes.contact_parts import choose_part, find_parts, has_contact, keep_touching, probe_contacts
 from symgen.run.modes.contact_verification import try_combinations
@@ -136,7 +137,7 @@ def measure_margins_of_contacts(c: Choice, w: Array, hunt: Array) -> int:
 
     A drive may move it, though the rows in force stay at rest.
     """
-    n, at, found = int(hunt[COUNT]), N_HEAD, measure_margins(c, w, hunt)
+    n, at, found = int(hunt[COUNT]), N_HEAD, measure_margins_of_rows(c, w, hunt)
     for k in range(n):
         i = int(hunt[at + ROW * n + k])
         numbers = c.first + MODE_NUMBERS * i
