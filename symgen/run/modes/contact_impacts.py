@@ -212,8 +212,22 @@ def turns_back(c: Choice, s: Strikes, w: Array, i: int) -> bool:
 
 
 @exact()
+def recall_modes(c: Choice, s: Strikes) -> None:
+    """Set the modes of friction anew that it had at the latest impact: since then modes without impulses are chosen."""
+    _, _, _, _, changes = s.effects.model
+    owners, ties = changes.owners, s.ties
+    for j in range(1, owners.shape[0]):
+        for i in range(c.dry, c.count):
+            slides = owners[j] == owners[j - 1] and owners[j] == s.events[i]
+            if slides and ties.kept[j - 1] > 0 and c.partner[i] >= 0:
+                way = UPPER if ties.kept_ways[j] < 0.0 else LOWER
+                c.mode[c.partner[i]] = way if ties.kept[j] < 0 else (ON if ties.kept[j] > 0 else OFF)
+
+
+@exact()
 def rest_contacts(t: float, c: Choice, s: Strikes, end: float, now: Instant) -> int:
     """Bring the gaps that push, or turn back, to rest, in the modes of the latest impact; friction has its part."""
+    recall_modes(c, s)
     for i in range(c.dry, c.count):
         if turns_back(c, s, now.w, i):
             s.active[i] = 1

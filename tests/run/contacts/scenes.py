@@ -50,9 +50,14 @@ def rocking_block(b: float, h: float, angle: float) -> str:
 
 
 def rods(
-    mu: float, e: float, lengths: tuple[float, float], masses: tuple[float, float], data: tuple[float, ...]
+    mu: float,
+    e: float,
+    lengths: tuple[float, float],
+    masses: tuple[float, float],
+    data: tuple[float, ...],
+    h: float = 0.0,
 ) -> str:
-    """Return two rods that hang from a pin, whose tip hits the floor; data: angles from the vertical, and rates."""
+    """Return two rods that hang from a pin, whose tip is h above a floor; data: angles from the vertical, and rates."""
     (l1, l2), (m1, m2), (a1, a2, u1, u2) = lengths, masses, data
     a1, a2 = math.radians(a1), math.radians(a2)
     pin = l1 * math.sin(a1), -l1 * math.cos(a1)
@@ -65,7 +70,7 @@ def rods(
     text += f'[joints.top]\ntype = "revolute"\nbetween = ["ground", "one"]\nat = [[0.0, 0.0], [0.0, {l1 / 2.0!r}]]\n'
     text += f'[joints.middle]\ntype = "revolute"\nbetween = ["one", "two"]\nat = [[0.0, {-l1 / 2.0!r}], '
     text += f'[0.0, {l2 / 2.0!r}]]\n[contacts.tip]\nbetween = [{{ body = "two", at = [0.0, {-l2 / 2.0!r}] }}, '
-    return text + f'{{ line = "ground", on = [0.0, {level!r}] }}]\nfriction = {mu!r}\nrestitution = {e!r}\n'
+    return text + f'{{ line = "ground", on = [0.0, {level - h!r}] }}]\nfriction = {mu!r}\nrestitution = {e!r}\n'
 
 
 def woodpecker() -> str:
