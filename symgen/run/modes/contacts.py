@@ -23,6 +23,7 @@ from symgen.run.modes.bounded_rows import (
     LIMIT,
     NO_FORCES,
     NOT_FINITE,
+    OTHERS,
     ROUNDED,
     SAME,
     SIGN,
@@ -106,7 +107,7 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
 
     Returns `SAME`, `OTHERS`, or why there are no modes.
     """
-    n, code, rows, left = keep_touching(c, find_rest(c, w)), SAME, 0, 0
+    n, code, rows, left, struck = keep_touching(c, find_rest(c, w)), SAME, 0, 0, False
     if n > 0:
         if probe_contacts(t, c, y, p, w, iw, control) != SAME:
             return NOT_FINITE
@@ -126,9 +127,13 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
         return NO_FORCES
     code = hold_rows(c, w)
     for i in range(c.count):
+        struck = struck or c.shut[i] != 0
         c.shut[i] = 0
     add_forces(c)
-    return int(write_modes(c, w)) if code == SAME else int(code)
+    if code == SAME:
+        code = write_modes(c, w)
+    # an impact has taken all rows out of force, and where none comes back there are others all the same
+    return int(OTHERS) if struck and code == SAME else int(code)
 
 
 @exact(entry=True)
