@@ -36,7 +36,7 @@ def contact_facts(run: Prepared) -> dict[str, dict[str, Any]]:
     -------
     dict of str to dict
         ``closed``; of closed ones ``part``, the contacts that depend on each other, ``unique`` of their forces, and
-        ``jamming``, the jamming numbers for s = 1 and -1 [1/kg], where there is friction.
+        ``jamming``, the jamming numbers for s = 1 and -1 [1/kg], where a row acts along the gap.
     """
     gaps = [row for row in run.mechanism.bounded if isinstance(row, ContactGap)]
     if not gaps:
@@ -51,7 +51,7 @@ def contact_facts(run: Prepared) -> dict[str, dict[str, Any]]:
     facts: dict[str, dict[str, Any]] = {gap.name: {"closed": gap in closed} for gap in gaps}
     if not closed:
         return facts
-    friction = [0.0 if g.tangent is None else float(numbers[2 * k + dry + places[g.tangent.row]]) for g in closed]
+    bounds = [0.0 if g.tangent is None else float(numbers[2 * k + dry + places[g.tangent.row]]) for g in closed]
     rows, owners = (
         _rows_of(run, closed),
         [i for i, g in enumerate(closed) for _ in range(1 if g.tangent is None else 2)],
@@ -60,10 +60,10 @@ def contact_facts(run: Prepared) -> dict[str, dict[str, Any]]:
         at = owners.index(i)
         own = {"jamming": None}
         if gap.tangent is not None:
-            own["jamming"] = [float(rows[at, at] - s * friction[i] * rows[at, at + 1]) for s in (1.0, -1.0)]
+            own["jamming"] = [float(rows[at, at] - s * bounds[i] * rows[at, at + 1]) for s in (1.0, -1.0)]
         facts[gap.name] |= own
     for part in _parts_of(rows, owners):
-        lines = [j for j, i in enumerate(owners) if i in part and (friction[i] > 0.0 or j == owners.index(i))]
+        lines = [j for j, i in enumerate(owners) if i in part and (bounds[i] > 0.0 or j == owners.index(i))]
         values = np.linalg.eigvalsh(rows[np.ix_(lines, lines)])
         unique = bool(values[0] > _DEPENDENT * values[-1])
         for i in part:
