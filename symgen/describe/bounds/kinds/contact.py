@@ -88,7 +88,7 @@ def rows_of_contact(
     table = f"joints.{scope.name}.{key}" if key else ""
     if tangent is not None and table:
         tangent = msgspec.structs.replace(tangent, table=table)
-    gap = ContactGap(name, name, touch.gap, touch.value, "m", law, tangent, touch.distance, table)
+    gap = ContactGap(name, name, touch.gap, touch.value, "m", law, tangent, touch.distance, table, touch.outlines)
     return (gap,) if tangent is None else (tangent, gap)
 
 

@@ -6,6 +6,7 @@ import msgspec
 
 from symgen.base.vocabulary.expressions import ONE, call
 from symgen.base.vocabulary.measures import Component, Direction, Marker
+from symgen.describe.contacts.outlines import Outline
 from symgen.describe.contacts.surfaces import Disc, Pair, Touch, slip_with_turns
 from symgen.describe.parts.fields import Point, Vector
 from symgen.describe.parts.scope import Scope
@@ -41,7 +42,8 @@ def touch_of_line(scope: Scope, on: Marker, normal: Direction, disc: Disc) -> To
     x, y = normal.vector
     along = Component(on, disc.centre, Direction(on.body, (y, call("neg", x))))
     slip = slip_with_turns(scope, ((ONE, along),), disc.radius, (on.body, disc.body))
-    return Touch(Component(on, disc.centre, normal), disc.radius, slip)
+    outlines = disc.outline, Outline((on,), normal=normal)
+    return Touch(Component(on, disc.centre, normal), disc.radius, slip, None, outlines)
 
 
 KIND = Pair("line", LineTable, read_line, lambda table: str(table.line))
