@@ -1,4 +1,4 @@
-"""The machines of the catalogue whose bodies touch: each runs as it comes, with numbers of closed forms or of others."""
+"""The machines of the catalogue whose bodies touch: each runs as it comes, with numbers of closed forms."""
 
 import math
 
