@@ -60,7 +60,7 @@ class Problem:
             return Answer(dict(modes), free, {}, {}, np.concatenate([self.gap, self.slip]) @ free)
         taken = np.array(columns).T / self.masses[:, None]
         matrix, left = np.array(rows) @ taken, np.array(right) - np.array(rows) @ free
-        forces, *_ = np.linalg.lstsq(matrix, left, rcond=1e-11)
+        forces = np.asarray(np.linalg.lstsq(matrix, left, rcond=1e-11)[0], dtype=np.float64)
         if np.abs(matrix @ forces - left).max() > _SOLVED * (1.0 + np.abs(left).max()):
             raise Unsolved("rows contradict each other")
         forces = self.shared(matrix, forces, names)
@@ -83,7 +83,7 @@ class Problem:
         if spare.shape[1] == 0 or np.abs(spare[fixed]).max(initial=0.0) > 1e-9:
             return forces
         part, *_ = np.linalg.lstsq(weights[:, None] * spare, -weights * forces, rcond=1e-9)
-        return forces + spare @ part
+        return np.asarray(forces + spare @ part)
 
 
 def _options(closed: list[int], rates: Array, scene: Scene, forced: Modes) -> list[list[int | None]]:

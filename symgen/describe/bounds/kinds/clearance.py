@@ -72,7 +72,7 @@ class SlideClearance(LawOfContact, frozen=True, kw_only=True, forbid_unknown_fie
 
 
 def read_clearance(scope: Scope, joint: Joint, raw: object) -> tuple[BoundedRow, ...]:
-    """Return the contact of a pin in its hole, which has the joint's name, or those of the corners of a block.
+    """Return the contact of a pin in its hole, which has the joint's name, or the contacts of the corners of a block.
 
     Raises
     ------
