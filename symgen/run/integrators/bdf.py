@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Backward:
-    """The formulas; constant steps start with those of `radau5`, which are of order 5 too."""
+    """The formulas; constant steps start with `radau5`, whose order is 5 too."""
 
     row_targets: ClassVar[tuple[str, ...]] = ()
 
