@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.prescribed.prescribed import PrescribedRun, make_driven
+from symgen.analyses.prescribed.prescribed import NotPrescribed, PrescribedRun, make_driven
 from symgen.analyses.prescribed.tracing import Traced, trace_motion
-from symgen.base.errors import InputError
 from symgen.describe.formulas.duals import ParameterDuals, dual_slopes
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.holds import read_holds
@@ -26,10 +25,6 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
 
 Array = NDArray[np.float64]
-
-
-class NotKept(InputError):
-    """A motion that is not kept: what differs from a motion of positions, such as friction or states of a file."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +64,7 @@ class KeptMotion:
 
     Raises
     ------
-    NotKept
+    NotPrescribed
         If forces act that depend on more than the state, or inputs vary by pieces.
     InputError, AssemblyError
         As `symgen.analyses.prescribed.prescribed.make_driven`.
@@ -79,15 +74,15 @@ class KeptMotion:
         self.keys = tuple(keys)
         if mechanism.bounded or mechanism.states:
             got = "states of the file's own" if mechanism.states else "friction, stops or contacts"
-            raise NotKept(where, "forces that follow from positions and velocities", got)
+            raise NotPrescribed(where, "forces that follow from positions and velocities", got)
         self.run = run = make_driven(mechanism, settings, until, where, directed=True)
         if run.held or run.p is not run.start.p:
-            raise NotKept(where, "inputs that one formula describes", "inputs that change by pieces")
+            raise NotPrescribed(where, "inputs that one formula describes", "inputs that change by pieces")
         self.mechanism = run.mechanism
         own = {q.name for q in self.mechanism.parameters}
         for key in self.keys:
             if key not in own or key in self.mechanism.inputs:
-                raise NotKept(where, "parameters of the mechanism", f"'{key}'")
+                raise NotPrescribed(where, "parameters of the mechanism", f"'{key}'")
         self._model = DirectedModel(run.compiled, lanes_for_directions(len(self.keys)))
         self._holds, self._branch = read_holds(self.mechanism), bool(settings.start)
         self._values = parameter_values(self.mechanism, run.plan.parameters)
@@ -123,7 +118,7 @@ class KeptMotion:
             now, _ = described.state(self._holds)
             start = replace(self.run.start, y=now.y.copy(), p=now.p.copy(), w=now.w.copy())
         run = replace(self.run, start=start, p=start.p)
-        traced = trace_motion(run, times)
+        traced = trace_motion(run, times, crosses=False)
         motion = DrivenStates(traced.times, np.ascontiguousarray(traced.states), np.ascontiguousarray(traced.status))
         seeds = np.zeros((self._model.sizes["p"], len(self.keys)))
         seeds[: len(self._names)] = [*dual_slopes([duals[name] for name in self._names], len(self.keys))]

@@ -46,6 +46,10 @@ TRIES, ENOUGH = 200, 40
 SAME_WAY = 1e-6
 
 
+class NotPrescribed(InputError):
+    """A motion that drivers do not prescribe by positions alone: a run integrates it."""
+
+
 @dataclass(frozen=True)
 class PrescribedRun:
     """A mechanism that is ready to be followed.
@@ -198,7 +202,7 @@ def make_driven(
     for row in info.rows:
         if not row.holonomic:
             got = f"'{row.joint}', a condition on velocities, from which positions follow by integration alone"
-            raise InputError(what, "conditions on positions", got, "symgen run does that")
+            raise NotPrescribed(what, "conditions on positions", got, "symgen run does that")
     masked = len(start.redundant_rows)
     freedom = info.nv - (info.m - masked)
     # where the start is singular, rows may depend on others there alone
@@ -211,7 +215,7 @@ def make_driven(
         of = "1 degree of freedom that is" if freedom == 1 else f"{freedom} degrees of freedom that are"
         hint = f"a driver drives {'it' if freedom == 1 else 'each'}, and symgen run needs none"
         got = f"{of} not driven: {', '.join(free_coordinates(run, freedom))}"
-        raise InputError(what, "a driver for every freedom", got, hint)
+        raise NotPrescribed(what, "a driver for every freedom", got, hint)
     return run
 
 

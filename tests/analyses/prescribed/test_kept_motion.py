@@ -6,7 +6,8 @@ from support.twin import spatial_twin
 
 import symgen
 from analyses.rods import of_raw
-from symgen.analyses.prescribed.kept_motion import KeptMotion, NotKept
+from symgen.analyses.prescribed.kept_motion import KeptMotion
+from symgen.analyses.prescribed.prescribed import NotPrescribed
 from symgen.base.settings import Settings
 from symgen.describe.parts.context import Context
 from symgen.describe.parts.scope import Scope
@@ -124,5 +125,5 @@ def test_slopes_in_space_are_those_of_differences_of_kinematics():
 
 def test_friction_is_no_motion_of_positions_alone():
     raw = {**PUMP, "joints": {**PUMP["joints"], "P": {**PUMP["joints"]["P"], "friction": {"sliding": 1.0}}}}
-    with pytest.raises(NotKept, match="friction, stops or contacts"):
+    with pytest.raises(NotPrescribed, match="friction, stops or contacts"):
         kept(raw, ["r"], ["piston.x"])
