@@ -30,6 +30,7 @@ function display(next, kind, code = NOTHING) {
   if (resume === null && motion.t.length > 1) resume = time;
   data = opened(next);
   stage();
+  underlay();
   motions = data.motions.map(recorded);
   motion = motions[0];
   follow = null;
@@ -306,6 +307,6 @@ window.addEventListener("keydown", (e) => {
   act();
 }, { capture: true });
 
-window.symgen.editor = { times: () => times, version: () => version, handles: () => movable, place: onPicture, checked: () => times.checked === version, rest: () => !checking && !again && times.moved === version };
+window.symgen.editor = { times: () => times, version: () => version, handles: () => movable, place: onPicture, grid: (scale) => [gridded(BETWEEN, scale), parted(gridded(BETWEEN, scale))], checked: () => times.checked === version, rest: () => !checking && !again && times.moved === version };
 choosing("move");
 open();
