@@ -223,7 +223,7 @@ def _weld_snippet(file: _File, spots: Sequence[Spot]) -> list[_Block]:
 
 
 def _ordered_pair(kind: str, spots: Sequence[Spot]) -> tuple[Spot, Spot]:
-    """Return two points, that of the ground first."""
+    """Return two points, the one of the ground first."""
     a, b = spots if not spots[0].body or spots[1].body else (spots[1], spots[0])
     if a.owner == b.owner:
         raise InputError(kind, "points of two bodies, or of a body and the ground", f"'{a.owner}' twice")
