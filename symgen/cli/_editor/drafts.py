@@ -77,10 +77,10 @@ class Drafts:
         except AssemblyError as error:
             q = np.array(error.q) if error.q else described
             open_joints = error.joints
-            line = next((line_of_path(text, parts.mentions, ("joints", name)) for name in open_joints), 1)
+            line = next((line_of_path(text, parts.mentions, ("joints", name)) for name in open_joints), 0)
             errors = [{"line": line, "text": str(error)}]
         except SymgenError as error:  # a start that a formula leaves undefined
-            errors = [{"line": 1, "text": str(error)}]
+            errors = [{"line": 0, "text": str(error)}]
         recording = Recording(mechanism, values, np.zeros(1), np.atleast_2d(q))
         moved = bool(warnings) or bool(open_joints)
         ghost = Recording(mechanism, values, np.zeros(1), np.atleast_2d(described)) if moved else None
@@ -207,9 +207,9 @@ class Drafts:
 
 
 def line_of_path(text: str, mentions: Iterable[Any], path: tuple[str, ...]) -> int:
-    """Return the line of the first key of a path, 1 where there is none."""
-    start = next((mention.start for mention in mentions if mention.path == path), 0)
-    return text.count("\n", 0, start) + 1
+    """Return the line of the first key of a path; 0 where there is none, as no line is wrong then."""
+    start = next((mention.start for mention in mentions if mention.path == path), None)
+    return 0 if start is None else text.count("\n", 0, start) + 1
 
 
 def _closing_part(mechanism: Mechanism) -> tuple[Mechanism, Settings]:
@@ -258,7 +258,7 @@ def _name_of_changeable(number: tuple[str, Place, float]) -> str:
 
 
 def _error_entry(problem: Problem) -> dict[str, Any]:
-    return {"line": problem.line, "text": str(problem)}
+    return {"line": problem.line if problem.has_place else 0, "text": str(problem)}
 
 
 def _span_in_page(span: tuple[int, int], wide: list[int] | None) -> tuple[int, int]:
