@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import time
 from collections.abc import Iterator
 from contextlib import suppress
@@ -13,7 +12,7 @@ from typing import Any
 
 from symgen.base.errors import InputError
 from symgen.base.files import write_whole
-from symgen.compile.store.paths import ENVIRONMENT_VARIABLE, private_folder
+from symgen.compile.store.paths import private_folder, state_root
 
 #: Texts of one file that are kept at most; the oldest ones go.
 MOST = 20
@@ -84,13 +83,8 @@ class Unsaved:
 
 
 def folder_of_texts() -> Path:
-    """Return the folder for texts of all files: where users keep such things, or in the cache's folder if it is set."""
-    wish = os.environ.get(ENVIRONMENT_VARIABLE)
-    if wish:
-        return Path(wish).expanduser().absolute() / "unsaved"
-    import platformdirs
-
-    return Path(platformdirs.user_state_path("symgen", appauthor=False)) / "unsaved"
+    """Return the folder for texts of all files."""
+    return state_root() / "unsaved"
 
 
 def _name_from(word: str) -> str:
