@@ -300,6 +300,73 @@ def test_ten_megabytes_are_one_sentence(editor: Editor, tmp_path: Path) -> None:
     assert editor.document.path.read_text() == TEXT
 
 
+# -- texts that are not saved ------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("SYMGEN_CACHE_DIR", str(tmp_path / "own"))
+    return tmp_path / "own" / "unsaved"
+
+
+def test_a_text_that_is_not_saved_is_offered_until_it_is(own_folder: Path, editor: Editor) -> None:
+    ours = TEXT + "# ours\n"
+    assert done(editor, "load")["unsaved"] == []
+    assert done(editor, "keep", text=ours, tab="../../a") == {"kept": True}
+    assert done(editor, "keep", text=ours + "# more\n", tab="b") == {"kept": True}
+    (newest, other) = done(editor, "load")["unsaved"]
+    assert (newest["page"], newest["text"]) == ("b", ours + "# more\n")
+    assert (other["page"], other["text"]) == ("../../a", ours)
+    inside = [path for path in own_folder.rglob("*") if path.is_file()]
+    assert len(inside) == 2 and all(path.parent.parent == own_folder for path in inside)
+    if os.name == "posix":
+        assert {path.parent.stat().st_mode & 0o077 for path in inside} == {0}
+    done(editor, "keep", text=TEXT, tab="b")  # as the file has it again
+    done(editor, "save", text=ours, digest=done(editor, "load")["digest"])
+    assert done(editor, "load")["unsaved"] == []
+    done(editor, "forget", tab="../../a")
+    assert not any(path.is_file() for path in own_folder.rglob("*"))
+
+
+def test_texts_that_are_kept_are_bounded_and_remains_are_passed_over(own_folder: Path, editor: Editor) -> None:
+    for k in range(25):
+        done(editor, "keep", text=f"# {k}\n", tab=str(k))
+    assert {entry["text"] for entry in done(editor, "load")["unsaved"]} >= {"# 24\n", "# 20\n"}
+    files = sorted(own_folder.rglob("*.json"))
+    assert len(files) == 20
+    files[0].write_text("{")
+    files[1].write_text('{"page": 1}')
+    assert len(done(editor, "load")["unsaved"]) == 18
+    assert done(editor, "keep", text="#" * (LARGEST_FILE + 1), tab="x") == {"kept": False}
+
+
+def test_where_nothing_can_be_kept_the_page_is_told(own_folder: Path, editor: Editor) -> None:
+    own_folder.parent.mkdir()
+    own_folder.write_text("no folder")
+    assert done(editor, "keep", text="# ours\n", tab="a") == {"kept": False}
+    assert done(editor, "load")["unsaved"] == []
+
+
+@pytest.mark.slow
+def test_a_server_that_is_killed_loses_no_text(own_folder: Path, tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "symgen", "edit", "--new", "crane", "--no-browser"]
+    for expected in ([], ["# mine\n"]):
+        with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=tmp_path) as process:
+            assert process.stdout is not None
+            _, _, host, secret, _ = process.stdout.readline().strip().split("/")
+
+            def ask(job: str, host: str = host, secret: str = secret, **given: object) -> Any:
+                headers = {"Content-Type": "application/json", "Origin": f"http://{host}"}
+                with closing(http.client.HTTPConnection(host, timeout=20)) as connection:
+                    connection.request("POST", f"/{secret}/{job}", json.dumps(given), headers)
+                    return json.loads(connection.getresponse().read())
+
+            assert [entry["text"] for entry in ask("load")["unsaved"]] == expected
+            assert ask("keep", text="# mine\n", tab="a") == {"kept": True}
+            process.kill()
+    assert not (tmp_path / "crane.toml").exists()
+
+
 # -- the command -------------------------------------------------------------------------------------------------------
 
 

@@ -23,7 +23,7 @@ from symgen.describe.files.places import Path as Place
 from symgen.describe.files.places import outline_of_document
 from symgen.describe.files.problems import Problem, problems_of_text
 from symgen.describe.files.renaming import remove_from_text, rename_in_text
-from symgen.describe.files.snippets import Spot, snippet_changes
+from symgen.describe.files.snippets import TURNED, Spot, snippet_changes
 from symgen.describe.files.text_changes import apply_changes, utf16_places
 from symgen.describe.files.validate import validate
 from symgen.describe.formulas.evaluate import parameter_values
@@ -77,10 +77,10 @@ class Drafts:
         except AssemblyError as error:
             q = np.array(error.q) if error.q else described
             open_joints = error.joints
-            line = next((line_of_path(text, parts.mentions, ("joints", name)) for name in open_joints), 1)
+            line = next((line_of_path(text, parts.mentions, ("joints", name)) for name in open_joints), 0)
             errors = [{"line": line, "text": str(error)}]
         except SymgenError as error:  # a start that a formula leaves undefined
-            errors = [{"line": 1, "text": str(error)}]
+            errors = [{"line": 0, "text": str(error)}]
         recording = Recording(mechanism, values, np.zeros(1), np.atleast_2d(q))
         moved = bool(warnings) or bool(open_joints)
         ghost = Recording(mechanism, values, np.zeros(1), np.atleast_2d(described)) if moved else None
@@ -165,9 +165,8 @@ class Drafts:
         """Return a text with a part added at spots, and the path of what was added."""
         self._refuse_large(text)
         raw = parse_toml(text, self.source)
-        added, path = snippet_changes(
-            part, spots, raw, outline_of_document(text), text, self._angle_of_spot(text, spots)
-        )
+        angles = self._angles_at_start(text) if part in TURNED else {}
+        added, path = snippet_changes(part, spots, raw, outline_of_document(text), text, angles)
         return {"text": apply_changes(text, added), "path": path}
 
     def rename_part(self, text: str, path: str, name: str) -> dict[str, Any]:
@@ -180,20 +179,19 @@ class Drafts:
         self._refuse_large(text)
         return {"text": remove_from_text(text, path, self.source)}
 
-    def _angle_of_spot(self, text: str, spots: Iterable[Spot]) -> float:
-        """Return the angle at the start of the joint that holds a spot, or of its body; 0 where there is none."""
-        spot = next(iter(spots), None)
-        if spot is None or not spot.body:
-            return 0.0
+    def _angles_at_start(self, text: str) -> dict[str, float]:
+        """Return how far bodies are turned where the page draws them at the start."""
         mechanism = self._read_text(text)[1]
-        start = prepare(*_closing_part(mechanism), Purpose.STATE).start
-        angles, at = {"ground": 0.0}, 0
+        try:
+            q = prepare(*_closing_part(mechanism), Purpose.STATE).start.y
+        except AssemblyError as error:
+            q = np.array(error.q) if error.q else Model(mechanism).initial_state({})[0]
+        angles, at = dict[str, float](), 0
         for body in mechanism.bodies:
             if "theta" in body.coordinates:
-                angles[body.name] = float(start.y[at + 2])
+                angles[body.name] = float(q[at + 2])
             at += len(body.coordinates)
-        bodies = next((j.bodies for j in mechanism.joints if j.name == spot.joint), ("ground", spot.body))
-        return angles.get(bodies[-1], 0.0) - angles.get(bodies[0], 0.0)
+        return angles
 
     def _read_text(self, text: str) -> tuple[dict[str, Any], Mechanism]:
         """Return the tables and the mechanism of a text; the last text is read once."""
@@ -209,9 +207,9 @@ class Drafts:
 
 
 def line_of_path(text: str, mentions: Iterable[Any], path: tuple[str, ...]) -> int:
-    """Return the line of the first key of a path, 1 where there is none."""
-    start = next((mention.start for mention in mentions if mention.path == path), 0)
-    return text.count("\n", 0, start) + 1
+    """Return the line of the first key of a path; 0 where there is none, as no line is wrong then."""
+    start = next((mention.start for mention in mentions if mention.path == path), None)
+    return 0 if start is None else text.count("\n", 0, start) + 1
 
 
 def _closing_part(mechanism: Mechanism) -> tuple[Mechanism, Settings]:
@@ -260,7 +258,7 @@ def _name_of_changeable(number: tuple[str, Place, float]) -> str:
 
 
 def _error_entry(problem: Problem) -> dict[str, Any]:
-    return {"line": problem.line, "text": str(problem)}
+    return {"line": problem.line if problem.has_place else 0, "text": str(problem)}
 
 
 def _span_in_page(span: tuple[int, int], wide: list[int] | None) -> tuple[int, int]:
