@@ -157,6 +157,11 @@ FEATURES: Mapping[str, str] = {
     "contact": cart(more=_WALL),
     "contact, two feet": cart(more=_SLED),
     "clearance": cart(pin="clearance = { hole = 0.011, pin = 0.01, restitution = 0.3, friction = 0.1 }"),
+    "wheel that gives way": cart(
+        more="[bodies.wheel]\nmass = 0.5\ninertia = 0.01\nposition = [0.1, 0.3]\nvelocity = [0.2, 0.0]\n"
+        '[joints.road]\ntype = "rolling"\nbetween = ["wheel", "cart"]\nradius = 0.2\naxis = [1.0, 0.0]\n'
+        "on = [0.0, 0.1]\nstiffness = 1e4\ndamping = 10.0\nfriction = { coefficient = 0.5, speed = 0.05 }"
+    ),
     "beam element": cart(
         more="[bodies.end]\nmass = 0.5\ninertia = 0.01\nposition = [0.6, 0.0]\n"
         f"[forces.blade]\n{_BLADE}\naxial = 1e4\nbending = 10.0"
