@@ -101,8 +101,8 @@ def run(scene: Scene, q: Array, v: Array, times: list[float], rtol: float = 1e-1
             for j, mode in phase.modes.items():
                 contact = scene.contacts[j]
                 if mode == REST and contact.static > 0.0:
-                    left = contact.static * now.normal[j] - abs(now.along[j])
-                    if j == i or left < 1e-9 * (1.0 + now.normal[j]):
+                    margin = contact.static * now.normal[j] - abs(now.along[j])
+                    if j == i or margin < 1e-9 * (1.0 + now.normal[j]):
                         forced[j] = DOWN if now.along[j] > 0.0 else UP
         elif what == "stick":
             loose = loose - {i}
@@ -171,7 +171,7 @@ def _until_event(
     before = margins(y)
     while solver.status == "running":
         solver.step()
-        if solver.status == "failed":
+        if str(solver.status) == "failed":  # of a type that a step changes
             raise Ended("the integration fails")
         dense = solver.dense_output()
         times = np.linspace(solver.t_old, solver.t, PARTS + 1)
