@@ -77,7 +77,8 @@ class Problem:
         _, sizes, rows = np.linalg.svd(matrix)
         spare = rows[np.sum(sizes > 1e-9 * sizes[0]) :].T
         pressed = {i: f for (i, k), f in zip(names, forces, strict=True) if k == 0}
-        weights = np.array([1.0 / max(pressed[i], 1e-12) if k == 1 else 0.0 for i, k in names])
+        bounds = [self.scene.contacts[i].static * max(pressed[i], 1e-12) if k == 1 else np.inf for i, k in names]
+        weights = 1.0 / np.sqrt(bounds)  # the least sum of force^2 / bound
         fixed = [j for j, (i, k) in enumerate(names) if i >= 0 and k == 0]
         if spare.shape[1] == 0 or np.abs(spare[fixed]).max(initial=0.0) > 1e-9:
             return forces
