@@ -1,6 +1,6 @@
 """Runs of two checkouts in turns: processor times of the same runs, their ratio, and whether states have the same bits.
 
-    python -m benchmarks.checkouts OTHER [MODEL ...] [--integrator rk4] [--method direct-correction]
+    python -m benchmarks.checkouts OTHER [MODEL ...] [--integrator rk4] [--method NAME] [--coordinates joint]
 
 Each measurement is a process of its own, which imports symgen from its checkout; the smallest time of some runs counts,
 and of several rounds in turns the least ratio of this checkout to the other, as other work only adds to either.
@@ -32,9 +32,10 @@ COUNT, REPEATS, ROUNDS = 1000, 30, 3
 MEASURED = """
 import hashlib, json, sys
 from symgen.api import load
-name, method, integrator, step, count, repeats = *sys.argv[1:4], *map(float, sys.argv[4:])
+name, method, integrator, coordinates, step, count, repeats = *sys.argv[1:5], *map(float, sys.argv[5:])
 options = {"step": step} if integrator == "rk4" else {"rtol": 1e-9}
-settings = {"method": method, "integrator": integrator, "until": step * count, "output_step": step * count, **options}
+options |= {"method": method, "integrator": integrator, "coordinates": coordinates}
+settings = {"until": step * count, "output_step": step * count, **options}
 model = load(name)
 runs = [model.simulate(**settings, verify=False, max_violation=1.0) for _ in range(int(repeats))]
 states = b"".join(getattr(runs[0], table).values.tobytes() for table in ("q", "v"))
@@ -43,10 +44,20 @@ print(json.dumps([min(run.outcome.cpu_seconds for run in runs), digest, runs[0].
 """
 
 
-def measure(checkout: Path, name: str, method: str, integrator: str) -> tuple[float, str, str]:
-    """Return processor time [s], digest of the states and status of a run in a checkout."""
+def measure(checkout: Path, name: str, *how: str) -> tuple[float, str, str]:
+    """Return processor time [s], digest of the states and status of a run in a checkout.
+
+    Parameters
+    ----------
+    checkout : Path
+        Its folder.
+    name : str
+        Mechanism of the catalogue.
+    *how : str
+        Method, integrator and coordinates.
+    """
     numbers = STEPS.get(name, 1e-3), COUNT, REPEATS
-    words = [sys.executable, "-c", MEASURED, name, method, integrator, *map(str, numbers)]
+    words = [sys.executable, "-c", MEASURED, name, *how, *map(str, numbers)]
     environment = {**os.environ, "PYTHONPATH": str(checkout)}
     done = subprocess.run(words, env=environment, cwd=checkout, capture_output=True, text=True, check=True)
     seconds, digest, status = json.loads(done.stdout.splitlines()[-1])
@@ -60,14 +71,13 @@ def main(arguments: list[str]) -> None:
     parser.add_argument("models", nargs="*")
     parser.add_argument("--integrator", default="rk4", choices=("rk4", "dop853"))
     parser.add_argument("--method", default="direct-correction")
+    parser.add_argument("--coordinates", default="auto")
     given = parser.parse_args(arguments)
+    how = given.method, given.integrator, given.coordinates
     table = Table("model", "other [ms]", "this [ms]", "ratio", "bits")
     ratios = list[float]()
     for name in given.models or MODELS:
-        rounds = [
-            [measure(checkout, name, given.method, given.integrator) for checkout in (given.other.resolve(), ROOT)]
-            for _ in range(ROUNDS)
-        ]
+        rounds = [[measure(checkout, name, *how) for checkout in (given.other.resolve(), ROOT)] for _ in range(ROUNDS)]
         before, after = (min(pair[i][0] for pair in rounds) for i in (0, 1))
         ratios.append(after / before)
         same = "same" if len({one[1] for pair in rounds for one in pair}) == 1 else "differ"

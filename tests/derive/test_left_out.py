@@ -4,6 +4,9 @@ import numpy as np
 import pytest
 from support.emitted import Emitted, mechanism_of
 
+from symgen.api import load
+from symgen.run.compiling.choices import mechanism_on_tree
+
 #: A disc on a wire y = x^3 that a table moves up and down: the row has a nu.
 BEAD = {
     "mechanism": {"name": "bead"},
@@ -31,3 +34,13 @@ def test_a_correction_of_velocities_reads_their_residuals_alone(method):
 def test_methods_that_measure_alone_have_no_such_function():
     emitted = Emitted(mechanism_of(BEAD), "lagrange")
     assert not any(hasattr(module, "drift") for module in emitted.modules.values())
+
+
+def test_the_mass_matrix_of_a_free_body_is_constant_in_coordinates_of_joints():
+    """Its velocity is that of the ground's axes, so that m A A^T is m; a rotation turns with the body."""
+    emitted = Emitted(mechanism_on_tree(load("free-rigid-body").mechanism))
+    assert "mass_entry" not in emitted.info.sections and emitted.info.operations["geometry"] == 0
+    rng, p = np.random.default_rng(3), emitted.parameters({})
+    e = rng.normal(size=4)
+    found = emitted.at(0.0, np.concatenate([rng.normal(size=3), e / np.linalg.norm(e)]), rng.normal(size=6), p)
+    np.testing.assert_allclose(found.masses, [2.0, 2.0, 2.0, 1.0, 2.0, 3.0], rtol=1e-15)
