@@ -79,7 +79,7 @@ def command(
 ) -> int:
     """Find numbers of MODEL, within bounds and limits, with which an aim is smallest.
 
-    Limits are those of MODEL, smallest and largest, and those of --keep. The answer keeps all of them, or the command
+    MODEL has limits, smallest and largest, and --keep adds more. The answer keeps all of them, or the command
     says which ones contradict each other.
     """
     bounds, settings = _bounds_by_name(varied, model), Settings(**values)
@@ -126,7 +126,7 @@ def _write_report(found: Design, path: Path, again: str) -> None:
 
 
 def _bounds_by_name(words: tuple[str, ...], model: str) -> Mapping[str, tuple[float, float]]:
-    """Return the bounds by name in SI units; as typed, those of parameters are in the unit of the file."""
+    """Return the bounds by name in SI units; as typed, bounds of parameters are in the unit of the file."""
     from symgen.describe.facts.typed_units import Typed
 
     form = "NAME=LOW:HIGH, such as a=0.2:0.4"

@@ -44,7 +44,9 @@ def design_report(found: Design, command: str = "") -> ReportDocument:
     sections = [
         Section("Numbers", tables=(_document_table(tables.table_of_values(found)),)),
         *_limits_section(found),
-        Section("Before and after", pictures=(*_pictures(found, runs),), tables=(_quantities(runs),)),
+        Section(
+            "Before and after", pictures=(*_pictures(found, runs),), tables=(_quantities(runs),), pictures_first=True
+        ),
         _searches_section(found),
     ]
     own = {"author": model.mechanism.author, "revision": model.mechanism.revision}

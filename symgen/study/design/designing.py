@@ -16,8 +16,8 @@ from symgen.base import arguments
 from symgen.base.errors import AnalysisError, InputError, plural
 from symgen.base.keywords import RunKeywords, keyword_names, make_entry
 from symgen.describe.facts.lifted import numbers_of_file
-from symgen.describe.files.load import read_text
-from symgen.describe.files.new_numbers import text_with_numbers, with_numbers
+from symgen.describe.files.load import parse_toml, read_text
+from symgen.describe.files.new_numbers import text_with_numbers
 from symgen.describe.files.origins import Source, origin_of
 from symgen.describe.files.validate import validate
 from symgen.result.labelled import Labelled
@@ -313,7 +313,7 @@ class _Designing:
         numbers = {paths.get(name, ("parameters", name)): value for name, value in whole.items()}
         file = _file_of_source(origin.source)
         text = text_with_numbers(None if file is None else read_text(file), origin.raw, numbers)
-        return text, Model(validate(with_numbers(origin.raw, numbers), origin.source))
+        return text, Model(validate(parse_toml(text, origin.source), origin.source))
 
 
 def _file_of_source(source: str) -> Path | None:

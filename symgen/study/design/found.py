@@ -210,7 +210,8 @@ class Design:
         from symgen.study.design.design_report import design_report
         from symgen.study.report.write import write
 
-        return write(design_report(self), arguments.path_argument("report", path))
+        file = arguments.path_argument("report", path)
+        return write(design_report(self), file)
 
     def to_json(self) -> dict[str, Any]:
         """Return the contract of ``symgen design --json``; numbers that are not finite become None."""

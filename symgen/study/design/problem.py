@@ -193,7 +193,7 @@ class QuantityReader:
         return len(self.quantities) - 1
 
     def _with_outputs(self, formula: Expr) -> Expr:
-        """Return a formula with those of outputs, and of inputs, in place of their names."""
+        """Return a formula with the formulas of outputs and inputs in place of their names."""
         outputs = {name: output.value for name, output in self._outputs.items()}
         return put_formulas(put_formulas(formula, outputs), dict(self.mechanism.input_formulas))
 

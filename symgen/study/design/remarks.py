@@ -21,7 +21,7 @@ TURNED = 1e-6
 
 
 class Watched:
-    """Quantities of a motion that remarks are about, beside those of the aim and the limits.
+    """Quantities of a motion that remarks are about, beside the ones of the aim and the limits.
 
     Parameters
     ----------

@@ -53,7 +53,7 @@ class DataAim:
         return Taken("rms", f"distance to {', '.join(self.names)}")
 
     def with_times(self, times: Array, both: bool = True) -> Array:
-        """Return times with those of the data; these alone unless `both`."""
+        """Return times with the times of the data; the latter alone unless `both`."""
         return np.union1d(times, self.data.t) if both else self.data.t
 
     def residuals(self, sampled: Sampled) -> tuple[Array, Array]:

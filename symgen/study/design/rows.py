@@ -77,6 +77,23 @@ def reached_value(taken: Taken, quantity: int, sampled: Sampled, side: str = "la
     return Reached(float(y[k]), float(sampled.times[k]))
 
 
+def local_minima(rooms: Array, times: int) -> NDArray[np.int64]:
+    """Return the places of local minima among rooms of one time after the other, ends included.
+
+    Parameters
+    ----------
+    rooms : Array
+        A number of parts, each with a room a time; or others, which all count.
+    times : int
+        Number of times.
+    """
+    if len(rooms) % times:
+        return np.arange(len(rooms))
+    parts = rooms.reshape(-1, times)
+    wide = np.pad(parts, ((0, 0), (1, 1)), constant_values=np.inf)
+    return np.flatnonzero((parts <= wide[:, :-2]) & (parts <= wide[:, 2:]))
+
+
 @dataclass(frozen=True)
 class Limit:
     """A limit of a quantity.

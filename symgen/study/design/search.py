@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from symgen.study.design.motions import Motions, NoMotion
 from symgen.study.design.problem import Varied
 from symgen.study.design.residuals import DataAim
-from symgen.study.design.rows import Aim, Limit, Sampled
+from symgen.study.design.rows import Aim, Limit, Sampled, local_minima
 
 Array = NDArray[np.float64]
 
@@ -160,13 +160,12 @@ class Search:
                 if (found := self.check(u)) is not None:
                     ends.append(found)
                     best = found if found.is_better_than(best) else best
-            more = times
-            for end in ends[:1]:
-                more = self._with_peaks(times, end.fine)
+            # another programme from where this one ended begins with no curvature, and often goes on
             settled = best.is_within and abs(before.score - best.score) <= SETTLED * abs(best.score)
-            if len(more) == len(times) or (settled and ends and ends[0].is_within):
+            if settled and (not ends or ends[0].is_within):
                 break
-            times = more
+            for each in (*ends[:1], best):
+                times = self._with_peaks(times, each.fine)
         return best
 
     def _with_peaks(self, times: Array, fine: Sampled) -> Array:
@@ -178,9 +177,8 @@ class Search:
             rows.append((y.max() - y) / max(abs(y.max()), 1e-300))
         k = len(fine.times)
         for row in rows:
-            for part in row.reshape(-1, k):
-                inner = np.flatnonzero((part[1:-1] <= part[:-2]) & (part[1:-1] <= part[2:])) + 1
-                more.append(fine.times[inner[part[inner] < NEAR]])
+            lowest = local_minima(row, k)
+            more.append(fine.times[lowest[row[lowest] < NEAR] % k])
         for limit in self.limits:
             if not limit.at_every_time and limit.taken.word != "rms" and (t := limit.reached(fine).t) is not None:
                 more.append(np.array([t]))

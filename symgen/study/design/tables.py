@@ -65,10 +65,15 @@ def state_of_limit(each: KeptLimit) -> str:
 
 
 def price(each: KeptLimit) -> str:
-    """Return what a unit of a limit costs of the aim."""
+    """Return what a unit of a limit costs of the aim; of a length, a millimetre."""
     if not each.active or not each.is_met:
         return ""
-    return "not known" if each.price is None else f"{each.price:.4g} {each.price_unit}".rstrip()
+    if each.price is None:
+        return "not known"
+    unit, cost = each.price_unit, each.price
+    if unit.endswith("/m"):
+        unit, cost = f"{unit[:-2]}/mm", cost / 1000.0
+    return f"{cost:.4g} {unit}".rstrip()
 
 
 def table_of_starts(found: Design) -> Table:
