@@ -11,6 +11,7 @@ from symgen.api import load
 from symgen.describe import catalogue
 from tests.browser.chromium import Chromium
 from tests.browser.editor_page import Page
+from tests.cli.test_edit_server import chain_of_bars
 
 pytestmark = pytest.mark.browser
 
@@ -202,6 +203,26 @@ def test_a_slider_writes_its_number_back(page: Page) -> None:
     page.until("document.getElementById('text').value.includes('crank_mass = { value = 3.5, unit')")
     page.rested()
     assert page.said() == []
+
+
+def test_sliders_of_many_bodies_write_into_the_text_and_the_server_moves_them(page: Page, file: Path) -> None:
+    file.write_text(chain_of_bars(22))
+    page.open()
+    page.rested()
+    page.until("document.querySelectorAll('#live input').length === 2 && !document.getElementById('live').inert")
+    text, frames = page.text("text"), page.run("window.symgen.editor.times().frames")
+    slider = "document.querySelector('#live input[type=range]')"
+    for k in range(1, 4):  # a hand that moves it, then lets go
+        given = f"s.value = {200 + 50 * k}; s.dispatchEvent(new Event('input', {{ bubbles: true }}))"
+        page.run(f"(s => {{ {given}; }})({slider})")
+        page.until(f"window.symgen.editor.times().frames >= {frames + k}")
+    page.run(f"{slider}.dispatchEvent(new Event('change', {{ bubbles: true }}))")
+    page.rested()
+    value = float(page.text("text").split("\nm = ")[1].split("\n")[0])
+    assert value == pytest.approx(4.0 ** (0.5 + 0.25), rel=1e-3)
+    assert page.run("document.querySelector('#live input[type=number]').valueAsNumber") == value
+    page.key("z", 2)
+    assert page.text("text") == text and page.said() == []
 
 
 def test_a_file_that_changed_on_the_disk_asks(page: Page, file: Path) -> None:

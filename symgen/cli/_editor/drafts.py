@@ -12,9 +12,10 @@ import numpy as np
 
 from symgen.api import Model
 from symgen.base.errors import AssemblyError, InputError, SymgenError
-from symgen.base.settings import Settings, differs_from_default
+from symgen.base.settings import Settings
 from symgen.cli._editor.joints import joint_equations
 from symgen.cli._editor.made import make_file_for_browser
+from symgen.describe.facts.digest import digest
 from symgen.describe.facts.lifted import lift_numbers, numbers_of_file
 from symgen.describe.files.handles import movable_points, spans_of_parameters
 from symgen.describe.files.load import LARGEST_FILE, parse_toml
@@ -38,6 +39,8 @@ from symgen.run.planning.prepare import prepare
 
 #: Errors of a text that are sent at most.
 MOST_ERRORS = 100
+#: Bodies of a mechanism whose code may be short enough for a page that works out motions; making it takes seconds.
+MOST_LIVE = 20
 
 
 class Drafts:
@@ -52,6 +55,7 @@ class Drafts:
     def __init__(self, path: Path) -> None:
         self.path, self.source = path, Source.of_file(path)
         self._running, self._results = threading.Lock(), dict[str, tuple[str, Result]]()
+        self._enlivening, self._without_live = threading.Lock(), set[str]()
         self._asked: dict[str, int] = {}
         self._last: tuple[str, tuple[dict[str, Any], Mechanism]] | None = None
 
@@ -100,6 +104,7 @@ class Drafts:
                 for handle in movable
             ],
             "numbers": {name: _span_in_page(span, wide) for name, span in numbers.items()},
+            "units": {p.name: p.own_unit.text for p in mechanism.parameters if p.name in numbers},
         }
 
     def run_motion(self, text: str, tab: str, asked: int) -> dict[str, Any]:
@@ -125,9 +130,8 @@ class Drafts:
                     raise KeyboardInterrupt
 
             mechanism = self._read_text(text)[1]
-            settings = _settings_in_loops(mechanism)
-            own = mechanism if differs_from_default(settings, "shape") else _numbers_as_parameters(mechanism)
-            result = Model(own).simulate(settings, progress=still_wanted)
+            own = _numbers_as_parameters(mechanism)
+            result = Model(own).simulate(_settings_in_loops(mechanism), progress=still_wanted)
             if self._asked[tab] != asked:
                 return {"superseded": True}
             facts = {"status": result.status, "reason": result.reason or ""}
@@ -136,17 +140,25 @@ class Drafts:
             self._results = {tab: (text, result)}
             return {"data": view_data(result, live=False)[0], **facts}
 
-    def live_page_data(self, text: str, tab: str) -> dict[str, Any]:
-        """Return the data and the script of a page that works out other motions of the last motion's text."""
-        with self._running:
+    def live_page_data(self, text: str, tab: str, asked: int) -> dict[str, Any]:
+        """Return the data and the script of a page that works out other motions of the last motion's text.
+
+        It is made beside motions, which do not wait for it, and of code with the file's numbers as parameters: another
+        number needs no other code. A mechanism whose code is too long for a page has no data.
+        """
+        with self._enlivening:
             before, result = self._results.get(tab, ("", None))
-            if result is None or before != text:
+            if result is None or before != text or self._asked.get(tab) != asked:
                 return {"superseded": True}
-            mechanism = self._read_text(text)[1]
-            if not differs_from_default(_settings_in_loops(mechanism), "shape") and not mechanism.bounded:
-                # sliders are for the parameters of the file alone; with bounded rows there are none
-                result = Model(mechanism).simulate()
-            data, script = view_data(result)
+            own = self._read_text(text)[1].parameters
+            moved = result.measured.mechanism
+            if len(moved.bodies) > MOST_LIVE or digest(moved) in self._without_live:
+                return {"data": None}
+            fixed = {parameter.name for parameter in moved.parameters} - {parameter.name for parameter in own}
+            data, script = view_data(result, fixed=fixed)
+            if not script:
+                self._without_live.add(digest(moved))
+                return {"data": None}
             return {"data": data, "script": script}
 
     def equations_of_joint(self, text: str, name: str) -> dict[str, Any]:

@@ -70,7 +70,7 @@ class Editor(ThreadingHTTPServer):
             "save": lambda asked: document.save(asked.draft, asked.digest, asked.force),
             "check": lambda asked: drafts.check_text(asked.draft),
             "motion": lambda asked: drafts.run_motion(asked.draft, asked.tab, asked.asked),
-            "live": lambda asked: drafts.live_page_data(asked.draft, asked.tab),
+            "live": lambda asked: drafts.live_page_data(asked.draft, asked.tab, asked.asked),
             "joint": lambda asked: drafts.equations_of_joint(asked.draft, asked.name),
             "make": lambda asked: drafts.make_file(asked.draft, asked.kind),
             "add": lambda asked: drafts.add_part(asked.draft, asked.part, [place.spot for place in asked.spots]),

@@ -4,7 +4,7 @@ const tab = Array.from(crypto.getRandomValues(new Uint32Array(2)), String).join(
 const NOTHING = { emitted: null, makeLive: null, observed: null, makeColumns: null };
 const LARGEST = 1000000;
 const MOTION = 60, LIVE = 700; // milliseconds of rest before a motion, and its live part, are asked for
-let version = 0, checking = false, again = false, timer = 0, resume = null, times = {}, fresh = true; // nothing has moved yet
+let version = 0, checking = false, again = false, timer = 0, resume = null, lively = true, times = {}, fresh = true; // nothing has moved yet
 
 async function post(job, given) {
   if (given.text && given.text.length > LARGEST) return { error: `expected a text of at most ${LARGEST} characters, got ${given.text.length}` };
@@ -46,9 +46,10 @@ function display(next, kind, code = NOTHING) {
   if (kind === "live") begin(code);
   else {
     live = columns = null;
-    $("live").inert = true;
+    if (!steering) $("live").inert = true;
   }
   if (kind === "motion") {
+    if (!lively) steer();
     facts();
     $("forcesBox").hidden = !(motion.reactions || motion.pulls);
   }
@@ -59,7 +60,7 @@ function display(next, kind, code = NOTHING) {
   show(motion);
   if (fresh) pace();
   if (fresh && tool === "move") fitted();
-  else if (!held && kind !== "live") outgrown(); // what a motion shows has its place already: nothing moves under a hand
+  else if (!held && !steering && kind !== "live") outgrown(); // what a motion shows has its place already: nothing moves under a hand
   fresh = false;
   go(shown);
 }
@@ -68,7 +69,7 @@ function display(next, kind, code = NOTHING) {
 function begun() {
   live = columns = group = null;
   traced = [];
-  $("live").inert = true;
+  if (!steering) $("live").inert = true;
   $("plots").classList.add("waiting");
   go(0);
 }
@@ -125,7 +126,7 @@ async function check() {
   const own = version, text = T.value, began = performance.now();
   const answer = await post("check", { text });
   checking = false;
-  if (own === version || held) checked(answer, text, own, began);
+  if (own === version || held || steering) checked(answer, text, own, began);
   if (again) {
     again = false;
     check();
@@ -146,6 +147,7 @@ function checked(answer, text, own, began) {
   }
   movable = answer.handles;
   numbers = answer.numbers;
+  numberUnits = answer.units;
   checkedText = text;
   showErrors(answer.errors, answer.count);
   if (!playing || answer.errors.length) display(answer.data, "start");
@@ -172,9 +174,11 @@ async function move(own, text) {
 }
 
 async function enlive(own, text) {
-  const began = performance.now(), answer = await post("live", { text, tab });
-  if (own !== version || answer.superseded || answer.error || held) return;
-  display(answer.data, "live", answer.script ? executed(answer.script) : NOTHING);
+  const began = performance.now(), answer = await post("live", { text, tab, asked: own });
+  if (own !== version || answer.superseded || answer.error || held || steering) return;
+  lively = answer.data !== null;
+  if (!lively) steer();
+  else display(answer.data, "live", answer.script ? executed(answer.script) : NOTHING);
   times.live = performance.now() - began;
   times.lived = own;
 }

@@ -14,7 +14,7 @@ const TOOLS = [
   ["load", "Load", 1, 1, "A point of a body with a force on it."],
 ];
 const NEAR = 14; // pixels
-let movable = [], held = null, tool = "move", spots = [], pressed = null, numbers = {};
+let movable = [], held = null, tool = "move", spots = [], pressed = null, numbers = {}, numberUnits = {};
 let checkedText = null; // the text that `movable` belongs to
 
 const layer = element("div"), bench = element("div");
