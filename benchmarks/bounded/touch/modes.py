@@ -60,7 +60,7 @@ class Problem:
             return Answer(dict(modes), free, {}, {}, np.concatenate([self.gap, self.slip]) @ free)
         taken = np.array(columns).T / self.masses[:, None]
         matrix, left = np.array(rows) @ taken, np.array(right) - np.array(rows) @ free
-        forces = np.asarray(np.linalg.lstsq(matrix, left, rcond=1e-11)[0], dtype=np.float64)
+        forces: Array = np.linalg.lstsq(matrix, left, rcond=1e-11)[0].astype(float)
         if np.abs(matrix @ forces - left).max() > _SOLVED * (1.0 + np.abs(left).max()):
             raise Unsolved("rows contradict each other")
         forces = self.shared(matrix, forces, names)
@@ -82,8 +82,9 @@ class Problem:
         fixed = [j for j, (i, k) in enumerate(names) if i >= 0 and k == 0]
         if spare.shape[1] == 0 or np.abs(spare[fixed]).max(initial=0.0) > 1e-9:
             return forces
-        part, *_ = np.linalg.lstsq(weights[:, None] * spare, -weights * forces, rcond=1e-9)
-        return np.asarray(forces + spare @ part)
+        part: Array = np.linalg.lstsq(weights[:, None] * spare, -weights * forces, rcond=1e-9)[0]
+        total: Array = forces + spare @ part
+        return total
 
 
 def _options(closed: list[int], rates: Array, scene: Scene, forced: Modes) -> list[list[int | None]]:

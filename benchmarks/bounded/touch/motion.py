@@ -101,8 +101,8 @@ def run(scene: Scene, q: Array, v: Array, times: list[float], rtol: float = 1e-1
             for j, mode in phase.modes.items():
                 contact = scene.contacts[j]
                 if mode == REST and contact.static > 0.0:
-                    spare = contact.static * now.normal[j] - abs(now.along[j])
-                    if j == i or spare < 1e-9 * (1.0 + now.normal[j]):
+                    margin = contact.static * now.normal[j] - abs(now.along[j])
+                    if j == i or margin < 1e-9 * (1.0 + now.normal[j]):
                         forced[j] = DOWN if now.along[j] > 0.0 else UP
         elif what == "stick":
             loose = loose - {i}
@@ -170,7 +170,8 @@ def _until_event(
     waking = {("hit", i) for i in phase.waking if i >= 0} | {("stick", -1 - i) for i in phase.waking if i < 0}
     before = margins(y)
     while solver.status == "running":
-        if solver.step() is not None:  # which says why it fails
+        solver.step()
+        if str(solver.status) == "failed":  # of a type that a step changes
             raise Ended("the integration fails")
         dense = solver.dense_output()
         times = np.linspace(solver.t_old, solver.t, PARTS + 1)

@@ -31,12 +31,16 @@ class OfSection(Protocol):
 
 
 class KeyOfJoints(msgspec.Struct, frozen=True):
-    """A key that joints of any kind may have, the words for its rows, the type of its table, and what reads it."""
+    """A key that joints may have, the words for its rows, the type of its table, and what reads it.
+
+    `kinds` are the kinds of joints that have the key among their own; without any, joints of any kind may have it.
+    """
 
     key: str
     family: RowFamily
     table: Any
     read: OfJoint
+    kinds: tuple[str, ...] = ()
 
 
 class SectionOfFiles(msgspec.Struct, frozen=True):
@@ -64,7 +68,7 @@ def sections_of_files() -> dict[str, SectionOfFiles]:
 
 def keys_of_any_joint() -> dict[str, Any]:
     """Return keys, with their types, that joints of any kind may have besides their own."""
-    return {**OF_ANY_JOINT, **{key: kind.table for key, kind in keys_of_joints().items()}}
+    return {**OF_ANY_JOINT, **{key: kind.table for key, kind in keys_of_joints().items() if not kind.kinds}}
 
 
 def all_families() -> tuple[RowFamily, ...]:
@@ -94,7 +98,7 @@ def rows_of_joint(scope: Scope, joint: Joint, raw: Mapping[str, Any]) -> Iterato
         With the key that is wrong.
     """
     for key, kind in keys_of_joints().items():
-        if key in raw:
+        if key in raw and joint.kind in (kind.kinds or (joint.kind,)):
             yield from kind.read(scope, joint, raw[key])
 
 
