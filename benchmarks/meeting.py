@@ -69,11 +69,18 @@ def cart(inertia: str = '"size**2/3"', pin: str = "", force: str = "-k*cart.x - 
     return CART.format(inertia=inertia, pin=pin, force=force, more=more)
 
 
+def lowered(play: float, text: str) -> str:
+    """Return a file whose pole is lower by a play, which is closed then."""
+    return text.replace('"-size*cos(0.4)"', f'"-size*cos(0.4) - {play!r}"')
+
+
 _PIN = 'type = "revolute"\nbetween = ["cart", "pole"]\nat = ["centre", "pin"]'
 _ROWS = 'type = "rows"\nrows = [{ position = "pole.pin.x - cart.x" }, { position = "pole.pin.y - cart.y" }]'
 _RAIL = (
     'type = "translational"\nbetween = ["ground", "cart"]\nat = [[0.0, 0.0], "centre"]\naxis = [1.0, 0.0]\nangle = 0.0'
 )
+_PLAY = "clearance = { hole = 0.011, pin = 0.01, restitution = 0.3 }"
+_GUIDE = "clearance = { length = 0.3, height = 0.1, gap = 0.002, restitution = 0.3, friction = 0.3 }"
 _BLADE = 'type = "beam"\nbetween = ["cart", "end"]\nat = ["centre", "centre"]\nlength = 0.5\naxis = [1.0, 0.0]'
 _HOOK = (
     'mass = 0.0\ninertia = 0.0\nposition = ["0.1 + 2*size*sin(0.4)", "-2*size*cos(0.4)"]\npoints = { a = [0.0, 0.0] }'
@@ -162,7 +169,10 @@ FEATURES: Mapping[str, str] = {
     ),
     "contact": cart(more=_WALL),
     "contact, two feet": cart(more=_SLED),
-    "clearance": cart(pin="clearance = { hole = 0.011, pin = 0.01, restitution = 0.3, friction = 0.1 }"),
+    "clearance": lowered(0.001, cart(pin=_PLAY)),
+    "clearance of a slide": lowered(0.002, cart())
+    .replace(_RAIL, f"{_RAIL}\n{_GUIDE}")
+    .replace("[0.1, 0.0]", "[0.1, -0.002]\nvelocity = [0.3, 0.0]"),
     "wheel that gives way": cart(
         more="[bodies.wheel]\nmass = 0.5\ninertia = 0.01\nposition = [0.1, 0.3]\nvelocity = [0.2, 0.0]\n"
         '[joints.road]\ntype = "rolling"\nbetween = ["wheel", "cart"]\nradius = 0.2\naxis = [1.0, 0.0]\n'
