@@ -141,6 +141,12 @@ FEATURES: Mapping[str, str] = {
     "friction": cart(pin="friction = { sliding = 0.3, static = 0.4 }"),
     "friction by a reaction": cart(pin="friction = { coefficient = 0.2, radius = 0.05 }"),
     "friction of the state": cart(pin='friction = { sliding = "0.2 + cart.x**2" }'),
+    "efficiency of a gear": cart(
+        more="[bodies.wheel]\nmass = 0.5\ninertia = 0.01\nposition = [0.1, 0.3]\n"
+        '[joints.axle]\ntype = "revolute"\nbetween = ["cart", "wheel"]\nat = [[0.0, 0.3], "centre"]\n'
+        '[joints.mesh]\ntype = "gear"\nbetween = ["pole", "wheel"]\ncarrier = "cart"\nratio = 0.5\n'
+        "efficiency = [0.9, 0.8]"
+    ),
     "friction, smooth": cart(pin='friction = { sliding = 0.3, law = "tanh", speed = 1e-3 }'),
     "friction, light body": cart(inertia="0.0", pin="friction = { sliding = 0.3 }"),
     "stop": cart(pin=_STOP),
@@ -157,6 +163,11 @@ FEATURES: Mapping[str, str] = {
     "contact": cart(more=_WALL),
     "contact, two feet": cart(more=_SLED),
     "clearance": cart(pin="clearance = { hole = 0.011, pin = 0.01, restitution = 0.3, friction = 0.1 }"),
+    "wheel that gives way": cart(
+        more="[bodies.wheel]\nmass = 0.5\ninertia = 0.01\nposition = [0.1, 0.3]\nvelocity = [0.2, 0.0]\n"
+        '[joints.road]\ntype = "rolling"\nbetween = ["wheel", "cart"]\nradius = 0.2\naxis = [1.0, 0.0]\n'
+        "on = [0.0, 0.1]\nstiffness = 1e4\ndamping = 10.0\nfriction = { coefficient = 0.5, speed = 0.05 }"
+    ),
     "beam element": cart(
         more="[bodies.end]\nmass = 0.5\ninertia = 0.01\nposition = [0.6, 0.0]\n"
         f"[forces.blade]\n{_BLADE}\naxial = 1e4\nbending = 10.0"
@@ -277,6 +288,7 @@ GROUPS: Mapping[str, Mapping[str, Place]] = {
         "looped code": _run("--shape", "looped"),
         "picard": _run("--integrator", "picard"),
         "radau5": _run("--integrator", "radau5"),
+        "ggl, bdf": _run("--method", "ggl", "--integrator", "bdf"),
         "generalized-alpha": _run("--method", "generalized-alpha", "--step", "1e-3"),
         "null-space": _run("--method", "null-space"),
         "augmented-lagrangian": _run("--method", "augmented-lagrangian"),

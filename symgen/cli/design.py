@@ -1,4 +1,4 @@
-"""Find numbers of a machine with which an aim is smallest, within limits."""
+"""Find dimensions by an aim, within limits."""
 
 from __future__ import annotations
 
