@@ -287,6 +287,7 @@ GROUPS: Mapping[str, Mapping[str, Place]] = {
         "looped code": _run("--shape", "looped"),
         "picard": _run("--integrator", "picard"),
         "radau5": _run("--integrator", "radau5"),
+        "ggl, bdf": _run("--method", "ggl", "--integrator", "bdf"),
         "generalized-alpha": _run("--method", "generalized-alpha", "--step", "1e-3"),
         "null-space": _run("--method", "null-space"),
         "augmented-lagrangian": _run("--method", "augmented-lagrangian"),

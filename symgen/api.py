@@ -32,6 +32,7 @@ from symgen.run.single.run import Array
 
 if TYPE_CHECKING:
     from symgen import compare as _compare
+    from symgen import design as _design
     from symgen import sweep as _sweep
     from symgen.analyses.functions.body_frame import Frame
     from symgen.analyses.functions.model_functions import Functions
@@ -308,9 +309,9 @@ class Model(Analysed, Shown):
 
     # editors and type checkers see the functions, which are imported when they are first called
     if TYPE_CHECKING:
-        compare, sweep = _compare, _sweep
+        compare, design, sweep = _compare, _design, _sweep
     else:
-        compare, sweep = _OfPackage("compare"), _OfPackage("sweep")
+        compare, design, sweep = _OfPackage("compare"), _OfPackage("design"), _OfPackage("sweep")
 
     @make_entry
     def simulate(

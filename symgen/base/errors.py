@@ -63,10 +63,13 @@ class InputError(SymgenError):
     ----------
     file : path or None
         The mechanism file, where the error is about its text.
+    further : tuple of InputError
+        What else is wrong in the same table.
     """
 
     exit_code = 2
     file: Path | None = None
+    further: tuple[InputError, ...] = ()
 
     def __init__(self, where: str, expected: str, got: str, hint: str = "", key: str = "") -> None:
         self.key = key

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -32,10 +32,13 @@ def is_live(method: str) -> bool:
     return bool(set(METHODS.get(method).forms) & set(INTEGRATORS.get(LIVE_INTEGRATOR).forms))
 
 
-def live_of_run(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") -> tuple[Live | None, str]:
+def live_of_run(
+    mechanism: Mechanism, run: Mapping[str, Any], method: str = "", fixed: Collection[str] = ()
+) -> tuple[Live | None, str]:
     """Return the live part of a page with coordinates, start, parameters and inputs of a run, by their names in JSON.
 
     Formulas of inputs are part of the mechanism. Inputs jump where one has other words, or is held by switches.
+    Parameters that are `fixed` have no sliders.
     """
     from symgen.base.settings import Settings
     from symgen.run.planning.plan import Purpose
@@ -65,19 +68,19 @@ def live_of_run(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") 
     names += [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]
     begin = np.array([state[n] for n in names]) if set(names) <= set(state) else None
     if prepared.tree is not None:
-        return _live_part_on_tree(prepared, prepared.tree, step, begin, run["until"])
+        return _live_part_on_tree(prepared, prepared.tree, step, begin, run["until"], fixed)
     live, note = live_part(
-        mechanism, prepared.compiled, prepared.start, step, begin, acting=prepared.mechanism, run=prepared
+        mechanism, prepared.compiled, prepared.start, step, begin, fixed, acting=prepared.mechanism, run=prepared
     )
     if live is None and run["coordinates"] == "absolute":  # a tree has a tenth of the operations, or less
         prepared = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
         if prepared.tree is not None:
-            return _live_part_on_tree(prepared, prepared.tree, step, begin, run["until"])
+            return _live_part_on_tree(prepared, prepared.tree, step, begin, run["until"], fixed)
     return _add_columns(live, mechanism, prepared, run["until"]), note
 
 
 def _live_part_on_tree(
-    run: Prepared, tree: TreeRun, step: float, initial: Array | None, until: float
+    run: Prepared, tree: TreeRun, step: float, initial: Array | None, until: float, fixed: Collection[str]
 ) -> tuple[Live | None, str]:
     """Return the live part in joint coordinates, which cannot close bodies: without sliders that move their start."""
     from symgen.run.planning.plan import Purpose
@@ -90,6 +93,8 @@ def _live_part_on_tree(
     turns = start.w[abi.WINDING :][: info.windings].tolist()
     own_start = exported_start(run.mechanism, run.compiled, start.datum or (), turns)
     for name, x in values.items():
+        if name in fixed:
+            continue
         parameters = {**settings.parameters, name: 1.01 * x if x else 0.01}
         try:
             other = prepare(mechanism, replace(settings, parameters=parameters), Purpose.STATE).start
@@ -106,7 +111,7 @@ def _live_part_on_tree(
         of_bodies = replace(tree.body_start, y=y)
         carried = map_to_tree(mechanism, tree.mechanism, tree.bodies, tree.compiled)
         start = begin_on_tree(mechanism, tree.mechanism, carried, of_bodies, run.plan.method_parameters).start
-    live, note = live_part(mechanism, run.compiled, start, step, still=moving, acting=run.mechanism, run=run)
+    live, note = live_part(mechanism, run.compiled, start, step, still=[*moving, *fixed], acting=run.mechanism, run=run)
     if live is not None and moving:
         note = f"no sliders for {', '.join(moving)}: they move the start, which pages close in coordinates of bodies"
     return _add_columns(live, mechanism, run, until), note

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -62,7 +62,7 @@ def view_motion(result: MotionTables, beside: MotionTables | None = None, live: 
     )
 
 
-def view_data(result: MotionTables, live: bool = True) -> tuple[dict[str, Any], str]:
+def view_data(result: MotionTables, live: bool = True, fixed: Collection[str] = ()) -> tuple[dict[str, Any], str]:
     """Return what a page draws of a motion, for JSON, and the body of a function with its live part, empty for none.
 
     Parameters
@@ -72,6 +72,8 @@ def view_data(result: MotionTables, live: bool = True) -> tuple[dict[str, Any], 
     live : bool
         Whether the page shall be able to work out other motions, and know the gaps of pins; without both it is there
         sooner.
+    fixed : collection of str
+        Parameters that have no sliders there.
 
     Raises
     ------
@@ -79,7 +81,7 @@ def view_data(result: MotionTables, live: bool = True) -> tuple[dict[str, Any], 
         If the motion has no outputs.
     """
     shown = playable_motion(result)
-    part, note = live_of_run(shown.mechanism, result.run_facts()) if live else (None, "")
+    part, note = live_of_run(shown.mechanism, result.run_facts(), fixed=fixed) if live else (None, "")
     return page_data(shown, part, note, gaps=live), "" if part is None else live_script(part)
 
 

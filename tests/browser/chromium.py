@@ -94,16 +94,20 @@ class Chromium:
 
     def call(self, method: str, **given: Any) -> Any:
         """Call a method of the protocol; what the page says meanwhile is kept in `said`."""
-        self._count += 1
-        message = {"id": self._count, "method": method, "params": given}
-        if self.session:
-            message["sessionId"] = self.session
-        os.write(self._write, json.dumps(message).encode() + b"\0")
+        self.send(method, **given)
         while True:
             found = self._message()
             if found.get("id") == self._count:
                 assert "error" not in found, found["error"]
                 return found["result"]
+
+    def send(self, method: str, **given: Any) -> None:
+        """Call a method that has no answer, such as one that ends a page."""
+        self._count += 1
+        message = {"id": self._count, "method": method, "params": given}
+        if self.session:
+            message["sessionId"] = self.session
+        os.write(self._write, json.dumps(message).encode() + b"\0")
 
     def _message(self) -> Any:
         while b"\0" not in self._left:

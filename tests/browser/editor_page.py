@@ -49,7 +49,7 @@ class Page:
         """Wait until an expression of the page is true."""
         ends = time.monotonic() + PATIENCE
         while not self.run(words):
-            assert time.monotonic() < ends, f"never: {words}; {self.said()}"
+            assert time.monotonic() < ends, f"never: {words}; {self.said()} {self.text('status')} {self.text('errors')}"
             time.sleep(0.02)
 
     def rested(self) -> None:

@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import closing
 from email.message import Message
@@ -182,9 +183,10 @@ def test_the_drawing_has_the_start_and_the_motion_what_a_page_has(editor: Editor
     assert {text[slice(*span)] for span in found["numbers"].values()} == {"2.0", "8.0", "5.0"}
     moved = done(editor, "motion", text=text, tab="a", asked=1)
     assert moved["status"] == "ok" and moved["data"]["motions"][0]["count"] > 10 and moved["data"]["live"] is None
-    live = done(editor, "live", text=text, tab="a")
+    live = done(editor, "live", text=text, tab="a", asked=1)
     assert live["data"]["live"]["method"] == "direct-correction" and "makeLive" in live["script"]
-    assert done(editor, "live", text=TEXT, tab="a") == {"superseded": True}
+    assert done(editor, "live", text=TEXT, tab="a", asked=1) == {"superseded": True}
+    assert done(editor, "live", text=text, tab="a", asked=0) == {"superseded": True}  # a newer text is asked for
 
 
 STOPPED = """
@@ -212,6 +214,47 @@ def test_a_moved_number_needs_no_new_code(tmp_path: Path) -> None:
         file.write_text(STOPPED.replace("[-0.5, 0.0]", f"[{length}, 0.0]"), encoding="utf-8")
         digests.add(digest(_numbers_as_parameters(load(file).mechanism)))
     assert len(digests) == 1
+
+
+def test_another_number_needs_no_other_live_part_whose_sliders_are_those_of_the_file(tmp_path: Path) -> None:
+    drafts, parts = Drafts(tmp_path / "bar.toml"), list[tuple[str, list[str], list[float]]]()
+    for asked, place in enumerate(("[10.0, 0.0]", "[9.7, 0.0]")):
+        text = TEXT.replace("until = 10.0", "until = 0.1").replace("[10.0, 0.0]", place)
+        assert drafts.run_motion(text, "a", asked)["status"] == "ok"
+        part = drafts.live_page_data(text, "a", asked)
+        given = part["data"]["live"]["parameters"]
+        sliders = [entry["name"] for entry in given if not entry.get("still")]
+        parts.append((part["script"], sliders, part["data"]["live"]["p0"]))
+    (first, sliders, before), (second, _, after) = parts
+    assert first == second and before != after
+    assert sliders[:3] == ["crank_mass", "coupler_mass", "rocker_mass"] and not any("joints" in x for x in sliders)
+
+
+def chain_of_bars(count: int) -> str:
+    """Return a chain of bars that hangs from the ground, whose damping is a parameter."""
+    parts = ['[mechanism]\nname = "chain"\ngravity = [0.0, -9.81]\n\n[run]\nuntil = 0.05\n\n[parameters]\nm = 1.0\n']
+    for k in range(count):
+        ends = "points = { A = [0.0, 0.0], B = [0.3, 0.0] }\ncentre_of_mass = [0.15, 0.0]"
+        parts.append(f'[bodies.b{k}]\nmass = "m"\ninertia = 0.01\n{ends}\nposition = [{0.3 * k!r}, 0.0]\n')
+        other = f'["b{k - 1}", "b{k}"]\nat = ["B", "A"]' if k else '["ground", "b0"]\nat = [[0.0, 0.0], "A"]'
+        parts.append(f'[joints.p{k}]\ntype = "revolute"\nbetween = {other}\n')
+    return "\n".join(parts)
+
+
+def test_many_bodies_have_no_code_in_the_page_and_cost_nothing_there(tmp_path: Path) -> None:
+    drafts, text = Drafts(tmp_path / "chain.toml"), chain_of_bars(24)
+    assert drafts.check_text(text)["units"] == {"m": "1"} or drafts.check_text(text)["units"] == {"m": ""}
+    assert drafts.run_motion(text, "a", 1)["status"] == "ok"
+    began = time.process_time()
+    assert drafts.live_page_data(text, "a", 1) == {"data": None}
+    assert time.process_time() - began < 0.1
+
+
+def test_a_motion_waits_for_no_live_part(tmp_path: Path) -> None:
+    drafts, text = Drafts(tmp_path / "bar.toml"), TEXT.replace("until = 10.0", "until = 0.1")
+    assert drafts.run_motion(text, "a", 1)["status"] == "ok"
+    with drafts._enlivening:  # as while a live part is made
+        assert drafts.run_motion(text, "a", 2)["status"] == "ok"
 
 
 @pytest.mark.slow
@@ -298,6 +341,73 @@ def test_ten_megabytes_are_one_sentence(editor: Editor, tmp_path: Path) -> None:
     for job in ("check", "save", "motion", "add"):
         assert "1000000 bytes" in done(editor, job, text=within)["error"]
     assert editor.document.path.read_text() == TEXT
+
+
+# -- texts that are not saved ------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("SYMGEN_CACHE_DIR", str(tmp_path / "own"))
+    return tmp_path / "own" / "unsaved"
+
+
+def test_a_text_that_is_not_saved_is_offered_until_it_is(own_folder: Path, editor: Editor) -> None:
+    ours = TEXT + "# ours\n"
+    assert done(editor, "load")["unsaved"] == []
+    assert done(editor, "keep", text=ours, tab="../../a") == {"kept": True}
+    assert done(editor, "keep", text=ours + "# more\n", tab="b") == {"kept": True}
+    (newest, other) = done(editor, "load")["unsaved"]
+    assert (newest["page"], newest["text"]) == ("b", ours + "# more\n")
+    assert (other["page"], other["text"]) == ("../../a", ours)
+    inside = [path for path in own_folder.rglob("*") if path.is_file()]
+    assert len(inside) == 2 and all(path.parent.parent == own_folder for path in inside)
+    if os.name == "posix":
+        assert {path.parent.stat().st_mode & 0o077 for path in inside} == {0}
+    done(editor, "keep", text=TEXT, tab="b")  # as the file has it again
+    done(editor, "save", text=ours, digest=done(editor, "load")["digest"])
+    assert done(editor, "load")["unsaved"] == []
+    done(editor, "forget", tab="../../a")
+    assert not any(path.is_file() for path in own_folder.rglob("*"))
+
+
+def test_texts_that_are_kept_are_bounded_and_remains_are_passed_over(own_folder: Path, editor: Editor) -> None:
+    for k in range(25):
+        done(editor, "keep", text=f"# {k}\n", tab=str(k))
+    assert {entry["text"] for entry in done(editor, "load")["unsaved"]} >= {"# 24\n", "# 20\n"}
+    files = sorted(own_folder.rglob("*.json"))
+    assert len(files) == 20
+    files[0].write_text("{")
+    files[1].write_text('{"page": 1}')
+    assert len(done(editor, "load")["unsaved"]) == 18
+    assert done(editor, "keep", text="#" * (LARGEST_FILE + 1), tab="x") == {"kept": False}
+
+
+def test_where_nothing_can_be_kept_the_page_is_told(own_folder: Path, editor: Editor) -> None:
+    own_folder.parent.mkdir()
+    own_folder.write_text("no folder")
+    assert done(editor, "keep", text="# ours\n", tab="a") == {"kept": False}
+    assert done(editor, "load")["unsaved"] == []
+
+
+@pytest.mark.slow
+def test_a_server_that_is_killed_loses_no_text(own_folder: Path, tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "symgen", "edit", "--new", "crane", "--no-browser"]
+    for expected in ([], ["# mine\n"]):
+        with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=tmp_path) as process:
+            assert process.stdout is not None
+            _, _, host, secret, _ = process.stdout.readline().strip().split("/")
+
+            def ask(job: str, host: str = host, secret: str = secret, **given: object) -> Any:
+                headers = {"Content-Type": "application/json", "Origin": f"http://{host}"}
+                with closing(http.client.HTTPConnection(host, timeout=20)) as connection:
+                    connection.request("POST", f"/{secret}/{job}", json.dumps(given), headers)
+                    return json.loads(connection.getresponse().read())
+
+            assert [entry["text"] for entry in ask("load")["unsaved"]] == expected
+            assert ask("keep", text="# mine\n", tab="a") == {"kept": True}
+            process.kill()
+    assert not (tmp_path / "crane.toml").exists()
 
 
 # -- the command -------------------------------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 import difflib
 import math
+from collections.abc import Mapping
 
 import numpy as np
 import pytest
@@ -29,8 +30,8 @@ FOUR_BAR = text_of("four-bar")
 EMPTY = '# mine\n[mechanism]\nname = "new"\n'
 
 
-def added(text: str, kind: str, *spots: Spot, angle: float = 0.0) -> tuple[str, str]:
-    changes, path = snippet_changes(kind, spots, parse_toml(text, "x"), outline_of_document(text), text, angle)
+def added(text: str, kind: str, *spots: Spot, angles: Mapping[str, float] | None = None) -> tuple[str, str]:
+    changes, path = snippet_changes(kind, spots, parse_toml(text, "x"), outline_of_document(text), text, angles)
     return apply_changes(text, changes), path
 
 
@@ -80,9 +81,9 @@ def test_a_bar_from_a_pin_to_a_free_place() -> None:
     mechanism = validate(parse_toml(after, "x"), "x")
     assert mechanism.joint_named("pin1").bodies == ("rocker", "bar1")
     raw = parse_toml(after, "x")["bodies"]["bar1"]
-    assert raw["angle"] == pytest.approx(math.atan2(4.0, 3.0), rel=1e-5)
     assert raw["inertia"] == pytest.approx(25.0 / 12.0, rel=1e-5)
-    assert raw["points"] == {"A": [-2.5, 0.0], "B": [2.5, 0.0]}
+    assert raw["points"] == {"A": [0.0, 0.0], "B": [3.0, 4.0]} and raw["centre_of_mass"] == [1.5, 2.0]
+    assert raw["position"] == [8.0, 4.5] and "angle" not in raw
 
 
 def test_a_plate_has_the_inertia_of_its_triangle() -> None:
@@ -106,19 +107,100 @@ def test_a_four_bar_from_nothing() -> None:
     compiled = model.compile(shape="looped")
     start = model.assemble(compiled)
     assert compiled.info.nv - start.rank == 1
-    assert start.y[:9] == pytest.approx(model.initial_state({})[0], abs=1e-4)  # it was drawn closed
-    text, motor = added(text, "motor", Spot(0.0, 0.0, "bar1", "A", joint="pin3"), angle=1.107149)
-    assert motor == "joints.motor1" and foot == "joints.pin4"
+    assert start.y[:9] == pytest.approx(model.initial_state({})[0], abs=1e-15)  # it was drawn closed
+    text, motor = added(text, "motor", Spot(0.0, 0.0, "bar1", "A", joint="pin3"))
+    assert motor == "joints.motor1" and foot == "joints.pin4" and 'value = "2.0*t"' in text
     driven = load(validate(parse_toml(text, "x"), "x"))
     compiled = driven.compile(shape="looped")
     start = driven.assemble(compiled)
-    assert compiled.info.nv == start.rank and start.y[:9] == pytest.approx(model.initial_state({})[0], abs=1e-4)
+    assert compiled.info.nv == start.rank and start.y[:9] == pytest.approx(model.initial_state({})[0], abs=1e-15)
+
+
+def test_numbers_are_those_of_the_hand_whatever_sums_leave_of_rounding() -> None:
+    text, _ = added(EMPTY, "body", Spot(0.1, 0.2), Spot(0.1 + 0.2, 0.7))
+    raw = parse_toml(text, "x")["bodies"]["bar1"]
+    assert raw["points"] == {"A": [0.0, 0.0], "B": [0.2, 0.5]} and raw["position"] == [0.1, 0.2]
+    text, _ = added(text, "pin", Spot(0.3, 0.7, "bar1", "B"), Spot(0.1 + 0.2, 0.7 - 1e-17))
+    assert "at = [[0.3, 0.7]" in text
+    third = added(EMPTY, "body", Spot(1.0 / 3.0, 0.0), Spot(1.0, 0.0))[0]  # no decimal is meant: all digits stay
+    assert parse_toml(third, "x")["bodies"]["bar1"]["position"][0] == pytest.approx(1.0 / 3.0, abs=1e-14)
+
+
+CRANK, ROD, BLOCK = (Spot(0.0, 0.0), Spot(0.1, 0.1)), (Spot(0.1, 0.1), Spot(0.5, 0.0)), (Spot(0.5, 0.0), Spot(0.6, 0.0))
+
+
+def drawn_slider_crank(order: str) -> str:
+    """Return a crank, a rod and a block, drawn one after the other and pinned together."""
+    text, names = EMPTY, dict[str, str]()
+    for letter in order:
+        ends = {"c": CRANK, "r": ROD, "b": BLOCK}[letter]
+        text, path = added(text, "body", *ends)
+        names[letter] = path.removeprefix("bodies.")
+    text, _ = added(text, "pin", Spot(0.0, 0.0, names["c"], "A"), Spot(0.0, 0.0))
+    text, _ = added(text, "pin", Spot(0.1, 0.1, names["c"], "B"), Spot(0.1, 0.1, names["r"], "A"))
+    return added(text, "pin", Spot(0.5, 0.0, names["r"], "B"), Spot(0.5, 0.0, names["b"], "A"))[0]
+
+
+@pytest.mark.parametrize("order", ["crb", "cbr", "rbc", "bcr"])
+def test_a_slide_at_a_pin_takes_the_block_in_whatever_order_it_was_drawn(order: str) -> None:
+    text = drawn_slider_crank(order)
+    block = f"bar{order.index('b') + 1}"
+    after, path = added(text, "slide", Spot(0.5, 0.0, f"bar{order.index('r') + 1}", "B", joint="pin3"))
+    entry = parse_toml(after, "x")["joints"]["slide1"]
+    assert path == "joints.slide1"
+    assert entry["between"] == ["ground", block] and entry["at"] == [[0.5, 0.0], "A"]
+    assert entry["axis"] == [1.0, 0.0] and "angle" not in entry
+    model = load(validate(parse_toml(after, "x"), "x"))
+    compiled = model.compile(shape="looped")
+    start = model.assemble(compiled)
+    assert compiled.info.nv - start.rank == 1 and not start.warnings
+    assert start.y[:9] == pytest.approx(model.initial_state({})[0], abs=1e-15)
+
+
+def test_a_slide_at_a_pin_of_equals_takes_the_body_that_was_drawn_last() -> None:
+    text, _ = added(EMPTY, "body", *ROD)
+    text, _ = added(text, "body", Spot(0.5, 0.0, "bar1", "B"), Spot(0.6, 0.0))
+    after, _ = added(text, "slide", Spot(0.5, 0.0, "bar1", "B", joint="pin1"))
+    assert parse_toml(after, "x")["joints"]["slide1"]["between"] == ["ground", "bar2"]
+
+
+def test_a_slide_runs_where_the_hand_draws_it() -> None:
+    text, _ = added(EMPTY, "body", *BLOCK)
+    spot = Spot(0.5, 0.0, "bar1", "A")
+    for place, axis in (((0.5, 2.0), [0.0, 1.0]), ((0.1, 0.0), [-1.0, 0.0]), ((0.8, 0.1), [0.3, 0.1])):
+        entry = parse_toml(added(text, "slide", spot, Spot(*place))[0], "x")["joints"]["slide1"]
+        assert entry["axis"] == axis and entry["between"] == ["ground", "bar1"]
+    # along another body, which is turned: the axis is in its frame, and the block keeps its angle
+    text, _ = added(text, "body", Spot(0.0, 0.0), Spot(0.5, 1.0))
+    angles = {"bar2": 0.3, "bar1": 0.1}
+    after, _ = added(text, "slide", spot, Spot(0.5, 1.0, "bar2", "B", (0.5, 1.0)), angles=angles)
+    entry = parse_toml(after, "x")["joints"]["slide1"]
+    assert entry["between"] == ["bar2", "bar1"] and entry["at"] == ["B", "A"]
+    assert entry["axis"] == pytest.approx([math.sin(0.3), math.cos(0.3)], abs=1e-14) and entry["angle"] == -0.2
+
+
+def test_a_weld_keeps_angles_and_a_bar_gets_further_points() -> None:
+    text, _ = added(EMPTY, "body", *ROD)
+    text, _ = added(text, "body", Spot(0.5, 0.0), Spot(0.5, 0.3))
+    after, path = added(
+        text, "weld", Spot(0.5, 0.0, "bar1", "B"), Spot(0.5, 0.0, "bar2", "A"), angles={"bar2": 0.25, "bar1": 1e-12}
+    )
+    assert path == "joints.weld1" and parse_toml(after, "x")["joints"]["weld1"]["angle"] == 0.25
+    validate(parse_toml(after, "x"), "x")
+    for name, place in (("C", (0.3, 0.05)), ("D", (0.3, 0.25))):
+        text, path = added(text, "point", Spot(0.1, 0.1, "bar1", "A"), Spot(*place))
+        assert path == f"bodies.bar1.points.{name}"
+    points = parse_toml(text, "x")["bodies"]["bar1"]["points"]
+    assert points == {"A": [0.0, 0.0], "B": [0.4, -0.1], "C": [0.2, -0.05], "D": [0.2, 0.15]}
+    turned = added(text, "point", Spot(0.1, 0.1, "bar1", "A"), Spot(0.1, 1.1), angles={"bar1": 0.5})[0]
+    new = parse_toml(turned, "x")["bodies"]["bar1"]["points"]["E"]
+    assert new == pytest.approx([math.sin(0.5), math.cos(0.5)], abs=1e-14)
 
 
 def test_a_spring_a_slide_and_a_load() -> None:
     end, other = Spot(8.4, 4.7, "rocker", "C"), Spot(12.0, 4.7)
     for kind, spots in (("spring", (end, other)), ("slide", (end,)), ("load", (end,))):
-        after, path = added(FOUR_BAR, kind, *spots, angle=0.3)
+        after, path = added(FOUR_BAR, kind, *spots, angles={"rocker": 0.3})
         assert is_inserted(FOUR_BAR, after), kind
         validate(parse_toml(after, "x"), "x")
         assert path.endswith(f"{kind}1")
@@ -135,6 +217,14 @@ def test_a_spring_a_slide_and_a_load() -> None:
         ("load", (Spot(0, 0),), "a point of a body"),
         ("motor", (Spot(0, 0, "crank", "A"),), "a pin, which it turns"),
         ("wheel", (Spot(0, 0),), "a part that can be added"),
+        (
+            "slide",
+            (Spot(0, 0, "crank", "A", joint="A"),),
+            "a point that can slide, got one that a pin holds on the ground",
+        ),
+        ("slide", (Spot(1, 0, "crank", "B"), Spot(1, 0)), "a direction"),
+        ("weld", (Spot(0, 0, "crank", "A"), Spot(1, 0, "crank", "B")), "'crank' twice"),
+        ("point", (Spot(0, 0), Spot(1, 0)), "a point of a body"),
     ],
 )
 def test_what_cannot_be_added(kind: str, spots: tuple[Spot, ...], sentence: str) -> None:

@@ -237,3 +237,16 @@ def test_errors_of_other_sources_have_no_file(tmp_path):
 def test_the_key_of_an_error_survives_pickling():
     error = pickle.loads(pickle.dumps(InputError("a.toml: b", "c", "d", "e", "f")))
     assert (error.where, error.expected, error.got, error.hint, error.key) == ("a.toml: b", "c", "d", "e", "f")
+
+
+def test_all_keys_of_a_table_are_told_at_once_and_a_missing_section_at_the_end() -> None:
+    text = (
+        '[mechanism]\nname = "two"\n\n[parameters]\nm = 1.0\n\n[bodies.a]\n'
+        "mas = 1.0\ninertia = true\npositon = [0.0, 0.0]\n"
+        '\n[bodies.b]\nmass = "mm"\ninertia = "2*"\npoints = { A = ["q", 0.0] }\nposition = ["1/0", 0.0]\n'
+    )
+    found = problems_of_text(text, "two.toml")
+    assert [problem.line for problem in found] == [8, 9, 10, 13, 14, 15, 16]
+    assert "no such key" not in "".join(map(str, found))  # what was misspelled is wrong once
+    (missing,) = problems_of_text('[mechanism]\nname = "none"\n\n# nothing yet\n', "none.toml")
+    assert missing.line == 4 and missing.has_place and str(missing).startswith("bodies: expected at least one body")

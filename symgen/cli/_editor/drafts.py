@@ -12,9 +12,10 @@ import numpy as np
 
 from symgen.api import Model
 from symgen.base.errors import AssemblyError, InputError, SymgenError
-from symgen.base.settings import Settings, differs_from_default
+from symgen.base.settings import Settings
 from symgen.cli._editor.joints import joint_equations
 from symgen.cli._editor.made import make_file_for_browser
+from symgen.describe.facts.digest import digest
 from symgen.describe.facts.lifted import lift_numbers, numbers_of_file
 from symgen.describe.files.handles import movable_points, spans_of_parameters
 from symgen.describe.files.load import LARGEST_FILE, parse_toml
@@ -23,7 +24,7 @@ from symgen.describe.files.places import Path as Place
 from symgen.describe.files.places import outline_of_document
 from symgen.describe.files.problems import Problem, problems_of_text
 from symgen.describe.files.renaming import remove_from_text, rename_in_text
-from symgen.describe.files.snippets import Spot, snippet_changes
+from symgen.describe.files.snippets import TURNED, Spot, snippet_changes
 from symgen.describe.files.text_changes import apply_changes, utf16_places
 from symgen.describe.files.validate import validate
 from symgen.describe.formulas.evaluate import parameter_values
@@ -38,6 +39,8 @@ from symgen.run.planning.prepare import prepare
 
 #: Errors of a text that are sent at most.
 MOST_ERRORS = 100
+#: Bodies of a mechanism whose code may be short enough for a page that works out motions; making it takes seconds.
+MOST_LIVE = 20
 
 
 class Drafts:
@@ -52,6 +55,7 @@ class Drafts:
     def __init__(self, path: Path) -> None:
         self.path, self.source = path, Source.of_file(path)
         self._running, self._results = threading.Lock(), dict[str, tuple[str, Result]]()
+        self._enlivening, self._without_live = threading.Lock(), set[str]()
         self._asked: dict[str, int] = {}
         self._last: tuple[str, tuple[dict[str, Any], Mechanism]] | None = None
 
@@ -77,10 +81,10 @@ class Drafts:
         except AssemblyError as error:
             q = np.array(error.q) if error.q else described
             open_joints = error.joints
-            line = next((line_of_path(text, parts.mentions, ("joints", name)) for name in open_joints), 1)
+            line = next((line_of_path(text, parts.mentions, ("joints", name)) for name in open_joints), 0)
             errors = [{"line": line, "text": str(error)}]
         except SymgenError as error:  # a start that a formula leaves undefined
-            errors = [{"line": 1, "text": str(error)}]
+            errors = [{"line": 0, "text": str(error)}]
         recording = Recording(mechanism, values, np.zeros(1), np.atleast_2d(q))
         moved = bool(warnings) or bool(open_joints)
         ghost = Recording(mechanism, values, np.zeros(1), np.atleast_2d(described)) if moved else None
@@ -100,6 +104,7 @@ class Drafts:
                 for handle in movable
             ],
             "numbers": {name: _span_in_page(span, wide) for name, span in numbers.items()},
+            "units": {p.name: p.own_unit.text for p in mechanism.parameters if p.name in numbers},
         }
 
     def run_motion(self, text: str, tab: str, asked: int) -> dict[str, Any]:
@@ -125,9 +130,8 @@ class Drafts:
                     raise KeyboardInterrupt
 
             mechanism = self._read_text(text)[1]
-            settings = _settings_in_loops(mechanism)
-            own = mechanism if differs_from_default(settings, "shape") else _numbers_as_parameters(mechanism)
-            result = Model(own).simulate(settings, progress=still_wanted)
+            own = _numbers_as_parameters(mechanism)
+            result = Model(own).simulate(_settings_in_loops(mechanism), progress=still_wanted)
             if self._asked[tab] != asked:
                 return {"superseded": True}
             facts = {"status": result.status, "reason": result.reason or ""}
@@ -136,17 +140,25 @@ class Drafts:
             self._results = {tab: (text, result)}
             return {"data": view_data(result, live=False)[0], **facts}
 
-    def live_page_data(self, text: str, tab: str) -> dict[str, Any]:
-        """Return the data and the script of a page that works out other motions of the last motion's text."""
-        with self._running:
+    def live_page_data(self, text: str, tab: str, asked: int) -> dict[str, Any]:
+        """Return the data and the script of a page that works out other motions of the last motion's text.
+
+        It is made beside motions, which do not wait for it, and of code with the file's numbers as parameters: another
+        number needs no other code. A mechanism whose code is too long for a page has no data.
+        """
+        with self._enlivening:
             before, result = self._results.get(tab, ("", None))
-            if result is None or before != text:
+            if result is None or before != text or self._asked.get(tab) != asked:
                 return {"superseded": True}
-            mechanism = self._read_text(text)[1]
-            if not differs_from_default(_settings_in_loops(mechanism), "shape") and not mechanism.bounded:
-                # sliders are for the parameters of the file alone; with bounded rows there are none
-                result = Model(mechanism).simulate()
-            data, script = view_data(result)
+            own = self._read_text(text)[1].parameters
+            moved = result.measured.mechanism
+            if len(moved.bodies) > MOST_LIVE or digest(moved) in self._without_live:
+                return {"data": None}
+            fixed = {parameter.name for parameter in moved.parameters} - {parameter.name for parameter in own}
+            data, script = view_data(result, fixed=fixed)
+            if not script:
+                self._without_live.add(digest(moved))
+                return {"data": None}
             return {"data": data, "script": script}
 
     def equations_of_joint(self, text: str, name: str) -> dict[str, Any]:
@@ -165,9 +177,8 @@ class Drafts:
         """Return a text with a part added at spots, and the path of what was added."""
         self._refuse_large(text)
         raw = parse_toml(text, self.source)
-        added, path = snippet_changes(
-            part, spots, raw, outline_of_document(text), text, self._angle_of_spot(text, spots)
-        )
+        angles = self._angles_at_start(text) if part in TURNED else {}
+        added, path = snippet_changes(part, spots, raw, outline_of_document(text), text, angles)
         return {"text": apply_changes(text, added), "path": path}
 
     def rename_part(self, text: str, path: str, name: str) -> dict[str, Any]:
@@ -180,20 +191,19 @@ class Drafts:
         self._refuse_large(text)
         return {"text": remove_from_text(text, path, self.source)}
 
-    def _angle_of_spot(self, text: str, spots: Iterable[Spot]) -> float:
-        """Return the angle at the start of the joint that holds a spot, or of its body; 0 where there is none."""
-        spot = next(iter(spots), None)
-        if spot is None or not spot.body:
-            return 0.0
+    def _angles_at_start(self, text: str) -> dict[str, float]:
+        """Return how far bodies are turned where the page draws them at the start."""
         mechanism = self._read_text(text)[1]
-        start = prepare(*_closing_part(mechanism), Purpose.STATE).start
-        angles, at = {"ground": 0.0}, 0
+        try:
+            q = prepare(*_closing_part(mechanism), Purpose.STATE).start.y
+        except AssemblyError as error:
+            q = np.array(error.q) if error.q else Model(mechanism).initial_state({})[0]
+        angles, at = dict[str, float](), 0
         for body in mechanism.bodies:
             if "theta" in body.coordinates:
-                angles[body.name] = float(start.y[at + 2])
+                angles[body.name] = float(q[at + 2])
             at += len(body.coordinates)
-        bodies = next((j.bodies for j in mechanism.joints if j.name == spot.joint), ("ground", spot.body))
-        return angles.get(bodies[-1], 0.0) - angles.get(bodies[0], 0.0)
+        return angles
 
     def _read_text(self, text: str) -> tuple[dict[str, Any], Mechanism]:
         """Return the tables and the mechanism of a text; the last text is read once."""
@@ -209,9 +219,9 @@ class Drafts:
 
 
 def line_of_path(text: str, mentions: Iterable[Any], path: tuple[str, ...]) -> int:
-    """Return the line of the first key of a path, 1 where there is none."""
-    start = next((mention.start for mention in mentions if mention.path == path), 0)
-    return text.count("\n", 0, start) + 1
+    """Return the line of the first key of a path; 0 where there is none, as no line is wrong then."""
+    start = next((mention.start for mention in mentions if mention.path == path), None)
+    return 0 if start is None else text.count("\n", 0, start) + 1
 
 
 def _closing_part(mechanism: Mechanism) -> tuple[Mechanism, Settings]:
@@ -260,7 +270,7 @@ def _name_of_changeable(number: tuple[str, Place, float]) -> str:
 
 
 def _error_entry(problem: Problem) -> dict[str, Any]:
-    return {"line": problem.line, "text": str(problem)}
+    return {"line": problem.line if problem.has_place else 0, "text": str(problem)}
 
 
 def _span_in_page(span: tuple[int, int], wide: list[int] | None) -> tuple[int, int]:

@@ -83,7 +83,7 @@ class Document:
         if not self.path.exists() and self._begun is not None:
             return {"text": self._begun, "digest": ""}
         text = read_text(self.path)
-        return {"text": text.replace("\r\n", "\n"), "digest": self._file_digest()}
+        return {"text": text.replace("\r\n", "\n"), "digest": self.file_digest()}
 
     def save(self, text: str, digest: str, force: bool) -> dict[str, Any]:
         """Write the text, or return that the file has changed since it had a digest.
@@ -105,14 +105,14 @@ class Document:
         if len(text.encode(errors="replace")) > LARGEST_FILE:
             raise InputError(self.path.name, f"a file of at most {LARGEST_FILE} bytes", "a larger one")
         with self._lock:
-            if not force and self._file_digest() != digest:
+            if not force and self.file_digest() != digest:
                 return {"changed": True}
             before = self._read_bytes().decode("utf-8", errors="replace")
             text = keep_line_ends(text, before)
             if before.startswith(_MARK) and not text.startswith(_MARK):
                 text = _MARK + text
             write_whole(self.path, text)
-            return {"saved": True, "digest": self._file_digest()}
+            return {"saved": True, "digest": self.file_digest()}
 
     def _read_bytes(self) -> bytes:
         try:
@@ -122,6 +122,7 @@ class Document:
         except OSError as error:
             raise InputError(str(self.path), "a file that can be read", system_message(error)) from None
 
-    def _file_digest(self) -> str:
+    def file_digest(self) -> str:
+        """Return the digest of the file as it is on the disk; empty where there is none."""
         content = self._read_bytes()
         return hashlib.sha256(content).hexdigest() if content or self.path.exists() else ""

@@ -11,7 +11,10 @@ from symgen.base.escapes import script_json
 from symgen.describe.files.section_words import words_of_sections
 from symgen.result.player.motion_page import editing_page
 
-SCRIPTS = ("text.js", "colours.js", "brackets.js", "completion.js", "handles.js", "photo.js", "inside.js", "edit.js")
+SCRIPTS = (
+    *("text.js", "colours.js", "brackets.js", "completion.js", "grid.js", "handles.js", "photo.js", "inside.js"),
+    *("steering.js", "file.js", "edit.js"),
+)
 #: What the player draws before the first text is read: nothing.
 EMPTY: dict[str, Any] = {
     **{"title": "", "name": "", "points": [], "names": [], "live": None, "note": ""},

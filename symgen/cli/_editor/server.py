@@ -23,6 +23,7 @@ from symgen.cli._editor.drafts import Drafts
 from symgen.cli._editor.edited_file import Document
 from symgen.cli._editor.editor_page import editor_page
 from symgen.cli._editor.request import EditorRequest, read_request
+from symgen.cli._editor.unsaved import Unsaved
 from symgen.describe.files.load import LARGEST_FILE
 from symgen.describe.files.problems import sentence_with_line
 
@@ -59,20 +60,41 @@ class Editor(ThreadingHTTPServer):
     def __init__(self, document: Document, port: int = 0) -> None:
         super().__init__((HOST, port), _Handler)
         self.secret = secrets.token_urlsafe(32)
-        self.document, drafts = document, Drafts(document.path)
+        self.document, drafts, self._unsaved = document, Drafts(document.path), Unsaved(document.path)
         self.origin = f"http://{HOST}:{self.server_port}"
         self.jobs: dict[str, Job] = {
-            "load": lambda _: document.read(),
+            "load": lambda _: self._load_file(),
+            "state": lambda _: {"digest": document.file_digest()},
+            "keep": lambda asked: self._keep_text(asked.draft, asked.tab),
+            "forget": lambda asked: self._forget_page(asked.tab),
             "save": lambda asked: document.save(asked.draft, asked.digest, asked.force),
             "check": lambda asked: drafts.check_text(asked.draft),
             "motion": lambda asked: drafts.run_motion(asked.draft, asked.tab, asked.asked),
-            "live": lambda asked: drafts.live_page_data(asked.draft, asked.tab),
+            "live": lambda asked: drafts.live_page_data(asked.draft, asked.tab, asked.asked),
             "joint": lambda asked: drafts.equations_of_joint(asked.draft, asked.name),
             "make": lambda asked: drafts.make_file(asked.draft, asked.kind),
             "add": lambda asked: drafts.add_part(asked.draft, asked.part, [place.spot for place in asked.spots]),
             "rename": lambda asked: drafts.rename_part(asked.draft, asked.path, asked.name),
             "remove": lambda asked: drafts.remove_part(asked.draft, asked.path),
         }
+
+    def _load_file(self) -> Mapping[str, Any]:
+        """Return the file, and texts of it that were never saved."""
+        loaded = self.document.read()
+        return {**loaded, "unsaved": self._unsaved.texts_but(loaded["text"])}
+
+    def _keep_text(self, text: str, tab: str) -> Mapping[str, Any]:
+        """Keep a text that is not saved until it is; return whether it could be kept."""
+        if len(text) > LARGEST_FILE:
+            return {"kept": False}
+        with suppress(InputError):  # a file that went away, or is no text any more, has another text
+            if self.document.read()["text"] == text:
+                return self._forget_page(tab)
+        return {"kept": self._unsaved.keep_text(tab, text)}
+
+    def _forget_page(self, tab: str) -> Mapping[str, Any]:
+        self._unsaved.forget_page(tab)
+        return {"kept": True}
 
     def handle_error(self, request: Any, client_address: Any) -> None:
         """Say nothing of pages that went away before their answer."""

@@ -92,6 +92,16 @@ def cache_root() -> Path:
     return cache_location().path
 
 
+def state_root() -> Path:
+    """Return the folder for what the user would miss, which need not exist: no command empties it."""
+    wish = os.environ.get(ENVIRONMENT_VARIABLE)
+    if wish:
+        return Path(wish).expanduser().absolute()
+    import platformdirs
+
+    return Path(platformdirs.user_state_path("symgen", appauthor=False))
+
+
 def is_private_to_user(status: os.stat_result, *, private: bool = False) -> bool:
     """Return whether a file or folder belongs to the user and nobody else can change it.
 

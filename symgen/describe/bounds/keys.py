@@ -44,12 +44,13 @@ class KeyOfJoints(msgspec.Struct, frozen=True):
 
 
 class SectionOfFiles(msgspec.Struct, frozen=True):
-    """A section of files, the words for its rows, the table of an entry, and what reads that."""
+    """A section of files, the words for its rows and further ones, the table of an entry, and what reads that."""
 
     section: str
     family: RowFamily
     table: type[msgspec.Struct]
     read: OfSection
+    further: tuple[RowFamily, ...] = ()
 
 
 BOUNDS: Registry[KeyOfJoints | SectionOfFiles] = Registry("symgen.describe.bounds.kinds", "row with bounds")
@@ -83,7 +84,8 @@ def nouns_of_families(word: str = "noun", joined: str = "and") -> str:
 
 def inspection_lines(facts: Mapping[str, Any]) -> Iterator[str]:
     """Yield the lines of ``symgen inspect`` on rows with bounds, from its facts."""
-    for family in all_families():
+    further = (family for kind in sections_of_files().values() for family in kind.further)
+    for family in (*all_families(), *further):
         yield from map(family.line, facts.get(family.fact, ()))
 
 

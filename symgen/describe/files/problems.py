@@ -25,7 +25,8 @@ class Problem(NamedTuple):
     Attributes
     ----------
     line : int
-        Line of the key that is wrong, or of the nearest table around a key that is missing; counted from 1.
+        Line of the key that is wrong, or of the nearest table around a key that is missing, or the last one where a
+        section is missing; counted from 1, which the whole file has as well.
     where : str
         Path of the key, such as ``bodies.crank.mass``; empty for the whole file.
     expected, got, hint : str
@@ -41,6 +42,11 @@ class Problem(NamedTuple):
     hint: str
     place: Place
 
+    @property
+    def has_place(self) -> bool:
+        """Whether it is about a part of the text, and not about the whole file."""
+        return self.place != _NOWHERE
+
     def __str__(self) -> str:
         where = f"{self.where}: " if self.where else ""
         return f"{where}{sentence_of_parts(self.expected, self.got, self.hint)}"
@@ -49,8 +55,8 @@ class Problem(NamedTuple):
 def problems_of_text(text: str, source: str) -> tuple[Problem, ...]:
     """Return what is wrong in a mechanism file, in the order of its lines; nothing if it is valid.
 
-    Of each table (a body, a joint, a parameter, an event) the first thing wrong is reported, and nothing that only
-    follows from a table that is wrong. Text that is no TOML has one problem.
+    Of each table (a body, a joint, a parameter, an event) all keys that are wrong are reported, else the first formula
+    that is, and nothing that only follows from a table that is wrong. Text that is no TOML has one problem.
 
     Parameters
     ----------
@@ -64,10 +70,13 @@ def problems_of_text(text: str, source: str) -> tuple[Problem, ...]:
     except InputError as error:
         return (_problem_of_error(error, source, _place_of_syntax_error(error)),)
     found = places_in_document(text)
-    described = [
-        _problem_of_error(error, source, _place_of_error(error, source, raw, found))
-        for error in collect_errors(raw, source)
-    ]
+    end = Place(TextSpan(len(text.splitlines()) or 1, 1, 0), None)  # where a missing section would be written
+    described = list[Problem]()
+    for wrong in collect_errors(raw, source):
+        place = _place_of_error(wrong, source, raw, found)
+        if place == _NOWHERE and _path_in(wrong, source):
+            place = end
+        described.append(_problem_of_error(wrong, source, place))
     return tuple(sorted(described, key=lambda problem: problem.line))
 
 

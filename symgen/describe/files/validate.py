@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import msgspec
@@ -40,7 +41,7 @@ from symgen.describe.mechanism import (
     Vec,
 )
 from symgen.describe.parts.bodies import planar_body, read_shapes, spatial_body
-from symgen.describe.parts.collected import Errors, Incomplete
+from symgen.describe.parts.collected import Errors, Incomplete, errors_in_other_keys
 from symgen.describe.parts.columns import check_columns
 from symgen.describe.parts.context import Context
 from symgen.describe.parts.event_sections import read_event
@@ -129,7 +130,12 @@ class _Validator:
             beam = (name.partition(".")[0],) if name in self._parts else ()  # whose further parts are wrong alike
             with self.errors.part_of_description(name, *beam):
                 self.errors.leave_if_wrong(*beam)
-                results.append(read(name, value))
+                try:
+                    results.append(read(name, value))
+                except InputError as error:
+                    if self.errors.all_of_them and section != "joints":  # which read each other
+                        error.further += errors_in_other_keys(partial(read, name), value, error)
+                    raise
         return tuple(results)
 
     def read_head(self) -> MechanismSection:

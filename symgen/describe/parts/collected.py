@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
 from types import TracebackType
+from typing import Any
 
 from symgen.base.errors import InputError
 
@@ -14,6 +16,52 @@ _QUOTED = re.compile(r"""['"]([^'".]+)""")
 
 class Incomplete(Exception):
     """What is being read needs something that is wrong, which is reported already."""
+
+
+#: How the sentence of a wrong formula begins, in place of which a number may stand.
+FORMULA = "a number or an expression"
+
+
+def errors_in_other_keys(read: Callable[[Any], object], table: object, error: InputError) -> tuple[InputError, ...]:
+    """Return what else is wrong in a table: it is read again with a number in place of each formula that is wrong.
+
+    Parameters
+    ----------
+    read : callable
+        What reads the table.
+    table : object
+        The table, as the file has it.
+    error : InputError
+        What is wrong first.
+    """
+    found, mended = list[InputError](), set[str]()
+    while isinstance(table, Mapping) and error.expected.startswith(FORMULA):
+        key = next((key for key in table if f".{key}." in f"{error.where}.".replace("[", ".[")), None)
+        if key is None or key in mended:
+            break
+        mended.add(key)
+        table = {**table, key: _with_numbers(table[key])}
+        try:
+            read(table)
+        except InputError as other:
+            if any(f".{key}." in f"{other.where}.".replace("[", ".[") for key in mended):
+                break
+            error = other
+            found += [error, *error.further]
+        except Incomplete:
+            break
+        else:
+            break
+    return tuple(found)
+
+
+def _with_numbers(value: object) -> object:
+    """Return a value with a number in place of each of its texts."""
+    if isinstance(value, str):
+        return 1.0
+    if isinstance(value, list):
+        return [_with_numbers(item) for item in value]
+    return {key: _with_numbers(item) for key, item in value.items()} if isinstance(value, Mapping) else value
 
 
 class Errors:
@@ -45,6 +93,11 @@ class Errors:
         """
         return _Apart(self, names) if self._all else _PASSED_ON
 
+    @property
+    def all_of_them(self) -> bool:
+        """Whether errors are collected."""
+        return self._all
+
     def leave_if_wrong(self, *names: str) -> None:
         """Leave the part being read if one of `names` stands for something wrong."""
         if not self._wrong.isdisjoint(names):
@@ -57,8 +110,9 @@ class Errors:
 
     def keep_error(self, error: InputError | Incomplete, names: tuple[str, ...]) -> None:
         """Keep an error unless it quotes a name that stands for something wrong; `names` do so from now on."""
-        if isinstance(error, InputError) and self._wrong.isdisjoint(_QUOTED.findall(error.got)):
-            self.found.setdefault(str(error), error)
+        for each in (error, *error.further) if isinstance(error, InputError) else ():
+            if self._wrong.isdisjoint(_QUOTED.findall(each.got)):
+                self.found.setdefault(str(each), each)
         self._wrong.update(names)
 
 

@@ -170,7 +170,7 @@ def value_in_words(value: object) -> str:
 
 
 def read_table(kind: type[T], raw: object, where: str, further: tuple[str, ...] = ()) -> T:
-    """Return the table `raw` as a `kind`, or raise `InputError` about the first key that is wrong.
+    """Return the table `raw` as a `kind`, or raise `InputError` about the first key that is wrong; it has the others.
 
     Parameters
     ----------
@@ -186,17 +186,29 @@ def read_table(kind: type[T], raw: object, where: str, further: tuple[str, ...] 
     if not isinstance(raw, Mapping):
         raise InputError(where, "a table", value_in_words(raw))
     fields = _fields_by_name(cast(type[msgspec.Struct], kind))
+    wrong, names, values = list[InputError](), [*further, *fields], dict[str, Any]()
+    meant = ""
     for key in raw:
         if key not in fields:
-            names = [*further, *fields]
             hint = suggest(str(key), names)
-            got = f"the unknown key {quote(key)}"
             hint = "" if hint.startswith("known") else hint
-            raise InputError(where, f"the keys {', '.join(names)}", got, hint, str(key))
+            meant += hint
+            wrong.append(
+                InputError(where, f"the keys {', '.join(names)}", f"the unknown key {quote(key)}", hint, str(key))
+            )
     for key, field in fields.items():
-        if field.required and key not in raw:
-            raise InputError(f"{where}.{key}", describe_type(field.type), "no such key")
-    return kind(**{key: read_value(fields[key].type, value, f"{where}.{key}") for key, value in raw.items()})
+        if field.required and key not in raw and f"'{key}'" not in meant:  # a slip of the pen is wrong once
+            wrong.append(InputError(f"{where}.{key}", describe_type(field.type), "no such key"))
+    for key, value in raw.items():
+        if key in fields:
+            try:
+                values[key] = read_value(fields[key].type, value, f"{where}.{key}")
+            except InputError as error:
+                wrong += [error, *error.further]
+    if wrong:
+        wrong[0].further = tuple(wrong[1:])
+        raise wrong[0]
+    return kind(**values)
 
 
 @cache  # one entry for each section and kind; msgspec evaluates every annotation

@@ -4,7 +4,7 @@ const tab = Array.from(crypto.getRandomValues(new Uint32Array(2)), String).join(
 const NOTHING = { emitted: null, makeLive: null, observed: null, makeColumns: null };
 const LARGEST = 1000000;
 const MOTION = 60, LIVE = 700; // milliseconds of rest before a motion, and its live part, are asked for
-let version = 0, checking = false, again = false, digest = "", saved = "", timer = 0, resume = null, times = {}, fresh = true; // nothing has moved yet
+let version = 0, checking = false, again = false, timer = 0, resume = null, lively = true, times = {}, fresh = true; // nothing has moved yet
 
 async function post(job, given) {
   if (given.text && given.text.length > LARGEST) return { error: `expected a text of at most ${LARGEST} characters, got ${given.text.length}` };
@@ -17,9 +17,12 @@ async function post(job, given) {
   }
 }
 
-function say(text, wrong = false) {
-  $("status").textContent = text;
-  $("status").style.color = wrong ? "var(--bad)" : "";
+// What an act did, or why not: it stays until the next one. What a motion says stands apart, until the next motion.
+const say = (text, wrong = false) => put("status", text, wrong);
+const tell = (text, wrong = false) => put("told", text, wrong);
+function put(id, text, wrong) {
+  $(id).textContent = text;
+  $(id).style.color = wrong ? "var(--bad)" : "";
 }
 
 // -- what is shown --------------------------------------------------------------------------------------------------------
@@ -30,6 +33,7 @@ function display(next, kind, code = NOTHING) {
   if (resume === null && motion.t.length > 1) resume = time;
   data = opened(next);
   stage();
+  underlay();
   motions = data.motions.map(recorded);
   motion = motions[0];
   follow = null;
@@ -42,9 +46,10 @@ function display(next, kind, code = NOTHING) {
   if (kind === "live") begin(code);
   else {
     live = columns = null;
-    $("live").inert = true;
+    if (!steering) $("live").inert = true;
   }
   if (kind === "motion") {
+    if (!lively) steer();
     facts();
     $("forcesBox").hidden = !(motion.reactions || motion.pulls);
   }
@@ -55,7 +60,7 @@ function display(next, kind, code = NOTHING) {
   show(motion);
   if (fresh) pace();
   if (fresh && tool === "move") fitted();
-  else if (!held && kind !== "live") outgrown(); // what a motion shows has its place already: nothing moves under a hand
+  else if (!held && !steering && kind !== "live") outgrown(); // what a motion shows has its place already: nothing moves under a hand
   fresh = false;
   go(shown);
 }
@@ -64,7 +69,7 @@ function display(next, kind, code = NOTHING) {
 function begun() {
   live = columns = group = null;
   traced = [];
-  $("live").inert = true;
+  if (!steering) $("live").inert = true;
   $("plots").classList.add("waiting");
   go(0);
 }
@@ -94,14 +99,15 @@ function outgrown() {
 }
 
 function showErrors(found, count) {
-  bad = new Map(found.map((each) => [each.line, each.text]));
+  bad = new Map();
+  for (const { line, text } of found) bad.set(line, bad.has(line) ? `${bad.get(line)}\n${text}` : text);
   mark();
   const box = $("errors");
   box.textContent = "";
   box.hidden = !found.length;
   for (const each of found) {
-    const item = element("li"), button = element("button", `${each.line}: ${each.text}`);
-    button.addEventListener("click", () => select(startOfLine(each.line), startOfLine(each.line + 1) - 1));
+    const item = element("li"), button = element("button", each.line ? `${each.line}: ${each.text}` : each.text); // of a line, or of no line
+    if (each.line) button.addEventListener("click", () => select(startOfLine(each.line), startOfLine(each.line + 1) - 1));
     item.append(button);
     box.append(item);
   }
@@ -120,7 +126,7 @@ async function check() {
   const own = version, text = T.value, began = performance.now();
   const answer = await post("check", { text });
   checking = false;
-  if (own === version || held) checked(answer, text, own, began);
+  if (own === version || held || steering) checked(answer, text, own, began);
   if (again) {
     again = false;
     check();
@@ -129,7 +135,7 @@ async function check() {
 
 function checked(answer, text, own, began) {
   times.checked = own;
-  if (answer.error) return say(answer.error, true);
+  if (answer.error) return tell(answer.error, true);
   if (!answer.data) {
     movable = [];
     checkedText = null;
@@ -141,6 +147,7 @@ function checked(answer, text, own, began) {
   }
   movable = answer.handles;
   numbers = answer.numbers;
+  numberUnits = answer.units;
   checkedText = text;
   showErrors(answer.errors, answer.count);
   if (!playing || answer.errors.length) display(answer.data, "start");
@@ -148,7 +155,7 @@ function checked(answer, text, own, began) {
   render();
   times.drawing = performance.now() - began;
   times.frames = (times.frames || 0) + 1;
-  say(answer.data.note);
+  tell(answer.data.note);
   clearTimeout(timer);
   if (!answer.errors.length && own === version && !held) timer = setTimeout(() => move(own, text), MOTION);
 }
@@ -157,19 +164,21 @@ async function move(own, text) {
   const began = performance.now(), answer = await post("motion", { text, tab, asked: own });
   if (own !== version || answer.superseded) return;
   times.moved = own;
-  if (answer.error) return say(answer.error, true);
+  if (answer.error) return tell(answer.error, true);
   if (answer.data) display(answer.data, "motion");
   render();
   askJoint();
   times.motion = performance.now() - began;
-  say(answer.reason || (answer.data && answer.data.note) || "", answer.status === "failed");
+  tell(answer.reason || (answer.data && answer.data.note) || "", answer.status === "failed");
   if (answer.data && answer.status !== "failed") timer = setTimeout(() => enlive(own, text), LIVE);
 }
 
 async function enlive(own, text) {
-  const began = performance.now(), answer = await post("live", { text, tab });
-  if (own !== version || answer.superseded || answer.error || held) return;
-  display(answer.data, "live", answer.script ? executed(answer.script) : NOTHING);
+  const began = performance.now(), answer = await post("live", { text, tab, asked: own });
+  if (own !== version || answer.superseded || answer.error || held || steering) return;
+  lively = answer.data !== null;
+  if (!lively) steer();
+  else display(answer.data, "live", answer.script ? executed(answer.script) : NOTHING);
   times.live = performance.now() - began;
   times.lived = own;
 }
@@ -186,10 +195,11 @@ function executed(script) {
   return code;
 }
 
-changes.push(() => {
+changes.push((moving) => {
   version++;
   clearTimeout(timer);
-  $("dirty").hidden = T.value === saved;
+  if (!moving) say("");
+  showWhetherSaved();
   $("undo").disabled = !past.length;
   $("redo").disabled = !future.length;
   check();
@@ -203,38 +213,6 @@ $("live").addEventListener("change", (e) => {
   const before = T.value.slice(...span), text = String(value);
   if (Number.isFinite(value)) setText(T.value.slice(0, span[0]) + (/[.e]/i.test(before) && !/[.e]/i.test(text) ? `${text}.0` : text) + T.value.slice(span[1]));
 });
-
-// -- the file -------------------------------------------------------------------------------------------------------------
-
-async function open(again = false) {
-  const answer = await post("load", {});
-  if (answer.error) return say(answer.error, true);
-  digest = answer.digest;
-  saved = digest ? answer.text : null;
-  if (again) setText(answer.text, 0);
-  else beginText(answer.text);
-}
-
-async function save(force = false) {
-  const text = T.value, answer = await post("save", { text, digest, force });
-  if (answer.error) return say(answer.error, true);
-  if (answer.changed) {
-    $("question").textContent = `${editor.file} has changed on the disk since it was read here.`;
-    return $("ask").showModal();
-  }
-  digest = answer.digest;
-  saved = text;
-  $("dirty").hidden = T.value === saved;
-  say(`saved ${editor.file}`);
-}
-$("save").addEventListener("click", () => save());
-for (const [id, act] of [["overwrite", () => save(true)], ["take", () => open(true)], ["back", () => {}]]) {
-  $(id).addEventListener("click", () => {
-    $("ask").close();
-    act();
-  });
-}
-window.addEventListener("beforeunload", (e) => T.value !== saved && saved !== null && e.preventDefault());
 
 // -- names ----------------------------------------------------------------------------------------------------------------
 
@@ -306,6 +284,6 @@ window.addEventListener("keydown", (e) => {
   act();
 }, { capture: true });
 
-window.symgen.editor = { times: () => times, version: () => version, handles: () => movable, place: onPicture, checked: () => times.checked === version, rest: () => !checking && !again && times.moved === version };
+window.symgen.editor = { times: () => times, version: () => version, handles: () => movable, place: onPicture, grid: (scale) => [gridded(BETWEEN, scale), parted(gridded(BETWEEN, scale))], check, kept: () => !keeping && !newer && kept, checked: () => times.checked === version, rest: () => !checking && !again && times.moved === version };
 choosing("move");
 open();

@@ -1,17 +1,20 @@
 // -- points that can be moved, and what is added at points ----------------------------------------------------------------
 
+// Name, word on the button, points at least and at most, what is said.
 const TOOLS = [
-  ["move", "Move", 0, "Drag a ringed point, or move it with the arrow keys; its numbers in the text follow."],
-  ["bar", "Bar", 2, "Two points of a new body; a ringed point is pinned to it."],
-  ["plate", "Plate", 3, "Three points of a new body; a ringed point is pinned to it."],
-  ["pin", "Pin", 2, "Points of two bodies; the same point twice pins it to the ground."],
-  ["slide", "Slide", 1, "A point of a body that slides along x."],
-  ["spring", "Spring", 2, "Two points with a spring and a damper between them."],
-  ["motor", "Motor", 1, "A pin that turns on with time."],
-  ["load", "Load", 1, "A point of a body with a force on it."],
+  ["move", "Move", 0, 0, "Drag a ringed point, or move it with the arrow keys; its numbers in the text follow."],
+  ["bar", "Bar", 2, 2, "Two points of a new body; a ringed point is pinned to it."],
+  ["plate", "Plate", 3, 3, "Three points of a new body; a ringed point is pinned to it."],
+  ["pin", "Pin", 2, 2, "Points of two bodies; the same point twice pins it to the ground."],
+  ["weld", "Weld", 2, 2, "Points of two bodies that do not turn against each other; the same point twice welds it to the ground."],
+  ["slide", "Slide", 1, 2, "A point of a body that slides along x; drag from it for another direction, or onto a point of the body that it slides along. Its body keeps its angle."],
+  ["point", "Point", 2, 2, "A point of a body, then where another point of that body is: a further hole, or a point whose path is drawn."],
+  ["spring", "Spring", 2, 2, "Two points with a spring and a damper between them."],
+  ["motor", "Motor", 1, 1, "A pin that turns on with time."],
+  ["load", "Load", 1, 1, "A point of a body with a force on it."],
 ];
 const NEAR = 14; // pixels
-let movable = [], held = null, tool = "move", spots = [], numbers = {};
+let movable = [], held = null, tool = "move", spots = [], pressed = null, numbers = {}, numberUnits = {};
 let checkedText = null; // the text that `movable` belongs to
 
 const layer = element("div"), bench = element("div");
@@ -19,7 +22,7 @@ layer.id = "handles";
 bench.id = "tools";
 bench.setAttribute("role", "toolbar");
 bench.setAttribute("aria-label", "Tools");
-for (const [name, label, , hint] of TOOLS) {
+for (const [name, label, , , hint] of TOOLS) {
   const button = element("button", label);
   button.dataset.tool = name;
   button.title = hint;
@@ -29,17 +32,20 @@ for (const [name, label, , hint] of TOOLS) {
 const snap = element("label", "", "toggle"), snapping = element("input"), where = element("input");
 Object.assign(snapping, { type: "checkbox", checked: true, id: "snap" });
 snap.append(snapping, element("span", "snap"));
-snap.title = "Round places to a grid";
+snap.title = "Round places to the grid";
 where.id = "where";
-where.placeholder = "x, y";
-where.setAttribute("aria-label", "Next point: x, y in metres, Enter");
+where.placeholder = "x, y or length < deg";
+where.setAttribute("aria-label", "Next point: x, y in metres, or length and angle from the last one as 0.2 < 30, Enter");
+where.title = where.getAttribute("aria-label");
 bench.append(snap, where);
 $("stage").prepend(bench);
-$("picture").append(layer);
+$("picture").append(layer, pointer);
+underlay();
 
 function choosing(name) {
   tool = name;
   spots = [];
+  pressed = hovered = null;
   for (const button of bench.querySelectorAll("[data-tool]")) button.setAttribute("aria-pressed", button.dataset.tool === name);
   $("picture").classList.toggle("adding", name !== "move");
   where.hidden = name === "move";
@@ -48,29 +54,7 @@ function choosing(name) {
     wanted = true;
   }
   layHandles();
-  if (name !== "move") say(TOOLS.find((each) => each[0] === name)[3]);
-}
-
-// -- places on the picture ------------------------------------------------------------------------------------------------
-
-// By what is in the middle: where the camera was last drawn from may be a picture ago.
-const onPicture = (x, y) => {
-  const { at, scale, width, height } = view.camera;
-  return [(x - at[0]) * scale + width / 2, height / 2 - (y - at[1]) * scale];
-};
-const onPlane = (px, py) => {
-  const { at, scale, width, height } = view.camera;
-  return [(px - width / 2) / scale + at[0], (height / 2 - py) / scale + at[1]];
-};
-// The step of a grid whose lines are some pixels apart, and a number on it.
-const gridded = (pixels) => 10 ** Math.ceil(Math.log10(pixels / view.camera.scale) - 0.3);
-const onGrid = (x, step) => Math.round(x / step) * step;
-const decimals = (step) => Math.max(0, Math.min(12, -Math.floor(Math.log10(step) + 1e-9)));
-
-// A number as it is written in place of another one.
-function written(x, step, before) {
-  const text = String(+onGrid(x, step).toFixed(decimals(step)));
-  return /[.e]/i.test(before) && !/[.e]/i.test(text) ? `${text}.0` : text;
+  if (name !== "move") say(TOOLS.find((each) => each[0] === name)[4]);
 }
 
 const atStart = () => !playing && !view.spatial && time <= (motion.t[0] || 0) + 1e-12;
@@ -93,7 +77,7 @@ function layHandles() {
     if (button.getAttribute("aria-label") !== label) button.setAttribute("aria-label", label);
     button.title = h.name;
   });
-  for (const spot of spots.filter((s) => !s.name)) {
+  for (const spot of [...spots, ...(pressed ? [pressed] : [])].filter((s) => !s.name)) {
     const dot = element("div", "", "spot"), [x, y] = onPicture(spot.x, spot.y);
     dot.style.left = `${x}px`;
     dot.style.top = `${y}px`;
@@ -126,13 +110,14 @@ function newHandle() {
     if (!handle) return;
     e.stopPropagation();
     if (tool === "move") point_out(handle);
-    else pick(handle);
+    else if (!e.detail) takePoints(spotOf(handle)); // by a key; the mouse is followed below
   });
   button.addEventListener("keydown", (e) => {
     const way = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[e.key], handle = own();
-    if (!way || tool !== "move" || !handle) return;
+    if (!way || !["move", "slide"].includes(tool) || !handle) return;
     e.preventDefault();
     e.stopPropagation();
+    if (tool === "slide") return takePoints(spotOf(handle), onGround(handle.x + way[0], handle.y + way[1]));
     if (!handle.followers.length || checkedText !== T.value) return;
     const step = gridded(e.shiftKey ? 2 : 8);
     setText(moved(handle, T.value, way[0] * step, way[1] * step, step));
@@ -165,7 +150,7 @@ function follow_hand() {
 }
 
 function drag_to(x, y) {
-  const { camera } = view, step = gridded(snapping.checked ? 5 : 0.5);
+  const { camera } = view, step = handStep();
   held.moved ||= Math.hypot(x - held.from[0], y - held.from[1]) > 2;
   if (!held.moved) return;
   held.x = onGrid(held.x0 + (x - held.from[0]) / camera.scale, step);
@@ -192,23 +177,31 @@ function point_out(handle) {
 
 // -- adding ---------------------------------------------------------------------------------------------------------------
 
-function pick(handle) {
+const onGround = (x, y) => ({ name: "", x, y, body: "", point: "" });
+
+function spotOf(handle) {
   const joint = handle.name.startsWith("joints.") ? handle.name.slice(7) : "";
-  add({ name: handle.name, x: handle.x, y: handle.y, body: handle.body, point: handle.point, at: handle.at, joint });
+  return { name: handle.name, x: handle.x, y: handle.y, body: handle.body, point: handle.point, at: handle.at, joint };
 }
 
-const onGround = (x, y, step) => ({ name: "", x: +onGrid(x, step).toFixed(decimals(step)), y: +onGrid(y, step).toFixed(decimals(step)), body: "", point: "" });
-
-function pickPlace(x, y) {
-  add(onGround(x, y, gridded(snapping.checked ? 5 : 0.5)));
+// What is at a place of the picture: a ringed point, or a place of the grid.
+function spotAt(px, py) {
+  const near = movable.find((h) => Math.hypot(...onPicture(h.x, h.y).map((p, i) => p - [px, py][i])) < NEAR), step = handStep();
+  return near ? spotOf(near) : onGround(...onPlane(px, py).map((x) => onLattice(x, step)));
 }
 
-async function add(spot) {
-  const [, , need] = TOOLS.find(([name]) => name === tool);
-  if (tool === "pin" && spots.length && spot.body && spot.body === spots[0].body) spot = { ...onGround(spot.x, spot.y, gridded(0.05)), at: spot.at };
-  spots.push(spot);
+// A place that is taken twice is a point of another body that lies there, or held by the ground.
+function otherThan(first, spot) {
+  if (!spot.body || spot.body !== first.body) return spot;
+  const other = movable.find((h) => h.body !== first.body && Math.hypot(h.x - spot.x, h.y - spot.y) * view.camera.scale < 1);
+  return other ? spotOf(other) : onGround(spot.x, spot.y);
+}
+
+async function takePoints(...taken) {
+  const [, , least] = TOOLS.find(([name]) => name === tool);
+  for (const spot of taken) spots.push(["pin", "weld"].includes(tool) && spots.length ? otherThan(spots[0], spot) : spot);
   wanted = true;
-  if (spots.length < need) return layHandles();
+  if (spots.length < least) return layHandles();
   const given = { text: T.value, part: ["bar", "plate"].includes(tool) ? "body" : tool, spots };
   spots = [];
   const answer = await post("add", given);
@@ -220,21 +213,48 @@ async function add(spot) {
   say(`added ${answer.path}`);
 }
 
+// -- the mouse while something is added: a click takes a point, a drag takes two ---------------------------------------------
+
+const inPicture = (e) => {
+  const box = $("picture").getBoundingClientRect();
+  return [e.clientX - box.left, e.clientY - box.top];
+};
 $("picture").addEventListener("pointerdown", (e) => {
-  if (tool === "move" || view.spatial || e.target.closest(".handle") || e.button) return;
+  if (tool === "move" || view.spatial || e.button) return;
   e.stopPropagation();
   e.preventDefault();
-  const box = $("picture").getBoundingClientRect(), [x, y] = [e.clientX - box.left, e.clientY - box.top];
-  const near = movable.find((h) => Math.hypot(...onPicture(h.x, h.y).map((p, i) => p - [x, y][i])) < NEAR);
-  if (near) pick(near);
-  else pickPlace(...onPlane(x, y));
+  $("picture").setPointerCapture(e.pointerId);
+  pressed = { ...spotAt(...inPicture(e)), from: inPicture(e) };
+  wanted = true;
 }, { capture: true });
+$("picture").addEventListener("pointermove", (e) => {
+  if (view.spatial) return;
+  if (tool === "move") {
+    const step = gridded(0.5);
+    hovered = onGround(...onPlane(...inPicture(e)).map((x) => onLattice(x, step)));
+  } else hovered = spotAt(...inPicture(e));
+  wanted = true;
+});
+$("picture").addEventListener("pointerleave", () => {
+  hovered = null;
+  wanted = true;
+});
+for (const name of ["pointerup", "pointercancel"]) $("picture").addEventListener(name, (e) => {
+  if (!pressed) return;
+  const { from, ...first } = pressed, at = inPicture(e), [, , , most] = TOOLS.find(([each]) => each === tool);
+  pressed = null;
+  wanted = true;
+  if (name === "pointercancel") return;
+  const dragged = Math.hypot(at[0] - from[0], at[1] - from[1]) > NEAR && spots.length + 2 <= most;
+  takePoints(...(dragged ? [first, spotAt(...at)] : [first]));
+});
 where.addEventListener("keydown", (e) => {
-  if (e.key !== "Enter") return;
-  const [x, y] = where.value.split(",").map(Number);
-  if (!Number.isFinite(x) || !Number.isFinite(y) || tool === "move") return say("expected x, y in metres, such as 0.5, 1.2", true);
+  if (e.key !== "Enter" || tool === "move") return;
+  const polar = where.value.includes("<"), [a, b] = where.value.split(polar ? "<" : ",").map((x) => (x.trim() ? Number(x) : NaN)), last = spots.at(-1);
+  if (!Number.isFinite(a) || !Number.isFinite(b)) return say("expected x, y in metres, such as 0.5, 1.2, or length < degrees, such as 0.5 < 30", true);
+  if (polar && !last) return say("a length and an angle count from a point: take the first one by its x, y or by a click", true);
+  const turn = (b * Math.PI) / 180, [x, y] = polar ? [last.x + a * Math.cos(turn), last.y + a * Math.sin(turn)] : [a, b];
   const near = movable.find((h) => Math.hypot(h.x - x, h.y - y) * view.camera.scale < 2);
   where.value = "";
-  if (near) pick(near);
-  else add({ ...onGround(0, 0, 1), x, y });
+  takePoints(near ? spotOf(near) : onGround(x, y));
 });

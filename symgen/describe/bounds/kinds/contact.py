@@ -10,7 +10,7 @@ import msgspec
 from symgen.base.vocabulary.expressions import ZERO, Expr, Number, product
 from symgen.base.vocabulary.measures import FormulaMeasure
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.bounds.contact_rows import CONTACTS, ContactGap, Tangent
+from symgen.describe.bounds.contact_rows import CONTACTS, TANGENTS, ContactGap, Tangent
 from symgen.describe.bounds.keys import SectionOfFiles
 from symgen.describe.bounds.kinds.stop import read_restitution
 from symgen.describe.contacts.slopes import slopes_of_places
@@ -155,4 +155,4 @@ def _with_unit_slope(scope: Scope, gap: Expr) -> Expr:
     return gap if abs(length - 1.0) <= _SAME else product(Number(1.0 / length), gap)
 
 
-KIND = SectionOfFiles("contacts", CONTACTS, ContactSection, read_contact)
+KIND = SectionOfFiles("contacts", CONTACTS, ContactSection, read_contact, (TANGENTS,))

@@ -1,0 +1,116 @@
+"""Times of the editor by bodies: text to drawing, to motion, to a page that works out motions; frames of a drag.
+
+    python -m benchmarks.editor 6 30 100 [--browser]
+
+A scissor lift of so many bodies is checked and run as the page asks for it, first as it was opened, then after each of
+three changes of a number. Processor time is that of this process [s]; with `--browser` Chromium drags a pin for two
+seconds, and the pictures that were drawn meanwhile are counted.
+"""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import math
+import time
+from pathlib import Path
+
+from symgen.cli._editor.drafts import Drafts
+
+#: Half of a bar [m] and its angle at the start [rad].
+HALF, ANGLE = 0.25, 0.6
+#: What the mass of the first bar becomes [kg].
+VALUES = (1.1, 1.2, 1.3)
+
+
+def scissor_lift(bodies: int) -> str:
+    """Return a file of a scissor lift: two bars a stage, a foot on a pin, a foot in a slot, a spring between them."""
+    height, side = 2.0 * HALF * math.sin(ANGLE), HALF * math.cos(ANGLE)
+    parts = ['[mechanism]\nname = "scissors"\ngravity = [0.0, -9.81]\n\n[run]\nuntil = 2.0\n']
+    parts.append("[parameters]\nJ = 0.025\nk = 20000.0\n")
+    for k in range(bodies // 2):
+        inertia = 0.02 if k else '"J"'
+        for name, angle in ((f"a{k}", ANGLE), (f"b{k}", math.pi - ANGLE)):
+            parts.append(
+                f"[bodies.{name}]\nmass = 1.0\ninertia = {inertia}\n"
+                f"points = {{ A = [{-HALF}, 0.0], B = [{HALF}, 0.0] }}\n"
+                f"position = [0.0, {height * (k + 0.5)!r}]\nangle = {angle!r}\n"
+            )
+    for k in range(bodies // 2):
+        parts.append(f'[joints.m{k}]\ntype = "revolute"\nbetween = ["a{k}", "b{k}"]\nat = ["centre", "centre"]\n')
+        for name, low, high in ((f"r{k}", f"a{k - 1}", f"b{k}"), (f"l{k}", f"b{k - 1}", f"a{k}")):
+            if k:
+                parts.append(f'[joints.{name}]\ntype = "revolute"\nbetween = ["{low}", "{high}"]\nat = ["B", "A"]\n')
+    parts += [
+        f'[joints.foot]\ntype = "revolute"\nbetween = ["ground", "a0"]\nat = [[{-side!r}, 0.0], "A"]\n',
+        f'[joints.slot]\ntype = "pin-in-slot"\nbetween = ["b0", "ground"]\nat = ["A", [{side!r}, 0.0]]\n'
+        "axis = [1.0, 0.0]\n",
+        '[forces.hold]\ntype = "spring-damper"\nbetween = ["a0", "b0"]\nat = ["A", "A"]\n'
+        'stiffness = "k"\ndamping = 300.0\nfree_length = 0.45\n',
+    ]
+    return "\n".join(parts)
+
+
+def measure(bodies: int) -> list[tuple[str, float, float, float]]:
+    """Return for each change of a number: what it is, and processor time of the drawing, the motion, the live part."""
+    drafts, text, rows = Drafts(Path("scissors.toml")), scissor_lift(bodies), list[tuple[str, float, float, float]]()
+    for k, value in enumerate((1.0, *VALUES)):
+        now, times = text.replace("mass = 1.0", f"mass = {value}", 1), [time.process_time()]
+        drafts.check_text(now)
+        times.append(time.process_time())
+        drafts.run_motion(now, "a", k)
+        times.append(time.process_time())
+        drafts.live_page_data(now, "a", k)
+        drawing, motion, live = (b - a for a, b in itertools.pairwise([*times, time.process_time()]))
+        rows.append((f"mass {value}" if k else "opened", drawing, motion, live))
+    return rows
+
+
+def frames_of_drag(bodies: int, seconds: float = 2.0) -> float:
+    """Return pictures a second while a pin of the top is dragged in Chromium."""
+    import tempfile
+
+    from tests.browser.chromium import Chromium
+    from tests.browser.editor_page import Page
+
+    with tempfile.TemporaryDirectory() as folder, Chromium() as chromium:
+        file = Path(folder) / "scissors.toml"
+        file.write_text(scissor_lift(bodies))
+        with Page.of(chromium, file) as page:
+            page.open()
+            page.rested()
+            name = f"bodies.a{bodies // 2 - 1}.points.B"
+            x, y = page.where(name)
+            page.press("#snap")
+            page.mouse("mousePressed", x, y)
+            began, frames, k = time.monotonic(), page.run("window.symgen.editor.times().frames"), 0
+            while time.monotonic() - began < seconds:
+                k += 1
+                page.mouse("mouseMoved", x + 10 * math.sin(0.3 * k), y + 5 + 5 * math.cos(0.3 * k))
+                time.sleep(0.03)
+            frames = page.run("window.symgen.editor.times().frames") - frames
+            spent = time.monotonic() - began
+            page.mouse("mouseReleased", x, y)
+            page.rested()
+    return float(frames / spent)
+
+
+def main() -> None:
+    """Print a table for each number of bodies."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("bodies", nargs="+", type=int)
+    parser.add_argument("--browser", action="store_true")
+    given = parser.parse_args()
+    for bodies in given.bodies:
+        for what, *spent in measure(bodies):
+            print(
+                f"{bodies:4d} bodies  {what:9s}", *(f"{name} {x:.3f} s" for name, x in zip(NAMES, spent, strict=True))
+            )
+        if given.browser:
+            print(f"{bodies:4d} bodies  {frames_of_drag(bodies):.1f} pictures a second while a pin is dragged")
+
+
+NAMES = ("drawing", "motion", "live part")
+
+if __name__ == "__main__":
+    main()
