@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compile.loopcode.exact import compiled_form
+from symgen.describe.bounds.bounded_modes import mode_events
 from symgen.describe.bounds.contact_rows import ContactGap
-from symgen.run.compiling.events import bounded_rows, effects_of_events, mode_events
+from symgen.run.compiling.events import bounded_rows, effects_of_events
 from symgen.run.effects.applying import apply_effects
 from symgen.run.layout import abi
 from symgen.run.layout.start_records import Instant
@@ -58,7 +59,7 @@ def contact_facts(run: Prepared) -> dict[str, dict[str, Any]]:
     )
     for i, gap in enumerate(closed):
         at = owners.index(i)
-        own = {"jamming": None}
+        own: dict[str, Any] = {"jamming": None}
         if gap.tangent is not None:
             own["jamming"] = [float(rows[at, at] - s * bounds[i] * rows[at, at + 1]) for s in (1.0, -1.0)]
         facts[gap.name] |= own

@@ -30,12 +30,13 @@ from symgen.run.modes.bounded_rows import (
     Choice,
     row_scale,
 )
-from symgen.run.modes.choice import add_forces, find_rest, solve_rest, write_modes
+from symgen.run.modes.choice import add_forces, find_rest, write_modes
 from symgen.run.modes.choice import measure_margins as measure_margins_of_rows
 from symgen.run.modes.contact_combinations import LOWER, ON, UPPER
 from symgen.run.modes.contact_parts import choose_part, find_parts, has_contact, keep_touching, probe_contacts
 from symgen.run.modes.contact_verification import try_combinations
 from symgen.run.modes.holding import hold_rows
+from symgen.run.modes.resting import solve_rest
 
 
 @exact()
