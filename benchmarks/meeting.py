@@ -287,6 +287,7 @@ def _adjoint(file: Path, folder: Path) -> str:
     return guarded(lambda: symgen.load(file).gradient("cart.x", by=("k",), way="adjoint"))
 
 
+_DESIGNED = ("--vary", "k=25:40", "--aim", "peak(cart.x)", "--keep", "cart.x <= 5 m", "--until", "0.1")
 _COMPARED = ("--methods", "lagrange,direct-correction", "--integrators", "dop853", "--until", "0.2")
 
 #: Places by groups, each a table of the page.
@@ -311,6 +312,7 @@ GROUPS: Mapping[str, Mapping[str, Place]] = {
         "forward": _run("--sensitivity", "k"),
         "adjoint": _adjoint,
         "identify": _identified,
+        "design": lambda file, folder: invoked("design", file, *_DESIGNED),
     },
     "Analyses": {
         "equilibrium": lambda file, folder: invoked("equilibrium", file),

@@ -76,6 +76,7 @@ class Hand:
     def write(self, text: str, behind: str = "") -> None:
         """Type lines behind the first line that has some words, or at the end."""
         now = self.page.text("text")
+        assert behind in now, now
         at = now.index("\n", now.index(behind)) + 1 if behind else len(now)
         self.page.type(at, text)
         self.actions += 1

@@ -40,7 +40,7 @@ function display(next, kind, code = NOTHING) {
   rows = [];
   ranges = null;
   document.querySelector("header h1").textContent = data.title;
-  if (view.spatial === spatial && (!empty || tool !== "move")) for (const key of ["turn", "tilt", "scale", "at"]) view.camera[key] = camera[key];
+  if (view.spatial === spatial && (!empty || tool !== "move")) for (const key of ["turn", "tilt", "scale", "at", "width", "height"]) view.camera[key] = camera[key];
   else fitted();
   if (kind === "start") return begun();
   if (kind === "live") begin(code);
@@ -60,7 +60,7 @@ function display(next, kind, code = NOTHING) {
   show(motion);
   if (fresh) pace();
   if (fresh && tool === "move") fitted();
-  else if (!held && !steering && kind !== "live") outgrown(); // what a motion shows has its place already: nothing moves under a hand
+  else if (!held && !steering && !pressed && !spots.length && kind !== "live") outgrown(); // what a motion shows has its place already: nothing moves under a hand
   fresh = false;
   go(shown);
 }
@@ -87,14 +87,17 @@ function fitted() {
   if (scale / view.camera.scale > AWAY) Object.assign(view.camera, { scale, at });
 }
 
-// Look again where the mechanism has left the picture, or has become small in it and nothing is being added.
-function outgrown() {
+// Look again where the mechanism has left the picture, or has become small in it; while something is added, where a
+// point has left it, or room is asked for.
+function outgrown(room = false) {
+  const within = ([x, y]) => x > 12 && y > 12 && x < view.camera.width - 12 && y < view.camera.height - 12;
+  const seen = tool !== "move" && movable.every((h) => within(onPicture(h.x, h.y)));
+  if (seen && !room) return;
   const before = { ...view.camera, at: [...view.camera.at] };
   fitted();
   const now = view.camera, ratio = before.scale / now.scale;
   const aside = Math.hypot(...before.at.map((x, i) => x - now.at[i])) * before.scale;
-  const inside = tool !== "move" && ratio < 1.02 && aside < 0.5 * (1 - ratio) * Math.min(now.width, now.height);
-  const keep = inside || (ratio < 1.02 && ratio > 0.5 && aside < 16 + 0.5 * (1 - ratio) * Math.min(now.width, now.height));
+  const keep = (seen && ratio < 1.02) || (ratio < 1.02 && ratio > 0.5 && aside < 16 + 0.5 * (1 - ratio) * Math.min(now.width, now.height));
   if (keep) for (const key of ["scale", "at"]) view.camera[key] = before[key];
 }
 
@@ -232,7 +235,7 @@ function atCursor() {
 
 let naming = "";
 function rename() {
-  naming = atCursor();
+  naming = document.activeElement !== T && selected ? selected : atCursor();
   if (!naming) return say("put the cursor at a body, a joint, a force, a point or a parameter", true);
   $("naming").hidden = false;
   $("named").textContent = `New name of ${naming}`;
@@ -250,8 +253,8 @@ async function named_so(on) {
   if (T.value === text) setText(answer.text, Math.min(place, answer.text.length));
 }
 
-async function remove() {
-  const text = T.value, path = atCursor(), place = T.selectionStart;
+async function remove(path = atCursor()) {
+  const text = T.value, place = T.selectionStart;
   if (!path) return say("put the cursor into the table that is to be taken out", true);
   const answer = await post("remove", { text, path });
   if (answer.error) return say(answer.error, true);
@@ -260,7 +263,7 @@ async function remove() {
   say(`took out ${path}`);
 }
 $("rename").addEventListener("click", rename);
-$("remove").addEventListener("click", remove);
+$("remove").addEventListener("click", () => remove());
 $("give").addEventListener("click", () => named_so(true));
 $("keep").addEventListener("click", () => named_so(false));
 $("name").addEventListener("keydown", (e) => {

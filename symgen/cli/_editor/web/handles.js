@@ -13,6 +13,18 @@ const TOOLS = [
   ["motor", "Motor", 1, 1, "A pin that turns on with time."],
   ["load", "Load", 1, 1, "A point of a body with a force on it."],
 ];
+const ICONS = {
+  move: "M12 3v18M3 12h18M12 3l-3 3M12 3l3 3M12 21l-3-3M12 21l3-3M3 12l3-3M3 12l3 3M21 12l-3-3M21 12l-3 3",
+  bar: "M5 19L19 5M7 19a2 2 0 1 1-4 0a2 2 0 1 1 4 0M21 5a2 2 0 1 1-4 0a2 2 0 1 1 4 0",
+  plate: "M4 19L20 17L11 4z",
+  pin: "M12 14a3 3 0 1 0 0-6a3 3 0 1 0 0 6M12 14l-5 6h10zM5 20h14",
+  weld: "M12 4v16M6 4h12M6 20h12M9 8l6 4l-6 4",
+  slide: "M3 18h18M7 9h10v6H7zM3 18l2 3M9 18l2 3M15 18l2 3",
+  point: "M4 20L20 4M15 12a3 3 0 1 1-6 0a3 3 0 1 1 6 0",
+  spring: "M3 12h3l2-5l3 10l3-10l3 10l2-5h2",
+  motor: "M19 12a7 7 0 1 1-3-5.7M16 2v5h-5M12 12h.01",
+  load: "M12 3v16M12 19l-4-5M12 19l4-5",
+};
 const NEAR = 14; // pixels
 let movable = [], held = null, tool = "move", spots = [], pressed = null, numbers = {}, numberUnits = {};
 let checkedText = null; // the text that `movable` belongs to
@@ -23,7 +35,9 @@ bench.id = "tools";
 bench.setAttribute("role", "toolbar");
 bench.setAttribute("aria-label", "Tools");
 for (const [name, label, , , hint] of TOOLS) {
-  const button = element("button", label);
+  const button = element("button");
+  button.innerHTML = `<svg viewBox="0 0 24 24" aria-hidden="true"><path d="${ICONS[name]}"/></svg>`; // from this file alone
+  button.append(element("span", label));
   button.dataset.tool = name;
   button.title = hint;
   button.addEventListener("click", () => choosing(name));
@@ -38,6 +52,7 @@ where.placeholder = "x, y or length < deg";
 where.setAttribute("aria-label", "Next point: x, y in metres, or length and angle from the last one as 0.2 < 30, Enter");
 where.title = where.getAttribute("aria-label");
 bench.append(snap, where);
+bench.setAttribute("aria-orientation", "vertical");
 $("stage").prepend(bench);
 $("picture").append(layer, pointer);
 underlay();
@@ -49,8 +64,9 @@ function choosing(name) {
   for (const button of bench.querySelectorAll("[data-tool]")) button.setAttribute("aria-pressed", button.dataset.tool === name);
   $("picture").classList.toggle("adding", name !== "move");
   where.hidden = name === "move";
-  if (name !== "move" && movable.length && !view.spatial) {
-    outgrown(); // room for what is added, before the first point is taken
+  if (name !== "move" && !view.spatial) {
+    if (movable.length) outgrown(true); // room for what is added, before the first point is taken
+    else Object.assign(view.camera, { at: [0, 0, 0], scale: 0.48 * Math.min(view.camera.width, view.camera.height) }); // a metre
     wanted = true;
   }
   layHandles();
