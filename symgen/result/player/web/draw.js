@@ -159,13 +159,14 @@ function makeScene(canvas, scene, solid = null) {
 
   // -- marks ------------------------------------------------------------------------------------------------------------
 
+  let tint = ""; // of lit items
   function paint(l, closed) {
     if (closed && l.fill) {
       context.fillStyle = l.fill;
       context.fill();
     }
     if (l.width) {
-      context.strokeStyle = l.ink;
+      context.strokeStyle = tint || l.ink;
       context.lineWidth = l.width;
       if (l.dashed) context.setLineDash([5, 3]);
       context.stroke();
@@ -287,7 +288,8 @@ function makeScene(canvas, scene, solid = null) {
     if (solid) solid.clear(eye, camera);
   }
 
-  function draw(q, strength = 1, roles = null) {
+  // `lit` tells which items are drawn in another colour.
+  function draw(q, strength = 1, roles = null, lit = null) {
     place(q);
     if (solid) {
       solid.draw(poses, strength, roles);
@@ -297,7 +299,11 @@ function makeScene(canvas, scene, solid = null) {
     context.globalAlpha = strength;
     let items = roles ? scene.items.filter((item) => roles.includes(item.role)) : scene.items;
     if (spatial) items = items.map((item) => [depth(item), item]).sort((a, b) => a[0] - b[0]).map((pair) => pair[1]);
-    for (const item of items) for (const mark of item.marks) draws[mark[0]](mark);
+    for (const item of items) {
+      tint = lit && lit(item) ? palette.push : "";
+      for (const mark of item.marks) draws[mark[0]](mark);
+    }
+    tint = "";
     context.globalAlpha = 1;
   }
 

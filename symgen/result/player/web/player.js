@@ -104,7 +104,7 @@ function render() {
   for (const [name, points, colour] of traced) if (name) view.trace(points, colour);
   const ghosts = motion === motions[0] ? motions.slice(1) : motions.slice(0, 1);
   for (const ghost of ghosts) view.draw(between(ghost, Math.min(time, ghost.end)), 0.25, ["body", "force"]);
-  view.draw(q);
+  view.draw(q, 1, null, isClosed);
   if ($("forces").checked) arrows(q);
   if ($("gaps").checked) gaps(q);
   if ($("labels").checked) view.names();
@@ -116,6 +116,18 @@ function render() {
   $("hint").textContent = [...doubt.map((m) => m[3]), ...bare].join("; ");
   wanted = false;
   for (const each of drawn) each(q);
+}
+
+// Whether an item is a contact that is closed: its mode is among the curves, and in frames of a motion that is worked out.
+function isClosed(item) {
+  if (item.role !== "contact") return false;
+  const name = `${item.name}.mode`, k = index(motion.t, time);
+  if (!motion.whole) {
+    const place = columns ? columns.names.indexOf(name) : -1;
+    return place >= 0 && motion.values[k]?.[place] !== 0;
+  }
+  const part = motion.groups.find((g) => g.names.includes(name));
+  return part ? part.columns[part.names.indexOf(name)][k] !== 0 : false;
 }
 
 function arrows(q) {
