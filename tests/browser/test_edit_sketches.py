@@ -1,4 +1,4 @@
-"""Ten mechanisms drawn in ``symgen edit`` from an empty file, by mouse and keys alone, with the actions counted.
+"""Fourteen mechanisms drawn in ``symgen edit`` from an empty file, by mouse and keys alone, with the actions counted.
 
 Each closes as it was drawn: joints are measured here by the numbers of the text, and ``symgen check`` has no note.
 """
@@ -50,13 +50,15 @@ class Hand:
                 self.page.key("Enter")
         self.changed(before)
 
-    def drag(self, tool: str, point: str, dx: float, dy: float) -> None:
-        """Use a tool by a drag from a point, so many pixels far."""
+    def drag(self, tool: str, point: str, *way: str | float) -> None:
+        """Use a tool by a drag from a point to another one, or so many pixels far."""
         self.page.press(f"[data-tool={tool}]")
         self.tool = tool
         self.actions += 2
         before = self.page.text("text")
-        self.page.drag(point, dx, dy)
+        x, y = self.page.where(point)
+        to = self.page.where(str(way[0])) if len(way) == 1 else (x + float(way[0]), y + float(way[1]))
+        self.page.drag(point, to[0] - x, to[1] - y)
         self.changed(before)
 
     def changed(self, before: str) -> None:
@@ -167,6 +169,44 @@ def cart_pole(hand: Hand) -> None:
     hand.bar("bodies.bar1.points.B", (0.25, 1.0))
 
 
+def gears(hand: Hand) -> None:
+    hand.bar((0.0, 0.0), (0.0, 0.2))
+    hand.bar((1.0, 0.0), (1.0, 0.3))
+    hand.ground("bodies.bar1.points.A")
+    hand.ground("bodies.bar2.points.A")
+    hand.use("gear", "joints.pin1", "joints.pin2")
+    hand.use("friction", "joints.pin2")
+    hand.use("motor", "joints.pin1")
+
+
+def scotch_yoke(hand: Hand) -> None:
+    hand.bar((0.0, 0.0), (0.2, 0.1))
+    hand.bar((0.2, 0.6), (0.8, 0.6))
+    hand.ground("bodies.bar1.points.A")
+    hand.use("slide", "bodies.bar2.points.B")
+    hand.drag("slot", "bodies.bar1.points.B", "bodies.bar2.points.A")
+    hand.use("stop", "bodies.bar2.points.B")
+
+
+def quick_return(hand: Hand) -> None:
+    hand.bar((0.0, 0.4), (0.3, 0.4))
+    hand.bar((0.0, 0.0), (0.6, 0.8))
+    hand.ground("bodies.bar1.points.A")
+    hand.ground("bodies.bar2.points.A")
+    hand.drag("slot", "bodies.bar1.points.B", "bodies.bar2.points.B")
+    hand.use("motor", "joints.pin1")
+
+
+def jack(hand: Hand) -> None:
+    hand.bar((0.0, 0.0), (0.8, 0.3))
+    hand.use("copy", "bodies.bar1.points.A", (0.0, 0.4))
+    hand.bar("bodies.bar1.points.B", "bodies.bar2.points.B")
+    hand.ground("bodies.bar1.points.A")
+    hand.ground("bodies.bar2.points.A")
+    hand.use("cylinder", "joints.pin3", "joints.pin2")
+    hand.use("rod", "joints.pin1", (0.3, -0.5))
+
+
 BELT = """
 [joints.wheels]
 type = "coupling"
@@ -206,7 +246,7 @@ def widest_gap(text: str) -> float:
 
     gaps = list[float]()
     for joint in raw["joints"].values():
-        if joint["type"] in ("revolute", "translational"):
+        if joint["type"] in ("revolute", "translational", "pin-in-slot"):
             a, b = (place(*end) for end in zip(joint["between"], joint["at"], strict=True))
             x, y = joint.get("axis", [0.0, 0.0])
             gaps.append(abs((b - a) @ [-y, x]) if "axis" in joint else float(np.hypot(*(b - a))))
@@ -240,6 +280,10 @@ def column(page: Page, name: str) -> Any:
         (bucket, 19, 3, 1),
         (cart_pole, 8, 2, 2),
         (belt, 9, 2, 1),
+        (gears, 17, 2, 0),
+        (scotch_yoke, 14, 2, 1),
+        (quick_return, 14, 2, 0),
+        (jack, 20, 3, 0),
     ],
 )
 def test_a_mechanism_from_an_empty_file(
@@ -253,6 +297,7 @@ def test_a_mechanism_from_an_empty_file(
     assert page.run("document.getElementById('errors').hidden"), page.text("errors")
     assert page.text("facts").endswith("status ok"), (page.text("facts"), page.text("status"), text)
     assert page.text("freedoms").split(";")[0] == f"{freedoms} degree{'s' if freedoms != 1 else ''} of freedom"
+    assert ".mode" not in page.text("key")  # what is plotted first is a motion
     assert text.count("[bodies.") == bodies and text.startswith(EMPTY)
     assert hand.actions == actions
     assert widest_gap(text) < 1e-15
