@@ -66,6 +66,7 @@ STEPS = {
     "symplectic-euler": (512, 6, 2),
     "sdirk": (8, 6, 2),
     "radau5": (8, 6, 2),
+    "bdf": (64, 5, 2),
 }
 #: Parameters that differ from the defaults.
 OPTIONS: dict[str, dict[str, float]] = {

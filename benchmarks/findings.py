@@ -15,6 +15,7 @@ from datetime import date
 
 from benchmarks import (
     all_methods,
+    backward,
     beside_tools,
     claims,
     coordinates,
@@ -41,6 +42,7 @@ def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
     return (
         *literature.tables(times).values(),
         *(claims.table(), shared_loads.table(), stiff.table(), long.table(), singular.table()),
+        backward.table(times),
         *(coordinates.table(times), picard.work_table(times), picard.hard_table(times), space.methods(times)),
         *all_methods.tables().values(),
         *stress_cells.tables().values(),

@@ -69,11 +69,18 @@ def cart(inertia: str = '"size**2/3"', pin: str = "", force: str = "-k*cart.x - 
     return CART.format(inertia=inertia, pin=pin, force=force, more=more)
 
 
+def lowered(play: float, text: str) -> str:
+    """Return a file whose pole is lower by a play, which is closed then."""
+    return text.replace('"-size*cos(0.4)"', f'"-size*cos(0.4) - {play!r}"')
+
+
 _PIN = 'type = "revolute"\nbetween = ["cart", "pole"]\nat = ["centre", "pin"]'
 _ROWS = 'type = "rows"\nrows = [{ position = "pole.pin.x - cart.x" }, { position = "pole.pin.y - cart.y" }]'
 _RAIL = (
     'type = "translational"\nbetween = ["ground", "cart"]\nat = [[0.0, 0.0], "centre"]\naxis = [1.0, 0.0]\nangle = 0.0'
 )
+_PLAY = "clearance = { hole = 0.011, pin = 0.01, restitution = 0.3 }"
+_GUIDE = "clearance = { length = 0.3, height = 0.1, gap = 0.002, restitution = 0.3, friction = 0.3 }"
 _BLADE = 'type = "beam"\nbetween = ["cart", "end"]\nat = ["centre", "centre"]\nlength = 0.5\naxis = [1.0, 0.0]'
 _HOOK = (
     'mass = 0.0\ninertia = 0.0\nposition = ["0.1 + 2*size*sin(0.4)", "-2*size*cos(0.4)"]\npoints = { a = [0.0, 0.0] }'
@@ -141,6 +148,12 @@ FEATURES: Mapping[str, str] = {
     "friction": cart(pin="friction = { sliding = 0.3, static = 0.4 }"),
     "friction by a reaction": cart(pin="friction = { coefficient = 0.2, radius = 0.05 }"),
     "friction of the state": cart(pin='friction = { sliding = "0.2 + cart.x**2" }'),
+    "efficiency of a gear": cart(
+        more="[bodies.wheel]\nmass = 0.5\ninertia = 0.01\nposition = [0.1, 0.3]\n"
+        '[joints.axle]\ntype = "revolute"\nbetween = ["cart", "wheel"]\nat = [[0.0, 0.3], "centre"]\n'
+        '[joints.mesh]\ntype = "gear"\nbetween = ["pole", "wheel"]\ncarrier = "cart"\nratio = 0.5\n'
+        "efficiency = [0.9, 0.8]"
+    ),
     "friction, smooth": cart(pin='friction = { sliding = 0.3, law = "tanh", speed = 1e-3 }'),
     "friction, light body": cart(inertia="0.0", pin="friction = { sliding = 0.3 }"),
     "stop": cart(pin=_STOP),
@@ -156,7 +169,15 @@ FEATURES: Mapping[str, str] = {
     ),
     "contact": cart(more=_WALL),
     "contact, two feet": cart(more=_SLED),
-    "clearance": cart(pin="clearance = { hole = 0.011, pin = 0.01, restitution = 0.3, friction = 0.1 }"),
+    "clearance": lowered(0.001, cart(pin=_PLAY)),
+    "clearance of a slide": lowered(0.002, cart())
+    .replace(_RAIL, f"{_RAIL}\n{_GUIDE}")
+    .replace("[0.1, 0.0]", "[0.1, -0.002]\nvelocity = [0.3, 0.0]"),
+    "wheel that gives way": cart(
+        more="[bodies.wheel]\nmass = 0.5\ninertia = 0.01\nposition = [0.1, 0.3]\nvelocity = [0.2, 0.0]\n"
+        '[joints.road]\ntype = "rolling"\nbetween = ["wheel", "cart"]\nradius = 0.2\naxis = [1.0, 0.0]\n'
+        "on = [0.0, 0.1]\nstiffness = 1e4\ndamping = 10.0\nfriction = { coefficient = 0.5, speed = 0.05 }"
+    ),
     "beam element": cart(
         more="[bodies.end]\nmass = 0.5\ninertia = 0.01\nposition = [0.6, 0.0]\n"
         f"[forces.blade]\n{_BLADE}\naxial = 1e4\nbending = 10.0"
@@ -266,6 +287,7 @@ def _adjoint(file: Path, folder: Path) -> str:
     return guarded(lambda: symgen.load(file).gradient("cart.x", by=("k",), way="adjoint"))
 
 
+_DESIGNED = ("--vary", "k=25:40", "--aim", "peak(cart.x)", "--keep", "cart.x <= 5 m", "--until", "0.1")
 _COMPARED = ("--methods", "lagrange,direct-correction", "--integrators", "dop853", "--until", "0.2")
 
 #: Places by groups, each a table of the page.
@@ -276,6 +298,7 @@ GROUPS: Mapping[str, Mapping[str, Place]] = {
         "looped code": _run("--shape", "looped"),
         "picard": _run("--integrator", "picard"),
         "radau5": _run("--integrator", "radau5"),
+        "ggl, bdf": _run("--method", "ggl", "--integrator", "bdf"),
         "generalized-alpha": _run("--method", "generalized-alpha", "--step", "1e-3"),
         "null-space": _run("--method", "null-space"),
         "augmented-lagrangian": _run("--method", "augmented-lagrangian"),
@@ -289,6 +312,7 @@ GROUPS: Mapping[str, Mapping[str, Place]] = {
         "forward": _run("--sensitivity", "k"),
         "adjoint": _adjoint,
         "identify": _identified,
+        "design": lambda file, folder: invoked("design", file, *_DESIGNED),
     },
     "Analyses": {
         "equilibrium": lambda file, folder: invoked("equilibrium", file),

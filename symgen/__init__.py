@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from symgen.result.stepping.stepped_run import SteppedRun
     from symgen.run.integrators import list_integrators
     from symgen.study.comparison.compare_models import Study, compare
+    from symgen.study.design.designing import design
+    from symgen.study.design.found import Design
     from symgen.study.ensemble.parameter_sweep import sweep
     from symgen.study.ensemble.sweep_study import Sweep
     from symgen.study.report.write import write_report
@@ -37,6 +39,7 @@ if TYPE_CHECKING:
 #: Public name -> its module.
 _WHERE = {
     "AssemblyError": "symgen.base.errors",
+    "Design": "symgen.study.design.found",
     "InputError": "symgen.base.errors",
     "Labelled": "symgen.result.labelled",
     "Mechanism": "symgen.describe.mechanism",
@@ -51,6 +54,7 @@ _WHERE = {
     "Sweep": "symgen.study.ensemble.sweep_study",
     "SymgenError": "symgen.base.errors",
     "compare": "symgen.study.comparison.compare_models",
+    "design": "symgen.study.design.designing",
     "list_integrators": "symgen.run.integrators",
     "list_methods": "symgen.derive.methods",
     "load": "symgen.api",
@@ -63,6 +67,7 @@ _WHERE = {
 
 __all__ = [
     "AssemblyError",
+    "Design",
     "InputError",
     "Labelled",
     "Mechanism",
@@ -78,6 +83,7 @@ __all__ = [
     "SymgenError",
     "__version__",
     "compare",
+    "design",
     "list_integrators",
     "list_methods",
     "load",

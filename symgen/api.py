@@ -32,6 +32,7 @@ from symgen.run.single.run import Array
 
 if TYPE_CHECKING:
     from symgen import compare as _compare
+    from symgen import design as _design
     from symgen import sweep as _sweep
     from symgen.analyses.functions.body_frame import Frame
     from symgen.analyses.functions.model_functions import Functions
@@ -248,6 +249,7 @@ class Model(Analysed, Shown):
         integrator: str | None = None,
         rtol: float | None = None,
         atol: float | None = None,
+        derivatives: bool = False,
     ) -> Package:
         """Write the emitted code into a folder: readable modules and a script that simulates the mechanism.
 
@@ -274,6 +276,8 @@ class Model(Analysed, Shown):
             the classical scheme.
         rtol, atol : float, optional
             Tolerances of its adaptive steps; by default those of `simulate`.
+        derivatives : bool
+            Of ``c-functions``: whether derivatives of the functions and of a step are written as well.
 
         Returns
         -------
@@ -303,14 +307,15 @@ class Model(Analysed, Shown):
             arguments.one_word_of("shape", shape, SHAPES[1:]),
             fmi,
             *kind.check_run(target, integrator, rtol, atol),
+            kind.check_derivatives(target, derivatives),
         )
         return kind.write(request)
 
     # editors and type checkers see the functions, which are imported when they are first called
     if TYPE_CHECKING:
-        compare, sweep = _compare, _sweep
+        compare, design, sweep = _compare, _design, _sweep
     else:
-        compare, sweep = _OfPackage("compare"), _OfPackage("sweep")
+        compare, design, sweep = _OfPackage("compare"), _OfPackage("design"), _OfPackage("sweep")
 
     @make_entry
     def simulate(

@@ -3,6 +3,7 @@
     python -m benchmarks.bounded --count 30 --seed 1 --output out/bounded.jsonl
     python -m benchmarks.bounded --one chain/17 --runs default,dop853
     python -m benchmarks.bounded --one hard/chain-two-stops
+    python -m benchmarks.bounded --with rotors --kinds chain,loop --seed 200
     python -m benchmarks.bounded --write chain/17 > chain.toml
     python -m benchmarks.bounded --show out/bounded.jsonl
 
@@ -26,10 +27,14 @@ from rich.table import Table
 
 from benchmarks.bounded.chains import HARD, hard
 from benchmarks.bounded.compare import ROWS, RUNS, UNTIL, examined
-from benchmarks.bounded.draw import KINDS, drawn
+from benchmarks.bounded.corners import cornered
+from benchmarks.bounded.draw import KINDS, Drawn, drawn
+from benchmarks.bounded.rotors import geared
 from benchmarks.mechanisms.toml import text
 from benchmarks.show import show
 
+#: What mechanisms have besides, by name: nothing, floors with corners (in the plane alone), rotors.
+DRAWERS = {"": drawn, "corners": cornered, "rotors": geared}
 OUTCOMES = ("right", "coarse", "sentence", "failed", "unverified", "WRONG", "raised")
 
 
@@ -41,6 +46,7 @@ def main() -> int:
     parser.add_argument(
         "--kinds", default=",".join(["hard", *KINDS]), help="of random mechanisms, or hard for five chains"
     )
+    parser.add_argument("--with", dest="beside", choices=sorted(DRAWERS), default="", help="what they have besides")
     parser.add_argument("--runs", default=",".join([*RUNS, ROWS]))
     parser.add_argument("--until", type=float, default=UNTIL)
     parser.add_argument("--one", metavar="KIND/SEED", help="a single mechanism")
@@ -50,7 +56,7 @@ def main() -> int:
     options = parser.parse_args()
     if options.write:
         kind, seed = options.write.split("/")
-        print(text(drawn(kind, int(seed)).raw), end="")
+        print(text(DRAWERS[options.beside](kind, int(seed)).raw), end="")
         return 0
     if options.show:
         return summary(_lines(options.show))
@@ -62,7 +68,9 @@ def main() -> int:
     done = {(line["kind"], line["seed"]) for line in lines}
     for kind, seed in jobs:
         if (kind, seed) not in done:
-            line = _line(kind, seed, tuple(options.runs.split(",")), options.until)
+            mechanism = hard(seed) if kind == "hard" else DRAWERS[options.beside](kind, int(seed))
+            until = HARD[seed] if kind == "hard" else options.until
+            line = _line(mechanism, kind, seed, tuple(options.runs.split(",")), until)
             print(_short(line), file=sys.stderr, flush=True)
             lines.append(line)
             if options.output:
@@ -78,10 +86,9 @@ def _lines(path: Path) -> list[dict[str, Any]]:
     return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines() if line.strip()]
 
 
-def _line(kind: str, seed: str, runs: tuple[str, ...], until: float) -> dict[str, Any]:
+def _line(mechanism: Drawn, kind: str, seed: str, runs: tuple[str, ...], until: float) -> dict[str, Any]:
     """Return what is kept of a mechanism."""
-    mechanism = hard(seed) if kind == "hard" else drawn(kind, int(seed))
-    against, verdicts = examined(mechanism, runs, HARD[seed] if kind == "hard" else until)
+    against, verdicts = examined(mechanism, runs, until)
     line: dict[str, Any] = {"kind": kind, "seed": seed, "features": sorted(mechanism.features)}
     if isinstance(against, str):
         return {**line, "unusable": against}

@@ -2,7 +2,7 @@
 
 Positions and velocities are projected after each step with the pseudoinverse of D.
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076; Yoon, Howe, Greenwood, J. Mech. D...
-digest dc50b4bafc3843d522248ecf36306546216a47158252a42fd3a8f555947a7488, format 3, templates 5defe146850ca734
+digest dc50b4bafc3843d522248ecf36306546216a47158252a42fd3a8f555947a7488, format 3, templates 2000922542137291
 option solver = elimination
 option weight = mass
 option when = step
@@ -535,6 +535,47 @@ def geometry(t, y, p, w):
 
 
 @njit(error_model="numpy", fastmath={"contract"})
+def drift(t, y, p, w):
+    """D v - nu with the D and nu that `geometry` left: 41 operations, 41 before sharing."""
+    # inputs
+    v0 = y[5]  # P0.angle.rate [rad/s]
+    v1 = y[6]  # P5.angle.rate [rad/s]
+    v2 = y[7]  # P1.angle.rate [rad/s]
+    v3 = y[8]  # P4.angle.rate [rad/s]
+    v4 = y[9]  # P2.angle.rate [rad/s]
+    jacobian_0 = w[JACOBIAN]  # D P3.x, P0.angle.rate
+    jacobian_1 = w[JACOBIAN + 1]  # D P3.x, P1.angle.rate
+    jacobian_2 = w[JACOBIAN + 2]  # D P3.x, P4.angle.rate
+    jacobian_3 = w[JACOBIAN + 3]  # D P3.x, P2.angle.rate
+    jacobian_4 = w[JACOBIAN + 4]  # D P3.y, P0.angle.rate
+    jacobian_5 = w[JACOBIAN + 5]  # D P3.y, P5.angle.rate
+    jacobian_6 = w[JACOBIAN + 6]  # D P3.y, P1.angle.rate
+    jacobian_7 = w[JACOBIAN + 7]  # D P3.y, P4.angle.rate
+    jacobian_8 = w[JACOBIAN + 8]  # D P3.y, P2.angle.rate
+    jacobian_9 = w[JACOBIAN + 9]  # D P3.z, P0.angle.rate
+    jacobian_10 = w[JACOBIAN + 10]  # D P3.z, P5.angle.rate
+    jacobian_11 = w[JACOBIAN + 11]  # D P3.z, P1.angle.rate
+    jacobian_12 = w[JACOBIAN + 12]  # D P3.z, P4.angle.rate
+    jacobian_13 = w[JACOBIAN + 13]  # D P3.z, P2.angle.rate
+    jacobian_14 = w[JACOBIAN + 14]  # D P3.first, P0.angle.rate
+    jacobian_15 = w[JACOBIAN + 15]  # D P3.first, P5.angle.rate
+    jacobian_16 = w[JACOBIAN + 16]  # D P3.first, P1.angle.rate
+    jacobian_17 = w[JACOBIAN + 17]  # D P3.first, P4.angle.rate
+    jacobian_18 = w[JACOBIAN + 18]  # D P3.second, P0.angle.rate
+    jacobian_19 = w[JACOBIAN + 19]  # D P3.second, P5.angle.rate
+    jacobian_20 = w[JACOBIAN + 20]  # D P3.second, P1.angle.rate
+    jacobian_21 = w[JACOBIAN + 21]  # D P3.second, P4.angle.rate
+    jacobian_22 = w[JACOBIAN + 22]  # D P3.second, P2.angle.rate
+    # outputs
+    w[RESIDUAL] = v0*jacobian_0 + v2*jacobian_1 + v3*jacobian_2 + v4*jacobian_3  # P3.x
+    w[RESIDUAL + 1] = v0*jacobian_4 + v1*jacobian_5 + v2*jacobian_6 + v3*jacobian_7 + v4*jacobian_8  # P3.y
+    w[RESIDUAL + 2] = v0*jacobian_9 + v1*jacobian_10 + v2*jacobian_11 + v3*jacobian_12 + v4*jacobian_13  # P3.z
+    w[RESIDUAL + 3] = v0*jacobian_14 + v1*jacobian_15 + v2*jacobian_16 + v3*jacobian_17  # P3.first
+    w[RESIDUAL + 4] = v0*jacobian_18 + v1*jacobian_19 + v2*jacobian_20 + v3*jacobian_21 + v4*jacobian_22  # P3.second
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
 def accept(t, y, p, w, iw):
     """Correct an accepted state and measure it; bit 1: the correction failed, bit 2: the state was changed."""
     # each helper is called at one place only: the compiler copies it to every place it is called from
@@ -550,7 +591,7 @@ def accept(t, y, p, w, iw):
         near = w[SMALLEST_PIVOT] < 1e-4
         closed = violation <= (0.01 * tolerance if near else tolerance) or stalled or round == 14
         if closed:
-            measure(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
+            drift(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
         spread(p, w)
         if closed:
             for j in range(5, 10):

@@ -2,7 +2,7 @@
 
 Positions and velocities are projected after each step with the pseudoinverse of D.
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076; Yoon, Howe, Greenwood, J. Mech. D...
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 5defe146850ca734
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 2000922542137291
 option solver = elimination
 option weight = identity
 option when = step
@@ -189,6 +189,42 @@ def spread(t, z, lanes):
         z[1144 + lane] = -(residual_6 + jacobian_10*s30)
         z[1152 + lane] = -(residual_7 + jacobian_11*s30)
         z[1160 + lane] = s30
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def drift(t, z, lanes):
+    """D v - nu with the D and nu that `geometry` left: 28 operations a lane."""
+    for lane in range(lanes):
+        v0 = z[72 + lane]
+        v1 = z[80 + lane]
+        v2 = z[88 + lane]
+        v3 = z[96 + lane]
+        v4 = z[104 + lane]
+        v5 = z[112 + lane]
+        v6 = z[120 + lane]
+        v7 = z[128 + lane]
+        v8 = z[136 + lane]
+        jacobian_0 = z[1376 + lane]
+        jacobian_1 = z[1384 + lane]
+        jacobian_2 = z[1392 + lane]
+        jacobian_3 = z[1400 + lane]
+        jacobian_4 = z[1408 + lane]
+        jacobian_5 = z[1416 + lane]
+        jacobian_6 = z[1424 + lane]
+        jacobian_7 = z[1432 + lane]
+        jacobian_8 = z[1440 + lane]
+        jacobian_9 = z[1448 + lane]
+        jacobian_10 = z[1456 + lane]
+        jacobian_11 = z[1464 + lane]
+        z[904 + lane] = v0 + v2*jacobian_0
+        z[912 + lane] = v1 + v2*jacobian_1
+        z[920 + lane] = v3 + v2*jacobian_2 - v0 + v5*jacobian_3
+        z[928 + lane] = v4 + v2*jacobian_4 - v1 + v5*jacobian_5
+        z[936 + lane] = v6 + v5*jacobian_6 - v3 + v8*jacobian_7
+        z[944 + lane] = v7 + v5*jacobian_8 - v4 + v8*jacobian_9
+        z[952 + lane] = v6 + v8*jacobian_10
+        z[960 + lane] = v7 + v8*jacobian_11
     return 0
 
 
@@ -393,7 +429,7 @@ def accept(t, z):
             z[LAST + lane] = violation
             left += z[OPEN + lane]
         if left == 0.0:
-            measure(t, z, lanes)  # leaves D v - nu in the section that `spread` corrects
+            drift(t, z, lanes)  # leaves D v - nu in the section that `spread` corrects
         spread(t, z, lanes)
         if left == 0.0:
             for i in range(9 * lanes):

@@ -22,7 +22,7 @@ from symgen.run.planning.continuation import settings_as_json
 from symgen.run.planning.dead_centre import dead_centre_at_end
 from symgen.run.planning.tree import CarriedOutcome
 from symgen.run.planning.undefined import undefined_at_end
-from symgen.run.single.events import gap_notes, impact_notes, record_of, rest_notes, stop_notes
+from symgen.run.single.events import gap_notes, impact_notes, record_of, rest_notes, sharing_notes, stop_notes
 from symgen.run.single.last_state import LastState
 from symgen.run.single.simulation import SHOWN
 
@@ -73,6 +73,7 @@ def build_result(
         *start.notes,
         *gap_notes(outcome),
         *_sentences_on_rows(compiled, outcome, forces),
+        *sharing_notes(outcome),
         *_warnings_of_dense_factorisation(compiled, outcome),
         *stiff,
     )

@@ -29,6 +29,8 @@ NAMING = (
         "describe/bounds/",
         "describe/formats/",
         "describe/joints/rolling",
+        "describe/joints/_rolling.py",
+        "describe/joints/_giving.py",
         "cli/compare.py",
         "describe/files/joint_tables.py",
     ),

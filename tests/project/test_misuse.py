@@ -179,6 +179,35 @@ def reducing(argument):
     return lambda x, v: symgen.reduced(**(good | {argument: v}))
 
 
+def designs():
+    """Rows of designs: label, call on the fixtures, sentence."""
+    free = {"bob_mass": (0.5, 2.0)}
+    numbers = (0, -1, "x", 1.5, 10_001, None)
+    no_bounds = ((1.0,), 3, "0.5:2", None, [1, 2, 3])
+    for label, values, call, sentence in (
+        ("vary", NO_MAPPING, lambda x, v: x.model.design(v, "max(bob.x)"), "vary: expected bounds by the names"),
+        (
+            "bounds",
+            no_bounds,
+            lambda x, v: x.model.design({"bob_mass": v}, "max(bob.x)"),
+            "vary 'bob_mass': expected a lower and an upper bound",
+        ),
+        ("aim", (3, None, [1.0]), lambda x, v: x.model.design(free, v), "aim: expected a text such as peak("),
+        ("keep", (3, {}), lambda x, v: x.model.design(free, "max(bob.x)", v), "keep: expected a list of names, got "),
+        (
+            "starts",
+            numbers,
+            lambda x, v: x.model.design(free, "max(bob.x)", starts=v),
+            "starts: expected a whole number",
+        ),
+        ("seed", (-1, "x", None), lambda x, v: x.model.design(free, "max(bob.x)", seed=v), "seed: expected a whole"),
+        ("search", ("yes", []), lambda x, v: x.model.design(free, "max(bob.x)", progress=v), "expected a function"),
+        ("save", (3, None), lambda x, v: symgen.Design.save(x.result, v), "save: expected a path, got "),
+        ("report", (3, None), lambda x, v: symgen.Design.report(x.result, v), "report: expected a path, got "),
+    ):
+        yield from each(f"design {label}", values, call, sentence)
+
+
 def rows():
     """Rows of everything else: label, call on the fixtures, sentence."""
     vy = {"bob.vy": [1.0]}
@@ -188,6 +217,7 @@ def rows():
         "simulate": lambda x, v: symgen.simulate(v),
         "compare": lambda x, v: symgen.compare(v),
         "sweep": lambda x, v: symgen.sweep(v, {"a": [1.0]}),
+        "design": lambda x, v: symgen.design(v, {"a": (0.0, 1.0)}, "max(bob.x)"),
     }.items():
         yield from each(name, paths, call, "model: expected a path, got {}")
     yield from each("Model", paths, lambda x, v: symgen.Model(v), "mechanism: expected a Mechanism; symgen.load takes")
@@ -202,6 +232,7 @@ def rows():
         "compare": lambda x, v: symgen.compare(x.model, progress=v),
     }.items():
         yield from each(f"progress of {name}", (3, "yes", []), call, "progress: expected a function")
+    yield from designs()
     for argument, sentence in (
         ("nodes", "nodes: expected places of two nodes or more"),
         ("M", "M: expected a"),
@@ -314,7 +345,7 @@ def rows():
         if where == "plot":  # without a path a plot comes back
             del names["None"]
         yield from each(label, names, call, f"{where}: expected a path, got {{}}")
-    yield from each("report", NO_TEXT, lambda x, v: symgen.write_report(x.study, v), "report: expected a path, got {}")
+    yield from each("report", NO_TEXT, lambda x, v: symgen.write_report(x.study, v), "report: expected a path, got ")
     yield (
         "report of 3",
         lambda x: symgen.write_report(3, "a.html"),
@@ -545,13 +576,15 @@ def test_every_analysis_takes_settings_and_refuses_others(model, method):
 def test_no_function_with_arguments_is_left_out():
     """Every public name that can be called, and every method of a public class that takes something, has rows."""
     tested = {
-        *"load simulate compare sweep Model Settings MechanismBuilder Mechanism.body Mechanism.joint_named".split(),
+        *"load simulate compare sweep design Model Settings MechanismBuilder".split(),
+        *"Mechanism.body Mechanism.joint_named".split(),
         *"list_methods list_integrators load_plugin write_report reduced".split(),
         *(
             f"Model.{n}"
             for n in "parameters compile equations_in generate draw assemble simulate start functions frame".split()
         ),
-        *(f"Model.{n}" for n in "inspect view sweep compare".split()),
+        *(f"Model.{n}" for n in "inspect view sweep compare design".split()),
+        *"Design.save Design.report".split(),
         *(f"Result.{n}" for n in "gradient save plot reaction columns select series view".split()),
         *"Labelled.row Labelled.unit Study.save Study.plot".split(),
         *(f"Sweep.{n}" for n in "save plot reasons sensitivities contributions".split()),
@@ -564,7 +597,7 @@ def test_no_function_with_arguments_is_left_out():
     tested |= {f"Model.{method.__name__}" for method in ANALYSIS_METHODS}
     # what only the package makes or calls
     inner = {
-        *"Labelled Study Sweep SteppedRun Mechanism Model.compiled Model.ready Model.initial_state".split(),
+        *"Labelled Study Sweep Design SteppedRun Mechanism Model.compiled Model.ready Model.initial_state".split(),
         "Result",
         "Result.along",
         "Result.whole",

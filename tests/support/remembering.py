@@ -6,8 +6,13 @@ PAIRS = [
         ("direct-correction", name)
         for name in ("euler", "heun", "rk4", "rkmk4", "rkmk4-screws", "abm4", "abm", "dopri5", "dop853", "picard")
     ),
-    *(("direct-correction", name) for name in ("sdirk", "radau5", "trapezoidal", "newmark")),
-    *(("ggl", "radau5"), ("generalized-alpha", "generalized-alpha"), ("index3-augmented-lagrangian", "trapezoidal")),
+    *(("direct-correction", name) for name in ("sdirk", "radau5", "bdf", "trapezoidal", "newmark")),
+    *(
+        ("ggl", "radau5"),
+        ("ggl", "bdf"),
+        ("generalized-alpha", "generalized-alpha"),
+        ("index3-augmented-lagrangian", "trapezoidal"),
+    ),
     *((m, i) for m in ("coordinate-partitioning", "null-space") for i in ("rk4", "abm4", "abm", "dop853", "picard")),
     *(("half-explicit", "half-explicit"), ("half-explicit", "phem56"), ("rattle", "rattle")),
     *(("discrete-gradient", "discrete-gradient"), ("symmetric-projection", "gauss")),

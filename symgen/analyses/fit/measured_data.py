@@ -34,7 +34,7 @@ class MeasuredData:
     columns: Mapping[str, Array]
 
 
-def measured_columns(source: object, number: int = 0) -> MeasuredData:
+def measured_columns(source: object, number: int = 0, where: str = "identify: data") -> MeasuredData:
     """Return measured columns: of a file, of a mapping with ``t``, or of a result.
 
     Raises
@@ -43,18 +43,18 @@ def measured_columns(source: object, number: int = 0) -> MeasuredData:
         If they are no columns over increasing times, or hold numbers that are not finite.
     """
     if isinstance(source, str | Path):
-        record = read_recorded("identify: data", Path(source))
+        record = read_recorded(where, Path(source))
         whence, t, columns = record.whence, record.t, dict(record.columns)
     elif isinstance(source, Recorded):
         whence, t, columns = source.whence, source.t, dict(source.columns)
     elif isinstance(source, Mapping):
-        whence = f"identify: data {number + 1}"
+        whence = f"{where} {number + 1}"
         columns = {str(name): np.asarray(values, dtype=np.float64) for name, values in source.items()}
         if "t" not in columns:
             raise InputError(whence, "a column 't' of times", "none")
         t = columns.pop("t")
     else:
-        raise InputError("identify: data", "files, or mappings with a column 't'", f"a {type(source).__name__}")
+        raise InputError(where, "files, or mappings with a column 't'", f"a {type(source).__name__}")
     if len(t) == 0 or not np.all(np.diff(t) > 0.0) or not np.all(np.isfinite(t)):
         raise InputError(whence, "increasing times", "others")
     if t[0] < 0.0:

@@ -46,6 +46,10 @@ TRIES, ENOUGH = 200, 40
 SAME_WAY = 1e-6
 
 
+class NotPrescribed(InputError):
+    """A motion that drivers do not prescribe by positions alone: a run integrates it."""
+
+
 @dataclass(frozen=True)
 class PrescribedRun:
     """A mechanism that is ready to be followed.
@@ -64,6 +68,8 @@ class PrescribedRun:
         Inputs in words, or their numbers.
     notes : tuple of str
         Choices made on the way.
+    plan : Plan
+        Settings of the start, resolved.
     """
 
     mechanism: Mechanism
@@ -73,6 +79,7 @@ class PrescribedRun:
     p: Array
     inputs: dict[str, str | float]
     notes: tuple[str, ...]
+    plan: Plan
 
     @property
     def numbers(self) -> dict[str, float]:
@@ -108,7 +115,9 @@ def without_history(mechanism: Mechanism) -> Mechanism:
     return msgspec.structs.replace(mechanism, bodies=tuple(bodies), outputs=outputs, holds=holds, events=())
 
 
-def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: float = 0.0) -> PrescribedRun:
+def make_ready(
+    mechanism: Mechanism, settings: Settings, until: float, first: float = 0.0, directed: bool = False
+) -> PrescribedRun:
     """Return the code and the start of a mechanism, and what holds of its inputs when.
 
     Parameters
@@ -120,6 +129,8 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
         ways to close a driven mechanism that nearest to ``start`` is taken.
     until, first : float
         Last time and first one [s]: inputs are known between them, and at the start.
+    directed : bool
+        Whether the code shall have a form with directions.
 
     Raises
     ------
@@ -134,9 +145,14 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
     end = until if until > 0.0 else 1.0
     settings = replace(settings, start=own if branch or own else settings.start, until=end, times=(end,), step=end)
     settings = replace(settings, method="lagrange", integrator=None, output_step=None, coordinates="absolute")
+    if directed and settings.shape == "auto":
+        settings = replace(settings, shape="straight")
     placed = put_inputs(mechanism, settings)
     driven = without_history(placed.mechanism)
     ready = find_preparation(driven, placed.settings, Purpose.STATE)
+    if directed:
+        choice = replace(ready.plan.choice, directed=True)
+        ready = replace(ready, plan=replace(ready.plan, choice=choice), assembled=None)
     near, words = nearest_branch(ready.plan, branch) if branch else (None, ())
     run = replace(ready, near=near).run()
     compiled, start = run.compiled, run.start
@@ -152,15 +168,18 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
         for name, value in seam.values.items():
             p[numbers[name]] = value
         compiled.prepare(p)
-    return PrescribedRun(driven, compiled, start, tuple(held), p, dict(placed.words), (*words, *start.notes))
+    notes = *words, *start.notes
+    return PrescribedRun(driven, compiled, start, tuple(held), p, dict(placed.words), notes, run.plan)
 
 
-def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: str, first: float = 0.0) -> PrescribedRun:
+def make_driven(
+    mechanism: Mechanism, settings: Settings, until: float, what: str, first: float = 0.0, directed: bool = False
+) -> PrescribedRun:
     """Make a mechanism whose freedom is all driven ready to be followed; see `make_ready`.
 
     Parameters
     ----------
-    mechanism, settings, until, first
+    mechanism, settings, until, first, directed
         As for `make_ready`.
     what : str
         The analysis, for messages.
@@ -175,7 +194,7 @@ def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: st
     """
     drivers = driver_names(mechanism)
     try:
-        run = make_ready(mechanism, settings, until, first)
+        run = make_ready(mechanism, settings, until, first, directed)
     except AssemblyError:
         _refuse_excess(mechanism, settings, until, what, drivers)
         raise
@@ -183,7 +202,7 @@ def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: st
     for row in info.rows:
         if not row.holonomic:
             got = f"'{row.joint}', a condition on velocities, from which positions follow by integration alone"
-            raise InputError(what, "conditions on positions", got, "symgen run does that")
+            raise NotPrescribed(what, "conditions on positions", got, "symgen run does that")
     masked = len(start.redundant_rows)
     freedom = info.nv - (info.m - masked)
     # where the start is singular, rows may depend on others there alone
@@ -196,7 +215,7 @@ def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: st
         of = "1 degree of freedom that is" if freedom == 1 else f"{freedom} degrees of freedom that are"
         hint = f"a driver drives {'it' if freedom == 1 else 'each'}, and symgen run needs none"
         got = f"{of} not driven: {', '.join(free_coordinates(run, freedom))}"
-        raise InputError(what, "a driver for every freedom", got, hint)
+        raise NotPrescribed(what, "a driver for every freedom", got, hint)
     return run
 
 

@@ -39,6 +39,8 @@ SAME = 1e-9
 PIECE = 500_000
 #: The shortest step, as a part of the motion's time.
 LEAST = 1e-13
+#: The shortest one of a motion that ends at singular positions.
+SHORT = 1e-6
 #: A row that opens by more than this in the shortest step jumps [rad, or the length of the mechanism].
 JUMP = 1e-6
 
@@ -55,7 +57,7 @@ class Traced(NamedTuple):
     steps: int
 
 
-def trace_motion(run: PrescribedRun, times: Array) -> Traced:
+def trace_motion(run: PrescribedRun, times: Array, crosses: bool = True) -> Traced:
     """Follow a motion through increasing times, those before 0 backwards.
 
     Parameters
@@ -64,17 +66,19 @@ def trace_motion(run: PrescribedRun, times: Array) -> Traced:
         Ready, and all driven.
     times : Array, shape (k,)
         Increasing [s].
+    crosses : bool
+        Whether it goes over singular positions; else it ends there, as derivatives do.
     """
     first = int(np.searchsorted(times, 0.0))
     if not first:
-        return Tracer(run, times).run()
-    back = Tracer(run, times[:first][::-1]).run()
+        return Tracer(run, times, crosses).run()
+    back = Tracer(run, times[:first][::-1], crosses).run()
     # copies, as compiled code takes contiguous rows
     rows = (array[::-1].copy() for array in back[:4])
     before = Traced._make((*rows, back.passages[::-1], back.ended, back.steps))
     if first == len(times):
         return before
-    behind = Tracer(run, times[first:]).run()
+    behind = Tracer(run, times[first:], crosses).run()
     rows = (np.concatenate(arrays) for arrays in zip(before[:4], behind[:4], strict=True))
     ended = "; ".join(part.ended for part in (before, behind) if part.ended)
     return Traced._make((*rows, before.passages + behind.passages, ended, before.steps + behind.steps))
@@ -111,10 +115,13 @@ class Tracer:
         Ready, and all driven.
     times : Array, shape (k,)
         In the order in which they are met [s].
+    crosses : bool
+        Whether it goes over singular positions.
     """
 
     motion: PrescribedRun
     times: Array
+    crosses: bool = True
     passages: list[Passage] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -135,7 +142,8 @@ class Tracer:
             np.abs(start.y[: info.nq] * marks_of_lengths(info)).max(initial=0.0)
         )  # what positions can resolve
         tolerance = decisions.ROUNDING * max(length, coarse) * max(info.m, 1)
-        self.course = f.Course._make((*numbers, tolerance, LEAST * self.span, *entries_of(info), scale))
+        least = LEAST if self.crosses else SHORT
+        self.course = f.Course._make((*numbers, tolerance, least * self.span, *entries_of(info), scale))
         move = model.move if info.nq != info.nv else compiled_form(turn_nothing)
         self.functions = model.geometry, model.measure, move, model.spread, model.observe
         self.control = np.zeros(abi.N_CONTROL, dtype=np.int64)
@@ -236,6 +244,8 @@ class Tracer:
 
     def _cross_singularity(self, code: int, rows: object) -> bool:
         """Go over a singular position ahead, on the branch that continues the motion; return whether there is one."""
+        if not self.crosses:
+            return False
         before, clock = self._copy_stand(), self.clock.copy()
         elapsed = abs(clock[f.TRIED] - clock[f.TIME])
         if code == f.PASSING:

@@ -12,6 +12,7 @@ import numpy as np
 from msgspec.structs import replace as replaced
 from numpy.typing import NDArray
 
+from symgen.analyses.state.sticking import fault_along
 from symgen.base.errors import AnalysisError, InputError
 from symgen.base.vocabulary.measures import FormulaMeasure, Holonomic
 from symgen.describe.bounded import BoundedRow
@@ -133,7 +134,7 @@ def fault_of_mode(subject: Subject, y: Array, lam: Array) -> str:
                     f"the {words.one} {row.label}, {words.off} at the start, is passed there ({gap_there}): "
                     f"start with it {words.in_force}"
                 )
-    return ""
+    return fault_along(subject, y, lam)
 
 
 def refuse_impossible_mode(subject: Subject, y: Array, lam: Array) -> None:

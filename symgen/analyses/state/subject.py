@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 
 from symgen.analyses.state.algebra import null_space_split
 from symgen.analyses.state.one_sided import mode_in_words, rows_as_joints, rows_in_force_at
+from symgen.analyses.state.sticking import Stuck, rows_that_stick, with_rows_along, with_slips
 from symgen.base.errors import InputError, suggest
 from symgen.base.settings import Settings
 from symgen.derive.lower.windings import winding_order
-from symgen.describe.bounds.bounded_modes import one_sided_rows, refuse_contacts, without_bounds
+from symgen.describe.bounds.bounded_modes import one_sided_rows, without_bounds
 from symgen.describe.facts.digest import digest
 from symgen.run.compiling.linearised import DescriptorForm, LinearisedState, compile_linearised
 from symgen.run.compiling.pipeline import straight_alone
@@ -118,6 +119,8 @@ class Subject(Yardsticks):
         Inputs of the file: a mechanism in which formulas stand for them has switches as well.
     shut, opened : tuple of BoundedRow
         One-sided rows that are in force at the start, which are rows of `mechanism`, and those that are off.
+    stuck : tuple of Stuck
+        Rows along those in force, of contacts that are at rest there.
     """
 
     mechanism: Mechanism
@@ -132,11 +135,12 @@ class Subject(Yardsticks):
     inputs: tuple[str, ...] = ()
     shut: tuple[BoundedRow, ...] = ()
     opened: tuple[BoundedRow, ...] = ()
+    stuck: tuple[Stuck, ...] = ()
 
     @property
     def mode(self) -> tuple[str, ...]:
         """A sentence on the one-sided rows in force; none where there are no such rows."""
-        return mode_in_words(self.shut, self.opened)
+        return mode_in_words((*self.shut, *(each.row for each in self.stuck)), self.opened)
 
     @property
     def varied(self) -> tuple[str, ...]:
@@ -324,19 +328,20 @@ def make_subject(mechanism: Mechanism, settings: Settings, by: Sequence[str] = (
     InputError
         If a setting is wrong, or a name of `by` is no parameter.
     """
-    refuse_contacts("analyses at a state", mechanism, only_along=True)
     settings = _without_bounded_state(mechanism, settings)
-    mechanism, pushing = without_bounds(mechanism), one_sided_rows(mechanism)
+    along, pushing = [row for row in mechanism.bounded if row.signed], one_sided_rows(mechanism)
+    mechanism = without_bounds(mechanism)
     placed, inputs = put_inputs_at_start(mechanism, settings), mechanism.inputs
     settings = placed.settings
     if settings.shape == "auto":
         large = mechanism.body_coordinates > LARGE and not straight_alone(mechanism)
         looped = large and settings.coordinates == "absolute"
         settings = replace(settings, shape="looped" if looped else "straight")
-    run = prepare(placed.mechanism, settings, Purpose.DESCRIBED)
+    run = prepare(with_slips(placed.mechanism, along), settings, Purpose.DESCRIBED)
     shut = rows_in_force_at(run.mechanism, run.compiled, run.start, pushing)
-    if shut:
-        placed = replace(placed, mechanism=rows_as_joints(placed.mechanism, shut))
+    stuck = rows_that_stick(run.mechanism, run.compiled, run.start, along, shut)
+    if shut or along:
+        placed = replace(placed, mechanism=with_rows_along(rows_as_joints(placed.mechanism, shut), stuck))
         run = prepare(placed.mechanism, settings, Purpose.DESCRIBED)
     mechanism, compiled, start, closed = run.mechanism, run.compiled, run.start, run.assembled.closed
     names = [q.name for q in mechanism.parameters]
@@ -360,7 +365,7 @@ def make_subject(mechanism: Mechanism, settings: Settings, by: Sequence[str] = (
     p[[places[name] for name, _ in placed.mechanism.input_formulas]] = 0.0
     compiled.prepare(p)
     subject = Subject(mechanism, compiled, form, start.t, start.y.copy(), p, start.w.copy(), closed, by, inputs)
-    return replace(subject, shut=shut, opened=tuple(row for row in pushing if row not in shut))
+    return replace(subject, shut=shut, opened=tuple(row for row in pushing if row not in shut), stuck=stuck)
 
 
 def _without_bounded_state(mechanism: Mechanism, settings: Settings) -> Settings:

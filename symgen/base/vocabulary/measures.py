@@ -136,7 +136,7 @@ class Swing(Bearing, frozen=True, tag="swing"):
 
 
 class RimHeight(msgspec.Struct, frozen=True, tag="rim-height"):
-    """s = n . (c - p) - R sqrt(1 - (n . k)^2) [m]: height of a thin disc's lowest point over a plane of the ground.
+    """s = n . (c - p) - R sqrt(1 - (n . k)^2) [m]: height of a thin disc's lowest point over a plane.
 
     Singular where the disc lies flat.
     """
@@ -188,10 +188,10 @@ class PointSpeed(msgspec.Struct, frozen=True, tag="point-speed"):
 
 
 class RollingSpeed(msgspec.Struct, frozen=True, tag="rolling-speed"):
-    """Velocity along a direction of the ground of the material point that touches a plane of the ground [m/s].
+    """Velocity along a direction of a plane of the material point that touches the plane, against the plane [m/s].
 
     ``e . (v_c + omega x r)`` with ``r = -R n`` for a sphere; for a thin disc with axis k, ``r = -R (n - (n . k) k) /
-    sqrt(1 - (n . k)^2)``.
+    sqrt(1 - (n . k)^2)``. Velocities are those against the body of the directions.
     """
 
     centre: Marker
@@ -252,13 +252,13 @@ Row = Holonomic | StiffHolonomic | Nonholonomic
 class Effort(msgspec.Struct, frozen=True):
     """A force along a measure: generalised force J_s^T (-dU/ds + F).
 
-    The measure may be a velocity without a value (`Spin`, `PointSpeed`), which has no potential and no ``s``.
+    The measure may be a velocity without a value (`Spin`, `Speed`), which has no potential and no ``s``.
     In `potential` the placeholder ``s`` is the measure's value; in `magnitude` ``s`` and ``rate`` (its rate s') may be
     used besides t, parameters and body coordinates and velocities. `potential` [J] may use ``s`` and parameters only.
     """
 
     label: str
-    measure: Measure | PointSpeed
+    measure: Measure | Speed
     magnitude: Expr = ZERO
     potential: Expr = ZERO
 

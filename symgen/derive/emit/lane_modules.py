@@ -20,7 +20,7 @@ from symgen.derive.formulate.equations import Equations
 FAR = 4e5
 #: Angles of coordinates up to this need no watch: a run that turns farther is left to single runs.
 TURNED = 1e5
-_BLOCKS = ("normalise", "move", "geometry_of_model", "geometry", "refactor", "spread", "measure", "rhs")
+_BLOCKS = ("normalise", "move", "geometry_of_model", "geometry", "refactor", "spread", "drift", "measure", "rhs")
 #: Text on the one array, for a law's docstring.
 _ABOUT = """
 All that a run has stands in one array z, since the compiler would otherwise have to make sure of too many pairs of
@@ -86,6 +86,8 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
         blocks["geometry_of_model"] = replace(blocks.pop("geometry"), name="geometry_of_model")
     names = [name for name in _BLOCKS if name in blocks and (correction.any or name not in ("move", "spread"))]
     parts = Parts(LaneLayout(program, "t, z, lanes" if equations.spins else "", access), correction)
+    if "drift" in blocks:
+        parts.values["drift"] = "drift"
     if "refactor" in blocks:
         parts.print_template("lanes_metric")
     parts.print_template(f"lanes_{kind_of_acceptance(correction)}")

@@ -117,20 +117,32 @@ def _rim_height(f: Frames, k: Constants) -> Any:
     )
 
 
+def _velocity_against(plane: SpatialFrame, body: SpatialFrame, point: Sequence[Any]) -> tuple[Any, Any]:
+    """Return the velocity of a point of a body, and its angular velocity, as they are seen from a plane's body."""
+    place = body.locate(point)
+    velocity, spin = tuple(derivative_along_motion(x, (body,)) for x in place), body.spin()
+    if not plane.moves:
+        return velocity, spin
+    origin = plane.locate((sp.S.Zero,) * 3)
+    carried = cross_product(plane.spin(), _vector_difference(place, origin))
+    dragged = (derivative_along_motion(x, (plane,)) + y for x, y in zip(origin, carried, strict=True))
+    return _vector_difference(velocity, tuple(dragged)), _vector_difference(spin, plane.spin())
+
+
 def _sphere_speed(f: Frames, k: Constants) -> Any:
-    ground, ball = _spatial_frames(f)
-    along, normal = ground.rotate(k[1]), ground.rotate(k[2])
-    centre = tuple(derivative_along_motion(x, (ball,)) for x in ball.locate(k[0]))
-    return _scalar_product(along, centre) - k[3] * _scalar_product(along, cross_product(ball.spin(), normal))
+    plane, ball = _spatial_frames(f)
+    along, normal = plane.rotate(k[1]), plane.rotate(k[2])
+    centre, spin = _velocity_against(plane, ball, k[0])
+    return _scalar_product(along, centre) - k[3] * _scalar_product(along, cross_product(spin, normal))
 
 
 def _disc_speed(f: Frames, k: Constants) -> Any:
-    ground, disc = _spatial_frames(f)
-    along, normal, axis = ground.rotate(k[1]), ground.rotate(k[2]), disc.rotate(k[4])
+    plane, disc = _spatial_frames(f)
+    along, normal, axis = plane.rotate(k[1]), plane.rotate(k[2]), disc.rotate(k[4])
     lean = _scalar_product(normal, axis)
     down = tuple(lean * a - n for a, n in zip(axis, normal, strict=True))
-    centre = tuple(derivative_along_motion(x, (disc,)) for x in disc.locate(k[0]))
-    return _scalar_product(along, centre) + k[3] * _scalar_product(along, cross_product(disc.spin(), down)) / sp.sqrt(
+    centre, spin = _velocity_against(plane, disc, k[0])
+    return _scalar_product(along, centre) + k[3] * _scalar_product(along, cross_product(spin, down)) / sp.sqrt(
         1 - lean**2
     )
 

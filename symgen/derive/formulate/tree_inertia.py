@@ -25,10 +25,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class BodyVelocity:
-    """Rotation and translation of a link's body by a velocity of the state, in body axes: `about` and `along`."""
+    """Rotation and translation of a link's body by a velocity of the state, in body axes: `about` and `along`.
+
+    A translation alone has the same direction in the parent's axes, `outside`, where its length does not depend on the
+    orientation of the body.
+    """
 
     about: Triple
     along: Triple
+    outside: Triple | None = None
 
 
 @dataclass
@@ -249,7 +254,10 @@ class Composite:
                 while True:
                     for k, other in at.motions.items():
                         if at is not p or k >= i or k < 0:
-                            node = g.add(v.dot(other.about, angular), v.dot(other.along, momentum))
+                            if at is p and motion.outside and other.outside:
+                                node = g.mul(own.mass, v.dot(other.outside, motion.outside))
+                            else:
+                                node = g.add(v.dot(other.about, angular), v.dot(other.along, momentum))
                             entries[i, k] = entries[k, i] = node
                     if at.link.parent == GROUND:
                         break

@@ -124,7 +124,7 @@ class SpatialTree(Tree):
                 extra = v.add(extra, v.scale(c.acceleration, about))
             axes = v.product(parent.axes, turn)
             euler = compose_rotations(g, parent.euler, quaternion)
-        motions |= {i: BodyVelocity(v.zero, v.times_transposed(turn, e)) for i, e in directions.items()}
+        motions |= {i: BodyVelocity(v.zero, v.times_transposed(turn, e), e) for i, e in directions.items()}
         if body.is_point:
             omega = alpha = v.zero
         elif own_turn:

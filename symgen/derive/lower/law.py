@@ -114,6 +114,8 @@ def lower_law(
         unknowns, level = _unknowns_of_law(equations, form), form.form
         form_blocks, pattern = _blocks_of_form(hoister, scalars, form, unknowns)
         blocks += form_blocks
+    if (correction.any and correction.metric != "augmented") or record.form == "tangent":
+        blocks.append(_drift_block(hoister, scalars))
     blocks.insert(0, replace(hoister.prepare_block(), role="preparation"))
     layout = replace(model.layout, sections=_sections_of_law(model.layout, record, blocks, degrees))
     operations = {b.name: b.operations for b in blocks}
@@ -141,6 +143,13 @@ def _correction_of_rows(equations: Equations, correction: Correction) -> Correct
     """Return the correction of a method; none where no row could be violated, as on a tree or of a free body."""
     closes = correction.any and not correction.energy and correction.metric != "independent"
     return Correction() if closes and not equations.m else correction
+
+
+def _drift_block(hoister: Hoister, scalars: ScalarNodes) -> Block:
+    """Return the block of what a correction of velocities reads: `measure` without norms and energies."""
+    outputs = [(OutputSlot("residual", i), node) for i, node in enumerate(scalars.velocity_residuals())]
+    purpose = "D v - nu with the D and nu that `geometry` left"
+    return replace(hoister.block_with_hoisted("drift", purpose, outputs, ARGUMENTS["geometry"]), role="correction")
 
 
 def _reserve_hoisted(hoister: Hoister, accelerations: Iterable[tuple[ScalarNodes, Part]]) -> None:

@@ -96,16 +96,8 @@ def diagonal_at_origin(scalars: ScalarNodes) -> Outputs:
 
 def measure_block(hoister: Hoister, scalars: ScalarNodes) -> Block:
     """Return the block that measures a state after its geometry."""
-    g, equations = hoister.graph, scalars.equations
-    outputs: Outputs = []
-    residuals: list[int] = []
-    for i, row in enumerate(scalars.stored_constraints()):
-        total = g.sum_of(g.mul(e, g.input("v", j)) for j, e in row)
-        if equations.rows[i].nu != g.zero:
-            total = g.sub(total, g.input("nu", i))
-        total = scalars.node_in_force(i, total)
-        residuals.append(total)
-        outputs.append((OutputSlot("residual", i), total))
+    equations, residuals = scalars.equations, scalars.velocity_residuals()
+    outputs: Outputs = [(OutputSlot("residual", i), node) for i, node in enumerate(residuals)]
     outputs += scalars.violation("velocity", residuals)
     outputs += [to_status("kinetic", equations.kinetic), to_status("potential", equations.potential)]
     outputs += [(OutputSlot("winding", i), node) for i, node in enumerate(equations.windings)]

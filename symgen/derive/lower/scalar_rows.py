@@ -263,6 +263,16 @@ class OfRows(OfMass):
         ]
         return outputs
 
+    def velocity_residuals(self) -> list[int]:
+        """Return D v - nu of the rows in force, with the D and nu that ``geometry`` stores."""
+        g, residuals = self.graph, list[int]()
+        for i, row in enumerate(self.stored_constraints()):
+            total = g.sum_of(g.mul(e, g.input("v", j)) for j, e in row)
+            if self.equations.rows[i].nu != g.zero:
+                total = g.sub(total, g.input("nu", i))
+            residuals.append(self.node_in_force(i, total))
+        return residuals
+
     def violation(self, level: str, residuals: Sequence[int]) -> Outputs:
         """Return the norm of Phi or of D v - nu, and the judged one: rows that are no lengths times the mechanism's."""
         g = self.graph

@@ -203,15 +203,15 @@ def refuse_bounds(where: str, mechanism: Mechanism) -> None:
         raise InputError(where, f"a mechanism without {family.noun}", family.named.format(names), family.hint)
 
 
-def refuse_contacts(where: str, mechanism: Mechanism, only_along: bool = False) -> None:
-    """Refuse a mechanism with contacts, or with friction of contacts, where nothing takes them.
+def refuse_contacts(where: str, mechanism: Mechanism) -> None:
+    """Refuse a mechanism with contacts where nothing takes them.
 
     Raises
     ------
     InputError
         If it has any.
     """
-    rows = [row for row in mechanism.bounded if (row.signed if only_along else row.in_contact)]
+    rows = [row for row in mechanism.bounded if row.in_contact]
     if rows:
         family, names = rows[0].family, ", ".join(dict.fromkeys(row.name for row in rows))
         raise InputError(where, f"a mechanism without {family.noun}", family.named.format(names), family.hint)

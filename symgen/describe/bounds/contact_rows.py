@@ -30,6 +30,7 @@ from symgen.describe.bounds.bounded_modes import (
 )
 from symgen.describe.bounds.end_stop import EndStop
 from symgen.describe.bounds.row import Bounds
+from symgen.describe.contacts.outlines import Outline
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import ModeEvent, Output
 
@@ -40,17 +41,24 @@ _LEAST_BOUND = Number(1e-300)
 def _line_of_gap(facts: Mapping[str, Any]) -> str:
     """Return the line of `symgen inspect` on the gap of a contact."""
     x = facts
-    return (
+    line = (
         f"contact {x['name']}: row {x['row']} in force where it is closed, pushing [N]; restitution {x['restitution']}"
     )
+    if not x.get("closed"):
+        return f"{line}; open at the start"
+    others = [name for name in x["part"] if name != x["name"]]
+    line += f"; closed at the start, {'coupled with ' + ', '.join(others) if others else 'alone'}"
+    if x["jamming"] is not None:
+        forwards, backwards = x["jamming"]
+        line += f", jamming numbers G_NN - s mu G_NT {forwards:.4g} forwards and {backwards:.4g} backwards [1/kg]"
+    return line if x["unique"] else f"{line}; forces not unique"
 
 
 def _line_of_friction(facts: Mapping[str, Any]) -> str:
     """Return the line of `symgen inspect` on the friction of a contact."""
     x = facts
-    jam = "" if x["jamming_number"] is None else f"; jamming number {x['jamming_number']:.3g} at the start"
     bounds = f"up to {x['static']} times the force of {x['reaction'][0]}; {x['sliding']} in motion"
-    return f"friction of contact {x['name']}: row {x['row']} in force at rest {bounds}{jam}"
+    return f"friction of contact {x['name']}: row {x['row']} in force at rest {bounds}"
 
 
 CONTACTS = RowFamily(
@@ -265,6 +273,8 @@ class ContactGap(EndStop, frozen=True):
         The distance that is reported, where the gap is another function of it.
     table : str
         Its table in a file, where that is not an entry of the section.
+    outlines : tuple of Outline
+        The surfaces, for pictures.
     """
 
     family: ClassVar[RowFamily] = CONTACTS
@@ -273,6 +283,7 @@ class ContactGap(EndStop, frozen=True):
     tangent: Tangent | None = None
     distance: Expr | None = None
     table: str = ""
+    outlines: tuple[Outline, ...] = ()
 
     @property
     def row(self) -> str:

@@ -31,21 +31,26 @@ class OfSection(Protocol):
 
 
 class KeyOfJoints(msgspec.Struct, frozen=True):
-    """A key that joints of any kind may have, the words for its rows, the type of its table, and what reads it."""
+    """A key that joints may have, the words for its rows, the type of its table, and what reads it.
+
+    `kinds` are the kinds of joints that have the key among their own; without any, joints of any kind may have it.
+    """
 
     key: str
     family: RowFamily
     table: Any
     read: OfJoint
+    kinds: tuple[str, ...] = ()
 
 
 class SectionOfFiles(msgspec.Struct, frozen=True):
-    """A section of files, the words for its rows, the table of an entry, and what reads that."""
+    """A section of files, the words for its rows and further ones, the table of an entry, and what reads that."""
 
     section: str
     family: RowFamily
     table: type[msgspec.Struct]
     read: OfSection
+    further: tuple[RowFamily, ...] = ()
 
 
 BOUNDS: Registry[KeyOfJoints | SectionOfFiles] = Registry("symgen.describe.bounds.kinds", "row with bounds")
@@ -63,7 +68,7 @@ def sections_of_files() -> dict[str, SectionOfFiles]:
 
 def keys_of_any_joint() -> dict[str, Any]:
     """Return keys, with their types, that joints of any kind may have besides their own."""
-    return {**OF_ANY_JOINT, **{key: kind.table for key, kind in keys_of_joints().items()}}
+    return {**OF_ANY_JOINT, **{key: kind.table for key, kind in keys_of_joints().items() if not kind.kinds}}
 
 
 def all_families() -> tuple[RowFamily, ...]:
@@ -79,7 +84,8 @@ def nouns_of_families(word: str = "noun", joined: str = "and") -> str:
 
 def inspection_lines(facts: Mapping[str, Any]) -> Iterator[str]:
     """Yield the lines of ``symgen inspect`` on rows with bounds, from its facts."""
-    for family in all_families():
+    further = (family for kind in sections_of_files().values() for family in kind.further)
+    for family in (*all_families(), *further):
         yield from map(family.line, facts.get(family.fact, ()))
 
 
@@ -92,7 +98,7 @@ def rows_of_joint(scope: Scope, joint: Joint, raw: Mapping[str, Any]) -> Iterato
         With the key that is wrong.
     """
     for key, kind in keys_of_joints().items():
-        if key in raw:
+        if key in raw and joint.kind in (kind.kinds or (joint.kind,)):
             yield from kind.read(scope, joint, raw[key])
 
 

@@ -7,9 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from symgen.base.vocabulary.expressions import Call, Expr
 from symgen.base.vocabulary.measures import (
     AnyAngle,
     Component,
+    Direction,
+    FormulaMeasure,
     LinkStretch,
     PointSpeed,
     RimHeight,
@@ -118,11 +121,10 @@ def link_symbol(pen: Pen, joint: Joint) -> list[Mark]:
 
 def _rolling_symbol(pen: Pen, joint: Joint) -> list[Mark]:
     numbers, u = pen.numbers, pen.unit
-    disc, line = numbers.markers(joint.rows[0])
+    line, disc = numbers.markers(joint.coordinates)
     along = sliding_direction(numbers, joint)
     normal = np.array([-along[1], along[0], 0.0])
-    sums = [m for m in nested_parts(joint.rows) if isinstance(m, Sum)]
-    radius = abs(numbers.number(sums[0].terms[1][0]))
+    radius = numbers.number(_radius(joint))
     span = numbers.range_along(line, disc, along)
     wheel = wheel_marks(pen, disc, Z, radius, joint.bodies[0])
     return [*pen.rail(line.body, numbers.in_ground_frame(line), along, (span[0] - u, span[1] + u), -normal), *wheel]
@@ -279,16 +281,27 @@ def _plate_symbol(pen: Pen, joint: Joint) -> list[Mark]:
     return [pen.line(base.body, corners, GLASS, closed=True), *(pen.dot(p, 0.35) for p in others)]
 
 
+def _radius(joint: Joint) -> Expr:
+    """Return the radius of what rolls, from the speed of its contact, its rim, its slip or its gap."""
+    for part in nested_parts(joint):
+        match part:
+            case RimHeight(radius=radius) | RollingSpeed(radius=radius) | Sum(terms=(_, (radius, _))):
+                return radius
+            case FormulaMeasure(of=Call("sub", (_, radius))):
+                return radius
+    raise AssertionError("what rolls has a radius")
+
+
 def _rolling_body_symbol(pen: Pen, joint: Joint) -> list[Mark]:
-    """Return a disc or sphere that rolls on a plane of the ground."""
+    """Return a disc or sphere that rolls on a plane."""
     numbers = pen.numbers
-    rims = [m for m in nested_parts(joint.rows) if isinstance(m, RimHeight | RollingSpeed)]
-    radius = numbers.number(rims[0].radius)
-    centre = numbers.place(rims[0].centre)
-    plane = _floor_under_path(pen, numbers.direction(rims[0].normal), numbers.markers(joint.rows), centre, radius)
-    axis = rims[0].axis
-    if axis is not None:
-        return [plane, *wheel_marks(pen, centre, numbers.direction(axis), radius, joint.bodies[0])]
+    rims = [m.axis for m in nested_parts(joint) if isinstance(m, RimHeight)]
+    places, radius = numbers.markers(joint), numbers.number(_radius(joint))
+    centre = next(p for p in places if p.body == numbers.index[joint.bodies[0]])
+    normal = next(d for d in numbers.directions(joint) if d.body != joint.bodies[0])
+    plane = _floor_under_path(pen, normal, places, centre, radius)
+    if rims:
+        return [plane, *wheel_marks(pen, centre, numbers.direction(rims[0]), radius, joint.bodies[0])]
     colour = pen.colour(centre.body)
     ball = replace(pen.dot(centre, 1.0, Look(colour, colour, 1.2, 0.2)), radius=radius)
     rings = [
@@ -297,18 +310,20 @@ def _rolling_body_symbol(pen: Pen, joint: Joint) -> list[Mark]:
     return [plane, ball, *rings]
 
 
-def _floor_under_path(pen: Pen, normal: Array, places: list[BodyPoint], centre: BodyPoint, radius: float) -> Line:
-    """Return a part of the plane that holds the whole path."""
-    grounded = [p for p in places if p.body == GROUNDED]
-    at = pen.numbers.in_ground_frame(grounded[0]) if grounded else np.zeros(3)
-    way = np.array([poses.to_ground(centre.body, [centre.at])[0] for poses in pen.numbers.all])
-    first, second = directions_across_axis(normal)
+def _floor_under_path(pen: Pen, normal: Direction, places: list[BodyPoint], centre: BodyPoint, radius: float) -> Line:
+    """Return a part of the plane that holds the whole path, as its body sees this."""
+    base = pen.numbers.index[normal.body]
+    origin = next((p for p in places if p.body == base), BodyPoint(base, (0.0, 0.0, 0.0)))
+    at = pen.numbers.in_ground_frame(origin)
+    seen = [poses.to_body(base, poses.to_ground(centre.body, [centre.at]))[0] for poses in pen.numbers.all]
+    way = pen.numbers.now.to_ground(base, seen)
+    first, second = directions_across_axis(pen.numbers.direction(normal))
     sides = []
     for e in (first, second):
         along = (way - at) @ e
         sides.append((float(along.min()) - 1.5 * radius, float(along.max()) + 1.5 * radius))
     corners = [at + sides[0][i] * first + sides[1][j] * second for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))]
-    return pen.line(GROUNDED, corners, GLASS, closed=True)
+    return pen.line(base, corners, GLASS, closed=True)
 
 
 def _arm_symbol(pen: Pen, joint: Joint) -> list[Mark]:

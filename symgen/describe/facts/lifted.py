@@ -12,6 +12,7 @@ from typing import Any
 
 from symgen.base.errors import InputError, quote, suggest
 from symgen.describe.bounds.keys import sections_of_files
+from symgen.describe.files.new_numbers import put_at_path
 from symgen.describe.files.origins import Origin, origin_of
 from symgen.describe.files.validate import validate
 from symgen.describe.formulas.identifiers import LONGEST
@@ -57,7 +58,7 @@ def lift_numbers(where: str, mechanism: Mechanism, names: Sequence[str]) -> Lift
     InputError
         If a name comes twice, or a path leads to no number, or to one that has to be a number.
     """
-    paths, keys = [name for name in names if _is_path(name)], {name: name for name in names}
+    paths, keys = [name for name in names if is_path(name)], {name: name for name in names}
     if len(keys) < len(names):
         twice = next(name for i, name in enumerate(names) if name in names[:i])
         raise InputError(where, "each number once", f"{quote(twice)} twice")
@@ -88,7 +89,20 @@ def lift_numbers(where: str, mechanism: Mechanism, names: Sequence[str]) -> Lift
         raise
 
 
-def _is_path(name: str) -> bool:
+def literal_points_in_words(names: Sequence[str]) -> tuple[str, ...]:
+    """Return a sentence on coordinates of points of bodies among names: nothing else of the body follows them."""
+    literal = [name for name in names if re.fullmatch(r"bodies\.[^.\[\]]+\.points\.[^.\[\]]+\[\d\]", name)]
+    if not literal:
+        return ()
+    which = ", ".join(literal)
+    verb, them = ("moves", "it") if len(literal) == 1 else ("move", "them")
+    return (
+        f"{which} {verb} a point alone: mass, inertia and position of the body stay; "
+        f"a parameter in place of {them}, with formulas for these, moves all of the body",
+    )
+
+
+def is_path(name: str) -> bool:
     """Whether a name is the path of a number: coordinates, velocities and joints have no such parts."""
     section, _, rest = name.partition(".")
     return (section in SECTIONS and ("." in rest or section == "mechanism")) or "[" in name
@@ -135,7 +149,7 @@ def _put_parameter(raw: Mapping[str, Any], path: Path, parameter: str, name: str
     for part in path:
         value = value[part]
     entry = {"value": float(value), "unit": _unit_of_path(raw, path), "note": name}
-    result: dict[str, Any] = _put_at_path(raw, path, parameter)
+    result: dict[str, Any] = put_at_path(raw, path, parameter)
     result["parameters"] = {**raw.get("parameters", {}), parameter: entry}
     return result
 
@@ -145,12 +159,3 @@ def _unit_of_path(raw: Mapping[str, Any], path: Path) -> str:
     section, key = str(path[0]), str(path[1] if path[0] == "mechanism" else path[2] if len(path) > 2 else "")
     kind = str(raw[section][path[1]].get("type")) if section in ("joints", "forces") else ""
     return unit_of_key(section, key, kind)
-
-
-def _put_at_path(value: Any, path: Path, new: str) -> Any:
-    """Return a copy of tables and lists on a path, with another end of it."""
-    if not path:
-        return new
-    copied: Any = dict(value) if isinstance(value, Mapping) else list(value)
-    copied[path[0]] = _put_at_path(value[path[0]], path[1:], new)
-    return copied

@@ -11,7 +11,7 @@ from symgen.base.errors import InputError, quote, suggest
 from symgen.base.vocabulary.expressions import ONE, call
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.keys import keys_of_any_joint, rows_of_joint
-from symgen.describe.mechanism import Hold, Joint, Rotor
+from symgen.describe.mechanism import Force, Hold, Joint, Rotor
 from symgen.describe.parts.collected import Errors, Incomplete
 from symgen.describe.parts.fields import Flag, JointStart, Scalar, read_table, read_value, value_in_words
 from symgen.describe.parts.holds import joint_holds
@@ -46,6 +46,8 @@ class JointTables:
         Joint -> its point ``at``, what its table says of the start, and its rotor, of those that have one.
     cuts : list of str
         Joints that carry nothing in a tree.
+    forces : dict
+        Joint -> the force in place of its rows, of those that give way.
     """
 
     def __init__(
@@ -56,6 +58,7 @@ class JointTables:
         self.starts: dict[str, tuple[Hold, ...]] = {}
         self.rotors: dict[str, Rotor] = {}
         self.cuts: list[str] = []
+        self.forces: dict[str, Force] = {}
         self._joints: dict[str, Joint | None] = {}
         self._open = 0  # joints being resolved, each because the one before refers to it
         self._scopes: dict[str, tuple[Scope, Joint]] = {}  # in the order in which joints are resolved
@@ -86,12 +89,16 @@ class JointTables:
     def _read_joint(self, name: str) -> Joint:
         """Return the joint `name`, and note what else its table says."""
         where, whole = self.where(f"joints.{name}"), self.tables[name]
-        kind, table = kind_and_keys(where, whole, "joint type", *self._keys)
+        kind, table = kind_and_keys(where, whole, "joint type")
         struct = JOINTS.get(kind, f"{where}.type")
+        shared = tuple(key for key in self._keys if key not in _taken_keys(struct, whole))
+        table = {key: value for key, value in table.items() if key not in shared}
         scope = self.scope("joints", name, JOINTS.resolve_alias(kind))
         scope.check_space(struct.SPACES)
-        section = read_table(struct, table, where, ("type", *self._keys))
+        section = read_table(struct, table, where, ("type", *shared))
         joint = section.build(scope)
+        if (give := getattr(section, "give", None)) is not None and (force := give(scope)) is not None:
+            self.forces[name] = force
         scope.coordinates = {label: joint.unit(label) for label, _ in joint.coordinates}
         at = getattr(section, "at", None)
         if at is not None:
@@ -120,11 +127,19 @@ class JointTables:
         rows, cuts = dict[str, tuple[BoundedRow, ...]](), list[str]()
         for name, (scope, joint) in self._scopes.items():  # after all joints, as formulas may read any
             with self.errors.part_of_description(name):
-                rows[name] = tuple(rows_of_joint(scope, joint, self.tables[name]))
+                table = self.tables[name]
+                taken = _taken_keys(JOINTS.get(joint.kind), table)
+                rows[name] = tuple(rows_of_joint(scope, joint, {k: x for k, x in table.items() if k not in taken}))
             if name in self.cuts or any(row.pressed for row in rows.get(name, ())):
                 cuts.append(name)  # its reaction is a multiplier
         self.cuts = cuts
         return [row for joint in joints for row in rows.get(joint.name, ())]
+
+
+def _taken_keys(kind: object, table: Mapping[str, Any]) -> set[str]:
+    """Return the keys of joints of any kind that a kind reads itself."""
+    takes: Mapping[str, str] = getattr(kind, "TAKES", {})
+    return {key for key, beside in takes.items() if beside in table}
 
 
 def rotor_of(scope: Scope, joint: Joint, table: Mapping[str, Any]) -> Rotor | None:

@@ -193,6 +193,7 @@ class _Validator:
         joints = self.read_each_entry("joints", lambda name, _: self.read_joint(name, self.place_in_file("joints")))
         forces = () if modal is None else modal.forces(bodies)
         forces += self.read_each_entry("forces", self.read_force)
+        forces += tuple(self.joints.forces[joint.name] for joint in joints if joint.name in self.joints.forces)
         self.context = msgspec.structs.replace(self.context, forces={force.name: force for force in forces})
         holds, shapes = self.read_holds_and_shapes(bodies)
         holds += [] if modal is None else modal.holds(bodies)

@@ -7,7 +7,7 @@ code: the slopes in `symgen.base.vocabulary.elementary_functions`, and one side 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -124,7 +124,11 @@ class Duals:
         """
         own = {name: x.value for name, x in self.values.items()}
         value = evaluate(expression, own, where)
-        return Dual(value, self._formula(expression, where).slopes)
+        return Dual(value, self.derivatives(expression, where))
+
+    def derivatives(self, expression: Expr, where: str) -> Slopes:
+        """Return the derivatives of a formula that has a value."""
+        return self._formula(expression, where).slopes
 
     def apply_function(self, function: str, *arguments: Any) -> Dual:
         """Return a function of formulas."""
@@ -190,27 +194,51 @@ def _slopes_with_arguments(function: str, a: Dual, b: Dual, value: float) -> tup
     return 0.0, a, 0.0, b  # comparisons and the like are constant between jumps
 
 
-def parameter_duals(
-    mechanism: Mechanism, values: Mapping[str, float], changed: Mapping[str, float], by: Sequence[str]
-) -> dict[str, Dual]:
-    """Return all parameters with their derivatives by some of them; formulas of parameters follow.
+class ParameterDuals:
+    """Parameters with their derivatives by some of them, for many values: the order of formulas is found once.
 
     Parameters
     ----------
     mechanism : Mechanism
         The mechanism.
-    values : mapping of str to float
-        All values.
-    changed : mapping of str to float
-        Those that are set to numbers in place of their formulas.
+    changed : container of str
+        Parameters that are set to numbers in place of their formulas.
     by : sequence of str
         Parameters, one for each direction; others leave a direction without any.
     """
-    own = {name: tuple(float(other == name) for other in by) for name in by}
-    duals = {name: Dual(value, own.get(name, ())) for name, value in values.items()}
-    for name, formula in dependent_parameters(mechanism.parameters, {**changed, **own}):
-        duals[name] = Dual(values[name], Duals(duals).value(formula, f"parameter '{name}'").slopes)
-    return duals
+
+    def __init__(self, mechanism: Mechanism, changed: Container[str], by: Sequence[str]) -> None:
+        self._own = {name: tuple(float(other == name) for other in by) for name in by}
+        numbers = {p.name for p in mechanism.parameters if p.name in changed or p.name in self._own}
+        self._formulas = dependent_parameters(mechanism.parameters, numbers)
+
+    def at(self, values: Mapping[str, float]) -> dict[str, Dual]:
+        """Return all parameters with their derivatives; formulas of parameters follow.
+
+        Parameters
+        ----------
+        values : mapping of str to float
+            All values; those with formulas are replaced.
+
+        Raises
+        ------
+        InputError
+            If a formula has no value.
+        """
+        numbers = dict(values)
+        duals = {name: Dual(value, self._own.get(name, ())) for name, value in values.items()}
+        following = Duals(duals)
+        for name, formula in self._formulas:
+            numbers[name] = value = evaluate(formula, numbers, f"parameter '{name}'")
+            duals[name] = Dual(value, following.derivatives(formula, f"parameter '{name}'"))
+        return duals
+
+
+def parameter_duals(
+    mechanism: Mechanism, values: Mapping[str, float], changed: Container[str], by: Sequence[str]
+) -> dict[str, Dual]:
+    """Return all parameters with their derivatives by some of them; arguments as of `ParameterDuals`."""
+    return ParameterDuals(mechanism, changed, by).at(values)
 
 
 def dual_slopes(numbers: Sequence[Any], count: int) -> Iterator[list[float]]:

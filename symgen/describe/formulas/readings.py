@@ -366,6 +366,7 @@ class Readings:
         return tuple(row_formula(owner, row) for row in rows if row.name == name)
 
     def _element_readings(self, owner: str, where: str) -> Table:
+        table = Table()
         if owner in self._context.joint_names:
             joint = self._context.joint(owner, where)
             table = readings_of_joint(joint, self._order)
@@ -374,8 +375,9 @@ class Readings:
             ):
                 # what a row with bounds exerts along the joint is a part of the reaction that its rows do not have
                 table = {label: entry for label, entry in table.items() if label not in REACTION}
-            return table
-        return readings_of_force(self._context.forces[owner], self._order) if owner in self._context.forces else {}
+        # a joint that gives way has a force of its own name
+        force = self._context.forces.get(owner)
+        return table if force is None else table | readings_of_force(force, self._order)
 
 
 class Column(NamedTuple):

@@ -42,19 +42,21 @@ def rows_of_point_on_axis(a: Marker, b: Marker, triad: Triad) -> tuple[Holonomic
     )
 
 
-def plane_of_ground(
+def plane_of_body(
     scope: Scope,
+    body: str,
     on: str | tuple[float | str, ...],
     normal: tuple[float | str, ...],
     reference: tuple[float | str, ...] | None,
-) -> tuple[Marker, Triad, tuple[Direction, Direction]]:
-    """Return a point of a plane of the ground, a triad about its normal, and the opposites of its other directions.
+) -> tuple[Marker, Triad]:
+    """Return a point of a plane of a body or of the ground, and a triad about its normal."""
+    plane = make_triad(scope, body, normal, reference, ("normal", "reference"))
+    return scope.marker("on", body, on), plane
 
-    A row on a velocity along an opposite direction has a multiplier that pushes the body along the direction itself.
-    """
-    plane = make_triad(scope, GROUND, normal, reference, ("normal", "reference"))
-    opposite = [Direction(GROUND, tuple(call("neg", e) for e in d.vector)) for d in (plane.first, plane.second)]
-    return scope.marker("on", GROUND, on), plane, (opposite[0], opposite[1])
+
+def opposite(direction: Direction) -> Direction:
+    """Return the opposite of a direction: a row on a velocity along it pushes a body along the direction itself."""
+    return Direction(direction.body, tuple(call("neg", e) for e in direction.vector))
 
 
 def angle_about_axis(a: Triad, b: Triad) -> Turn:

@@ -9,7 +9,7 @@ import msgspec
 from symgen.base.vocabulary.expressions import ONE, Expr, call
 from symgen.base.vocabulary.measures import GROUND, Angle, Holonomic, Sum
 from symgen.describe.mechanism import Joint
-from symgen.describe.parts.fields import BodyName, BodyPair, Pair, Scalar, TextPair
+from symgen.describe.parts.fields import BodyName, BodyPair, Efficiency, Pair, Scalar, TextPair
 from symgen.describe.parts.scope import Scope
 
 
@@ -37,6 +37,9 @@ class Gear(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         ``"external"``, or ``"internal"`` where one wheel is a ring: the second term then has the opposite sign.
     offset : scalar
         The constant [m with radii, rad with a ratio]; 0 by default.
+    efficiency : scalar or pair
+        Part of a power that the teeth pass on, or two: forwards from the first wheel, and backwards, of 0 or less where
+        the second one cannot drive; no loss by default.
 
     Notes
     -----
@@ -55,6 +58,7 @@ class Gear(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     ratio: Scalar | None = None
     mesh: Literal["external", "internal"] = "external"
     offset: Scalar = 0.0
+    efficiency: Efficiency | None = None
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to a weighted sum of two angles."""

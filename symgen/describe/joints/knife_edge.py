@@ -8,6 +8,7 @@ import msgspec
 
 from symgen.base.vocabulary.expressions import call
 from symgen.base.vocabulary.measures import (
+    GROUND,
     BladeSpeed,
     Component,
     Direction,
@@ -16,7 +17,7 @@ from symgen.base.vocabulary.measures import (
     Nonholonomic,
     PointSpeed,
 )
-from symgen.describe.joints._space import plane_of_ground
+from symgen.describe.joints._space import opposite, plane_of_body
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import Axis, BodyName, Point
 from symgen.describe.parts.scope import CENTRE, Scope
@@ -73,9 +74,8 @@ class KnifeEdge(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 
     def _rows_on_plane(self, scope: Scope, body: str, point: Marker) -> Joint:
         scope.only("normal", normal=self.normal)
-        origin, plane, _ = plane_of_ground(scope, self.on or (0.0, 0.0, 0.0), self.normal or (), None)
-        blade = make_triad(scope, body, self.axis).axis
-        backward = Direction(body, tuple(call("neg", e) for e in blade.vector))
+        origin, plane = plane_of_body(scope, GROUND, self.on or (0.0, 0.0, 0.0), self.normal or (), None)
+        backward = opposite(make_triad(scope, body, self.axis).axis)
         rows = (
             Holonomic("normal", Component(point, origin, plane.axis)),
             Nonholonomic("side", BladeSpeed(point, plane.axis, backward)),  # to the right, as in the plane

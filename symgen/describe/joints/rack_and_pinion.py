@@ -9,7 +9,7 @@ import msgspec
 from symgen.base.vocabulary.expressions import ONE, call
 from symgen.base.vocabulary.measures import Holonomic, Sum
 from symgen.describe.mechanism import Joint
-from symgen.describe.parts.fields import Scalar, Text, TextPair
+from symgen.describe.parts.fields import Efficiency, Scalar, Text, TextPair
 from symgen.describe.parts.scope import Scope
 
 
@@ -30,6 +30,9 @@ class RackAndPinion(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
         Pitch radius of the pinion [m]; negative where the rack runs backwards.
     offset : scalar
         The constant in displacement = radius angle + offset [m]; 0 by default.
+    efficiency : scalar or pair
+        Part of a power that the teeth pass on, or two: forwards from the pinion, and backwards, of 0 or less where the
+        rack cannot drive; no loss by default.
 
     Notes
     -----
@@ -44,6 +47,7 @@ class RackAndPinion(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
     radius: Scalar
     coordinates: TextPair | None = None
     offset: Scalar = 0.0
+    efficiency: Efficiency | None = None
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to the sum of a displacement and an arc."""

@@ -1,4 +1,4 @@
-"""Rolling sphere: it rolls without slip on a plane of the ground."""
+"""Rolling sphere: it rolls on a plane, without slip or on a contact that gives way."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from symgen.describe.parts.scope import Scope
 
 
 class RollingSphere(RollingContact, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A sphere that rolls on a plane of the ground; it may spin about the normal. In space only.
+    """A sphere that rolls on a plane of the ground or of a body; it may spin about the normal. In space only.
 
     Notes
     -----
-    Three rows, with the multipliers of a rolling disc: ``NAME.normal`` [N], the push of the plane, and ``NAME.slip1``,
-    ``.slip2`` [N], friction on the sphere.
+    Rows and forces have the labels of a rolling disc: ``NAME.normal`` [N], the push of the plane, and ``NAME.slip1``,
+    ``.slip2`` [N], friction on the sphere. With `stiffness` they are forces, and the joint reports ``NAME.gap`` [m].
     """
 
     SPACES: ClassVar[tuple[str, ...]] = ("spatial",)
@@ -27,7 +27,7 @@ class RollingSphere(RollingContact, frozen=True, kw_only=True, forbid_unknown_fi
         contact = self.contact(scope)
         # from the sphere to the plane, so that a positive multiplier pushes the sphere along the normal
         height = Component(contact.centre, contact.origin, contact.plane.axis)
-        return contact.joint(scope, Holonomic("normal", height, call("neg", contact.radius)))
+        return self.joint_of(scope, contact, Holonomic("normal", height, call("neg", contact.radius)))
 
 
 KIND = RollingSphere

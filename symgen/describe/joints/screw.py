@@ -16,7 +16,7 @@ from symgen.describe.joints._space import (
     rows_of_point_on_axis,
 )
 from symgen.describe.mechanism import Joint
-from symgen.describe.parts.fields import Scalar
+from symgen.describe.parts.fields import Efficiency, Scalar
 from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.triads import make_triads
 from symgen.describe.spanning_tree import Articulation
@@ -31,6 +31,9 @@ class Screw(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True):
         Displacement along the axis a turn [m]; a left-handed thread has a negative one.
     offset : scalar
         Displacement at angle 0 [m]; 0 by default.
+    efficiency : scalar or pair
+        Part of a power that the thread passes on, or two: forwards from turning to moving along, and backwards, of 0 or
+        less where a load along the axis cannot drive; no loss by default.
 
     Notes
     -----
@@ -43,6 +46,7 @@ class Screw(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True):
 
     pitch: Scalar
     offset: Scalar = 0.0
+    efficiency: Efficiency | None = None
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to the rows of a cylindrical joint and one that ties its two coordinates together."""

@@ -15,7 +15,12 @@ if TYPE_CHECKING:
 
 
 class JointKind(Protocol):
-    """Interface of a joint kind."""
+    """Interface of a joint kind.
+
+    Some kinds have methods beside `build`: ``articulate(joint)``, the relative motion of the bodies that one of a tree
+    carries, and ``give(scope)``, the force in place of rows where a joint gives way. ``TAKES`` maps keys of joints of
+    any kind to the key beside which the kind reads them itself.
+    """
 
     #: Where the kind exists: in planar mechanisms, in spatial ones, or in both.
     SPACES: ClassVar[tuple[str, ...]]

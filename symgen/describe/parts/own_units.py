@@ -96,7 +96,7 @@ def check_own_unit(scope: Scope, value: Expr, unit: Unit) -> None:
     value, unit : Expr, Unit
         Its formula and its unit; an empty one is none.
     """
-    own = _unit_of_quantity(scope, value) if unit.text else ""
+    own = unit_of_quantity(scope, value) if unit.text else ""
     if not own or not isinstance(value, Name | Reading):
         return
     si = known_unit(own)
@@ -108,7 +108,7 @@ def check_own_unit(scope: Scope, value: Expr, unit: Unit) -> None:
         raise scope.error("unit", f"{own}, the unit of {value.name}", quote(unit.text), hint)
 
 
-def _unit_of_quantity(scope: Scope, value: Expr) -> str:
+def unit_of_quantity(scope: Scope, value: Expr) -> str:
     """Return the unit of a quantity of the motion; empty for formulas and where it is not known."""
     if isinstance(value, Name):
         owner, _, label = value.name.rpartition(".")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import sympy as sp
 
-from symgen.describe.bounds.bounded_modes import coordinate_of, name_of_number, two_sided_rows
+from symgen.describe.bounds.bounded_modes import name_of_number, two_sided_rows
 
 if TYPE_CHECKING:
     from symgen.result.reading.symbolic_equations import SymbolicEquations
@@ -47,9 +47,6 @@ def _held_by_joints(equations: SymbolicEquations) -> set[str]:
 
 
 def _rates_in_motion(equations: SymbolicEquations) -> Mapping[str, Any]:
-    """Return the rates of coordinates along rows with two bounds, by the names of the numbers with their signs."""
-    mechanism = equations.mechanism
-    return {
-        name_of_number(row, "sign").name: equations.joint_rates[coordinate_of(mechanism, row)]
-        for row in two_sided_rows(mechanism)
-    }
+    """Return the rates along rows with two bounds, by the names of the numbers with their signs."""
+    rates = equations.rates_of_bounded_rows
+    return {name_of_number(row, "sign").name: rates[row.row] for row in two_sided_rows(equations.mechanism)}

@@ -21,6 +21,7 @@ from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Parameter
 from symgen.describe.parts.topology import state_names
 from symgen.result.player.motion_page import PAGES
+from symgen.result.reading.contact_facts import contact_facts
 from symgen.result.reading.inspection_text import inspection_as_text
 from symgen.result.reading.jamming import jamming_numbers
 from symgen.result.reading.page import MOST_STRAIGHT, EquationPage, check_size
@@ -281,7 +282,9 @@ def _topology_facts(topology: Topology, mechanism: Mechanism) -> dict[str, list[
 
 
 def _count_kernels(mechanism: Mechanism) -> dict[str, int]:
-    """Return how many instances each kernel of the looped shape would have."""
+    """Return how many instances each kernel of the looped shape would have; none where contacts are straight code."""
+    if any(row.signed for row in mechanism.bounded):
+        return {}
     return dict(Counter(kernel_stems(instances_of_mechanism(mechanism))))
 
 
@@ -338,9 +341,12 @@ def _method_facts(mechanism: Mechanism, equations: Equations, choice: Any) -> di
 
 def _bounded_row_facts(run: Prepared, mechanism: Mechanism) -> dict[str, list[dict[str, Any]]]:
     """Return the rows with bounds of a mechanism by their families."""
-    jamming = jamming_numbers(run)
+    jamming, contacts = jamming_numbers(run), contact_facts(run)
     return {
-        family.fact: [_facts_of_bounded_row(row, jamming.get(row.name)) for row in rows]
+        family.fact: [
+            _facts_of_bounded_row(row, jamming.get(row.name)) | (contacts.get(row.name, {}) if row.one_sided else {})
+            for row in rows
+        ]
         for family, rows in rows_by_family(mechanism).items()
     }
 

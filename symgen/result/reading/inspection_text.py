@@ -32,7 +32,8 @@ def inspection_as_text(facts: dict[str, Any]) -> str:
         kinds[name.rpartition("_")[0]] += count
     kernels = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
     lines.append(f"shape: {shape['shape']}, as {shape['reason']}")
-    lines.append(f"as loops: {plural(len(shape['kernels']), 'kernel')} for {kernels}")
+    if kernels:
+        lines.append(f"as loops: {plural(len(shape['kernels']), 'kernel')} for {kernels}")
     if "tree" in facts:
         cut = ", ".join(facts["topology"]["cut"]) or "no joint: the mechanism is a tree"
         lines.append(f"joint coordinates: {facts['state']['reason']}; loops are closed by {cut}")

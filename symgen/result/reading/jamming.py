@@ -24,10 +24,11 @@ def jamming_numbers(run: Prepared) -> dict[str, float]:
     Returns
     -------
     dict of str to float
-        By the names of rows whose bounds depend on a reaction; empty without any.
+        By the names of rows whose bounds depend on a reaction; empty without any. Those of contacts have a sign
+        (`symgen.result.reading.contact_facts`).
     """
     compiled, start = run.compiled, run.start
-    if JAMMING not in compiled.info.sections:
+    if JAMMING not in compiled.info.sections or any(row.signed for row in run.mechanism.bounded):
         return {}
     w = start.w.copy()
     places = [compiled.info.switchable.index(row) for row in compiled.info.bounded]

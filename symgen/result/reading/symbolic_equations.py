@@ -351,6 +351,15 @@ class SymbolicEquations:
         written = {x.name: self._put_values(self._plain.expression(x.rate)) for x in self.derived.joint_coordinates}
         return MappingProxyType(written)
 
+    @cached_property
+    def rates_of_bounded_rows(self) -> Mapping[str, Any]:
+        """Rates along the rows with bounds, by the names of the rows: D v - nu, whether a row is in force or not."""
+        g, rows = self._written.graph, [row for row in self.derived.rows if row.bounded]
+        velocities = (g.sum_of(g.mul(n, g.input("v", j)) for j, n in row.entries) for row in rows)
+        nodes = (g.sub(rate, row.nu) for rate, row in zip(velocities, rows, strict=True))
+        written = (self._put_values(self._plain.expression(node)) for node in nodes)
+        return MappingProxyType(dict(zip((row.name for row in rows), written, strict=True)))
+
     def _operations_of(self, name: str) -> int:
         return self._written.graph.count_tree_operations(n for *_, n in self.nodes[name][1])
 

@@ -30,7 +30,7 @@ SMALLEST_RTOL = 1e-13
 #: Operations of a run with a tenth of the tolerances, over those of the run, at most as a rule.
 DEARER = 1.5
 #: Of a long run at least this part is checked, at so many outputs or more.
-LEAST_PART, FEWEST = 1e-9, 101
+LEAST_PART, FEWEST = 1e-9, 1001
 
 
 def rerun_with_finer_steps(

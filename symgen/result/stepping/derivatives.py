@@ -328,7 +328,7 @@ def _columns_and_counts(before: Mapping[str, NDArray[Any]]) -> tuple[Any, Any]:
 def _check_names(prepared: Prepared, loop: Simulation) -> None:
     """Refuse runs whose steps have no directions."""
     name, compiled, watched = prepared.plan.integrator.name, prepared.compiled, loop.spec.events
-    if name not in ONE_STEP and not isinstance(loop.scheme, Stages):
+    if name not in ONE_STEP and type(loop.scheme) is not Stages:  # `Backward` has stages and a history
         expected = f"a scheme whose steps have derivatives ({', '.join((*ONE_STEP, *IMPLICIT))})"
         raise InputError(WHERE, expected, f"'{name}'")
     if compiled.shape != "straight":

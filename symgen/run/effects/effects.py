@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -22,7 +23,7 @@ from symgen.run.effects.applying import (
 )
 from symgen.run.layout.start_records import Instant
 from symgen.run.starts.assembler import layout_of_starts
-from symgen.run.starts.impulse import new_impulse, smallest_impulse
+from symgen.run.starts.impulse import ROUNDING, new_impulse, smallest_impulse
 from symgen.run.starts.starting import observe_nothing
 
 if TYPE_CHECKING:
@@ -171,6 +172,24 @@ class Effects:
         """Return what some events have changed: velocities, impulses (followed by their memory) and energy."""
         labels = self._labels(numbers)
         return Impact(v.copy(), impulses[: self.compiled.info.m + len(labels)].copy(), labels, energy)
+
+    def carried(self, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array, known: Impact) -> Impact:
+        """Return an impact of which velocities, and impulses of what events set, are known: rows have the rest.
+
+        Impulses of contacts that slide do not follow from velocities that events set: these push along both of a
+        contact's, of which one alone is held.
+        """
+        info, labels, work = self.compiled.info, self._labels(numbers), self.memory(len(y), len(w))
+        before, m, n, problem = y[info.nq : info.work].copy(), info.m, info.nv, work.impulse
+        with contextlib.suppress(ArithmeticError, ValueError), np.errstate(all="ignore"):
+            # for the rows and masses of the problem, whose solution is another one
+            compiled_form(apply_effects)(self.model, t, Instant(y, p, w), self.chosen(numbers), work)
+        rows, mass = problem.rows[: (m + len(labels)) * n].reshape(-1, n), problem.mass.reshape(n, n)
+        imposed = known.impulses[len(known.impulses) - len(labels) :]
+        unit = 1.0 / np.sqrt(np.where(np.diag(mass) > 0.0, np.diag(mass), 1.0))
+        left = unit * (mass @ (known.v - before) - rows[m:].T @ imposed)
+        own, *_ = np.linalg.lstsq((rows[:m] * unit).T, left, rcond=ROUNDING)
+        return Impact(known.v, np.concatenate([own, imposed]), labels, known.energy)
 
     def _labels(self, numbers: Sequence[int]) -> tuple[str, ...]:
         """Return the velocities that some events set."""

@@ -112,6 +112,20 @@ class Stages(Record):
     filter_plan: Integers
 
 
+class Backward(Stages):
+    """A backward differentiation scheme on the descriptor form, with the implicit scheme that starts it.
+
+    Its one stage has the pattern of the starter's filter, whose plan and numbers it takes.
+
+    Attributes
+    ----------
+    highest : int
+        Highest order.
+    """
+
+    highest: int
+
+
 class Alpha(Record):
     """A scheme of Newmark's family, with the sources, numbers and plan of its Newton matrix."""
 
@@ -274,3 +288,4 @@ KEPT = ("numbers", "plan", "filter_numbers", "filter_plan")
 TABLEAU, ROTATIONS, SCREWS, MULTISTEP = map(record_type, (TableauRecord, Rotations, Screws, Multistep))
 STAGES, ALPHA, NODES, CONSTRAINED = map(record_type, (Stages, Alpha, Nodes, ConstrainedStages))
 PARTITIONED, SYMMETRIC, PROJECTION = map(record_type, (PartitionedStages, Symmetric, Projection))
+BACKWARD = record_type(Backward)

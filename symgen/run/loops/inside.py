@@ -50,6 +50,7 @@ from symgen.run.loops.search_records import (
     SIDE,
     SIZE,
     STEEPEST,
+    UNCERTAIN,
     WHOLE,
 )
 from symgen.run.loops.switching import dip, is_finite, side_of, wake
@@ -207,6 +208,8 @@ def coarseness(hunt: A, n: int, k: int) -> float:
         near = min(abs(value_at(hunt, n, k, i)), abs(value_at(hunt, n, k, i + 1)))
         if near < _NEAR * error:
             most = max(most, error)
+    if MARGINS and high - low <= UNCERTAIN * hunt[N_HEAD + MEASURE * n + k]:  # rounding is not smooth
+        return 0.0
     return most / (high - low) if most > 0.0 else 0.0
 
 

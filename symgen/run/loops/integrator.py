@@ -26,6 +26,8 @@ class IntegratorParameter:
         Name, and description of its effect.
     default, minimum, maximum : float
         Values outside [minimum, maximum] are refused.
+    whole : bool
+        Whether it is a whole number.
     """
 
     name: str
@@ -33,6 +35,7 @@ class IntegratorParameter:
     note: str
     minimum: float
     maximum: float
+    whole: bool = False
 
 
 @dataclass(frozen=True)

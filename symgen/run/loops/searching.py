@@ -120,10 +120,11 @@ def put_to_sleep(hunt: A, n: int, k: int) -> int:
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     g, size = hunt[out + k], hunt[at + MEASURE * n + k]
     rounding = UNCERTAIN * size
-    asleep, grazing = rounding if g <= rounding else 0.0, 0.0
+    asleep, grazing, rises = rounding if g <= rounding else 0.0, 0.0, hunt[out + n + k] > hunt[at + PACE * n + k]
     if g < -0.5 * rounding:
-        asleep = -2.0 * g if -g <= _DEEP * size else 0.0
-    elif hunt[out + n + k] > hunt[at + PACE * n + k]:  # its rate decides
+        # lifted by twice as much where it rises, each flight of a low bounce would end as deep again
+        asleep = (1.0 if rises else 2.0) * -g if -g <= _DEEP * size else 0.0
+    elif rises:  # its rate decides
         asleep, grazing = 0.0, 1.0 if g < 0.0 else 0.0
     hunt[at + SIDE * n + k], hunt[at + GRAZING * n + k], hunt[at + ASLEEP * n + k] = 1.0, grazing, asleep
     hunt[at + G_START * n + k], hunt[at + D_START * n + k] = g + asleep, hunt[out + n + k]

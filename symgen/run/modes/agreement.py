@@ -35,12 +35,12 @@ from symgen.run.modes.choice import (
     add_forces,
     find_mobility,
     find_rest,
-    moves_at,
     size_forces,
     symmetrise,
     write_modes,
 )
 from symgen.run.modes.holding import hold_rows
+from symgen.run.modes.resting import moves_at
 
 #: Bounds by reactions agree within this part of them, after so many solutions at most.
 _AGREED, _AGREEMENTS = 1e-14, 2000

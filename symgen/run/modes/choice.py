@@ -36,19 +36,15 @@ from symgen.run.loops.search_records import (
     STEEPEST,
 )
 from symgen.run.modes.bounded_rows import (
-    AT_BOUND,
     CONSTANT,
-    CONTRARY,
     DEPENDENT,
     EFFORT,
     HELD,
     LEAST_MASS,
     LIMIT,
     NEGATIVE_GAP,
-    NO_ACCELERATION,
     NO_BOUND_IN_MOTION,
     NO_BOUNDS,
-    NO_FORCES,
     NO_NUMBER,
     NO_RESTITUTION,
     NOT_FINITE,
@@ -67,8 +63,8 @@ from symgen.run.modes.bounded_rows import (
     sign_of_number,
     usual_of,
 )
-from symgen.run.modes.box import INSIDE, is_contrary, solve_box
 from symgen.run.modes.holding import hold_rows
+from symgen.run.modes.resting import solve_rest
 
 
 @exact(entry=True)
@@ -295,64 +291,6 @@ def find_rest(c: Choice, w: Array) -> int:
             n += 1
     c.at_rest[0] = n
     return n
-
-
-@exact()
-def moves_at(c: Choice, n: int, r: int) -> bool:
-    """Whether the acceleration of the row at place `r` among those at rest is more than rounding."""
-    box, size = c.box, abs(c.box.offset[r])
-    for j in range(n):
-        size += abs(box.matrix[r * n + j]) * abs(box.forces[j])
-    return bool(box.place[r] != INSIDE and abs(box.left[r]) > NO_ACCELERATION * size)
-
-
-@exact()
-def solve_rest(c: Choice, n: int, w: Array) -> int:
-    """Find the forces at rest, and the signs of rows that they do not hold; return `SAME` `NO_FORCES` or `CONTRARY`."""
-    k, box = c.count, c.box
-    for r in range(n):
-        i = c.rest[r]
-        box.offset[r] = c.offset[i]
-        c.taken[i] = 1 if c.pushes[i] == 0 and c.loose[i] == 0 else 0  # its static bound holds
-        for s in range(n):
-            box.matrix[r * n + s] = c.matrix[i * k + c.rest[s]]
-    while True:
-        for r in range(n):
-            i = c.rest[r]
-            bound = c.static[i] if c.taken[i] != 0 else c.sliding[i]
-            pushes = c.pushes[i] != 0
-            box.bounds[r] = 0.0 if pushes else bound
-            box.lower[r] = -bound if not pushes else (0.0 if c.loose[i] != 0 else -math.inf)
-        if solve_box(n, box) != 0:
-            return NO_FORCES
-        for r in range(n):
-            if c.pushes[c.rest[r]] != 0 and box.left[r] < -NO_ACCELERATION * usual_of(c, w, c.rest[r]):
-                if is_contrary(n, r, box):
-                    return CONTRARY
-        again = False
-        for r in range(n):
-            i = c.rest[r]
-            if moves_at(c, n, r):
-                if c.pushes[i] == 0 and c.taken[i] != 0 and c.static[i] > c.sliding[i]:
-                    c.taken[i], again = 0, True
-                if c.pushes[i] != 0 and c.loose[i] != 0 and box.left[r] < -NO_ACCELERATION * usual_of(c, w, i):
-                    c.loose[i], again = 0, True
-        if not again:
-            break
-    for r in range(n):
-        i = c.rest[r]
-        bound, force, moves = c.static[i] if c.taken[i] != 0 else c.sliding[i], box.forces[r], moves_at(c, n, r)
-        c.passing[i] = 1 if moves else 0
-        if c.pushes[i] != 0:
-            moves = moves and box.left[r] > 0.0
-        elif c.loose[i] != 0 and abs(force) >= AT_BOUND * bound and bound > 0.0:
-            moves = True
-        c.forces[i] = force
-        c.signs[i] = 0.0
-        if moves:
-            c.signs[i] = sign_of_number(box.left[r] if force == 0.0 or c.pushes[i] != 0 else force)
-        c.taken[i] = 0
-    return SAME
 
 
 @exact(entry=True)

@@ -212,8 +212,22 @@ def turns_back(c: Choice, s: Strikes, w: Array, i: int) -> bool:
 
 
 @exact()
+def recall_modes(c: Choice, s: Strikes) -> None:
+    """Set the modes of friction anew that it had at the latest impact: since then modes without impulses are chosen."""
+    _, _, _, _, changes = s.effects.model
+    owners, ties = changes.owners, s.ties
+    for j in range(1, owners.shape[0]):
+        for i in range(c.dry, c.count):
+            slides = owners[j] == owners[j - 1] and owners[j] == s.events[i]
+            if slides and ties.kept[j - 1] > 0 and c.partner[i] >= 0:
+                way = UPPER if ties.kept_ways[j] < 0.0 else LOWER
+                c.mode[c.partner[i]] = way if ties.kept[j] < 0 else (ON if ties.kept[j] > 0 else OFF)
+
+
+@exact()
 def rest_contacts(t: float, c: Choice, s: Strikes, end: float, now: Instant) -> int:
     """Bring the gaps that push, or turn back, to rest, in the modes of the latest impact; friction has its part."""
+    recall_modes(c, s)
     for i in range(c.dry, c.count):
         if turns_back(c, s, now.w, i):
             s.active[i] = 1
@@ -255,14 +269,14 @@ def gather_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
 
     Returns as `symgen.run.modes.strikes.gather` does.
     """
-    now, count = Instant(y, p, w), int(s.pushing[0])
+    now, count, in_turn = Instant(y, p, w), int(s.pushing[0]), False
     s.pushing[0] = 0
     if count == 0:
         return SAME
     choose_events(c, s, True)
     for i in range(c.dry, c.count):
         if turns_back(c, s, w, i):
-            s.chosen[s.events[i]] = 1
+            s.chosen[s.events[i]], in_turn = 1, True
     functions = c.rates, c.confirm, s.effects.happens
     end = accumulation(functions, t, c.layout.nq, now, iw, hunt, s.chosen, s.effects.past)
     accelerate_in_force(t, c, now, iw)
@@ -270,5 +284,6 @@ def gather_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
     if not end == end:
         return SAME
     switch_off(c, w)
-    end = series if series == series else end_in_turn(t, c, s)
+    # an impact in turn stays closed: whether it would fly again, and when, would be rounding
+    end = end_in_turn(t, c, s) if in_turn or not series == series else series
     return OTHERS if rest_contacts(t, c, s, end, now) == SAME else NOT_APPLIED

@@ -23,17 +23,20 @@ from symgen.run.modes.bounded_rows import (
     LIMIT,
     NO_FORCES,
     NOT_FINITE,
+    OTHERS,
     ROUNDED,
     SAME,
     SIGN,
     Choice,
     row_scale,
 )
-from symgen.run.modes.choice import add_forces, find_rest, measure_margins, solve_rest, write_modes
+from symgen.run.modes.choice import add_forces, find_rest, write_modes
+from symgen.run.modes.choice import measure_margins as measure_margins_of_rows
 from symgen.run.modes.contact_combinations import LOWER, ON, UPPER
 from symgen.run.modes.contact_parts import choose_part, find_parts, has_contact, keep_touching, probe_contacts
 from symgen.run.modes.contact_verification import try_combinations
 from symgen.run.modes.holding import hold_rows
+from symgen.run.modes.resting import solve_rest
 
 
 @exact()
@@ -105,7 +108,7 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
 
     Returns `SAME`, `OTHERS`, or why there are no modes.
     """
-    n, code, rows, left = keep_touching(c, find_rest(c, w)), SAME, 0, 0
+    n, code, rows, left, struck = keep_touching(c, find_rest(c, w)), SAME, 0, 0, False
     if n > 0:
         if probe_contacts(t, c, y, p, w, iw, control) != SAME:
             return NOT_FINITE
@@ -125,9 +128,13 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
         return NO_FORCES
     code = hold_rows(c, w)
     for i in range(c.count):
+        struck = struck or c.shut[i] != 0
         c.shut[i] = 0
     add_forces(c)
-    return int(write_modes(c, w)) if code == SAME else int(code)
+    if code == SAME:
+        code = write_modes(c, w)
+    # an impact has taken all rows out of force, and where none comes back there are others all the same
+    return int(OTHERS) if struck and code == SAME else int(code)
 
 
 @exact(entry=True)
@@ -136,7 +143,7 @@ def measure_margins_of_contacts(c: Choice, w: Array, hunt: Array) -> int:
 
     A drive may move it, though the rows in force stay at rest.
     """
-    n, at, found = int(hunt[COUNT]), N_HEAD, measure_margins(c, w, hunt)
+    n, at, found = int(hunt[COUNT]), N_HEAD, measure_margins_of_rows(c, w, hunt)
     for k in range(n):
         i = int(hunt[at + ROW * n + k])
         numbers = c.first + MODE_NUMBERS * i

@@ -57,8 +57,9 @@ def _integrator_option(key: str, name: str, value: str | float, integrator: Inte
     numeric = {q.name: q for q in integrator.parameters}
     if name in numeric:
         q, number = numeric[name], _number(key, value)
-        if not q.minimum <= number <= q.maximum:
-            raise InputError(f"option {key}", f"from {q.minimum:g} to {q.maximum:g}", f"{value}")
+        if not q.minimum <= number <= q.maximum or (q.whole and not number.is_integer()):
+            what = "a whole number from" if q.whole else "from"
+            raise InputError(f"option {key}", f"{what} {q.minimum:g} to {q.maximum:g}", f"{value}")
         return repr(number)
     if can_choose_steps(integrator) and name == "adaptive" and str(value).lower() in ("true", "false"):
         return str(value).lower()

@@ -97,14 +97,31 @@ class DescribedStart:
         strict: bool = False,
         ask_light: bool = False,
     ) -> None:
-        values = parameter_values(mechanism, parameters)
-        self.mechanism, self.compiled, self._numbers = mechanism, compiled, scalar_values(values)
+        self.mechanism, self.compiled, self._options = mechanism, compiled, method_parameters or {}
         self._strict, self._ask_light = strict, ask_light
-        q, self._v = described_start(mechanism, self._numbers)
-        self._q, self._velocities = np.array(q), np.array([np.nan if x is None else x for x in self._v])
-        self._p = compiled.parameter_array(values, method_parameters or {})
-        self._datum = origin_of_sizes(mechanism, self._numbers)
         self._kept = dict[tuple[tuple[int, ...], ...], KeptStart]()
+        self.take_values(parameter_values(mechanism, parameters))
+
+    def take_values(self, values: Mapping[str, float]) -> None:
+        """Take other values of all parameters; code and memory of starts stay.
+
+        Parameters
+        ----------
+        values : mapping of str to float
+            All of them, those of formulas too.
+
+        Raises
+        ------
+        InputError
+            If a formula of the start has no value.
+        """
+        self._numbers = numbers = scalar_values(values)
+        q, self._v = described_start(self.mechanism, numbers)
+        self._q, self._velocities = np.array(q), np.array([np.nan if x is None else x for x in self._v])
+        self._p = self.compiled.parameter_array(values, self._options)
+        self._datum = origin_of_sizes(self.mechanism, numbers)
+        for kept in self._kept.values():
+            kept.take_parameters(self._p, self._datum)
 
     def start(self, holds: Held | Sequence[Hold], near: NDArray[np.float64] | None = None) -> Start:
         """Return a consistent start.

@@ -171,8 +171,11 @@ class TreeRun:
         y = np.zeros(info.ny)
         y[: info.work] = state
         y[info.own_states] = event.own
-        blow = effects.apply(numbers, event.t, y, self._parameters(p), self.body_start.w.copy())
-        return replace(blow, v=v)
+        given = numbers, event.t, y, self._parameters(p), self.body_start.w.copy()
+        if any(row.in_contact for row in self.whole.bounded):
+            assert event.impact is not None, "the event has changed something"
+            return effects.carried(*given, replace(event.impact, v=v))
+        return replace(effects.apply(*given), v=v)
 
     def _parameters(self, numbers: Array) -> Array:
         """Return the parameters of a piece of the run as the code for bodies takes them, prepared."""

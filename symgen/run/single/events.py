@@ -19,6 +19,7 @@ from symgen.run.layout import abi
 from symgen.run.loops import event_loop
 from symgen.run.loops import search_records as searching
 from symgen.run.loops.afresh import begin_afresh
+from symgen.run.single.contact_notes import sentence_on_sharing
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
@@ -299,6 +300,12 @@ def gap_notes(outcome: Outcome) -> list[str]:
     put = {} if turn is None else turn.gaps_put
     gaps = ", ".join(f"{name} ({gap:.3g})" for name, gap in put.items())
     return [f"gaps that touch at the start were put to 0: {gaps}"] if gaps else []
+
+
+def sharing_notes(outcome: Outcome) -> list[str]:
+    """Return a note on contacts whose forces have not been unique."""
+    turn = outcome.simulation.turn
+    return [] if turn is None else sentence_on_sharing(turn.sharing)
 
 
 def rest_notes(outcome: Outcome) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from symgen.compile.loopcode.bare import part
-from symgen.compile.native.annotations import Array, Integers
+from symgen.compile.native.annotations import Array, Integers, Matrix
 from symgen.compile.store.jit import jit
 from symgen.run.layout import abi
 from symgen.run.layout.records import Observed, Outputs, Sizes
@@ -132,4 +132,79 @@ def observe_status(
             outputs.status[k, i] = w[i]
         for i in range(outputs.status.shape[1] - abi.N_STATUS):
             outputs.status[k, abi.N_STATUS + i] = w[abi.WINDING + i]
+    return 0
+
+
+@jit(entry=True)
+def observe_scratch(
+    geometry: abi.Measure,
+    sizes: Sizes,
+    outputs: Outputs,
+    p: Array,
+    w: Array,
+    places: Integers,
+    rows: Matrix,
+    y: Array,
+) -> int:
+    """Copy parts of the scratch array, as ``geometry`` leaves it at states, side by side into rows.
+
+    Parameters
+    ----------
+    geometry, sizes, p, w
+        As for `observe_status`.
+    outputs : Outputs
+        Holds states, and angles that count turns.
+    places : Array of int64, shape (2 n,)
+        First element and length of each part.
+    rows : Matrix
+        Receives the parts, a row for each state.
+    y : Array, shape (ny,)
+        Working memory.
+    """
+    for k in range(outputs.times.shape[0]):
+        put_output(sizes, outputs, k, y, w)
+        geometry(outputs.times[k], y, p, w)
+        at = 0
+        for i in range(places.shape[0] // 2):
+            first = places[2 * i]
+            for j in range(places[2 * i + 1]):
+                rows[k, at] = w[first + j]
+                at += 1
+    return 0
+
+
+@jit(entry=True)
+def observe_with_rates(
+    model: tuple[Sizes, abi.Rhs, abi.Rhs, abi.Accept, abi.Observe],
+    outputs: Outputs,
+    p: Array,
+    w: Array,
+    iw: Integers,
+    rows: Matrix,
+    room: Array,
+) -> int:
+    """Evaluate a function of states with the rates and multipliers of the law there: all of them with directions.
+
+    Parameters
+    ----------
+    model : tuple
+        As for `observe_rates`, then the function.
+    outputs, p, w, iw
+        As for `observe_rates`.
+    rows : Matrix
+        Receives what the function writes, a row for each state.
+    room : Array
+        Working memory for two states and a row.
+    """
+    sizes, rates, confirm, accept, observe = model
+    ny, length = sizes.ny, rows.shape[1]
+    y, rate, row = part(room, 0, ny), part(room, ny, ny), part(room, 2 * ny, length)
+    for k in range(outputs.times.shape[0]):
+        put_output(sizes, outputs, k, y, w)
+        accept(outputs.times[k], y, p, w, iw)
+        if rates(outputs.times[k], y, p, w, iw, rate) != 0:
+            confirm(outputs.times[k], y, p, w, iw, rate)
+        observe(outputs.times[k], y, p, w, rate, row)
+        for i in range(length):
+            rows[k, i] = row[i]
     return 0

@@ -37,6 +37,7 @@ from symgen.run.modes.turn import (
     take_resets,
     take_turn,
 )
+from symgen.run.single.contact_notes import sharing_contacts
 from symgen.run.single.events import Happening
 from symgen.run.single.turn_memory import WORDS, effects_of_runs, modes_of_runs, what_changes
 
@@ -104,12 +105,15 @@ class TurnOfRun:
     ----------
     gaps_put : dict of str to float
         What the gaps were that the start has put to 0, by the names of their rows.
+    sharing : set of str
+        Contacts that have had forces which are not unique.
     """
 
     def __init__(self, simulation: Simulation, watched: Watched) -> None:
         self.simulation, self.watched, self.rows = simulation, watched, watched.bounded
         self.effects = what_changes(simulation.compiled, watched)
         self.gaps_put = dict[str, float]()
+        self.sharing = set[str]()
 
     # -- entries -------------------------------------------------------------------------------------------------------
 
@@ -173,7 +177,7 @@ class TurnOfRun:
         Raises
         ------
         InputError
-            If a formula of a row is no number behind the present time.
+            If a formula of a row is no number after the present time.
         """
         if self.rows is not None:
             self._serve(END + code)
@@ -194,6 +198,10 @@ class TurnOfRun:
             code, resets.ends[e.FAILURE] = e.IMPOSSIBLE, NO_VELOCITIES
         if code in (e.IMPOSSIBLE, e.NO_MODES):
             raise self._refusal(code)
+        if self.rows is not None and self.rows.contacts:
+            choice = self.memory.choice
+            modes = state.w[choice.first : choice.first + MODE_NUMBERS * choice.count].reshape(-1, MODE_NUMBERS)
+            self.sharing |= sharing_contacts(self.rows, modes)
         if self.rows is not None and self.memory.renewed[0]:  # the matrices of a scheme depend on the rows
             self.memory.renewed[0] = 0
             simulation = self.simulation

@@ -36,7 +36,7 @@ class KeptStart:
     assembly : Assembly
         The start; its held quantities may have other values at every call.
     p : Array
-        Parameters, not yet prepared: the same at every call.
+        Parameters, not yet prepared: the same at every call, unless others are taken.
     """
 
     def __init__(self, assembly: Assembly, p: Array) -> None:
@@ -59,6 +59,13 @@ class KeptStart:
             *ALONE,
         )
         self._close, self._calls = _bind_functions(close_alone, self._arguments), 0
+
+    def take_parameters(self, p: Array, datum: Sequence[float]) -> None:
+        """Take other parameters, not yet prepared, and what coordinates are measured from with them."""
+        self._now.p[0] = p
+        self.assembly.prepare(self._now, ALONE[0], self.assembly.layout.m)
+        self._prepared = Instant(*(array.copy() for array in self._flat))
+        self.assembly.layout.datum[:] = datum if len(datum) else 0.0
 
     def close(self, held: Held, y: Array, v: Array, p: Array) -> tuple[Array, Array]:
         """Make one state consistent in place, as `Assembly.close` does; `p` becomes the prepared parameters."""

@@ -75,8 +75,8 @@ def sweep(
     quantities : sequence of str, optional
         Quantities to keep: ``crank.theta``, ``crank`` (all of a body), ``q``, ``v``, ``energy``, ...; ``event`` or
         ``event.NAME``, what happened; by default all coordinates and velocities. ``max(crank.omega)``, ``min``,
-        ``range``, ``mean`` and ``rms`` leave one number of a run's outputs. Memory grows with these and with the output
-        times alone.
+        ``range``, ``mean``, ``rms`` and ``peak``, the largest size, leave one number of a run's outputs. Memory grows
+        with these and with the output times alone.
     output : path, optional
         ``.nc``: a NetCDF file; ``.csv``: a line for every run and time, with units in the heading; both with the
         folder ``<file>.parts`` beside them until all runs are done. Otherwise a folder.

@@ -144,7 +144,7 @@ class Sweep:
 
     def reasons(self, most: int = 10) -> list[tuple[str, int]]:
         """Return the commonest reasons without their figures, each with the number of runs it is said of."""
-        kinds = Counter(_reason_without_figures(reason) for reason in self.reason if reason)
+        kinds = Counter(reason_without_figures(reason) for reason in self.reason if reason)
         most = whole_number("most", most, 0, 10**9)
         return kinds.most_common(most)
 
@@ -371,7 +371,7 @@ class Sweep:
 _FIGURES = re.compile(r"\d[\d.e+-]*")
 
 
-def _reason_without_figures(reason: str) -> str:
+def reason_without_figures(reason: str) -> str:
     """Return a reason without its figures: what runs that fail for the same cause have in common."""
     head = reason.partition(" (")[0].partition(" at t = ")[0]
     return head.partition("; check its points")[0].partition(" stays open by ")[0].partition(" at t =")[0]

@@ -1,4 +1,4 @@
-"""Numbers of quantities over the time of a run: ``max(ram.effort)``, ``rms(crank.omega)``.
+"""Numbers of quantities over the time of a run: ``peak(motor.effort)``, ``max(ram.effort)``, ``rms(crank.omega)``.
 
 They are taken of the outputs of a run, so that a run leaves one number for each instead of a history.
 """
@@ -26,6 +26,7 @@ FUNCTIONS: Mapping[str, Callable[[Array, Array], Array]] = {
     "range": lambda t, x: np.ptp(x, axis=-1),
     "mean": time_mean,
     "rms": time_rms,
+    "peak": lambda t, x: np.max(np.abs(x), axis=-1),
 }
 _CALL = re.compile(r"(\w+)\((.*)\)")
 

@@ -153,16 +153,16 @@ class ReferenceFormulas:
 
     def _reading_expression(self, r: Reading) -> Any:
         """Return a measure's value, or its rate."""
-        assert not isinstance(r.source, Speed | Exerted | Driven | Integral | Flexed), (
-            "functions of state read measures"
-        )
+        assert not isinstance(r.source, Exerted | Driven | Integral | Flexed), "functions of state read motions"
+        if isinstance(r.source, Speed):
+            return self._speed_expression(r.source)
         value = self._measure_expression(r.source)
         return self._derivative_along_motion(value) if r.order else value
 
     def _force_of_effort(self, effort: Effort) -> dict[int, Any]:
         measure = effort.measure
         reads = effort.potential != ZERO and "s" in set(names_in_expression(effort.potential))
-        if isinstance(measure, Spin | PointSpeed):
+        if isinstance(measure, Spin | Speed):
             assert not reads, "velocities have no value"
             rate = self._relative_spin(measure) if isinstance(measure, Spin) else self._speed_expression(measure)
             total = self._to_expression(effort.magnitude, s=sp.S.Zero, rate=rate)
@@ -303,8 +303,13 @@ class ReferenceFormulas:
             axis = self._direction_in_ground(speed.axis)
             down = down - axis.dot(down) * axis
             down = down / sp.sqrt(down.dot(down))
-        arm = self._to_expression(speed.radius) * down
-        return along.dot(self._velocity_of_marker(speed.centre) + self._omega_of_body(speed.centre.body).cross(arm))
+        arm, plane = self._to_expression(speed.radius) * down, speed.normal.body
+        velocity = self._velocity_of_marker(speed.centre) + self._omega_of_body(speed.centre.body).cross(arm)
+        if plane != GROUND:  # the point of the plane's body that touches
+            origin = Marker(plane, self.mechanism.body(plane).centre_of_mass)
+            away = self._place_of_marker(speed.centre) + arm - self._place_of_marker(origin)
+            velocity -= self._velocity_of_marker(origin) + self._omega_of_body(plane).cross(away)
+        return along.dot(velocity)
 
 
 def _turns_in_space(body: object) -> bool:

@@ -24,7 +24,7 @@ from .twofold import process
 
 SCHEMES = {
     "picard": ("constant", "adaptive"),
-    **dict.fromkeys(("explicit", "adams", "implicit", "partitioned"), ("constant", "adaptive")),
+    **dict.fromkeys(("explicit", "adams", "implicit", "backward", "partitioned"), ("constant", "adaptive")),
     **dict.fromkeys(("alpha", "lie", "projected", "half_explicit", "rattle", "symplectic", "screw"), ("constant",)),
     **dict.fromkeys(("discrete_gradient", "symmetric"), ("constant",)),
 }

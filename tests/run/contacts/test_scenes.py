@@ -1,6 +1,10 @@
 """Scenes with several contacts: grippers, an edge, many discs; sweeps, steps and C."""
 
+import json
 import math
+import os
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -115,17 +119,59 @@ def test_the_same_in_c(tmp_path: Path) -> None:
     assert [word for _, word in transitions][-1] == "floor.rest"
 
 
+def many_discs(count: int) -> str:
+    """Return discs that skid on a floor, each with its speed."""
+    text = head("many")
+    for i in range(count):
+        text += body(f"d{i}", 1.0, 0.005, (float(i), 0.1), (1.0 + 0.1 * i, 0.0))
+        text += floor(f"d{i}", 0.1, 0.2, name=f"c{i}")
+    return text
+
+
 @pytest.mark.slow
 def test_uncoupled_discs_are_chosen_apart(tmp_path: Path) -> None:
-    """Eight discs on a floor have 4^8 combinations together, and 4 each."""
-    text = head("many")
-    for i in range(8):
-        text += body(f"d{i}", 1.0, 0.005, (float(i), 0.1), (1.0 + 0.1 * i, 0.0)) + floor(
-            f"d{i}", 0.1, 0.2, name=f"c{i}"
-        )
-    result: Any = loaded(text, tmp_path).simulate(until=1.0, integrator="dop853", verify=False)
+    result: Any = loaded(many_discs(8), tmp_path).simulate(until=1.0, integrator="dop853", verify=False)
     wanted = [(1.0 + 0.1 * i) / 3.0 / (0.2 * G) for i in range(8)]
     assert np.allclose([event.t for event in result.events], wanted, rtol=0.0, atol=1e-10)
+
+
+#: Runs a file without compilation, and says how many combinations of modes are solved for at each choice.
+COUNTING = """
+import json, sys
+from symgen.run.modes import contact_verification, contacts
+import symgen
+
+class Counted:
+    def __init__(self, function, count):
+        self.function, self.count = function, count
+    def __call__(self, *arguments):
+        self.count()
+        return self.function(*arguments)
+
+solved = []
+def solves():
+    solved[-1] += 1
+contacts.find_parts = Counted(contacts.find_parts, lambda: solved.append(0))
+contact_verification.solve_combination = Counted(contact_verification.solve_combination, solves)
+run = symgen.load(sys.argv[1]).simulate(until=0.4, integrator="dop853", verify=False, rtol=1e-3)
+print(json.dumps({"events": len(run.events), "solved": solved}))
+"""
+
+
+@pytest.mark.slow
+def test_uncoupled_discs_cost_as_much_as_alone(tmp_path: Path) -> None:
+    """Combinations of eight discs on a floor are eight times those of one, not all of them together."""
+    found = []
+    for count in (1, 8):
+        (tmp_path / "many.toml").write_text(many_discs(count))
+        command = [sys.executable, "-W", "ignore", "-c", COUNTING, "many.toml"]
+        environment = os.environ | {"NUMBA_DISABLE_JIT": "1"}
+        done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, env=environment, check=False)
+        assert done.returncode == 0, done.stderr
+        found.append(json.loads(done.stdout))
+    one, eight = found
+    assert one["events"] == 1 and eight["events"] == 8
+    assert eight["solved"][0] == 8 * one["solved"][0] and max(eight["solved"]) == 8 * max(one["solved"]) == 32
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])

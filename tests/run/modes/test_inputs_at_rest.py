@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Slave
 
 import symgen
 import symgen.gym
@@ -176,3 +178,59 @@ def test_c_takes_inputs_before_and_after_its_start(wheel: symgen.Model, tmp_path
     for u, row in zip(numbers, rows[:, 0], strict=True):
         whole = wheel.simulate(parameters={"u": u}, until=PIECE * PIECES, verify=False, **STEP)
         assert row == pytest.approx([whole["wheel.theta"][-1], whole["wheel.omega"][-1]], abs=1e-14), u
+
+
+def test_an_environment_takes_them_as_actions(wheel: symgen.Model) -> None:
+    act, until = {"u": (1.0, 5.0)}, PIECE * PIECES
+    env = symgen.gym.make(
+        wheel,
+        observe=["wheel.theta", "wheel.omega"],
+        act=act,
+        reward="0",
+        dt=PIECE,
+        until=until,
+        coordinates="absolute",
+        **STEP,
+    )
+    for u in values(30):
+        env.reset()
+        for _ in range(PIECES):
+            seen, *_ = env.step(np.array([u]))
+        whole = wheel.simulate(parameters={"u": u}, until=until, output_step=PIECE, verify=False, **STEP)
+        assert tuple(seen) == (whole["wheel.theta"][-1], whole["wheel.omega"][-1]), u
+
+
+@pytest.mark.slow
+def test_an_fmu_takes_them_before_during_and_after_its_initialization(wheel: symgen.Model, tmp_path: Path) -> None:
+    wheel.generate(tmp_path / "wheel.fmu", target="fmu", integrator="rk4")
+    description = read_model_description(str(tmp_path / "wheel.fmu"))
+    names = {v.name: v.valueReference for v in description.modelVariables}
+    folder = extract(str(tmp_path / "wheel.fmu"), str(tmp_path / "unpacked"))
+
+    def end(u: float, phase: str) -> list[float]:
+        unit = FMU2Slave(
+            guid=description.guid,
+            unzipDirectory=folder,
+            modelIdentifier=description.coSimulation.modelIdentifier,
+            instanceName=phase,
+        )
+        unit.instantiate()
+        unit.setupExperiment(startTime=0.0)
+        for now, after in (("before", unit.enterInitializationMode), ("during", unit.exitInitializationMode)):
+            if phase == now:
+                unit.setReal([names["u"]], [u])
+            after()
+        for value in {"after": [u], "twice": [4.4, u]}.get(phase, []):
+            unit.setReal([names["u"]], [value])
+        for k in range(PIECES):
+            unit.doStep(k * PIECE, PIECE)
+        found = unit.getReal([names["wheel.theta"], names["wheel.omega"]])
+        unit.terminate()
+        unit.freeInstance()
+        return list(found)
+
+    for u in values(20):
+        first = end(u, "before")
+        assert all(end(u, phase) == first for phase in ("during", "after", "twice")), u
+        whole = wheel.simulate(parameters={"u": u}, until=PIECE * PIECES, verify=False, **STEP)
+        assert first == pytest.approx([whole["wheel.theta"][-1], whole["wheel.omega"][-1]], abs=1e-14), u

@@ -15,6 +15,7 @@ BY_HAND = {
     "range": lambda x: x.max(axis=1) - x.min(axis=1),
     "mean": lambda x: (x[:, 1:] + x[:, :-1]).sum(axis=1) / (2 * (x.shape[1] - 1)),
     "rms": lambda x: np.sqrt(((x**2)[:, 1:] + (x**2)[:, :-1]).sum(axis=1) / (2 * (x.shape[1] - 1))),
+    "peak": lambda x: np.maximum(x.max(axis=1), -x.min(axis=1)),
 }
 
 

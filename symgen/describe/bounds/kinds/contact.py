@@ -10,7 +10,7 @@ import msgspec
 from symgen.base.vocabulary.expressions import ZERO, Expr, Number, product
 from symgen.base.vocabulary.measures import FormulaMeasure
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.bounds.contact_rows import CONTACTS, ContactGap, Tangent
+from symgen.describe.bounds.contact_rows import CONTACTS, TANGENTS, ContactGap, Tangent
 from symgen.describe.bounds.keys import SectionOfFiles
 from symgen.describe.bounds.kinds.stop import read_restitution
 from symgen.describe.contacts.slopes import slopes_of_places
@@ -85,10 +85,10 @@ def rows_of_contact(
     within = f"{key}." if key else ""
     law = read_restitution(scope, f"{within}restitution", restitution)
     tangent = None if friction is None else _read_friction(scope, f"{within}friction", name, touch, friction)
-    table = f"joints.{name}.{key}" if key else ""
+    table = f"joints.{scope.name}.{key}" if key else ""
     if tangent is not None and table:
         tangent = msgspec.structs.replace(tangent, table=table)
-    gap = ContactGap(name, name, touch.gap, touch.value, "m", law, tangent, touch.distance, table)
+    gap = ContactGap(name, name, touch.gap, touch.value, "m", law, tangent, touch.distance, table, touch.outlines)
     return (gap,) if tangent is None else (tangent, gap)
 
 
@@ -155,4 +155,4 @@ def _with_unit_slope(scope: Scope, gap: Expr) -> Expr:
     return gap if abs(length - 1.0) <= _SAME else product(Number(1.0 / length), gap)
 
 
-KIND = SectionOfFiles("contacts", CONTACTS, ContactSection, read_contact)
+KIND = SectionOfFiles("contacts", CONTACTS, ContactSection, read_contact, (TANGENTS,))

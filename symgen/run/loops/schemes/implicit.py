@@ -27,6 +27,8 @@ from symgen.run.loops.frame_parts import DIVERGED, TOO_LARGE, evaluate
 from symgen.run.loops.sparse import solve
 
 _MOST_ITERATIONS = 15
+#: Corrections of rates below this part of them end an iteration.
+_LEAST = 1e-13
 #: Corrections of multipliers below this part of the largest one are rounding.
 _SETTLED = 1e-9
 #: Residuals below this part of their terms are rounding.
@@ -190,10 +192,36 @@ def attempt(
 ) -> float:
     """Solve the stages of a step."""
     sizes, s_count = system.sizes, scheme.stages
-    first, n, ny = sizes.nq + sizes.nv, sizes.unknowns, sizes.ny
-    more, tail, states = ny - first, n - sizes.states, sizes.states
+    n, more = sizes.unknowns, sizes.ny - sizes.nq - sizes.nv
     if run.control[abi.KNOWN] == 0:
         begin_step(system, run, t)
+    k = part(run.room, sizes.width, s_count * n)
+    rates = part(run.room, sizes.width + s_count * n, s_count * more)
+    for s in range(s_count):
+        for i in range(n):
+            k[s * n + i] = run.memory[i]
+        for i in range(more):
+            rates[s * more + i] = run.memory[n + i]
+    end = solve_stages(system, scheme, run, t, h, _LEAST)
+    if end != 0.0:
+        return end
+    return step_error(system, scheme, span, run, t, h, k, rates) if ADAPTIVE and not between else 0.0
+
+
+@called
+def solve_stages(system: ModelSystem, scheme: Stages, run: Run, t: float, h: float, least: float) -> float:
+    """Solve the stages of a step from guesses in the working memory, and set the trial state; return 0 or a failure.
+
+    After the first `width` numbers of ``run.room`` are the unknowns of all stages, then rates of auxiliary states.
+
+    Parameters
+    ----------
+    least : float
+        The iteration has converged where a correction of rates is below this part of them.
+    """
+    sizes, s_count = system.sizes, scheme.stages
+    first, n, ny = sizes.nq + sizes.nv, sizes.unknowns, sizes.ny
+    more, tail, states = ny - first, n - sizes.states, sizes.states
     k = part(run.room, sizes.width, s_count * n)
     rates = part(run.room, sizes.width + s_count * n, s_count * more)
     at = sizes.width + s_count * (n + more)
@@ -201,11 +229,6 @@ def attempt(
     right, change = part(run.room, at, unknowns), part(run.room, at + unknowns, unknowns)
     factors = part(run.room, at + 2 * unknowns, s_count * s_count + 1)
     factors[0], terms = 1.0, part(run.room, at + 2 * unknowns + s_count * s_count + 1, n)
-    for s in range(s_count):
-        for i in range(n):
-            k[s * n + i] = run.memory[i]
-        for i in range(more):
-            rates[s * more + i] = run.memory[n + i]
     groups = 1 if scheme.together == 1 else s_count
     for group in range(groups):
         if scheme.together == 0 and scheme.a[group * s_count + group] == 0.0:
@@ -251,7 +274,7 @@ def attempt(
                 length = max(length, run.scales[i] * abs(run.trial[i]))
             at_floor = math.sqrt(moved) * h < 1e-12 * length
             moved = math.sqrt(moved) / (run.w[abi.SPEED] / run.w[abi.LENGTH] + math.sqrt(size))
-            end = newton_verdict(moved, last, 1e-13, 1e-9, at_floor)
+            end = newton_verdict(moved, last, least, 1e-9, at_floor)
             if end == 0 and moved > 0.3 * last:
                 end = 1 if is_rounding(system, scheme, run, h, low, high, k, rates, right, terms) else 0
             if end != 0:
@@ -273,7 +296,7 @@ def attempt(
             run.trial[i] += h * scheme.b[s] * k[s * n + i]
         for i in range(more):
             run.trial[first + i] += h * scheme.b[s] * rates[s * more + i]
-    return step_error(system, scheme, span, run, t, h, k, rates) if ADAPTIVE and not between else 0.0
+    return 0.0
 
 
 @called

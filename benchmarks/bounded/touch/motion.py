@@ -1,0 +1,226 @@
+"""Motions of a scene: DOP853 between events, each of which is looked for in all of a step."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.integrate import DOP853
+from scipy.optimize import brentq
+
+from benchmarks.bounded.touch.bodies import Array, Scene
+from benchmarks.bounded.touch.modes import (
+    DOWN,
+    REST,
+    STILL,
+    UP,
+    Answer,
+    Modes,
+    Problem,
+    accelerations,
+    brought_to_rest,
+    choose,
+    impact,
+)
+
+#: Gaps that count as zero [m], rates of impacts that do not spring back [m/s], parts of a step that are looked at.
+TOUCHING, SLOW, PARTS = 1e-11, 2e-6, 6
+#: Longest step [s], most events, and energy that an impact may add, over that before.
+LONGEST, MOST, _GAIN = 4e-3, 4000, 1e-9
+
+
+class Ended(Exception):
+    """Newton's law adds energy, or events do not end."""
+
+
+@dataclass
+class Motion:
+    """States at output times, and what has happened."""
+
+    t: list[float] = field(default_factory=list)
+    q: list[Array] = field(default_factory=list)
+    events: list[tuple[float, str, int]] = field(default_factory=list)
+
+
+@dataclass
+class Phase:
+    """What holds between two events.
+
+    Attributes
+    ----------
+    modes : dict
+        Of closed contacts.
+    friction : Array
+        Coefficients in motion.
+    waking : set of int
+        Contacts that leave without a rate, and -1 - i for those that begin to slide: not looked at until they have.
+    """
+
+    modes: Modes
+    friction: Array
+    waking: set[int]
+
+
+def run(scene: Scene, q: Array, v: Array, times: list[float], rtol: float = 1e-12) -> Motion:
+    """Return the motion of a scene from a start, which no gap penetrates.
+
+    Raises
+    ------
+    Unsolved, Ended
+        If modes are not determined, or the motion is of no use.
+    """
+    motion, t, loose = Motion(), times[0], set[int]()
+    q = scene.closed(np.array(q, float))
+    closed, forced = _touching(scene, q), Modes()
+    v = _struck(scene, q, np.array(v, float), closed)
+    closed = _staying(scene, q, v, closed)
+    pending = list(times)
+    for _ in range(MOST):
+        answer = choose(scene, q, v, closed, forced, loose)
+        problem = Problem(scene, q, v)
+        rates, opens = problem.slip @ v, problem.gap @ v
+        loose = {i for i, mode in answer.modes.items() if mode != REST}
+        left = {i for i in _touching(scene, q) if i not in answer.modes and opens[i] < STILL}
+        friction = np.array([contact.sliding for contact in scene.contacts])
+        phase = Phase(answer.modes, friction, left | {-1 - i for i in loose if abs(rates[i]) <= STILL})
+        t, q, v, what, i = _until_event(scene, phase, t, q, v, pending, motion, rtol)
+        if what == "end":
+            return motion
+        motion.events.append((t, what, i))
+        closed, forced = list(answer.modes), {}
+        if what == "hit":
+            closed = sorted(set(closed) | {i} | set(_touching(scene, q)))
+            v = _struck(scene, q, v, closed)
+            closed = _staying(scene, q, v, closed)
+        elif what == "lift":
+            closed = [j for j in closed if j != i]
+        elif what == "slip":
+            now = accelerations(Problem(scene, q, v), phase.modes, friction)
+            for j, mode in phase.modes.items():
+                contact = scene.contacts[j]
+                if mode == REST and contact.static > 0.0:
+                    margin = contact.static * now.normal[j] - abs(now.along[j])
+                    if j == i or margin < 1e-9 * (1.0 + now.normal[j]):
+                        forced[j] = DOWN if now.along[j] > 0.0 else UP
+        elif what == "stick":
+            loose = loose - {i}
+            row = Problem(scene, q, v)
+            loose = {j for j in loose if abs(row.slip[j] @ v) > STILL}
+    raise Ended("events do not end")
+
+
+def _touching(scene: Scene, q: Array) -> list[int]:
+    return [i for i, gap in enumerate(scene.gaps(q)) if gap < TOUCHING]
+
+
+def _staying(scene: Scene, q: Array, v: Array, closed: list[int]) -> list[int]:
+    rates = Problem(scene, q, v).gap @ v
+    return [i for i in closed if abs(rates[i]) < 1e-11]
+
+
+def _struck(scene: Scene, q: Array, v: Array, touching: list[int]) -> Array:
+    """Return the velocities after an impact of gaps, where one closes."""
+    problem = Problem(scene, q, v)
+    if not touching or min((problem.gap @ v)[touching]) >= -1e-12:
+        return v
+    after = impact(scene, q, v, touching, SLOW).value
+    if len(touching) > 1 and (problem.gap @ after)[touching].max() < 3.0 * SLOW:
+        after = brought_to_rest(scene, q, after, touching)
+    before = float(v @ (scene.masses * v))
+    if float(after @ (scene.masses * after)) > before * (1.0 + _GAIN):
+        raise Ended("an impact adds energy")
+    return after
+
+
+def _until_event(
+    scene: Scene, phase: Phase, t: float, q: Array, v: Array, pending: list[float], motion: Motion, rtol: float
+) -> tuple[float, Array, Array, str, int]:
+    """Integrate in a mode up to the next event; return time, state, what it is, and which contact."""
+    n, until = len(q), pending[-1]
+
+    def answer(y: Array) -> Answer:
+        return accelerations(Problem(scene, y[:n], y[n:]), phase.modes, phase.friction)
+
+    def rates(_: float, y: Array) -> Array:
+        return np.concatenate([y[n:], answer(y).value])
+
+    def margins(y: Array) -> dict[tuple[str, int], float]:
+        """Return what is above zero as long as the mode holds."""
+        now, found = answer(y), dict[tuple[str, int], float]()
+        problem, gaps = Problem(scene, y[:n], y[n:]), scene.gaps(y[:n])
+        for i, contact in enumerate(scene.contacts):
+            if i not in phase.modes:
+                found["hit", i] = gaps[i]
+            else:
+                found["lift", i] = now.normal[i]
+                if phase.modes[i] != REST:
+                    found["stick", i] = float(phase.modes[i] * problem.slip[i] @ y[n:])
+                elif contact.static > 0.0:
+                    found["slip", i] = contact.static * now.normal[i] - abs(now.along[i])
+        return found
+
+    y = np.concatenate([q, v])
+    first = min(LONGEST, _short(scene, phase, y, rates(t, y)))
+    if until - t <= 0.0:
+        _note(motion, pending, t, lambda _: y, n)
+        return t, q, v, "end", -1
+    solver = DOP853(rates, t, y, until, rtol=rtol, atol=1e-2 * rtol, max_step=LONGEST, first_step=min(first, until - t))
+    waking = {("hit", i) for i in phase.waking if i >= 0} | {("stick", -1 - i) for i in phase.waking if i < 0}
+    before = margins(y)
+    while solver.status == "running":
+        solver.step()
+        if str(solver.status) == "failed":  # of a type that a step changes
+            raise Ended("the integration fails")
+        dense = solver.dense_output()
+        times = np.linspace(solver.t_old, solver.t, PARTS + 1)
+        for low, high in itertools.pairwise(times):
+            after = margins(dense(high))
+            waking -= {key for key in waking if key in after and after[key] > (1e-10 if key[0] == "hit" else STILL)}
+            met = [key for key in after if after[key] < 0.0 and key not in waking]
+            if met:
+                at, key = min((_root(margins, dense, key, before, low, high), key) for key in met)
+                _note(motion, pending, at, dense, n, strictly=True)
+                found = dense(at)
+                return at, found[:n].copy(), found[n:].copy(), *key
+            before = after
+        _note(motion, pending, solver.t, dense, n)
+    return solver.t, solver.y[:n], solver.y[n:], "end", -1
+
+
+def _short(scene: Scene, phase: Phase, y: Array, rate: Array) -> float:
+    """Return a step that sees the flights that begin."""
+    n, least = len(y) // 2, np.inf
+    problem, gaps = Problem(scene, y[:n], y[n:]), scene.gaps(y[:n])
+    for i in range(len(scene.contacts)):
+        if i not in phase.modes and gaps[i] < 1e-9:
+            up = float(problem.gap[i] @ y[n:])
+            pull = float(problem.gap[i] @ rate[n:] + problem.gained[problem.joints + i])
+            if up > 0.0 and pull < 0.0:
+                least = min(least, -0.25 * up / pull)
+    return least
+
+
+def _root(
+    margins: Callable[[Array], dict[tuple[str, int], float]],
+    dense: Callable[[float], Array],
+    key: tuple[str, int],
+    before: dict[tuple[str, int], float],
+    low: float,
+    high: float,
+) -> float:
+    """Return the time at which a margin is zero."""
+    if before[key] <= 0.0:
+        return low
+    return float(brentq(lambda x: margins(dense(x))[key], low, high, xtol=1e-16, rtol=1e-15))
+
+
+def _note(
+    motion: Motion, pending: list[float], t: float, state: Callable[[float], Array], n: int, strictly: bool = False
+) -> None:
+    """Write the places at output times up to a time."""
+    while pending and (pending[0] < t if strictly else pending[0] <= t):
+        motion.t.append(pending[0])
+        motion.q.append(np.array(state(pending[0])[:n]))
+        pending.pop(0)

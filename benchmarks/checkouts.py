@@ -1,0 +1,90 @@
+"""Runs of two checkouts in turns: processor times of the same runs, their ratio, and whether states have the same bits.
+
+    python -m benchmarks.checkouts OTHER [MODEL ...] [--integrator rk4] [--method NAME] [--coordinates joint]
+
+Each measurement is a process of its own, which imports symgen from its checkout; the smallest time of some runs counts,
+and of several rounds in turns the least ratio of this checkout to the other, as other work only adds to either.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+from rich.table import Table
+
+from benchmarks.show import show
+
+ROOT = Path(__file__).resolve().parents[1]
+MODELS = (
+    *("four-bar", "slider-crank", "andrews", "n-four-bar:10", "spatial-slider-crank", "bricard", "front-suspension"),
+    *("jansen-leg", "stewart-platform", "free-rigid-body", "chain:10", "driven-four-bar"),
+)
+#: Constant steps [s] of mechanisms that move faster than most.
+STEPS = {"andrews": 1e-5, "front-suspension": 1e-4}
+COUNT, REPEATS, ROUNDS = 1000, 30, 3
+#: What a process measures: the least processor time of a run [s], and the bits of its states.
+MEASURED = """
+import hashlib, json, sys
+from symgen.api import load
+name, method, integrator, coordinates, step, count, repeats = *sys.argv[1:5], *map(float, sys.argv[5:])
+options = {"step": step} if integrator == "rk4" else {"rtol": 1e-9}
+options |= {"method": method, "integrator": integrator, "coordinates": coordinates}
+settings = {"until": step * count, "output_step": step * count, **options}
+model = load(name)
+runs = [model.simulate(**settings, verify=False, max_violation=1.0) for _ in range(int(repeats))]
+states = b"".join(getattr(runs[0], table).values.tobytes() for table in ("q", "v"))
+digest = hashlib.sha256(states).hexdigest()
+print(json.dumps([min(run.outcome.cpu_seconds for run in runs), digest, runs[0].status]))
+"""
+
+
+def measure(checkout: Path, name: str, *how: str) -> tuple[float, str, str]:
+    """Return processor time [s], digest of the states and status of a run in a checkout.
+
+    Parameters
+    ----------
+    checkout : Path
+        Its folder.
+    name : str
+        Mechanism of the catalogue.
+    *how : str
+        Method, integrator and coordinates.
+    """
+    numbers = STEPS.get(name, 1e-3), COUNT, REPEATS
+    words = [sys.executable, "-c", MEASURED, name, *how, *map(str, numbers)]
+    environment = {**os.environ, "PYTHONPATH": str(checkout)}
+    done = subprocess.run(words, env=environment, cwd=checkout, capture_output=True, text=True, check=True)
+    seconds, digest, status = json.loads(done.stdout.splitlines()[-1])
+    return seconds, digest, status
+
+
+def main(arguments: list[str]) -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.checkouts")
+    parser.add_argument("other", type=Path)
+    parser.add_argument("models", nargs="*")
+    parser.add_argument("--integrator", default="rk4", choices=("rk4", "dop853"))
+    parser.add_argument("--method", default="direct-correction")
+    parser.add_argument("--coordinates", default="auto")
+    given = parser.parse_args(arguments)
+    how = given.method, given.integrator, given.coordinates
+    table = Table("model", "other [ms]", "this [ms]", "ratio", "bits")
+    ratios = list[float]()
+    for name in given.models or MODELS:
+        rounds = [[measure(checkout, name, *how) for checkout in (given.other.resolve(), ROOT)] for _ in range(ROUNDS)]
+        before, after = (min(pair[i][0] for pair in rounds) for i in (0, 1))
+        ratios.append(after / before)
+        same = "same" if len({one[1] for pair in rounds for one in pair}) == 1 else "differ"
+        table.add_row(name, f"{1e3 * before:.3f}", f"{1e3 * after:.3f}", f"{after / before:.3f}", same)
+    show(table)
+    print(f"geometric mean of the ratios: {np.exp(np.mean(np.log(ratios))):.3f}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

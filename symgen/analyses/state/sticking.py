@@ -1,0 +1,151 @@
+"""What closed contacts do along their surfaces in analyses: those at rest at the start stick, and are rows.
+
+What comes out holds where the forces along them stay within the cones of their static coefficients: `fault_along`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base.errors import InputError
+from symgen.base.vocabulary.expressions import Number
+from symgen.base.vocabulary.measures import FormulaMeasure, Holonomic, Measure
+from symgen.derive.lower.windings import counted_turns
+from symgen.describe.bounded import BoundedRow
+from symgen.describe.joints.rows import tied_bodies
+from symgen.describe.mechanism import Joint
+from symgen.run.compiling.side import compile_side
+from symgen.run.layout import abi
+from symgen.run.layout.scales import LEAST_SPEED
+from symgen.run.modes.bounded_rows import STILL
+
+if TYPE_CHECKING:
+    from symgen.analyses.state.subject import Subject
+    from symgen.describe.mechanism import Mechanism
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.starts.assembly import Start
+
+Array = NDArray[np.float64]
+
+#: Rounding of a force over its bound; directions of multipliers below this part of the largest change nothing.
+_ROUNDING, _NOTHING = 1e-9, 1e-10
+
+
+class Stuck(msgspec.Struct, frozen=True):
+    """A row along a closed contact that is at rest.
+
+    Parameters
+    ----------
+    row : BoundedRow
+        The row.
+    place : float
+        The coordinate along the contact, which is held.
+    coefficient : float
+        Largest force over that of the gap.
+    """
+
+    row: BoundedRow
+    place: float
+    coefficient: float
+
+
+def rows_that_stick(
+    mechanism: Mechanism,
+    compiled: CompiledModel,
+    start: Start,
+    along: Sequence[BoundedRow],
+    shut: Sequence[BoundedRow],
+) -> tuple[Stuck, ...]:
+    """Return the rows along the closed contacts of a state that has no slip; none where a coefficient is 0.
+
+    Parameters
+    ----------
+    mechanism, compiled
+        The mechanism without rows with bounds.
+    start : Start
+        The state.
+    along, shut : sequence of BoundedRow
+        Rows along contacts, and the gaps in force.
+
+    Raises
+    ------
+    InputError
+        If a closed contact slides.
+    """
+    closed = {row.row for row in shut}
+    rows = [row for row in along if row.pressed[0] in closed]
+    if not rows:
+        return ()
+    formulas = [(row.label, row.place[1]) for row in rows]
+    formulas += [(f"coefficient of {row.name}", row.numbers[0][1]) for row in rows]
+    side = compile_side(mechanism, compiled, "slips", "Slips, their bounds and rates", formulas, rates=1)
+    w, found = start.w, list[Stuck]()
+    values, rates = side(start.t, start.y, start.p, w.copy(), np.zeros_like(start.y)).reshape(2, -1)
+    still = STILL * max(float(w[abi.SPEED]), LEAST_SPEED * (float(w[abi.LENGTH]) or 1.0))
+    for i, row in enumerate(rows):
+        coefficient = float(values[len(rows) + i])
+        if coefficient > 0.0:
+            if abs(rates[i]) > still:
+                got = f"{row.name}, which slides at {rates[i]:.6g} m/s"
+                raise InputError("analyses at a state", "closed contacts at rest", got, "a run has its motion")
+            found.append(Stuck(row, float(values[i]), coefficient))
+    return tuple(found)
+
+
+def with_slips(mechanism: Mechanism, along: Sequence[BoundedRow]) -> Mechanism:
+    """Return a mechanism that counts the turns of the angles in coordinates along contacts."""
+    slips = [Joint(row.row, "rows", tied_bodies(row.held), (), _angles_of(row)) for row in along if _angles_of(row)]
+    return msgspec.structs.replace(mechanism, joints=(*mechanism.joints, *slips)) if slips else mechanism
+
+
+def with_rows_along(mechanism: Mechanism, stuck: Sequence[Stuck]) -> Mechanism:
+    """Return a mechanism whose closed contacts, which are joints, have rows along them as well."""
+    joints = {joint.name: joint for joint in mechanism.joints}
+    for each in stuck:
+        held = each.row.held
+        row = Holonomic(held.label, FormulaMeasure(each.row.place[1]), Number(each.place), each.row.unit)
+        rows = (*joints[each.row.name].rows, row)
+        joints[each.row.name] = Joint(each.row.name, "rows", tied_bodies(*rows), rows, _angles_of(each.row))
+    return msgspec.structs.replace(mechanism, joints=tuple(joints.values()))
+
+
+def _angles_of(row: BoundedRow) -> tuple[tuple[str, Measure], ...]:
+    """Return the angles of a row whose turns are counted, as coordinates of a joint."""
+    return tuple((f"angle{i}", angle) for i, angle in enumerate(counted_turns([row.measure])))
+
+
+def fault_along(subject: Subject, y: Array, lam: Array) -> str:
+    """Return the sentence on the first contact that would slide; empty where all stick.
+
+    Contacts that share a direction have parts of its force in proportion to their bounds, as in runs.
+    """
+    if not subject.stuck:
+        return ""
+    places = {row.name: i for i, row in enumerate(subject.compiled.info.rows)}
+    at = [places[each.row.row] for each in subject.stuck]
+    pressed = [max(-float(lam[places[each.row.pressed[0]]]), 0.0) for each in subject.stuck]
+    bounds = np.array([each.coefficient * force for each, force in zip(subject.stuck, pressed, strict=True)])
+    forces = _shared(np.asarray(lam)[at], bounds, subject.rows(subject.evaluate(y))[at])
+    over = np.abs(forces) - bounds * (1.0 + _ROUNDING) - _ROUNDING * np.abs(lam).max()
+    worst = int(np.argmax(over))
+    if not over[worst] > 0.0:
+        return ""
+    return (
+        f"the closed contact {subject.stuck[worst].row.name} slides there: it would take {abs(forces[worst]):.6g} N "
+        f"along it, of at most {bounds[worst]:.6g} N"
+    )
+
+
+def _shared(forces: Array, bounds: Array, rows: Array) -> Array:
+    """Return forces along rows, where rows depend on each other in proportion to their bounds."""
+    _, sizes, directions = np.linalg.svd(rows.T)
+    spare = directions[int(np.sum(sizes > _NOTHING * sizes[0])) :].T
+    least = _NOTHING * max(float(bounds.max()), float(np.abs(forces).max()), 1e-300)
+    weights = 1.0 / np.sqrt(np.maximum(bounds, least))  # parts of the least sum of force^2 / bound are as bounds are
+    change, *_ = np.linalg.lstsq(weights[:, None] * spare, -weights * forces, rcond=None)
+    return np.asarray(forces + spare @ change)

@@ -1,0 +1,166 @@
+"""Forces at rest, compiled: those within static bounds hold, and rows that none hold begin to move.
+
+Where more rows rest than the mechanism has freedom, forces at rest are not determined. Rows in force take what changes,
+and others keep the efforts that they have, until one is at its bound. As any forces within all bounds hold, efforts are
+then shared out anew: those whose largest part of a static bound is least. Only where this part is 1 does the row move.
+"""
+
+from __future__ import annotations
+
+import math
+
+from symgen.base.ir.program import MODE_NUMBERS
+from symgen.compile.loopcode.exact import exact
+from symgen.compile.native.annotations import Array
+from symgen.run.modes.bounded_rows import (
+    AT_BOUND,
+    AT_REST,
+    CONSTANT,
+    CONTRARY,
+    HELD,
+    NO_ACCELERATION,
+    NO_FACTOR,
+    NO_FORCES,
+    SAME,
+    SIGN,
+    Choice,
+    sign_of_number,
+    usual_of,
+)
+from symgen.run.modes.box import INSIDE, is_contrary, solve_box
+
+#: Rows are at their bounds beyond this part; number of halvings in which the least part is found.
+_SPENT, _HALVINGS = 1.0 - 1e-11, 10
+
+
+@exact()
+def moves_at(c: Choice, n: int, r: int) -> bool:
+    """Whether the acceleration of the row at place `r` among those at rest is more than rounding."""
+    box, size = c.box, abs(c.box.offset[r])
+    for j in range(n):
+        size += abs(box.matrix[r * n + j]) * abs(box.forces[j])
+    return bool(box.place[r] != INSIDE and abs(box.left[r]) > NO_ACCELERATION * size)
+
+
+@exact()
+def is_shared(c: Choice, n: int, i: int) -> bool:
+    """Whether a row at rest shares its effort with rows that keep one of their own."""
+    for r in range(n):
+        j = c.rest[r]
+        at, both = MODE_NUMBERS * j, c.matrix[i * c.count + i] * c.matrix[j * c.count + j]
+        keeps = c.pushes[j] == 0 and c.before[at + HELD] == 0.0 and c.before[at + SIGN] == 0.0
+        keeps = keeps and c.before[at + CONSTANT] == AT_REST
+        if keeps and c.matrix[i * c.count + j] * c.matrix[i * c.count + j] > NO_FACTOR * both:
+            return True
+    return False
+
+
+@exact()
+def is_tied(c: Choice, n: int, i: int) -> bool:
+    """Whether a force at rest accelerates a row at its bound."""
+    for r in range(n):
+        if c.broken[c.rest[r]] != 0 and c.matrix[i * c.count + c.rest[r]] != 0.0:
+            return True
+    return False
+
+
+@exact()
+def set_bounds(c: Choice, n: int, part: float) -> None:
+    """Set the bounds of forces: static ones where these hold, of tied rows a part of them, else those of motion."""
+    box = c.box
+    for r in range(n):
+        i = c.rest[r]
+        bound = c.static[i] if c.taken[i] != 0 else c.sliding[i]
+        if part < 1.0 and c.taken[i] != 0 and is_tied(c, n, i):
+            bound *= part
+        pushes = c.pushes[i] != 0
+        box.bounds[r] = 0.0 if pushes else bound
+        box.lower[r] = -bound if not pushes else (0.0 if c.loose[i] != 0 else -math.inf)
+
+
+@exact()
+def rest_within(c: Choice, n: int, part: float) -> bool:
+    """Whether the rows that share the effort of a broken one all rest within a part of their static bounds."""
+    set_bounds(c, n, part)
+    if solve_box(n, c.box) != 0:
+        return False
+    for r in range(n):
+        if is_tied(c, n, c.rest[r]) and moves_at(c, n, r):
+            return False
+    return True
+
+
+@exact()
+def share_anew(c: Choice, n: int) -> float:
+    """Return the part of static bounds within which a row at its bound rests by other efforts of those that share it.
+
+    Where there is none it is loose, and the part is 1.
+    """
+    low, high, found = 0.0, _SPENT, False
+    for r in range(n):
+        i = c.rest[r]
+        if c.broken[i] != 0 and c.loose[i] != 0 and c.pushes[i] == 0 and is_shared(c, n, i):
+            c.taken[i], found = 1, True
+    if not found:
+        return 1.0
+    if rest_within(c, n, _SPENT):
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            if rest_within(c, n, middle):
+                high = middle
+            else:
+                low = middle
+        for r in range(n):
+            i = c.rest[r]
+            c.loose[i] = 0 if c.taken[i] != 0 else c.loose[i]
+        return high
+    for r in range(n):
+        i = c.rest[r]
+        c.taken[i] = 0 if c.loose[i] != 0 else c.taken[i]
+    return 1.0
+
+
+@exact()
+def solve_rest(c: Choice, n: int, w: Array) -> int:
+    """Find the forces at rest, and the signs of rows that they do not hold; return `SAME` `NO_FORCES` or `CONTRARY`."""
+    k, box = c.count, c.box
+    for r in range(n):
+        i = c.rest[r]
+        box.offset[r] = c.offset[i]
+        c.taken[i] = 1 if c.pushes[i] == 0 and c.loose[i] == 0 else 0  # its static bound holds
+        for s in range(n):
+            box.matrix[r * n + s] = c.matrix[i * k + c.rest[s]]
+    part = share_anew(c, n)
+    while True:
+        set_bounds(c, n, part)
+        if solve_box(n, box) != 0:
+            return NO_FORCES
+        for r in range(n):
+            if c.pushes[c.rest[r]] != 0 and box.left[r] < -NO_ACCELERATION * usual_of(c, w, c.rest[r]):
+                if is_contrary(n, r, box):
+                    return CONTRARY
+        again = False
+        for r in range(n):
+            i = c.rest[r]
+            if moves_at(c, n, r):
+                if c.pushes[i] == 0 and c.taken[i] != 0 and c.static[i] > c.sliding[i]:
+                    c.taken[i], again = 0, True
+                if c.pushes[i] != 0 and c.loose[i] != 0 and box.left[r] < -NO_ACCELERATION * usual_of(c, w, i):
+                    c.loose[i], again = 0, True
+        if not again:
+            break
+        part = 1.0
+    for r in range(n):
+        i = c.rest[r]
+        bound, force, moves = c.static[i] if c.taken[i] != 0 else c.sliding[i], box.forces[r], moves_at(c, n, r)
+        c.passing[i] = 1 if moves else 0
+        if c.pushes[i] != 0:
+            moves = moves and box.left[r] > 0.0
+        elif c.loose[i] != 0 and abs(force) >= AT_BOUND * bound and bound > 0.0:
+            moves = True
+        c.forces[i] = force
+        c.signs[i] = 0.0
+        if moves:
+            c.signs[i] = sign_of_number(box.left[r] if force == 0.0 or c.pushes[i] != 0 else force)
+        c.taken[i] = 0
+    return SAME

@@ -1,0 +1,250 @@
+"""A design as it is asked for: numbers that vary within bounds, an aim, and limits of the file and of the caller."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base import arguments
+from symgen.base.errors import InputError, quote, suggest
+from symgen.base.units import known_unit, read_unit
+from symgen.base.vocabulary.expressions import Name, names_in_expression
+from symgen.describe.facts.lifted import is_path, lift_numbers
+from symgen.describe.facts.motion_quantities import MotionQuantity, QuantityNames
+from symgen.describe.formulas.evaluate import evaluate, parameter_values
+from symgen.study.design.rows import Aim, Limit
+from symgen.study.design.wording import Taken, WrittenLimit, read_limits, read_taken, unknown_word
+from symgen.study.report.words import enumeration
+
+if TYPE_CHECKING:
+    from symgen.base.vocabulary.expressions import Expr
+    from symgen.describe.mechanism import Mechanism, Parameter
+
+Array = NDArray[np.float64]
+
+#: Most numbers that vary.
+MOST_VARIED = 200
+
+
+@dataclass(frozen=True)
+class Varied:
+    """The numbers that vary.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        The machine, with all of them as parameters.
+    names, keys : tuple of str
+        As written, and as parameters of `mechanism`.
+    low, high, start : Array, shape (n,)
+        Bounds, and the values of the file, in SI units.
+    """
+
+    mechanism: Mechanism
+    names: tuple[str, ...]
+    keys: tuple[str, ...]
+    low: Array
+    high: Array
+    start: Array
+
+    def values(self, u: Array) -> Array:
+        """Return values from parts of the ranges."""
+        return np.asarray(np.clip(self.low + u * (self.high - self.low), self.low, self.high))
+
+    def parts(self, x: Array) -> Array:
+        """Return values as parts of the ranges, from 0 to 1."""
+        return np.asarray(np.clip((x - self.low) / (self.high - self.low), 0.0, 1.0))
+
+
+def read_varied(mechanism: Mechanism, vary: object, parameters: Mapping[str, float]) -> Varied:
+    """Return the numbers that vary.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The machine.
+    vary : object
+        As for `symgen.study.design.designing.design`.
+    parameters : mapping of str to float
+        Values that differ from the file's.
+
+    Raises
+    ------
+    InputError
+        If one is no number of the file, follows others by a formula, or its bounds do not hold its value.
+    """
+    expected = "bounds by the names of numbers, such as {'a': (0.2, 0.4)}"
+    given = arguments.mapping("design: vary", vary, expected)
+    if not 0 < len(given) <= MOST_VARIED:
+        raise InputError("design: vary", f"1 to {MOST_VARIED} numbers with bounds", f"{len(given)}")
+    own = {p.name: p for p in mechanism.parameters}
+    for name in given:
+        if not is_path(name) and name not in own:
+            paths = "a parameter, or the path of a number in the file such as bodies.crank.mass"
+            raise InputError(f"design: vary '{name}'", paths, "none of that name", suggest(name, own))
+        if name in own and own[name].input:
+            raise InputError(f"design: vary '{name}'", "a number of the machine", "an input, which comes from outside")
+        if name in own and (formula := own[name].formula) is not None and name not in parameters:
+            by = enumeration(_roots(formula, own))
+            got = f"one that follows {by}" if by else "a formula"
+            hint = f"vary {by}" if by else "write it as a number"
+            raise InputError(f"design: vary '{name}'", "a number of its own", got, hint)
+    lifted = lift_numbers("design: vary", mechanism, tuple(given))
+    values = parameter_values(lifted.mechanism, parameters)
+    keys, pairs = [lifted.keys[name] for name in given], list[tuple[float, float]]()
+    for (name, bounds), key in zip(given.items(), keys, strict=True):
+        pairs.append(_read_bounds(f"design: vary '{name}'", bounds, values[key]))
+    low, high = np.array(pairs).T
+    start = np.array([values[key] for key in keys])
+    return Varied(lifted.mechanism, tuple(given), tuple(keys), low, high, start)
+
+
+def _roots(formula: Expr, own: Mapping[str, Parameter]) -> list[str]:
+    """Return the parameters without formulas that a formula follows."""
+    found, waiting = dict[str, None](), [formula]
+    while waiting:
+        for name in names_in_expression(waiting.pop()):
+            if name not in own or name in found:
+                continue
+            inner = own[name].formula
+            if inner is None:
+                found[name] = None
+            else:
+                waiting.append(inner)
+    return sorted(found)
+
+
+def _read_bounds(where: str, bounds: object, value: float) -> tuple[float, float]:
+    expected = "a lower and an upper bound, such as (0.2, 0.4)"
+    pair = arguments.list_entries(where, bounds, expected)
+    if len(pair) != 2:
+        raise InputError(where, expected, arguments.kind_of_value(bounds))
+    low, high = (arguments.number(where, x) for x in pair)
+    if not low < high:
+        raise InputError(where, "a lower bound below the upper one", f"{low:g} and {high:g}")
+    if not low <= value <= high:
+        raise InputError(where, f"bounds that hold the value of the file, {value:g}", f"{low:g} and {high:g}")
+    return low, high
+
+
+class QuantityReader:
+    """Reads quantities of aims and limits, each once.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The machine.
+
+    Attributes
+    ----------
+    quantities : list of MotionQuantity
+        Those that were read.
+    """
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self.mechanism, self.quantities = mechanism, list[MotionQuantity]()
+        self._names, self._units = QuantityNames(mechanism), {p.name: p.unit for p in mechanism.parameters}
+
+    def place(self, where: str, text: str) -> int:
+        """Return the place of a quantity among `quantities`.
+
+        Raises
+        ------
+        InputError
+            If it is no formula of what is known of a motion.
+        """
+        for i, quantity in enumerate(self.quantities):
+            if quantity.text == text:
+                return i
+        try:
+            return self._add(self._names.read(where, text))
+        except InputError as error:
+            raise InputError(where, error.expected, error.got, unknown_word(text) or error.hint) from None
+
+    def parameter(self, name: str) -> int:
+        """Return the place of a parameter."""
+        return self.formula(name, Name(name), self._units[name])
+
+    def formula(self, text: str, formula: Expr, unit: str) -> int:
+        """Return the place of a formula of the machine, under a name for messages."""
+        return self._add(self._names.of_formula(text, formula, unit))
+
+    def _add(self, quantity: MotionQuantity) -> int:
+        self.quantities.append(quantity)
+        return len(self.quantities) - 1
+
+
+def read_aim(reader: QuantityReader, aim: str) -> Aim:
+    """Return an aim from its text."""
+    taken = read_taken("design: aim", aim)
+    place = reader.place("design: aim", taken.quantity)
+    return Aim(taken, place, reader.quantities[place].unit)
+
+
+def read_keep(reader: QuantityReader, keep: object) -> Iterator[Limit]:
+    """Yield the limits that a caller gives."""
+    for text in arguments.words("design: keep", keep):
+        for written in read_limits("design: keep", text):
+            place = reader.place("design: keep", written.taken.quantity)
+            bound = _bound_in_own_unit(written, reader.quantities[place].unit)
+            unit = reader.quantities[place].unit or written.bound.unit
+            yield Limit(written.taken, place, written.side, bound, abs(bound) or 1.0, unit, written.text)
+
+
+def _bound_in_own_unit(written: WrittenLimit, own: str) -> float:
+    """Return the number of a limit in the unit of its quantity: one with a unit may have another one."""
+    text = written.bound.unit
+    if not text or text == own:
+        return written.bound.number
+    unit, of_quantity = read_unit(text), known_unit(own)
+    if isinstance(unit, str) or unit is None:
+        raise InputError("design: keep", "a number with a unit", quote(f"{written.bound.number:g} {text}"))
+    if own and not unit.fits(of_quantity):
+        raise InputError("design: keep", f"{own}, the unit of {written.taken.quantity}", quote(text))
+    si = unit.to_si(written.bound.number)
+    return of_quantity.from_si(si) if own else si
+
+
+def limits_of_file(reader: QuantityReader, varied: Varied, parameters: Mapping[str, float]) -> Iterator[Limit]:
+    """Yield the limits of a file: of outputs at every time, and of parameters.
+
+    Raises
+    ------
+    InputError
+        If a limit follows a number that varies.
+    """
+    mechanism = varied.mechanism
+    values = parameter_values(mechanism, parameters)
+    outputs = {output.name for output in mechanism.outputs}
+    for limit in mechanism.limits:
+        for side, end in (("smallest", limit.smallest), ("largest", limit.largest)):
+            if end is None:
+                continue
+            if moving := [name for name in names_in_expression(end) if name in varied.keys]:
+                got = f"one that follows {enumeration(moving)}"
+                raise InputError(f"design: {limit.name}.{side}", "a limit that stays", got)
+            place = reader.place(limit.name, limit.name) if limit.name in outputs else reader.parameter(limit.name)
+            bound, unit = evaluate(end, values, f"{limit.name}.{side}"), reader.quantities[place].unit
+            sign = "<=" if side == "largest" else ">="
+            text = f"{limit.name} {sign} {bound:g} {unit}".rstrip()
+            yield Limit(Taken("", limit.name), place, side, bound, abs(bound) or 1.0, unit, text, of_file=True)
+
+
+def sized(limits: Sequence[Limit], values: Array) -> list[Limit]:
+    """Return limits of 0 with the size of their quantity in a motion; others have their own.
+
+    Parameters
+    ----------
+    limits : sequence of Limit
+        The limits.
+    values : Array, shape (k, quantities)
+        Quantities of the motion.
+    """
+    return [
+        limit if limit.bound else replace(limit, size=float(np.abs(values[:, limit.quantity]).max()) or 1.0)
+        for limit in limits
+    ]
