@@ -1,4 +1,4 @@
-"""Fourteen mechanisms drawn in ``symgen edit`` from an empty file, by mouse and keys alone, with the actions counted.
+"""Fourteen mechanisms drawn in ``symgen edit`` from an empty file, by the mouse and typed places, then by keys alone.
 
 Each closes as it was drawn: joints are measured here by the numbers of the text, and ``symgen check`` has no note.
 """
@@ -29,36 +29,61 @@ class Hand:
     """A hand that draws: each press of a button, each click and each piece of typed text is an action."""
 
     page: Page
+    keys: bool = False
     actions: int = 0
     tool: str = "move"
     drawn: list[str] = field(default_factory=list)
 
     def use(self, tool: str, *places: Place) -> None:
         """Use a tool at places: points by name, or coordinates in metres, which are typed."""
-        if tool != self.tool:
-            self.page.press(f"[data-tool={tool}]")
-            self.actions += 1
-            self.tool = tool
+        self.choose(tool)
         before = self.page.text("text")
         for place in places:
             self.actions += 1
-            if isinstance(place, str):
-                self.page.click(*self.page.where(place))
-            else:
+            if not isinstance(place, str):
                 self.page.run("document.getElementById('where').focus()")
                 self.page.chromium.call("Input.insertText", text=f"{place[0]}, {place[1]}")
                 self.page.key("Enter")
+            elif self.keys:
+                self.focus(place)
+                self.page.key("Enter")
+            else:
+                self.page.click(*self.page.where(place))
         self.changed(before)
 
-    def drag(self, tool: str, point: str, *way: str | float) -> None:
-        """Use a tool by a drag from a point to another one, or so many pixels far."""
-        self.page.press(f"[data-tool={tool}]")
+    def choose(self, tool: str) -> None:
+        if tool == self.tool:
+            return
+        self.actions += 1
         self.tool = tool
-        self.actions += 2
+        if self.keys:
+            self.page.run(f"document.querySelector('[data-tool={tool}]').focus()")
+            self.page.key("Enter")
+        else:
+            self.page.press(f"[data-tool={tool}]")
+
+    def focus(self, name: str) -> None:
+        """Give the focus to a ringed point, as the tabulator does."""
+        self.page.run(
+            "(all => all.filter((e) => e.title === " + json.dumps(name) + ").at(-1).focus())"
+            "([...document.querySelectorAll('.handle')])"
+        )
+
+    def drag(self, tool: str, point: str, to: str | tuple[int, int]) -> None:
+        """Use a tool by a drag from a point to another one, or so many pixels far; by keys, as they do that."""
+        self.choose(tool)
+        self.actions += 1
         before = self.page.text("text")
-        x, y = self.page.where(point)
-        to = self.page.where(str(way[0])) if len(way) == 1 else (x + float(way[0]), y + float(way[1]))
-        self.page.drag(point, to[0] - x, to[1] - y)
+        if self.keys:
+            self.focus(point)
+            self.page.key("Enter" if isinstance(to, str) else "ArrowDown", 8)
+            if isinstance(to, str):
+                self.focus(to)
+                self.page.key("Enter")
+        else:
+            x, y = self.page.where(point)
+            end = self.page.where(to) if isinstance(to, str) else (x + to[0], y + to[1])
+            self.page.drag(point, end[0] - x, end[1] - y)
         self.changed(before)
 
     def changed(self, before: str) -> None:
@@ -119,7 +144,7 @@ def press(hand: Hand) -> None:
     hand.bar("bodies.bar1.points.B", (0.0, 0.0))
     hand.bar("bodies.bar2.points.B", (0.0, -0.3))
     hand.ground("bodies.bar1.points.A")
-    hand.drag("slide", "bodies.bar3.points.B", 0.0, 60.0)
+    hand.drag("slide", "bodies.bar3.points.B", (0, 60))
     hand.write("stop = { lower = -0.05, upper = 0.5, restitution = 0.2 }\n", behind="axis = [0.0, -1.0]")
 
 
@@ -267,6 +292,7 @@ def column(page: Page, name: str) -> Any:
     return np.array(page.run(f"window.symgen.column({json.dumps(name)}).values"))
 
 
+@pytest.mark.parametrize("keys", [False, True], ids=["mouse", "keys"])
 @pytest.mark.parametrize(
     ("draw", "actions", "bodies", "freedoms"),
     [
@@ -287,9 +313,9 @@ def column(page: Page, name: str) -> Any:
     ],
 )
 def test_a_mechanism_from_an_empty_file(
-    draw: Callable[[Hand], None], actions: int, bodies: int, freedoms: int, page: Page
+    draw: Callable[[Hand], None], actions: int, bodies: int, freedoms: int, keys: bool, page: Page
 ) -> None:
-    hand = Hand(page)
+    hand = Hand(page, keys)
     draw(hand)
     page.rested()
     page.picture(draw.__name__)

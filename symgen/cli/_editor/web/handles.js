@@ -144,6 +144,12 @@ function newHandle() {
     else if (!e.detail) takePoints(spotOf(handle)); // by a key; the mouse is followed below
   });
   button.addEventListener("keydown", (e) => {
+    const first = e.key === "Enter" && e.shiftKey && ["slide", "slot"].includes(tool) && own();
+    if (first) { // the second point follows
+      e.preventDefault();
+      spots = [spotOf(first)];
+      return layHandles();
+    }
     const way = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[e.key], handle = own();
     if (!way || !["move", "slide", "slot"].includes(tool) || !handle) return;
     e.preventDefault();
