@@ -6,10 +6,10 @@ const LARGEST = 1000000;
 const MOTION = 60, LIVE = 700; // milliseconds of rest before a motion, and its live part, are asked for
 let version = 0, checking = false, again = false, timer = 0, resume = null, lively = true, times = {}, fresh = true; // nothing has moved yet
 
-async function post(job, given) {
+async function post(job, given, further = {}) {
   if (given.text && given.text.length > LARGEST) return { error: `expected a text of at most ${LARGEST} characters, got ${given.text.length}` };
   try {
-    const answer = await fetch(job, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(given) });
+    const answer = await fetch(job, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(given), ...further });
     if (!answer.ok) throw new Error(`it refused, with ${answer.status}`);
     return await answer.json();
   } catch (error) {
@@ -58,11 +58,24 @@ function display(next, kind, code = NOTHING) {
   const shown = resume ?? time;
   resume = null;
   show(motion);
+  preferPlot();
   if (fresh) pace();
   if (fresh && tool === "move") fitted();
   else if (!held && !steering && !pressed && !spots.length && kind !== "live") outgrown(); // what a motion shows has its place already: nothing moves under a hand
   fresh = false;
   go(shown);
+}
+
+// What was asked for last is plotted again where a motion has it; what nobody asked for is not a mode.
+let askedPlot = null;
+$("group").addEventListener("change", () => (askedPlot = titled(motion.groups[$("group").value])));
+function preferPlot() {
+  const before = $("group").value, modes = (g) => g.names.every((name) => name.endsWith(".mode"));
+  let at = motion.groups.findIndex((g) => titled(g) === askedPlot);
+  if (at < 0 && motion.groups[before] && modes(motion.groups[before])) at = motion.groups.findIndex((g) => !modes(g));
+  if (at < 0 || String(at) === before) return;
+  $("group").value = String(at);
+  choose();
 }
 
 // A start alone: what is plotted waits for the motion.
@@ -287,6 +300,6 @@ window.addEventListener("keydown", (e) => {
   act();
 }, { capture: true });
 
-window.symgen.editor = { times: () => times, version: () => version, handles: () => movable, place: onPicture, grid: (scale) => [gridded(BETWEEN, scale), parted(gridded(BETWEEN, scale))], check, kept: () => !keeping && !newer && kept, checked: () => times.checked === version, rest: () => !checking && !again && times.moved === version };
+window.symgen.editor = { times: () => times, version: () => version, handles: () => movable, place: onPicture, grid: (scale) => [gridded(BETWEEN, scale), parted(gridded(BETWEEN, scale))], check, offer, kept: () => !keeping && !newer && kept && !forgetting, checked: () => times.checked === version, rest: () => !checking && !again && times.moved === version };
 choosing("move");
 open();
