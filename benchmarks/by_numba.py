@@ -80,6 +80,7 @@ def main(arguments: list[str]) -> None:
                 continue
             difference = float(np.nanmax(np.abs(states - again)) / np.nanmax(np.abs(states)))
             worst = max(worst, difference)
+            print(f"{name}, {kind}: {difference:.0e}", file=sys.stderr, flush=True)
             table.add_row(name, kind, f"{own:.1f}", f"{other:.1f}", f"{difference:.0e}")
     show(table)
     print(f"largest difference: {worst:.1e}")

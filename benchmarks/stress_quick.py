@@ -1,6 +1,7 @@
 """Quick stress studies of the whole catalogue: what `symgen stress NAME --quick` costs, and how its cells end.
 
     python -m benchmarks.stress_quick                                   prints the table of docs/measured/stress.md
+    python -m benchmarks.stress_quick apart MODEL ...                   how many methods a study tells apart
     python -m benchmarks.records stress_quick [--workers N]             measures what the record lacks
 
 A line has the processor time of the command in one process, `first` with loops in the cache and nothing of the
@@ -115,6 +116,22 @@ def missing() -> Iterator[str]:
         yield f"Without figures: {', '.join(left)}."
 
 
+def told_apart(model: str, integrator: str = "rk4") -> str:
+    """Return the row of a mechanism: methods with an integrator, lists of outcomes, lines beside `lagrange`, time."""
+    command = [sys.executable, "-m", "symgen", "stress", model, "--quick", "--json", "--jobs", "1"]
+    before = _of_children()
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=LONGEST)
+    seconds, found = _of_children() - before, json.loads(done.stdout)
+    lines = [line for line in found["beside"] if line["integrator"] == integrator]
+    outcomes = dict[str, list[tuple[str, str, str]]]()
+    for row in found["rows"]:
+        if row["integrator"] == integrator:
+            outcomes.setdefault(row["method"], []).append((row["family"], row["case"], row["outcome"]))
+    common = set.intersection(*({each[:2] for each in own} for own in outcomes.values()))
+    lists = {tuple(each for each in own if each[:2] in common) for own in outcomes.values()}
+    return f"| `{model}` | {len(outcomes)} | {len(lists)} | {len(lines)} | {seconds:.0f} |"
+
+
 def tables() -> dict[str, PageTable]:
     """Return the table by its name."""
     return {"": costs()}
@@ -124,4 +141,9 @@ RECORD = Record("stress_quick", jobs, examine, again, float("inf"))
 
 
 if __name__ == "__main__":
+    if sys.argv[1:2] == ["apart"]:
+        print("| model | methods with `rk4` | lists of outcomes | lines beside `lagrange` | time [s] |")
+        for name in sys.argv[2:]:
+            print(told_apart(name), flush=True)
+        sys.exit()
     sys.exit(print_tables(tables(), [""]))
