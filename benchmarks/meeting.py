@@ -120,6 +120,42 @@ friction = { sliding = 0.2, static = 0.3 }"""
 _STOP = "stop = { lower = -2.2, upper = -1.0, restitution = 0.3 }"
 _TABLE = 'x = [-2.0, -1.0, 0.0, 1.0, 2.0]\ny = [-60.0, -30.0, 0.0, 30.0, 65.0]\ninterpolation = "cubic"'
 
+#: A cart on a rail in space, with a head that turns as functions of time say.
+_HEAD = """[mechanism]
+name = "cart"
+space = "spatial"
+gravity = [0.0, 0.0, -9.81]
+[run]
+until = 0.4
+[parameters]
+k = 30.0
+[bodies.cart]
+mass = 2.0
+inertia = [0.1, 0.1, 0.1]
+position = [0.1, 0.0, 0.0]
+[bodies.head]
+mass = 1.0
+inertia = [0.02, 0.03, 0.04]
+position = [0.1, 0.0, 0.2]
+[joints.rail]
+type = "translational"
+between = ["ground", "cart"]
+at = [[0.0, 0.0, 0.0], "centre"]
+axis = [1.0, 0.0, 0.0]
+[joints.neck]
+type = "spherical"
+between = ["cart", "head"]
+at = ["centre", [0.0, 0.0, -0.2]]
+[joints.look]
+type = "orientation"
+between = ["cart", "head"]
+euler_angles = ["0.5*sin(3*t)", "0.2*t", "0.0"]
+convention = "zyx"
+[forces.spring]
+type = "force"
+body = "cart"
+force = ["-k*cart.x - cart.vx", 0.0, 0.0]
+"""
 #: Files with one feature each.
 FEATURES: Mapping[str, str] = {
     "bodies, joints, forces": cart(),
@@ -139,6 +175,7 @@ FEATURES: Mapping[str, str] = {
     "event, recorded": cart(more='[events.turn]\nwhen = "cart.x - 0.09"\naction = "record"'),
     "event with a reset": cart(more='[events.kick]\nwhen = "cart.x - 0.09"\nreset = { "cart.vx" = "0.5" }'),
     "driver": cart(more='[joints.motor]\ntype = "driver"\njoint = "rail"\nvalue = "0.1 + 0.05*sin(3*t)"'),
+    "orientation of time": _HEAD,
     "redundant rows": cart(more=f"[joints.twin]\n{_RAIL}"),
     "light body": cart(inertia="0.0"),
     "massless body": cart(

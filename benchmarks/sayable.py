@@ -31,6 +31,7 @@ FEATURES = {
     "damping": "damping of beams by strain",
     "efficiency": "efficiencies of gears",
     "states": "states that read results",
+    "poses": "orientations of time",
 }
 _PAGE = """# Examples of other systems
 

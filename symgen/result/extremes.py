@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -54,16 +54,23 @@ def extremes_of_run(result: Result) -> list[Extreme]:
     return rows or [*_rows(result, result.whole(("q",)))]
 
 
+def without_doubles(names: Sequence[str]) -> list[int]:
+    """Return the places of loads, without the sizes of reactions of drivers, whose efforts they repeat."""
+    drivers = {name.removesuffix(_EFFORT) for name in names if name.endswith(_EFFORT)}
+    doubled = {f"{driver}.{size}" for driver in drivers for size in ("F", "T")}
+    return [i for i, name in enumerate(names) if name not in doubled]
+
+
 def _loads(result: Result) -> Iterator[Extreme]:
     """Yield what drivers and force elements exert, then forces of joints, the largest first."""
     few = len(result.columns("elements")) <= MOST_ELEMENTS
     elements = result.whole(("elements",)) if few else result.select(())
     magnitudes = result.whole(("magnitudes",))
-    drivers = {name.removesuffix(_EFFORT) for name in elements.names if name.endswith(_EFFORT)}
+    every = (*elements.names, *magnitudes.names)
+    kept = {every[i] for i in without_doubles(every)}
     for table in (elements, magnitudes):
         rows = [row for row in _rows(result, table) if row.unit in _LOADS and (row.low or row.high)]
-        if table is magnitudes:
-            rows = [row for row in rows if row.name.rpartition(".")[0] not in drivers]
+        rows = [row for row in rows if row.name in kept]
         yield from sorted(rows, key=lambda row: (_LOADS.index(row.unit), -max(abs(row.low), abs(row.high))))
 
 
