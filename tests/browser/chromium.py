@@ -76,6 +76,7 @@ class Chromium:
         os.close(out)
         self._left, self._count, self.session = b"", 0, ""
         self.said: list[str] = []
+        self.asked = 0  # how often a page asked before it was left
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
@@ -125,6 +126,7 @@ class Chromium:
         elif found.get("method") == "Log.entryAdded" and given["entry"]["level"] in ("error", "warning"):
             self.said.append(given["entry"]["text"])
         elif found.get("method") == "Page.javascriptDialogOpening":  # a page that asks before it is left
+            self.asked += 1
             accept = {"id": 0, "method": "Page.handleJavaScriptDialog", "params": {"accept": True}}
             os.write(self._write, json.dumps({**accept, "sessionId": self.session}).encode() + b"\0")
         elif found.get("method") == "Network.requestWillBeSent":

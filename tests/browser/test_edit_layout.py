@@ -1,5 +1,7 @@
 """Room for the drawing in ``symgen edit``, and what a click in the picture selects."""
 
+import math
+import re
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
@@ -94,3 +96,23 @@ def test_a_click_selects_in_picture_and_text_and_del_takes_it_out(page: Page) ->
     page.key("Delete")
     page.rested()
     assert page.text("text") == text and page.said() == []
+
+
+def test_arrows_are_velocities_and_accelerations_of_points(page: Page) -> None:
+    page.open(1280, 900)
+    page.rested()
+    # the crank of 2 m turns with 2 pi rad/s: its pin moves on a circle
+    speed = 2.0 * math.pi
+    for kind, size in (("velocity", 2.0 * speed), ("acceleration", 2.0 * speed**2)):
+        page.run(
+            f"(s => {{ s.value = '{kind}'; s.dispatchEvent(new Event('change')); }})(document.getElementById('rates'))"
+        )
+        for share in (0.1, 0.35, 0.8):
+            page.run(f"window.symgen.frame({share})")
+            names, rates, most = page.run(f"window.symgen.editor.rates('{kind}')")
+            pin = rates[names.index("crank.B")]
+            assert math.hypot(*pin) == pytest.approx(size, rel=2e-3) and most >= math.hypot(*pin) * 0.999
+    page.chromium.frame()
+    assert re.fullmatch(r"longest [\d.e+]+ m/s2", page.run("document.querySelector('.longest').textContent"))
+    page.picture("arrows")
+    assert page.said() == []

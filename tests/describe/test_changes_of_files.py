@@ -267,6 +267,17 @@ def test_a_click_gives_a_joint_a_stop_and_friction() -> None:
         added(after, "stop", pin)
 
 
+def test_a_motor_moves_a_slide_of_the_ground_on_from_where_it_is() -> None:
+    text, _ = added(EMPTY, "body", *BLOCK)
+    text, _ = added(text, "slide", Spot(0.5, 0.0, "bar1", "A"), Spot(0.8, 0.4))
+    driven, path = added(text, "motor", Spot(0.5, 0.0, "bar1", "A"))
+    assert path == "joints.motor1" and 'joint = "slide1"\nvalue = "0.1*t"' in driven and freedoms(driven) == 0
+    later, _ = added(text, "motor", Spot(0.8, 0.4, "bar1", "A"))  # as after a point was dragged
+    assert 'value = "0.5 + 0.1*t"' in later
+    with pytest.raises(InputError, match="a pin, which it turns, or a slide"):
+        added(text, "motor", Spot(0.6, 0.0, "bar1", "B"))
+
+
 def test_a_copy_of_a_body_lies_where_the_hand_puts_it() -> None:
     text, _ = added(EMPTY, "body", *ROD)
     after, path = added(text, "copy", Spot(0.5, 0.0, "bar1", "B"), Spot(0.8, 0.4))

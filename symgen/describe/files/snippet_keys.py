@@ -53,9 +53,8 @@ def key_change(kind: str, file: EditedFile, spot: Spot) -> Changes:
     InputError
         If there is no pin or slide, or it has the key already.
     """
-    joints = file.raw.get("joints", {})
-    joint = spot.joint or next((x for x, own in joints.items() if _slides_at(own, spot)), "")
-    entry = joints.get(joint)
+    joint = file.joint_at(spot)
+    entry = file.raw.get("joints", {}).get(joint)
     line = KEYS[kind].get({"prismatic": "translational"}.get(name := str((entry or {}).get("type")), name))
     if entry is None or line is None:
         got = f"'{joint}', which is {name}" if entry is not None else "another point"
@@ -68,12 +67,6 @@ def key_change(kind: str, file: EditedFile, spot: Spot) -> Changes:
         )
     _, end = _block_of_table(file, "joints", joint, kind)
     return (Change(end, end, f"\n{line}"),), f"joints.{joint}"
-
-
-def _slides_at(entry: Mapping[str, Any], spot: Spot) -> bool:
-    """Whether a joint is a slide of the point at a spot."""
-    pairs = zip(entry.get("between") or (), entry.get("at") or (), strict=False)
-    return entry.get("type") in ("translational", "prismatic") and (spot.body, spot.point) in pairs
 
 
 def copy_changes(file: EditedFile, spot: Spot, place: Spot) -> Changes:

@@ -103,6 +103,16 @@ class EditedFile:
         spans = (self.parts.values.get(("joints", name, "at", i)) for i in range(len(at)))
         return {body: self.text[slice(*span)] for body, span in zip(between, spans, strict=False) if span is not None}
 
+    def joint_at(self, spot: Spot) -> str:
+        """Return the pin at a spot, else the slide of its point; empty where there is none."""
+        slides = (
+            name
+            for name, entry in self.raw.get("joints", {}).items()
+            if entry.get("type") in ("translational", "prismatic")
+            and (spot.body, spot.point) in zip(entry.get("between") or (), entry.get("at") or (), strict=False)
+        )
+        return spot.joint or next(slides, "")
+
     def count_joints(self, body: str) -> int:
         """Return how many joints hold a body."""
         return sum(body in (entry.get("between") or ()) for entry in self.raw.get("joints", {}).values())

@@ -11,6 +11,7 @@ from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.files.places import Outline
 from symgen.describe.files.snippet_keys import KEYS, copy_changes, key_change, point_change
 from symgen.describe.files.snippet_tables import (
+    FINEST,
     EditedFile,
     Spot,
     exact_number,
@@ -23,9 +24,9 @@ from symgen.describe.files.text_changes import Change
 
 #: Names of the points of a new body.
 _LETTERS = "ABC"
-#: Speed of a new motor [rad/s], stiffness [N/m] and damping [N s/m] of a new spring, a new load and the push of a new
-#: cylinder [N].
-SPEED, STIFFNESS, DAMPING, LOAD, PUSH = 2.0, 1000.0, 10.0, 10.0, 100.0
+#: Speed of a new motor of a pin [rad/s] and of a slide [m/s], stiffness [N/m] and damping [N s/m] of a new spring, a
+#: new load and the push of a new cylinder [N].
+SPEED, CREEP, STIFFNESS, DAMPING, LOAD, PUSH = 2.0, 0.1, 1000.0, 10.0, 10.0, 100.0
 #: What can be added -> how many points it has at least, and at most.
 POINTS_OF_KIND = {
     **{"body": (2, 3), "point": (2, 2), "copy": (2, 2)},
@@ -268,14 +269,29 @@ def _lines_of_stretch(kind: str, spots: Sequence[Spot]) -> list[str]:
 
 
 def _motor_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[_Table]:
-    """Return a driver that turns a pin on from where it is at the start."""
+    """Return a driver that turns a pin, or moves a slide of the ground, on from where it is at the start."""
     (spot,) = spots
-    joint = file.raw.get("joints", {}).get(spot.joint, {})
-    if joint.get("type") != "revolute":
-        raise InputError("motor", "a pin, which it turns", "another point" if not spot.joint else f"'{spot.joint}'")
-    angle = file.angle_between(*joint["between"])
-    value = f'value = "{exact_number(angle)} + {SPEED}*t"' if angle else f'value = "{SPEED}*t"'
-    return [_table(f"joints.{file.take_free_name('motor')}", 'type = "driver"', f'joint = "{spot.joint}"', value)]
+    name = file.joint_at(spot)
+    joint = file.raw.get("joints", {}).get(name, {})
+    if joint.get("type") == "revolute":
+        begin, rate = file.angle_between(*joint["between"]), SPEED
+    elif (displacement := _displacement_at(joint, spot)) is not None:
+        begin, rate = displacement, CREEP
+    else:
+        got = f"'{name}'" if name else "another point"
+        raise InputError("motor", "a pin, which it turns, or a slide on the ground", got)
+    value = f'value = "{exact_number(begin)} + {rate}*t"' if abs(begin) > FINEST else f'value = "{rate}*t"'
+    return [_table(f"joints.{file.take_free_name('motor')}", 'type = "driver"', f'joint = "{name}"', value)]
+
+
+def _displacement_at(joint: Mapping[str, Any], spot: Spot) -> float | None:
+    """Return how far the point at a spot has gone along a slide of the ground; None for other joints."""
+    if joint.get("type") not in ("translational", "prismatic") or joint["between"][0] != GROUND:
+        return None
+    on, axis = joint["at"][0], joint.get("axis", ())
+    if not all(isinstance(v, list) and all(type(x) in (int, float) for x in v) for v in (on, axis)):
+        return None
+    return float(((spot.x - on[0]) * axis[0] + (spot.y - on[1]) * axis[1]) / math.hypot(*axis))
 
 
 def _load_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[_Table]:

@@ -300,6 +300,6 @@ window.addEventListener("keydown", (e) => {
   act();
 }, { capture: true });
 
-window.symgen.editor = { times: () => times, version: () => version, handles: () => movable, place: onPicture, grid: (scale) => [gridded(BETWEEN, scale), parted(gridded(BETWEEN, scale))], check, offer, kept: () => !keeping && !newer && kept && !forgetting, checked: () => times.checked === version, rest: () => !checking && !again && times.moved === version };
+window.symgen.editor = { times: () => times, version: () => version, handles: () => movable, place: onPicture, grid: (scale) => [gridded(BETWEEN, scale), parted(gridded(BETWEEN, scale))], check, offer, rates: (kind) => [data.points.map((p) => p[0]), ratesAt(kind, time), largestRate(kind)], kept: () => !keeping && !newer && kept && !forgetting, checked: () => times.checked === version, rest: () => !checking && !again && times.moved === version };
 choosing("move");
 open();

@@ -13,7 +13,7 @@ const TOOLS = [
   ["copy", "Copy", 2, 2, "A point of a body, then where that point of its copy is."],
   ["rod", "Rod", 2, 2, "Two points that keep their distance, without a body between them."],
   ["gear", "Gear", 2, 2, "Two pins on one body or on the ground, whose other bodies are wheels in mesh."],
-  ["motor", "Motor", 1, 1, "A pin that turns on with time."],
+  ["motor", "Motor", 1, 1, "A pin that turns on with time, or the point of a slide on the ground that moves on."],
   ["stop", "Stop", 1, 1, "A pin or a slide that goes only so far: click it; its limits stand in the text."],
   ["friction", "Friction", 1, 1, "A pin or a slide that rubs: click it; its bound stands in the text."],
   ["spring", "Spring", 2, 2, "Two points with a spring and a damper between them."],
