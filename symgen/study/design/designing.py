@@ -38,6 +38,7 @@ from symgen.study.design.residuals import DataAim, data_aim
 from symgen.study.design.rows import Aim
 from symgen.study.design.search import Candidate, Programme, Search
 from symgen.study.design.starts import Screened, screen
+from symgen.study.report.words import enumeration
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -184,10 +185,10 @@ class _Designing:
             screened = screen(search, 1, seed)
             hint = f"{screened.moving} of {screened.tried} candidates within the bounds move"
             raise InputError("design: vary", "values in the file with which the machine moves", reason, hint)
-        if isinstance(self.aim, Aim) and not first.fine.slopes[:, self.aim.quantity].any():
-            raise InputError(
-                "design: aim", "a quantity that a varied number changes", f"{self.aim.taken.quantity}, which none does"
-            )
+        places = [self.aim.quantity] if isinstance(self.aim, Aim) else [*self.aim.places]
+        if not first.fine.slopes[:, places].any():
+            got = f"{enumeration([self.reader.quantities[i].text for i in places])}, which none does"
+            raise InputError("design: aim", "a quantity that a varied number changes", got)
         return first
 
     def _starts(self, first: Candidate, starts: int, seed: int) -> Iterator[Candidate]:
