@@ -69,11 +69,18 @@ def cart(inertia: str = '"size**2/3"', pin: str = "", force: str = "-k*cart.x - 
     return CART.format(inertia=inertia, pin=pin, force=force, more=more)
 
 
+def lowered(play: float, text: str) -> str:
+    """Return a file whose pole is lower by a play, which is closed then."""
+    return text.replace('"-size*cos(0.4)"', f'"-size*cos(0.4) - {play!r}"')
+
+
 _PIN = 'type = "revolute"\nbetween = ["cart", "pole"]\nat = ["centre", "pin"]'
 _ROWS = 'type = "rows"\nrows = [{ position = "pole.pin.x - cart.x" }, { position = "pole.pin.y - cart.y" }]'
 _RAIL = (
     'type = "translational"\nbetween = ["ground", "cart"]\nat = [[0.0, 0.0], "centre"]\naxis = [1.0, 0.0]\nangle = 0.0'
 )
+_PLAY = "clearance = { hole = 0.011, pin = 0.01, restitution = 0.3 }"
+_GUIDE = "clearance = { length = 0.3, height = 0.1, gap = 0.002, restitution = 0.3, friction = 0.3 }"
 _BLADE = 'type = "beam"\nbetween = ["cart", "end"]\nat = ["centre", "centre"]\nlength = 0.5\naxis = [1.0, 0.0]'
 _HOOK = (
     'mass = 0.0\ninertia = 0.0\nposition = ["0.1 + 2*size*sin(0.4)", "-2*size*cos(0.4)"]\npoints = { a = [0.0, 0.0] }'
@@ -113,6 +120,42 @@ friction = { sliding = 0.2, static = 0.3 }"""
 _STOP = "stop = { lower = -2.2, upper = -1.0, restitution = 0.3 }"
 _TABLE = 'x = [-2.0, -1.0, 0.0, 1.0, 2.0]\ny = [-60.0, -30.0, 0.0, 30.0, 65.0]\ninterpolation = "cubic"'
 
+#: A cart on a rail in space, with a head that turns as functions of time say.
+_HEAD = """[mechanism]
+name = "cart"
+space = "spatial"
+gravity = [0.0, 0.0, -9.81]
+[run]
+until = 0.4
+[parameters]
+k = 30.0
+[bodies.cart]
+mass = 2.0
+inertia = [0.1, 0.1, 0.1]
+position = [0.1, 0.0, 0.0]
+[bodies.head]
+mass = 1.0
+inertia = [0.02, 0.03, 0.04]
+position = [0.1, 0.0, 0.2]
+[joints.rail]
+type = "translational"
+between = ["ground", "cart"]
+at = [[0.0, 0.0, 0.0], "centre"]
+axis = [1.0, 0.0, 0.0]
+[joints.neck]
+type = "spherical"
+between = ["cart", "head"]
+at = ["centre", [0.0, 0.0, -0.2]]
+[joints.look]
+type = "orientation"
+between = ["cart", "head"]
+euler_angles = ["0.5*sin(3*t)", "0.2*t", "0.0"]
+convention = "zyx"
+[forces.spring]
+type = "force"
+body = "cart"
+force = ["-k*cart.x - cart.vx", 0.0, 0.0]
+"""
 #: Files with one feature each.
 FEATURES: Mapping[str, str] = {
     "bodies, joints, forces": cart(),
@@ -132,6 +175,7 @@ FEATURES: Mapping[str, str] = {
     "event, recorded": cart(more='[events.turn]\nwhen = "cart.x - 0.09"\naction = "record"'),
     "event with a reset": cart(more='[events.kick]\nwhen = "cart.x - 0.09"\nreset = { "cart.vx" = "0.5" }'),
     "driver": cart(more='[joints.motor]\ntype = "driver"\njoint = "rail"\nvalue = "0.1 + 0.05*sin(3*t)"'),
+    "orientation of time": _HEAD,
     "redundant rows": cart(more=f"[joints.twin]\n{_RAIL}"),
     "light body": cart(inertia="0.0"),
     "massless body": cart(
@@ -162,7 +206,10 @@ FEATURES: Mapping[str, str] = {
     ),
     "contact": cart(more=_WALL),
     "contact, two feet": cart(more=_SLED),
-    "clearance": cart(pin="clearance = { hole = 0.011, pin = 0.01, restitution = 0.3, friction = 0.1 }"),
+    "clearance": lowered(0.001, cart(pin=_PLAY)),
+    "clearance of a slide": lowered(0.002, cart())
+    .replace(_RAIL, f"{_RAIL}\n{_GUIDE}")
+    .replace("[0.1, 0.0]", "[0.1, -0.002]\nvelocity = [0.3, 0.0]"),
     "wheel that gives way": cart(
         more="[bodies.wheel]\nmass = 0.5\ninertia = 0.01\nposition = [0.1, 0.3]\nvelocity = [0.2, 0.0]\n"
         '[joints.road]\ntype = "rolling"\nbetween = ["wheel", "cart"]\nradius = 0.2\naxis = [1.0, 0.0]\n'

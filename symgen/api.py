@@ -249,6 +249,7 @@ class Model(Analysed, Shown):
         integrator: str | None = None,
         rtol: float | None = None,
         atol: float | None = None,
+        derivatives: bool = False,
     ) -> Package:
         """Write the emitted code into a folder: readable modules and a script that simulates the mechanism.
 
@@ -275,6 +276,8 @@ class Model(Analysed, Shown):
             the classical scheme.
         rtol, atol : float, optional
             Tolerances of its adaptive steps; by default those of `simulate`.
+        derivatives : bool
+            Of ``c-functions``: whether derivatives of the functions and of a step are written as well.
 
         Returns
         -------
@@ -304,6 +307,7 @@ class Model(Analysed, Shown):
             arguments.one_word_of("shape", shape, SHAPES[1:]),
             fmi,
             *kind.check_run(target, integrator, rtol, atol),
+            kind.check_derivatives(target, derivatives),
         )
         return kind.write(request)
 

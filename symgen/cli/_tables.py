@@ -321,7 +321,7 @@ def show_across(lines: Sequence[Across]) -> None:
 
 def show_stress(study: Stress) -> None:
     """Print a stress study."""
-    from symgen.study.stress.beside import beside_yardstick, cells_beside, families_beside
+    from symgen.study.stress.beside import beside_yardstick, cells_beside, extremes_beside, families_beside
     from symgen.study.stress.findings import findings_of_study
     from symgen.study.stress.stress_rows import LEGEND, Map
 
@@ -335,13 +335,17 @@ def show_stress(study: Stress) -> None:
         out.print(f"accurate cells of those judged; {LEGEND}", style="dim")
     lines = beside_yardstick(study)
     if len(lines) > 1:
-        families, searched = families_beside(lines)
+        (families, searched), extremes = families_beside(lines), extremes_beside(lines)
         headings = (
             *("methods", "integrator", *(family.replace("-", " ") for family in families)),
             *(f"step, {family}" for family in searched),
+            *(f"up to, {family}" for family in extremes),
         )
-        cells = [(", ".join(x.methods), x.integrator, *cells_beside(x, families, searched)) for x in lines]
-        title = "error of lagrange with the same integrator over the error: medians; largest steps that follow [s]"
+        cells = [(", ".join(x.methods), x.integrator, *cells_beside(x, families, searched, extremes)) for x in lines]
+        title = (
+            "error of lagrange with the same integrator over the error: medians; largest steps that follow [s]; "
+            "extreme values up to which runs are accurate"
+        )
         show_rows(out, headings, cells, headings[:2], title, first=2)
     if study.limits:
         out.print("largest constant step [s] that follows the motion, and with an error below 1e-3 of the length")

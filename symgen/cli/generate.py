@@ -51,6 +51,7 @@ _LISTED = [f"  {name:<12}{_TARGETS.summary(name)}" for name in _TARGETS.names]
     help="What the code is for: see the list below.",
 )
 @click.option("--fmi", type=click.Choice(["2", "3"]), default="2", show_default=True, help="Version of an FMU.")
+@click.option("--derivatives", is_flag=True, help="Of c-functions: write derivatives as well, and those of a step.")
 @click.option("-o", "--output", metavar="PATH", help="Folder, or FMU, to write; the mechanism's name by default.")
 @json_option
 def command(
@@ -65,6 +66,7 @@ def command(
     shape: str,
     target: str,
     fmi: str,
+    derivatives: bool,
     output: str | None,
     as_json: bool,
 ) -> int:
@@ -90,6 +92,7 @@ def command(
         integrator=integrator,
         rtol=rtol,
         atol=atol,
+        derivatives=derivatives,
     )
     if as_json:
         files = [{"path": str(path), "bytes": path.stat().st_size} for path in package.files]

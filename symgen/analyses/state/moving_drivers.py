@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
-from symgen.base.vocabulary.expressions import Expr, names_in_expression
-from symgen.base.vocabulary.measures import Holonomic
+from symgen.base.vocabulary.expressions import Call, Expr, moving_quantities, names_in_expression
+from symgen.base.vocabulary.measures import FormulaMeasure, Holonomic
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Mechanism
 from symgen.run.breaks.in_time import InTime
@@ -26,7 +26,7 @@ _SAMPLES = 33
 
 
 def moving_drivers(mechanism: Mechanism, compiled: CompiledModel, p: Array, t: float) -> dict[str, str]:
-    """Return the drivers that move at a time, by name, with their formulas.
+    """Return the drivers that move at a time, and joints whose rows do, by name, with formulas of time.
 
     Parameters
     ----------
@@ -37,20 +37,37 @@ def moving_drivers(mechanism: Mechanism, compiled: CompiledModel, p: Array, t: f
     t : float
         Time [s].
     """
-    formulas = {name: e for name, e in _driver_formulas(mechanism) if "t" in names_in_expression(e)}
+    formulas = [(name, e) for name, e in _driver_formulas(mechanism) if "t" in names_in_expression(e)]
     names = (q.name for q in compiled.info.parameters)
     in_time = InTime(mechanism, dict(zip(names, map(float, p), strict=False)))
-    moving = (name for name, e in formulas.items() if _has_rate(in_time, e, t, mechanism.defaults.until))
-    return {name: to_text(formulas[name]) for name in moving}
+    moving = dict[str, str]()
+    for name, e in formulas:
+        if name not in moving and _has_rate(in_time, e, t, mechanism.defaults.until):
+            moving[name] = to_text(e)
+    return moving
 
 
 def _driver_formulas(mechanism: Mechanism) -> Iterator[tuple[str, Expr]]:
-    """Yield drivers with their formulas: rows, and coordinates of a tree that they prescribe."""
+    """Yield drivers with their formulas, of rows and of coordinates of a tree, and parts of rows that are of time."""
     for joint in mechanism.joints:
         if joint.kind == "driver":
             yield from ((joint.name, row.value) for row in joint.rows if isinstance(row, Holonomic))
+            continue
+        of_time = (row.measure for row in joint.rows if isinstance(row, Holonomic))
+        for measure in of_time:
+            if isinstance(measure, FormulaMeasure):
+                yield from ((joint.name, part) for part in _parts_of_time(measure.of))
     if mechanism.topology is not None:
         yield from ((x.driver, x.value) for x in mechanism.topology.prescribed)
+
+
+def _parts_of_time(e: Expr) -> Iterator[Expr]:
+    """Yield the largest parts of a formula that depend on the time and not on the motion."""
+    if not moving_quantities(e):
+        yield from (e,) if "t" in names_in_expression(e) else ()
+    elif isinstance(e, Call):
+        for argument in e.arguments:
+            yield from _parts_of_time(argument)
 
 
 def _has_rate(in_time: InTime, e: Expr, t: float, until: float) -> bool:

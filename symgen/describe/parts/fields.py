@@ -19,6 +19,10 @@ from symgen.base.units import si_hint
 Text = Annotated[str, Meta(description="a text")]
 Scalar = Annotated[float | str, Meta(description="a number or an expression of parameters")]
 TimeFunction = Annotated[float | str, Meta(description="a number or an expression of t and parameters")]
+TimeVector = Annotated[
+    tuple[float | str, float | str, float | str],
+    Meta(description="three numbers or expressions of t and parameters [x, y, z]"),
+]
 StateFunction = Annotated[
     float | str,
     Meta(description="a number or an expression of t, parameters and body coordinates such as crank.theta"),

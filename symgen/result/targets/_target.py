@@ -43,6 +43,8 @@ class Request:
         The integrator of a run that is printed as a whole; None where the target has its own steps.
     rtol, atol : float or None
         Tolerances of its adaptive steps; None for those of runs.
+    derivatives : bool
+        Whether derivatives are written as well.
     """
 
     mechanism: Mechanism
@@ -55,6 +57,7 @@ class Request:
     integrator: str | None = None
     rtol: float | None = None
     atol: float | None = None
+    derivatives: bool = False
 
     def settings(self, target: str) -> Settings:
         """Return the settings of a run by the only method.
@@ -100,12 +103,22 @@ class Target:
         Whether its code may have bounded rows, whose modes are those that callers write.
     runs : bool
         Whether it can print a whole run by a named integrator.
+    derivatives : bool
+        Whether it can write derivatives as well.
     """
 
     write: Callable[[Request], Package]
     ending: str = ""
     bounded: bool = False
     runs: bool = False
+    derivatives: bool = False
+
+    def check_derivatives(self, target: str, derivatives: object) -> bool:
+        """Return whether derivatives are wanted; refuse them of a target that has none."""
+        wanted = arguments.truth_value("derivatives", derivatives)
+        if wanted and not self.derivatives:
+            raise InputError("derivatives", "target 'c-functions', which writes them", f"target '{target}'")
+        return wanted
 
     def check_run(
         self, target: str, integrator: str | None, rtol: float | None, atol: float | None
