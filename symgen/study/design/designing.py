@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from symgen.analyses.fit.measured_data import measured_columns
 from symgen.analyses.kinds import change_settings_checked
 from symgen.base import arguments
-from symgen.base.errors import AnalysisError, InputError, plural
+from symgen.base.errors import InputError, plural
 from symgen.base.keywords import RunKeywords, keyword_names, make_entry
 from symgen.describe.facts.lifted import numbers_of_file
 from symgen.describe.files.load import parse_toml, read_text
@@ -125,7 +125,10 @@ class _Designing:
     """A design from its arguments to its answer."""
 
     def __init__(self, model: Model, settings: Settings, vary: object, aim: object, keep: object) -> None:
-        self.model, self.settings = model, settings
+        origin = origin_of(model.mechanism)
+        if origin is None:
+            raise InputError("design: model", "a model whose file is at hand", "one without", "load the file again")
+        self.model, self.settings, self.origin = model, settings, origin
         self.varied = read_varied(model.mechanism, vary, settings.parameters)
         self.reader = QuantityReader(self.varied.mechanism)
         until = settings.until
@@ -308,9 +311,7 @@ class _Designing:
         """Return the text of the file with new numbers, and its machine."""
         from symgen.api import Model
 
-        origin = origin_of(self.model.mechanism)
-        if origin is None:
-            raise AnalysisError("design: the file of this model is not at hand: load it again")
+        origin = self.origin
         paths = {name: path for name, path, _ in numbers_of_file(origin.raw)}
         whole = {**self.settings.parameters, **values}
         numbers = {paths.get(name, ("parameters", name)): value for name, value in whole.items()}

@@ -1,6 +1,7 @@
 """Numbers by an aim, beside closed forms, differences, and runs of the files that were written."""
 
 import json
+import pickle
 import subprocess
 import sys
 import time
@@ -373,6 +374,12 @@ def test_bad_input_has_one_sentence(machine, what):
         machine.design(**({"vary": {"a": (0.2, 0.4)}, "aim": AIM} | arguments))
     assert sentence in str(error.value)
     assert "\n" not in str(error.value)
+
+
+def test_a_model_without_its_file_is_refused_before_the_search(machine):
+    copied = symgen.Model(pickle.loads(pickle.dumps(machine.mechanism)))
+    with pytest.raises(InputError, match="expected a model whose file is at hand, got one without; load the file"):
+        copied.design(SMALL, AIM)
 
 
 def test_a_file_that_does_not_move_is_refused_with_the_number_of_those_that_do(machine):
