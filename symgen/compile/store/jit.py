@@ -111,11 +111,13 @@ class MachineFunction(ABC):
         InputError
             If the function is outside the language.
         """
-        if arguments not in self._codes:
+        found = self._codes.get(arguments)  # types of large records are hashed at each look
+        if found is None:
             with lock:
-                if arguments not in self._codes:
-                    self._codes[arguments] = self._load_code(arguments)
-        return self._codes[arguments]
+                found = self._codes.get(arguments)
+                if found is None:
+                    found = self._codes[arguments] = self._load_code(arguments)
+        return found
 
     def address(self, signature: types.Signature) -> int:
         """Return the address of the machine code."""

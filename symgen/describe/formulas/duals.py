@@ -126,6 +126,16 @@ class Duals:
         value = evaluate(expression, own, where)
         return Dual(value, self.derivatives(expression, where))
 
+    def quick_value(self, expression: Expr, where: str) -> Dual:
+        """Return the same by one walk over a formula; `value` takes another one, for its messages."""
+        try:
+            found = self._formula(expression, where)
+            if math.isfinite(found.value):
+                return found
+        except (ArithmeticError, ValueError, TypeError):  # undefined somewhere, perhaps where it does not count
+            pass
+        return self.value(expression, where)
+
     def derivatives(self, expression: Expr, where: str) -> Slopes:
         """Return the derivatives of a formula that has a value."""
         return self._formula(expression, where).slopes
@@ -225,12 +235,10 @@ class ParameterDuals:
         InputError
             If a formula has no value.
         """
-        numbers = dict(values)
         duals = {name: Dual(value, self._own.get(name, ())) for name, value in values.items()}
         following = Duals(duals)
         for name, formula in self._formulas:
-            numbers[name] = value = evaluate(formula, numbers, f"parameter '{name}'")
-            duals[name] = Dual(value, following.derivatives(formula, f"parameter '{name}'"))
+            duals[name] = following.quick_value(formula, f"parameter '{name}'")
         return duals
 
 

@@ -137,11 +137,11 @@ class DrivenDirections:
             states[:, :own] = motion.states[:, :own]
             directions = model.directions_after(states, "y")  # a view
             (entries,), (violated,) = self._scratch(states, p, w, ("jacobian",), ("residual",))
-            d = self._matrices(entries, True)
-            directions[:, : info.nq] = self._coordinates(motion.states, -self._solve(d, violated))
+            inverse = self._inverses(self._matrices(entries, True))
+            directions[:, : info.nq] = self._coordinates(motion.states, -(inverse @ violated))
             _, (slopes, nu) = self._scratch(states, p, w, (), ("jacobian", "nu"))
             changed = np.einsum("kijl,kj->kil", self._matrices(slopes, False), v)
-            directions[:, info.nq : info.work] = self._solve(d, nu - changed)
+            directions[:, info.nq : info.work] = inverse @ (nu - changed)
             yield states
 
     def _scratch(
@@ -173,11 +173,11 @@ class DrivenDirections:
                 d[:, row, column] = number or 0.0
         return d
 
-    def _solve(self, d: Array, right: Array) -> Array:
-        """Return the solution of D x = right at all times; of rows that repeat others by the pseudo-inverse."""
+    def _inverses(self, d: Array) -> Array:
+        """Return the inverse of D at all times; the pseudo-inverse where rows repeat others."""
         if self.info.m == self.info.nv and not self.start.redundant_rows:
-            return np.asarray(np.linalg.solve(d, right), dtype=np.float64)
-        return np.asarray(np.linalg.pinv(d, rcond=_CUTOFF) @ right)
+            return np.asarray(np.linalg.inv(d), dtype=np.float64)
+        return np.asarray(np.linalg.pinv(d, rcond=_CUTOFF))
 
     def _coordinates(self, states: Array, along: Array) -> Array:
         """Return the directions of coordinates from those along velocities: N dv."""

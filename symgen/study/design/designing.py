@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from symgen.analyses.fit.measured_data import measured_columns
 from symgen.analyses.kinds import change_settings_checked
 from symgen.base import arguments
-from symgen.base.errors import AnalysisError, InputError, plural
+from symgen.base.errors import InputError, plural
 from symgen.base.keywords import RunKeywords, keyword_names, make_entry
 from symgen.describe.facts.lifted import numbers_of_file
 from symgen.describe.files.load import parse_toml, read_text
@@ -38,6 +38,7 @@ from symgen.study.design.residuals import DataAim, data_aim
 from symgen.study.design.rows import Aim
 from symgen.study.design.search import Candidate, Programme, Search
 from symgen.study.design.starts import Screened, screen
+from symgen.study.report.words import enumeration
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -124,7 +125,10 @@ class _Designing:
     """A design from its arguments to its answer."""
 
     def __init__(self, model: Model, settings: Settings, vary: object, aim: object, keep: object) -> None:
-        self.model, self.settings = model, settings
+        origin = origin_of(model.mechanism)
+        if origin is None:
+            raise InputError("design: model", "a model whose file is at hand", "one without", "load the file again")
+        self.model, self.settings, self.origin = model, settings, origin
         self.varied = read_varied(model.mechanism, vary, settings.parameters)
         self.reader = QuantityReader(self.varied.mechanism)
         until = settings.until
@@ -184,10 +188,10 @@ class _Designing:
             screened = screen(search, 1, seed)
             hint = f"{screened.moving} of {screened.tried} candidates within the bounds move"
             raise InputError("design: vary", "values in the file with which the machine moves", reason, hint)
-        if isinstance(self.aim, Aim) and not first.fine.slopes[:, self.aim.quantity].any():
-            raise InputError(
-                "design: aim", "a quantity that a varied number changes", f"{self.aim.taken.quantity}, which none does"
-            )
+        places = [self.aim.quantity] if isinstance(self.aim, Aim) else [*self.aim.places]
+        if not first.fine.slopes[:, places].any():
+            got = f"{enumeration([self.reader.quantities[i].text for i in places])}, which none does"
+            raise InputError("design: aim", "a quantity that a varied number changes", got)
         return first
 
     def _starts(self, first: Candidate, starts: int, seed: int) -> Iterator[Candidate]:
@@ -307,9 +311,7 @@ class _Designing:
         """Return the text of the file with new numbers, and its machine."""
         from symgen.api import Model
 
-        origin = origin_of(self.model.mechanism)
-        if origin is None:
-            raise AnalysisError("design: the file of this model is not at hand: load it again")
+        origin = self.origin
         paths = {name: path for name, path, _ in numbers_of_file(origin.raw)}
         whole = {**self.settings.parameters, **values}
         numbers = {paths.get(name, ("parameters", name)): value for name, value in whole.items()}

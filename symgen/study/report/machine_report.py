@@ -77,7 +77,7 @@ def machine_report(model: Model, result: Result, command: str = "", over: str = 
         *_events_section(result),
         *_loads_section(result, along),
         Section("Curves", pictures=(*_curve_pictures(result, along),)),
-        _frequencies_section(model, result),
+        *_frequencies_section(model, result),
     ]
     title = model.mechanism.title or model.name
     lead, verdict = _lead_sentence(result), verdict_on_run(result, limits)
@@ -218,17 +218,23 @@ def _curve_pictures(result: Result, along: Labelled) -> Iterator[Picture]:
             yield picture_of_figure(name, caption, title, partial(figure_over_column, along, table, title))
 
 
-def _frequencies_section(model: Model, result: Result) -> Section:
-    """Return the section of frequencies about the equilibrium that the start of the file leads to."""
+def _frequencies_section(model: Model, result: Result) -> Iterator[Section]:
+    """Yield the section of frequencies about the equilibrium that the start of the file leads to.
+
+    A machine whose drivers prescribe all of its motion has none.
+    """
     title, text, tables = "Frequencies at rest", list[str](), list[DocumentTable]()
     try:
         modes: Any = model.modes(parameters=dict(result.parameters), at="equilibrium")
     except SymgenError as error:
-        return Section(title, (f"There are none: {error}.",))
+        yield Section(title, (f"There are none: {error}.",))
+        return
+    if not modes.degrees_of_freedom:
+        return
     for item in shown_modes(modes):
         if isinstance(item, AnalysisTable):
             rows = tuple(tuple(map(str, row)) for row in item.rows)
             tables.append(DocumentTable("Modes", tuple(item.headings), rows))
         else:
             text.append(f"{str(item)[:1].upper()}{str(item)[1:]}.")
-    return Section(title, tuple(text), tables=tuple(tables))
+    yield Section(title, tuple(text), tables=tuple(tables))
