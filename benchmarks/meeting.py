@@ -200,6 +200,11 @@ FEATURES: Mapping[str, str] = {
     "contact": cart(more=_WALL),
     "contact, two feet": cart(more=_SLED),
     "clearance": cart(pin="clearance = { hole = 0.011, pin = 0.01, restitution = 0.3, friction = 0.1 }"),
+    "rope over a sheave": cart(
+        more="[bodies.weight]\nmass = 0.5\ninertia = 0.01\nposition = [0.5, -0.6]\n"
+        '[joints.rope]\ntype = "rope"\nbetween = ["pole", "weight"]\nat = ["tip", "centre"]\n'
+        'over = [{ at = [0.4, 0.2], radius = 0.1, turn = "right" }]'
+    ),
     "wheel that gives way": cart(
         more="[bodies.wheel]\nmass = 0.5\ninertia = 0.01\nposition = [0.1, 0.3]\nvelocity = [0.2, 0.0]\n"
         '[joints.road]\ntype = "rolling"\nbetween = ["wheel", "cart"]\nradius = 0.2\naxis = [1.0, 0.0]\n'
