@@ -36,16 +36,20 @@ $(DOCS_INSTALLED): $(INSTALLED)
 	@"$(BIN)/python" -m pip install -qq --disable-pip-version-check --editable '.[docs]'
 	@touch $@
 
-demo: $(INSTALLED)  ## derive, generate, compile and run a mechanism with every method; table, result and plot in out/
+demo: $(INSTALLED)  ## derive, generate, compile and run a mechanism with every method; table, result and picture in out/
 	@mkdir -p out
-	@echo; echo "== describe and assemble"
 	@"$(BIN)/symgen" check $(DEMO_MODEL)
-	@echo; echo "== derive and generate: the code of every method"
-	@"$(BIN)/symgen" generate $(DEMO_MODEL) --all --output out/$(DEMO_MODEL)
-	@echo; echo "== compile and simulate one run"
-	@"$(BIN)/symgen" run $(DEMO_MODEL) --save out/$(DEMO_MODEL).nc --plot out/$(DEMO_MODEL).png
-	@echo; echo "== compile and simulate every method: error against run time"
-	@"$(BIN)/symgen" compare $(DEMO_MODEL) --csv out/$(DEMO_MODEL).csv --output out/$(DEMO_MODEL).html
+	@echo; echo "the code of every method, and what each costs: half a minute"
+	@"$(BIN)/symgen" generate $(DEMO_MODEL) --all --output out/$(DEMO_MODEL) > out/$(DEMO_MODEL).txt
+	@"$(BIN)/symgen" compare $(DEMO_MODEL) --csv out/$(DEMO_MODEL).csv --output out/$(DEMO_MODEL).html \
+	  >> out/$(DEMO_MODEL).txt 2>&1
+	@echo; echo "one run, its largest loads, and its picture"
+	@"$(BIN)/symgen" run $(DEMO_MODEL) --save out/$(DEMO_MODEL).nc --plot out/$(DEMO_MODEL).png > out/run.txt
+	@sed -n '/^quantity/,$$p' out/run.txt
+	@echo; echo "look at out/$(DEMO_MODEL).png, and at out/$(DEMO_MODEL).html: error against run time of every method"
+	@echo "next:  $(BIN)/symgen new my-machine.toml    a file to begin with"
+	@echo "       $(BIN)/symgen edit my-machine.toml   draw it and see it move"
+	@echo "       $(BIN)/symgen --help                 all commands"
 
 test: $(INSTALLED)  ## run the tests, except slow ones
 	@"$(BIN)/python" -m pytest -n $(WORKERS)

@@ -80,15 +80,20 @@ CHOICES = {
     ),
     "four-bar": Choice(window=0.22),
     "free-rigid-body": Choice(methods=("lagrange", "direct-correction"), integrators=("rk4", "rkmk4", "dop853")),
+    "geneva": Choice(window=0.17),
     "heavy-top": Choice(window=0.25),
     "jansen-leg": Choice(window=0.9),
     "klann-leg": Choice(window=0.9),
     "n-four-bar": Choice(size=2),
+    "rocking-block": Choice(window=0.08),
     "scissor-lift": Choice(window=0.75),
     "shaper": Choice(window=0.2),
+    "skidding-wheel": Choice(window=0.12),
     "slider-crank": Choice(window=0.12),
+    "slider-crank-with-clearance": Choice(window=0.4),
     "stewart-platform": Choice(methods=("lagrange", "direct-correction"), window=0.5),
     "wiper": Choice(window=0.15),
+    "woodpecker": Choice(window=0.05),
 }
 
 

@@ -69,11 +69,18 @@ def cart(inertia: str = '"size**2/3"', pin: str = "", force: str = "-k*cart.x - 
     return CART.format(inertia=inertia, pin=pin, force=force, more=more)
 
 
+def lowered(play: float, text: str) -> str:
+    """Return a file whose pole is lower by a play, which is closed then."""
+    return text.replace('"-size*cos(0.4)"', f'"-size*cos(0.4) - {play!r}"')
+
+
 _PIN = 'type = "revolute"\nbetween = ["cart", "pole"]\nat = ["centre", "pin"]'
 _ROWS = 'type = "rows"\nrows = [{ position = "pole.pin.x - cart.x" }, { position = "pole.pin.y - cart.y" }]'
 _RAIL = (
     'type = "translational"\nbetween = ["ground", "cart"]\nat = [[0.0, 0.0], "centre"]\naxis = [1.0, 0.0]\nangle = 0.0'
 )
+_PLAY = "clearance = { hole = 0.011, pin = 0.01, restitution = 0.3 }"
+_GUIDE = "clearance = { length = 0.3, height = 0.1, gap = 0.002, restitution = 0.3, friction = 0.3 }"
 _BLADE = 'type = "beam"\nbetween = ["cart", "end"]\nat = ["centre", "centre"]\nlength = 0.5\naxis = [1.0, 0.0]'
 _HOOK = (
     'mass = 0.0\ninertia = 0.0\nposition = ["0.1 + 2*size*sin(0.4)", "-2*size*cos(0.4)"]\npoints = { a = [0.0, 0.0] }'
@@ -199,7 +206,10 @@ FEATURES: Mapping[str, str] = {
     ),
     "contact": cart(more=_WALL),
     "contact, two feet": cart(more=_SLED),
-    "clearance": cart(pin="clearance = { hole = 0.011, pin = 0.01, restitution = 0.3, friction = 0.1 }"),
+    "clearance": lowered(0.001, cart(pin=_PLAY)),
+    "clearance of a slide": lowered(0.002, cart())
+    .replace(_RAIL, f"{_RAIL}\n{_GUIDE}")
+    .replace("[0.1, 0.0]", "[0.1, -0.002]\nvelocity = [0.3, 0.0]"),
     "rope over a sheave": cart(
         more="[bodies.weight]\nmass = 0.5\ninertia = 0.01\nposition = [0.5, -0.6]\n"
         '[joints.rope]\ntype = "rope"\nbetween = ["pole", "weight"]\nat = ["tip", "centre"]\n'
@@ -319,6 +329,7 @@ def _adjoint(file: Path, folder: Path) -> str:
     return guarded(lambda: symgen.load(file).gradient("cart.x", by=("k",), way="adjoint"))
 
 
+_DESIGNED = ("--vary", "k=25:40", "--aim", "peak(cart.x)", "--keep", "cart.x <= 5 m", "--until", "0.1")
 _COMPARED = ("--methods", "lagrange,direct-correction", "--integrators", "dop853", "--until", "0.2")
 
 #: Places by groups, each a table of the page.
@@ -343,6 +354,7 @@ GROUPS: Mapping[str, Mapping[str, Place]] = {
         "forward": _run("--sensitivity", "k"),
         "adjoint": _adjoint,
         "identify": _identified,
+        "design": lambda file, folder: invoked("design", file, *_DESIGNED),
     },
     "Analyses": {
         "equilibrium": lambda file, folder: invoked("equilibrium", file),

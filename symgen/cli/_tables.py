@@ -13,7 +13,6 @@ from rich.text import Text
 
 from symgen.base.digits import digits, format_column, scale_of
 from symgen.base.errors import InputError, fit_lines, plural
-from symgen.describe.modal_body import COORDINATE, MOST_MODES, SPEED, names_of_modes
 
 if TYPE_CHECKING:
     import numpy as np
@@ -105,8 +104,7 @@ def show_result(result: Result) -> None:
     out = make_console()
     show_facts(out, [(label, in_terms_of_options(text)) for label, text in summary_lines(result)])
     if len(result.t):
-        labels, rows = _final_state(result)
-        show_rows(out, ("body", *labels), rows, left=("body",), title="final state")
+        _show_extremes(out, result)
 
 
 def show_quantities(quantities: Mapping[str, Mapping[str, Any]], tables: Iterable[Labelled] = ()) -> None:
@@ -148,29 +146,21 @@ def show_sensitivities(result: Result, quantities: Sequence[str], most: int = 40
         click.echo(f"... {len(rows) - first} more; --quantity chooses, --json has all")
 
 
-def _final_state(result: Result, most: int = 12) -> tuple[list[str], list[tuple[str, ...]]]:
-    """Return the last positions and velocities, of the first bodies where there are many."""
-    from symgen.result.labelled import column_texts
+def _show_extremes(out: Console, result: Result, most: int = 12) -> None:
+    """Print smallest and largest values with their times, of the first quantities where there are many."""
+    from symgen.result.extremes import extremes_of_run
+    from symgen.result.labelled import common_scales
 
-    bodies = dict[str, dict[str, str]]()
-    for table in (result.q, result.v):
-        for name, text in column_texts(table).items():
-            body, _, label = name.rpartition(".")
-            bodies.setdefault(body, {})[label] = text
-    first = fit_lines(len(bodies), most)
-    labels = sorted({label for row in bodies.values() for label in row}, key=_LABELS.index)
-    rows = [(body, *(row.get(label, "") for label in labels)) for body, row in list(bodies.items())[:first]]
-    if len(bodies) > first:
-        rows.append((f"... {len(bodies) - first} more", *("" for _ in labels)))
-    return labels, rows
-
-
-#: Coordinates and velocities of bodies in the order in which they are shown.
-_LABELS = (
-    *("x", "y", "z", "theta", "e0", "e1", "e2", "e3", "vx", "vy", "vz", "omega", "wx", "wy", "wz"),
-    *names_of_modes(COORDINATE, MOST_MODES),
-    *names_of_modes(SPEED, MOST_MODES),
-)
+    found, scales = extremes_of_run(result), common_scales((result.q, result.v, result.lam))
+    first, rows = fit_lines(len(found), most), list[tuple[str, ...]]()
+    for each in found[:first]:
+        scale = max(scale_of((each.low, each.high), each.unit), scales.get(each.unit, 0.0))
+        cells = digits(each.low, scale), f"{each.low_at:.4g}", digits(each.high, scale), f"{each.high_at:.4g}"
+        rows.append((each.name, *cells, each.unit))
+    headings = ("quantity", "smallest", "at t [s]", "largest", "at t [s]", "unit")
+    show_rows(out, headings, rows, left=("quantity", "unit"))
+    if len(found) > first:
+        click.echo(f"... {len(found) - first} more; --quantity chooses, --json has the final state")
 
 
 def show_study(study: Study) -> None:
@@ -331,7 +321,7 @@ def show_across(lines: Sequence[Across]) -> None:
 
 def show_stress(study: Stress) -> None:
     """Print a stress study."""
-    from symgen.study.stress.beside import beside_yardstick, cells_beside, families_beside
+    from symgen.study.stress.beside import beside_yardstick, cells_beside, extremes_beside, families_beside
     from symgen.study.stress.findings import findings_of_study
     from symgen.study.stress.stress_rows import LEGEND, Map
 
@@ -345,13 +335,17 @@ def show_stress(study: Stress) -> None:
         out.print(f"accurate cells of those judged; {LEGEND}", style="dim")
     lines = beside_yardstick(study)
     if len(lines) > 1:
-        families, searched = families_beside(lines)
+        (families, searched), extremes = families_beside(lines), extremes_beside(lines)
         headings = (
             *("methods", "integrator", *(family.replace("-", " ") for family in families)),
             *(f"step, {family}" for family in searched),
+            *(f"up to, {family}" for family in extremes),
         )
-        cells = [(", ".join(x.methods), x.integrator, *cells_beside(x, families, searched)) for x in lines]
-        title = "error of lagrange with the same integrator over the error: medians; largest steps that follow [s]"
+        cells = [(", ".join(x.methods), x.integrator, *cells_beside(x, families, searched, extremes)) for x in lines]
+        title = (
+            "error of lagrange with the same integrator over the error: medians; largest steps that follow [s]; "
+            "extreme values up to which runs are accurate"
+        )
         show_rows(out, headings, cells, headings[:2], title, first=2)
     if study.limits:
         out.print("largest constant step [s] that follows the motion, and with an error below 1e-3 of the length")

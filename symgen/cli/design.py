@@ -1,4 +1,4 @@
-"""Find numbers of a machine with which an aim is smallest, within limits."""
+"""Find dimensions by an aim, within limits."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 @click.command(
     "design",
     epilog=examples_in_help(
-        'symgen design jansen-leg --vary b=41:42 --vary c=39:40 --aim "peak(crank-motor.effort)"',
+        'symgen design jansen-leg --vary b=0.40:0.43 --vary c=0.38:0.41 --aim "peak(motor.effort)"',
         'symgen design press.toml --vary a=0.2:0.4 --aim "peak(motor.effort)" --keep "min(ram.y) <= -598 mm"',
     ),
 )

@@ -125,6 +125,10 @@ class Evaluated:
         """Return the directions of a function of the motion of bodies, shape (k, length, n)."""
         return self.directions_side_by_side(lambda x: x.observe_directions(function, length)[1])
 
+    def energies(self) -> Array:
+        """Return the directions of kinetic and potential energy, shape (k, n, 2)."""
+        return np.moveaxis(self.directions_side_by_side(lambda x: x.observe_energies()), 1, 2)
+
     def directions_of_end(self) -> Array | None:
         """Return the directions of the time at which an event ended the run, shape (n,); None where none did."""
         watched, outcome = self.run.spec.events, self.course.outcome

@@ -14,6 +14,7 @@ import numpy as np
 
 from symgen.base.arguments import kind_of_value, truth_value, words
 from symgen.base.arguments import path_argument as argument_path
+from symgen.base.arguments import text as text_argument
 from symgen.base.errors import InputError, suggest
 from symgen.base.files import check_path, write_whole
 from symgen.base.memory import require_memory
@@ -251,7 +252,8 @@ class Result(MotionTables):
         Parameters
         ----------
         name : str
-            A column: ``crank.theta``, ``crank.omega``, ``arm.tip.x``, ``spring.force``, or an output of the file.
+            A column such as ``crank.theta``, ``arm.tip.x``, ``spring.force``, ``knee.F`` or ``energy.kinetic``, an
+            output of the file, or a formula as in ``[outputs]``.
 
         Raises
         ------
@@ -260,9 +262,7 @@ class Result(MotionTables):
         """
         if self.sensitivities is None:
             raise InputError("gradient", "a run with sensitivities=(...)", "one without")
-        from symgen.result.sensitivities import place_of_column
-
-        return self.sensitivities.column(*place_of_column(self, name))
+        return self.sensitivities.of_quantity(self, text_argument("gradient", name, "a quantity with sensitivities"))
 
     @property
     def interrupted(self) -> bool:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError, quote, suggest
 from symgen.describe.facts.kinks import discontinuities_of
+from symgen.describe.facts.motion_quantities import QuantityNames
 from symgen.describe.formulas.readings import TABLES as FORMULAS
 from symgen.result.evaluated import Evaluated
 from symgen.result.labelled import Labelled
@@ -30,6 +31,7 @@ from symgen.run.planning.start_directions import StartDirections
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
+    from symgen.base.vocabulary.expressions import Expr
     from symgen.describe.mechanism import Mechanism
     from symgen.result.result import Result
     from symgen.run.layout.compiled import CompiledModel
@@ -42,6 +44,8 @@ Array = NDArray[np.float64]
 SCHEMES = ("dop853", "dopri5", "rk4", "abm4", "abm", "euler", "heun")
 #: Tables of a result with sensitivities.
 TABLES = ("q", "v", "a", "joint_coordinates", *FORMULAS)
+#: Energies, as sums of kinetic and potential energy.
+ENERGIES = {"energy.kinetic": (1.0, 0.0), "energy.potential": (0.0, 1.0), "energy.total": (1.0, 1.0)}
 #: Directions leave the constraints by less than this part of their size, unless they are doubtful.
 CONSISTENT = 1e-6
 
@@ -273,7 +277,14 @@ class Sensitivities:
         formulas = [(column.name, column.formula) for column in FORMULAS[name](mechanism)]
         if not formulas:
             return np.zeros((len(outcome.times), 0, len(self.names)))
-        side = compile_side(mechanism, compiled, name, f"the table {name} of results", formulas)
+        return self._formulas(name, formulas)
+
+    def _formulas(self, name: str, formulas: list[tuple[str, Expr]]) -> Array:
+        """Return the derivatives of formulas, shape (k, formulas, n)."""
+        evaluated, outcome = self._evaluated, self._outcome
+        side = compile_side(
+            evaluated.run.plan.mechanism, outcome.compiled, name, f"the table {name} of results", formulas
+        )
         if "multipliers" in side.reads and outcome.start.redundant_rows:
             row = outcome.start.redundant_rows[0]
             got = f"those of dependent rows ({row}) in {name}"
@@ -282,7 +293,33 @@ class Sensitivities:
 
     def column(self, table: str, place: int, unit: str) -> Labelled:
         """Return the derivatives of one column of a table over time."""
-        values = self.table(table)[:, place]
+        return self._labelled(self.table(table)[:, place], unit)
+
+    def of_quantity(self, result: Result, name: str) -> Labelled:
+        """Return the derivatives of a column, an energy or a formula over time.
+
+        Raises
+        ------
+        InputError
+            If it is none, or has no derivatives.
+        """
+        if result._places.get(name, ("", 0))[0] in TABLES:
+            return self.column(*place_of_column(result, name))
+        if self._evaluated is None:
+            raise InputError("sensitivities", "a result of this process", "one that was pickled or copied")
+        if name in ENERGIES:
+            return self._labelled(self._evaluated.energies() @ np.array(ENERGIES[name]), "J")
+        names = QuantityNames(self._evaluated.run.plan.mechanism)
+        try:
+            quantity = names.read("gradient", name)
+        except InputError as error:
+            # a column without derivatives has a name of its own; anything else is a slip in a formula
+            if name in result._places or name.replace(".", "").isidentifier():
+                place_of_column(result, name)
+            raise InputError("gradient", error.expected, error.got, error.hint) from None
+        return self._labelled(self._formulas("gradient", [(name, quantity.formula)])[:, 0], quantity.unit)
+
+    def _labelled(self, values: Array, unit: str) -> Labelled:
         return Labelled(values, self.names, tuple(derivative_unit(unit, own) for own in self.units))
 
     def saved(self, result: Result) -> tuple[str, ...]:

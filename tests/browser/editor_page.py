@@ -76,7 +76,9 @@ class Page:
 
     def key(self, key: str, modifiers: int = 0) -> None:
         """Press a key; modifiers are 2 for control and 8 for shift."""
-        code = {"Enter": 13, "Delete": 46, "Escape": 27, "Tab": 9, "F2": 113}.get(key, ord(key.upper()[0]))
+        code = {"Enter": 13, "Delete": 46, "Escape": 27, "Tab": 9, "F2": 113, "ArrowDown": 40}.get(
+            key, ord(key.upper()[0])
+        )
         for kind in ("rawKeyDown", "char", "keyUp") if key == "Enter" else ("rawKeyDown", "keyUp"):
             text = {"text": "\r"} if kind == "char" else {}
             self.chromium.call(

@@ -35,6 +35,10 @@ def test_axe_finds_nothing(width: int, theme: str, page: Page) -> None:
     page.run("document.getElementById('joint').open = true")
     page.until("document.querySelectorAll('#joint math').length > 1")
     page.press("#seek")
+    page.press("[data-tool=slide]")
+    page.run("window.symgen.editor.offer('test', 'bar.toml has changed on the disk.', [['Load the file', () => {}]])")
+    for menu in ("more", "seen"):
+        page.run(f"document.getElementById('{menu}').open = true")
     page.type(text.index("[bodies"), "mas")
     page.until("!document.getElementById('errors').hidden")
     page.run(files("axe_core_python").joinpath("axe.min.js").read_text(encoding="utf-8") + "; true")

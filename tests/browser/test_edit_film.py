@@ -32,12 +32,14 @@ class Film:
     def take(self, time: int = 900) -> None:
         self.page.chromium.frame()
         seen = self.page.chromium.picture(self.folder / "frame.png").read_bytes()
-        self.frames.append(Image.open(io.BytesIO(seen)).convert("RGB").resize((960, 600), Image.Resampling.LANCZOS))
+        whole = Image.open(io.BytesIO(seen)).convert("RGB")
+        self.last = whole.resize((960, 600), Image.Resampling.LANCZOS)
+        self.frames.append(whole.resize((800, 500), Image.Resampling.LANCZOS))
         self.times.append(time)
 
     def save(self, path: Path) -> None:
         """Write the film with the colours of its last picture."""
-        palette = self.frames[-1].quantize(64)
+        palette = self.frames[-1].quantize(32)
         frames = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in self.frames]
         further = {"save_all": True, "append_images": frames[1:], "duration": self.times, "loop": 0, "optimize": True}
         frames[0].save(path, **further)
@@ -83,9 +85,9 @@ def test_a_crank_rocker_from_paper(page: Page, tmp_path: Path) -> None:
     page.mouse("mouseReleased", x + 40, y - 40)
     page.rested()
     film.take()
-    for k in range(40):
-        page.run(f"window.symgen.frame({0.025 * k})")
-        film.take(60)
+    for k in range(20):
+        page.run(f"window.symgen.frame({0.05 * k})")
+        film.take(120)
     page.run("window.symgen.frame(0)")
     page.key("s", 2)
     page.until("document.getElementById('status').textContent.startsWith('saved')")
@@ -93,7 +95,7 @@ def test_a_crank_rocker_from_paper(page: Page, tmp_path: Path) -> None:
     saved = page.editor.document.path.read_text()
     assert saved == page.text("text") and saved.count("[bodies.") - saved.count("# [bodies.") == 3
     assert page.text("freedoms") == "0 degrees of freedom" and page.text("facts").endswith("status ok")
-    assert len(film.frames) > 60 and page.said() == []
+    assert len(film.frames) > 40 and page.said() == []
     if KEPT:
         film.save(Path(KEPT) / "edit.gif")
-        film.frames[-1].quantize(96, dither=Image.Dither.NONE).save(Path(KEPT) / "edit.png", optimize=True)
+        film.last.quantize(64, dither=Image.Dither.NONE).save(Path(KEPT) / "edit.png", optimize=True)

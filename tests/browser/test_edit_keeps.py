@@ -56,7 +56,7 @@ def answer(page: Page, word: str) -> None:
 
 
 def kept(page: Page) -> None:
-    """Wait until the server has the text that stands there."""
+    """Wait until the server has the text that stands there, and has forgotten what was thrown away."""
     page.until("window.symgen.editor.kept()")
 
 
@@ -102,6 +102,7 @@ def test_a_text_that_was_never_saved_outlives_a_reload_and_a_closed_tab(chromium
         assert LOST in offered(page)[0]  # once: the other one went with the decision
         answer(page, "Throw it away")
         page.until("document.getElementById('offer').hidden")
+        kept(page)
         page.open()
         page.until("window.symgen.editor.checked()")
         assert page.run("document.getElementById('offer').hidden")

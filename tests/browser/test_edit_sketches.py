@@ -1,4 +1,4 @@
-"""Ten mechanisms drawn in ``symgen edit`` from an empty file, by mouse and keys alone, with the actions counted.
+"""Fourteen mechanisms drawn in ``symgen edit`` from an empty file, by the mouse and typed places, then by keys alone.
 
 Each closes as it was drawn: joints are measured here by the numbers of the text, and ``symgen check`` has no note.
 """
@@ -29,34 +29,61 @@ class Hand:
     """A hand that draws: each press of a button, each click and each piece of typed text is an action."""
 
     page: Page
+    keys: bool = False
     actions: int = 0
     tool: str = "move"
     drawn: list[str] = field(default_factory=list)
 
     def use(self, tool: str, *places: Place) -> None:
         """Use a tool at places: points by name, or coordinates in metres, which are typed."""
-        if tool != self.tool:
-            self.page.press(f"[data-tool={tool}]")
-            self.actions += 1
-            self.tool = tool
+        self.choose(tool)
         before = self.page.text("text")
         for place in places:
             self.actions += 1
-            if isinstance(place, str):
-                self.page.click(*self.page.where(place))
-            else:
+            if not isinstance(place, str):
                 self.page.run("document.getElementById('where').focus()")
                 self.page.chromium.call("Input.insertText", text=f"{place[0]}, {place[1]}")
                 self.page.key("Enter")
+            elif self.keys:
+                self.focus(place)
+                self.page.key("Enter")
+            else:
+                self.page.click(*self.page.where(place))
         self.changed(before)
 
-    def drag(self, tool: str, point: str, dx: float, dy: float) -> None:
-        """Use a tool by a drag from a point, so many pixels far."""
-        self.page.press(f"[data-tool={tool}]")
+    def choose(self, tool: str) -> None:
+        if tool == self.tool:
+            return
+        self.actions += 1
         self.tool = tool
-        self.actions += 2
+        if self.keys:
+            self.page.run(f"document.querySelector('[data-tool={tool}]').focus()")
+            self.page.key("Enter")
+        else:
+            self.page.press(f"[data-tool={tool}]")
+
+    def focus(self, name: str) -> None:
+        """Give the focus to a ringed point, as the tabulator does."""
+        self.page.run(
+            "(all => all.filter((e) => e.title === " + json.dumps(name) + ").at(-1).focus())"
+            "([...document.querySelectorAll('.handle')])"
+        )
+
+    def drag(self, tool: str, point: str, to: str | tuple[int, int]) -> None:
+        """Use a tool by a drag from a point to another one, or so many pixels far; by keys, as they do that."""
+        self.choose(tool)
+        self.actions += 1
         before = self.page.text("text")
-        self.page.drag(point, dx, dy)
+        if self.keys:
+            self.focus(point)
+            self.page.key("Enter" if isinstance(to, str) else "ArrowDown", 8)
+            if isinstance(to, str):
+                self.focus(to)
+                self.page.key("Enter")
+        else:
+            x, y = self.page.where(point)
+            end = self.page.where(to) if isinstance(to, str) else (x + to[0], y + to[1])
+            self.page.drag(point, end[0] - x, end[1] - y)
         self.changed(before)
 
     def changed(self, before: str) -> None:
@@ -76,6 +103,7 @@ class Hand:
     def write(self, text: str, behind: str = "") -> None:
         """Type lines behind the first line that has some words, or at the end."""
         now = self.page.text("text")
+        assert behind in now, now
         at = now.index("\n", now.index(behind)) + 1 if behind else len(now)
         self.page.type(at, text)
         self.actions += 1
@@ -116,7 +144,7 @@ def press(hand: Hand) -> None:
     hand.bar("bodies.bar1.points.B", (0.0, 0.0))
     hand.bar("bodies.bar2.points.B", (0.0, -0.3))
     hand.ground("bodies.bar1.points.A")
-    hand.drag("slide", "bodies.bar3.points.B", 0.0, 60.0)
+    hand.drag("slide", "bodies.bar3.points.B", (0, 60))
     hand.write("stop = { lower = -0.05, upper = 0.5, restitution = 0.2 }\n", behind="axis = [0.0, -1.0]")
 
 
@@ -166,6 +194,44 @@ def cart_pole(hand: Hand) -> None:
     hand.bar("bodies.bar1.points.B", (0.25, 1.0))
 
 
+def gears(hand: Hand) -> None:
+    hand.bar((0.0, 0.0), (0.0, 0.2))
+    hand.bar((1.0, 0.0), (1.0, 0.3))
+    hand.ground("bodies.bar1.points.A")
+    hand.ground("bodies.bar2.points.A")
+    hand.use("gear", "joints.pin1", "joints.pin2")
+    hand.use("friction", "joints.pin2")
+    hand.use("motor", "joints.pin1")
+
+
+def scotch_yoke(hand: Hand) -> None:
+    hand.bar((0.0, 0.0), (0.2, 0.1))
+    hand.bar((0.2, 0.6), (0.8, 0.6))
+    hand.ground("bodies.bar1.points.A")
+    hand.use("slide", "bodies.bar2.points.B")
+    hand.drag("slot", "bodies.bar1.points.B", "bodies.bar2.points.A")
+    hand.use("stop", "bodies.bar2.points.B")
+
+
+def quick_return(hand: Hand) -> None:
+    hand.bar((0.0, 0.4), (0.3, 0.4))
+    hand.bar((0.0, 0.0), (0.6, 0.8))
+    hand.ground("bodies.bar1.points.A")
+    hand.ground("bodies.bar2.points.A")
+    hand.drag("slot", "bodies.bar1.points.B", "bodies.bar2.points.B")
+    hand.use("motor", "joints.pin1")
+
+
+def jack(hand: Hand) -> None:
+    hand.bar((0.0, 0.0), (0.8, 0.3))
+    hand.use("copy", "bodies.bar1.points.A", (0.0, 0.4))
+    hand.bar("bodies.bar1.points.B", "bodies.bar2.points.B")
+    hand.ground("bodies.bar1.points.A")
+    hand.ground("bodies.bar2.points.A")
+    hand.use("cylinder", "joints.pin3", "joints.pin2")
+    hand.use("rod", "joints.pin1", (0.3, -0.5))
+
+
 BELT = """
 [joints.wheels]
 type = "coupling"
@@ -205,7 +271,7 @@ def widest_gap(text: str) -> float:
 
     gaps = list[float]()
     for joint in raw["joints"].values():
-        if joint["type"] in ("revolute", "translational"):
+        if joint["type"] in ("revolute", "translational", "pin-in-slot"):
             a, b = (place(*end) for end in zip(joint["between"], joint["at"], strict=True))
             x, y = joint.get("axis", [0.0, 0.0])
             gaps.append(abs((b - a) @ [-y, x]) if "axis" in joint else float(np.hypot(*(b - a))))
@@ -226,6 +292,7 @@ def column(page: Page, name: str) -> Any:
     return np.array(page.run(f"window.symgen.column({json.dumps(name)}).values"))
 
 
+@pytest.mark.parametrize("keys", [False, True], ids=["mouse", "keys"])
 @pytest.mark.parametrize(
     ("draw", "actions", "bodies", "freedoms"),
     [
@@ -239,12 +306,16 @@ def column(page: Page, name: str) -> Any:
         (bucket, 19, 3, 1),
         (cart_pole, 8, 2, 2),
         (belt, 9, 2, 1),
+        (gears, 17, 2, 0),
+        (scotch_yoke, 14, 2, 1),
+        (quick_return, 14, 2, 0),
+        (jack, 20, 3, 0),
     ],
 )
 def test_a_mechanism_from_an_empty_file(
-    draw: Callable[[Hand], None], actions: int, bodies: int, freedoms: int, page: Page
+    draw: Callable[[Hand], None], actions: int, bodies: int, freedoms: int, keys: bool, page: Page
 ) -> None:
-    hand = Hand(page)
+    hand = Hand(page, keys)
     draw(hand)
     page.rested()
     page.picture(draw.__name__)
@@ -252,6 +323,7 @@ def test_a_mechanism_from_an_empty_file(
     assert page.run("document.getElementById('errors').hidden"), page.text("errors")
     assert page.text("facts").endswith("status ok"), (page.text("facts"), page.text("status"), text)
     assert page.text("freedoms").split(";")[0] == f"{freedoms} degree{'s' if freedoms != 1 else ''} of freedom"
+    assert ".mode" not in page.text("key")  # what is plotted first is a motion
     assert text.count("[bodies.") == bodies and text.startswith(EMPTY)
     assert hand.actions == actions
     assert widest_gap(text) < 1e-15

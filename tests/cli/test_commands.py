@@ -4,6 +4,7 @@ import json
 import re
 from importlib import import_module
 
+import numpy as np
 import pytest
 
 import symgen
@@ -187,7 +188,26 @@ def test_run_shows_a_table(cli):
     code, out, _ = cli("run", "four-bar", "--until", "0.1")
     assert code == 0
     assert re.search(r"^status +ok$", out.replace(" \n", "\n"), re.MULTILINE) or "status" in out
-    assert "final state" in out and "coupler" in out and "omega" in out
+    lines = {line.split()[0]: line.split() for line in out.splitlines() if line.strip()}
+    assert lines["quantity"] == "quantity smallest at t [s] largest at t [s] unit".split()
+    table = symgen.load("four-bar").simulate(until=0.1)
+    force, angle = table["D.F"], table["A.angle"]
+    for name, column, unit in (("D.F", force, "N"), ("A.angle", angle, "rad")):
+        low, high = int(np.argmin(column)), int(np.argmax(column))
+        shown = [float(x) for x in lines[name][1:5]]
+        assert shown == pytest.approx([column[low], table.t[low], column[high], table.t[high]], rel=1e-4, abs=1e-6)
+        assert lines[name][5] == unit
+
+
+def test_a_driver_shows_its_effort_and_not_the_size_of_it_again(cli):
+    code, out, _ = cli("run", "driven-four-bar", "--until", "0.2")
+    assert code == 0 and "motor.effort" in out and "motor.F" not in out
+
+
+def test_a_failed_run_shows_no_loads(cli):
+    drifting = ("--method", "lagrange", "--integrator", "rk4", "--step", "2e-2", "--until", "3")
+    code, out, _ = cli("run", "four-bar", *drifting)
+    assert code == 1 and "A.angle" in out and "A.F" not in out
 
 
 def test_a_failed_run_exits_1_and_still_gives_its_result(cli, tmp_path):

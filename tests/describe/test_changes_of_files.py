@@ -15,7 +15,8 @@ from symgen.describe.files.origins import Source
 from symgen.describe.files.places import outline_of_document
 from symgen.describe.files.renaming import remove_from_text, rename_in_text
 from symgen.describe.files.section_words import words_of_sections
-from symgen.describe.files.snippets import Spot, snippet_changes
+from symgen.describe.files.snippet_tables import Spot
+from symgen.describe.files.snippets import snippet_changes
 from symgen.describe.files.text_changes import Change, apply_changes, keep_line_ends, utf16_places
 from symgen.describe.files.validate import collect_errors, validate
 
@@ -197,6 +198,85 @@ def test_a_weld_keeps_angles_and_a_bar_gets_further_points() -> None:
     assert new == pytest.approx([math.sin(0.5), math.cos(0.5)], abs=1e-14)
 
 
+def freedoms(text: str) -> int:
+    """Return the degrees of freedom of a file, which closes as it is described."""
+    model = load(validate(parse_toml(text, "x"), "x"))
+    compiled = model.compile(shape="looped")
+    start = model.assemble(compiled)
+    described = model.initial_state({})[0]
+    assert start.y[: len(described)] == pytest.approx(described, abs=1e-12)
+    return int(compiled.info.nv - start.rank)
+
+
+def two_wheels() -> str:
+    """Return two bars on pins of the ground, one metre apart."""
+    text = EMPTY
+    for k, x in enumerate((0.0, 1.0)):
+        text, _ = added(text, "body", Spot(x, 0.0), Spot(x, 0.2))
+        text, _ = added(text, "pin", Spot(x, 0.0, f"bar{k + 1}", "A"), Spot(x, 0.0))
+    return text
+
+
+def test_a_slot_lets_its_body_turn_where_a_slide_does_not() -> None:
+    text, _ = added(EMPTY, "body", *ROD)
+    end = Spot(0.5, 0.0, "bar1", "B")
+    slid, slot = added(text, "slide", end)[0], added(text, "slot", end)[0]
+    assert (freedoms(slid), freedoms(slot)) == (1, 2)
+    entry = parse_toml(slot, "x")["joints"]["slot1"]
+    assert entry["between"] == ["bar1", "ground"] and entry["at"] == ["B", [0.5, 0.0]]
+    # a stone in the slot of a rocker, which is turned: the slot runs along the rocker
+    text, _ = added(text, "body", Spot(0.5, 0.0), Spot(0.5, 1.0))
+    after, _ = added(text, "slot", end, Spot(0.5, 1.0, "bar2", "B", (0.0, 1.0)), angles={"bar2": 0.5})
+    entry = parse_toml(after, "x")["joints"]["slot1"]
+    assert entry["between"] == ["bar1", "bar2"] and entry["at"] == ["B", "B"]
+    assert entry["axis"] == pytest.approx([math.sin(0.5), math.cos(0.5)], abs=1e-14)
+
+
+def test_gears_a_rod_and_a_cylinder() -> None:
+    text = two_wheels()
+    assert freedoms(text) == 2
+    pins = [Spot(x, 0.0, f"bar{k + 1}", "A", joint=f"pin{k + 1}") for k, x in enumerate((0.0, 1.0))]
+    geared, path = added(text, "gear", *pins)
+    assert path == "joints.gear1" and freedoms(geared) == 1
+    assert parse_toml(geared, "x")["joints"]["gear1"] == {
+        **{"type": "gear", "between": ["bar1", "bar2"], "radii": [0.5, 0.5]},
+    }
+    offset = parse_toml(added(text, "gear", *pins, angles={"bar1": 0.3})[0], "x")["joints"]["gear1"]["offset"]
+    assert offset == pytest.approx(0.15, abs=1e-15)  # r_a theta_a + r_b theta_b
+    tips = [Spot(x, 0.2, f"bar{k + 1}", "B") for k, x in enumerate((0.0, 1.0))]
+    rodded, _ = added(text, "rod", *tips)
+    assert parse_toml(rodded, "x")["joints"]["rod1"]["length"] == 1.0 and freedoms(rodded) == 1
+    pushed, path = added(text, "cylinder", *tips)
+    assert path == "forces.cylinder1" and parse_toml(pushed, "x")["forces"]["cylinder1"]["actuator"] == 100.0
+    validate(parse_toml(pushed, "x"), "x")
+
+
+def test_a_click_gives_a_joint_a_stop_and_friction() -> None:
+    text = two_wheels()
+    pin = Spot(0.0, 0.0, "bar1", "A", joint="pin1")
+    after, path = added(text, "stop", pin)
+    after, _ = added(after, "friction", pin)
+    assert path == "joints.pin1" and is_inserted(text, after)
+    entry = parse_toml(after, "x")["joints"]["pin1"]
+    assert entry["stop"]["upper"] == "90 deg" and entry["friction"] == {"sliding": 0.1}
+    assert "stop" not in parse_toml(after, "x")["joints"]["pin2"]
+    assert len(validate(parse_toml(after, "x"), "x").bounded) == 3
+    turned = parse_toml(added(text, "stop", pin, angles={"bar1": 2.0})[0], "x")["joints"]["pin1"]["stop"]
+    assert (turned["lower"], turned["upper"]) == (0.5, 3.5)  # about where it is
+    with pytest.raises(InputError, match="a joint without stop, got 'pin1', which has one"):
+        added(after, "stop", pin)
+
+
+def test_a_copy_of_a_body_lies_where_the_hand_puts_it() -> None:
+    text, _ = added(EMPTY, "body", *ROD)
+    after, path = added(text, "copy", Spot(0.5, 0.0, "bar1", "B"), Spot(0.8, 0.4))
+    raw = parse_toml(after, "x")["bodies"]
+    assert path == "bodies.bar2" and is_inserted(text, after)
+    assert raw["bar2"] == {**raw["bar1"], "position": [0.4, 0.5]}
+    with pytest.raises(InputError, match="a body whose position is in numbers"):
+        added(text.replace("position = [0.1, 0.1]", 'position = ["pi", 0.1]'), "copy", Spot(0, 0, "bar1"), Spot(1, 1))
+
+
 def test_a_spring_a_slide_and_a_load() -> None:
     end, other = Spot(8.4, 4.7, "rocker", "C"), Spot(12.0, 4.7)
     for kind, spots in (("spring", (end, other)), ("slide", (end,)), ("load", (end,))):
@@ -225,6 +305,10 @@ def test_a_spring_a_slide_and_a_load() -> None:
         ("slide", (Spot(1, 0, "crank", "B"), Spot(1, 0)), "a direction"),
         ("weld", (Spot(0, 0, "crank", "A"), Spot(1, 0, "crank", "B")), "'crank' twice"),
         ("point", (Spot(0, 0), Spot(1, 0)), "a point of a body"),
+        ("slot", (Spot(0, 0, "crank", "A", joint="A"),), "a point that can move along it"),
+        ("rod", (Spot(0, 0, "crank", "A"), Spot(0, 0)), "points in different places"),
+        ("gear", (Spot(0, 0, "crank", "A", joint="A"), Spot(1, 0)), "two pins on one body"),
+        ("friction", (Spot(0, 0, "crank", "A"),), "a pin or a slide, got another point"),
     ],
 )
 def test_what_cannot_be_added(kind: str, spots: tuple[Spot, ...], sentence: str) -> None:

@@ -115,12 +115,19 @@ def test_a_start_that_penetrates_names_its_depth(tmp_path: Path) -> None:
         (
             "rigid",
             "hole = 0.012, pin = 0.01",
-            "joints.pin.clearance: expected a revolute joint in the plane, got a rigid",
+            "joints.pin.clearance: expected a revolute or translational joint in the plane, got a rigid",
         ),
+        (
+            "translational",
+            "length = 0.1, height = 0.05, gap = 0.0",
+            "joints.pin.clearance.gap: expected a value above 0, got 0.0",
+        ),
+        ("translational", "hole = 0.012, pin = 0.01", "joints.pin.clearance: expected the keys"),
     ],
 )
 def test_bad_clearances(kind: str, keys: str, sentence: str, tmp_path: Path) -> None:
     text = FILE.replace("{}", BETWEEN) + f'[joints.pin]\ntype = "{kind}"\nbetween = ["disc", "other"]\n'
+    text += "axis = [1.0, 0.0]\n" if kind == "translational" else ""
     text += f"at = [[0.0, 0.0], [0.0, 0.0]]\nclearance = {{ {keys} }}\n"
     (tmp_path / "touch.toml").write_text(text)
     with pytest.raises(InputError) as caught:

@@ -123,6 +123,22 @@ def test_a_pin_of_two_bodies_moves_on_both() -> None:
     assert places(after)["joints.B"] == pytest.approx((handle.x + 0.25, handle.y + 0.125))
 
 
+def test_the_centre_of_mass_of_a_uniform_bar_stays_in_its_middle() -> None:
+    text = RIG.replace("centre_of_mass = [0.1, 0.0]", "centre_of_mass = [0.25, 0.05]").replace(
+        """{ A = ["-half", 0.0], B = ["2*half", '25 mm'], C = [1_0e-1, -0.2] }""",
+        "{ A = [-0.5, 0.0], B = [1.0, 0.1], C = [0.7, 0.9] }",
+    )
+    for name in ("B", "A"):
+        handle = found(text)[0]["joints.foot" if name == "A" else f"bodies.bar.points.{name}"]
+        body = parse_toml(moved(text, handle, 0.2, -0.3), "x")["bodies"]["bar"]
+        points = np.array([body["points"]["A"], body["points"]["B"]])
+        assert body["centre_of_mass"] == pytest.approx(points.mean(axis=0), abs=1e-12)
+    free = found(text)[0]["bodies.bar.points.C"]  # a further hole moves nothing else
+    assert len(free.followers) == 2
+    other = found(text.replace("[0.25, 0.05]", "[0.3, 0.05]"))[0]["bodies.bar.points.B"]
+    assert len(other.followers) == 2  # it lies elsewhere on purpose
+
+
 def test_a_formula_of_several_parameters_stays_as_it_is() -> None:
     text = RIG.replace('["reach", "mast"]', '["reach*mast", "sin(reach)*mast"]')
     handle = found(text)[0]["forces.spring.at.0"]

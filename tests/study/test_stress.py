@@ -255,6 +255,7 @@ def test_a_search_is_in_the_same_case_whatever_the_extent(quick, monkeypatch):
     monkeypatch.setattr("symgen.study.stress.study.cells_without_reference", lambda motion: None)
     monkeypatch.setattr("symgen.study.stress.study._make_row", lambda task, outcome: None)
     monkeypatch.setattr("symgen.study.stress.study._make_limit", lambda task, outcome: None)
+    monkeypatch.setattr("symgen.study.stress.study.search_extremes", lambda *words: ((), False))
     stress(["four-bar"], ["stiffness", "damping"], ["lagrange"], quick=quick)
     assert [(task.level.family, task.level.values) for task in asked[2]] == [
         ("stiffness", (1e4,)),
@@ -429,7 +430,7 @@ def test_rows_come_in_order_and_fit_the_contract(tmp_path):
         "limits",
         "skipped",
     }
-    assert set(found) == keys | {"unusable", "left_out", "false_successes", "findings", "beside"}
+    assert set(found) == keys | {"unusable", "left_out", "false_successes", "findings", "beside", "extremes"}
     assert found["cells"] == len(study.rows) == sum(found["outcomes"].values())
     assert not [row for row in study.false_successes if row.method == "auto"]
     path = save_stress_csv(study, tmp_path / "cells.csv")

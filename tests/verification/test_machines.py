@@ -28,14 +28,18 @@ NAMES = (
     *(
         "flexible-slider-crank",
         "flying-spaghetti",
+        "geneva",
         "inverted-pendulum",
         "jansen-leg",
         "klann-leg",
+        "rocking-block",
         "scissor-lift",
         "shaper",
+        "skidding-wheel",
+        "slider-crank-with-clearance",
         "spin-up",
     ),
-    *("toggle-press", "wiper"),
+    *("toggle-press", "wiper", "woodpecker"),
 )
 GRAVITY = 9.81
 

@@ -18,7 +18,7 @@ from symgen.analyses.fit.measured_data import MeasuredData, measured_columns
 from symgen.analyses.fit.neighbours import notes_on_neighbours
 from symgen.analyses.fit.null_directions import null_directions
 from symgen.base.errors import AnalysisError, AssemblyError, InputError, plural, quote, suggest
-from symgen.describe.facts.lifted import lift_numbers
+from symgen.describe.facts.lifted import lift_numbers, literal_points_in_words
 from symgen.result.sensitivities import place_of_column
 from symgen.run.layout import abi
 
@@ -312,6 +312,7 @@ def _fit_with_statistics(task: Identification, solution: Any) -> Fit:
                 deviations.setdefault(name, []).append(part)
                 first += len(data.t)
     notes += notes_on_neighbours(deviations, {name: task.standard_deviation(name) for name in deviations})
+    notes += literal_points_in_words(task.names)
     result = task.result_at(x, task.data[0])
     if result.status == "unverified":
         notes.append(f"derivatives are in doubt: {result.reason}")

@@ -20,6 +20,7 @@ from symgen.analyses.fit.free_numbers import Bounds, FreeNumbers, arrays_of_boun
 from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError
 from symgen.describe.facts.lifted import lift_numbers
+from symgen.describe.formulas.readings import REACTION
 from symgen.describe.mechanism import Mechanism, Output
 from symgen.describe.parts.context import Context
 from symgen.describe.parts.driven_mechanism import put_formulas
@@ -219,11 +220,14 @@ class Objective:
 def _add_output(where: str, mechanism: Mechanism, quantity: str) -> tuple[Mechanism, str]:
     """Return a mechanism that reports a quantity, and the name of its column; formulas become outputs."""
     text = arguments.text(where, quantity).strip()
+    unit = ""
     if re.fullmatch(r"[^\W\d][\w.]*", text):
-        return mechanism, text
+        if text.rpartition(".")[2] not in REACTION:
+            return mechanism, text
+        unit = "N"  # forces of joints are no columns with directions
     name = "objective"
     while any(name == output.name for output in mechanism.outputs):
         name += "_"
-    output = Output(name, Scope(Context.of_mechanism(mechanism), where).of_motion("", text))
+    output = Output(name, Scope(Context.of_mechanism(mechanism), where).of_motion("", text), unit)
     outputs = (*mechanism.outputs, put_formulas(output, dict(mechanism.input_formulas)))
     return msgspec.structs.replace(mechanism, outputs=outputs), name

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
 
@@ -10,6 +10,7 @@ from symgen.analyses.kinds import (
     OF_MOTIONS,
     Analysis,
     AnalysisOutput,
+    AnalysisTable,
     Option,
     change_settings_checked,
     check_over,
@@ -32,6 +33,7 @@ def kinematics(
     times: ArrayLike | None = None,
     settings: Settings | None = None,
     transmission: Sequence[str] = (),
+    sensitivities: Sequence[str] = (),
     **changes: Unpack[DrivenKeywords],
 ) -> Kinematics:
     """Return the motion of a mechanism whose freedom is all driven, without integrating; see `docs/kinematics.md`.
@@ -44,6 +46,9 @@ def kinematics(
         All settings at once.
     transmission : sequence of str
         Pins with requested transmission angles, such as ``"C"`` or ``"C(B, D)"``.
+    sensitivities : sequence of str
+        Numbers that the motion is differentiated by: parameters, and numbers of the file by their paths such as
+        ``bodies.crank.mass``. `Kinematics.gradient` returns the derivatives.
     **changes
         Other settings are refused. Of several ways to close the mechanism that nearest to a start such as
         ``{"rocker.theta": -1.5}`` is taken.
@@ -51,15 +56,15 @@ def kinematics(
     Raises
     ------
     InputError
-        If freedom is left that no driver drives, or is driven twice; if an argument is wrong.
+        If freedom is left that no driver drives, or is driven twice; if an argument is wrong; if a motion that is
+        differentiated passes a singular position.
     AssemblyError
         If the mechanism cannot be closed.
     """
     from symgen.analyses.prescribed.driven_motion import driven_motion as motion_of
 
-    return motion_of(
-        model.mechanism, change_settings_checked("kinematics", settings, changes, OF_MOTIONS), times, transmission
-    )
+    own = change_settings_checked("kinematics", settings, changes, OF_MOTIONS)
+    return motion_of(model.mechanism, own, times, transmission, sensitivities=sensitivities)
 
 
 def command(
@@ -67,6 +72,7 @@ def command(
     settings: Settings,
     times: Sequence[float] | None,
     transmission: Sequence[str],
+    sensitivities: Sequence[str],
     quantities: Sequence[str],
     save: Path | None,
     plot: Path | None,
@@ -81,7 +87,7 @@ def command(
     from symgen.result.summary import extreme_values
 
     check_over(over, plot)
-    result = kinematics(load(), times, settings, transmission)
+    result = kinematics(load(), times, settings, transmission, sensitivities)
     result.along(over or "t")
     shown = extreme_values(result.select(quantities) if quantities else result.whole(("q",))) if len(result.t) else {}
     loads = any(entry["unit"] in PRODUCTS or entry["unit"] == "N" for entry in shown.values())
@@ -89,7 +95,11 @@ def command(
     scaled = {name: {**entry, "scale": scales.get(entry["unit"], 0.0)} for name, entry in shown.items()}
     return AnalysisOutput(
         result.to_json() | ({"quantities": shown} if quantities else {}),
-        (f"{result.mechanism}: {plural(len(result.t), 'time')}, {plural(result.steps, 'step')}", scaled),
+        (
+            f"{result.mechanism}: {plural(len(result.t), 'time')}, {plural(result.steps, 'step')}",
+            scaled,
+            *_derivatives_at_end(result, quantities),
+        ),
         result.notes,
         result.ended,
         {
@@ -98,6 +108,19 @@ def command(
             curves: lambda path: result.plot_curves(path),
         },
     )
+
+
+def _derivatives_at_end(result: Kinematics, quantities: Sequence[str]) -> Iterator[AnalysisTable]:
+    """Yield a table of the derivatives at the last time, of coordinates and outputs by default."""
+    if result.sensitivities is None or not len(result.t):
+        return
+    rows = list[tuple[str, ...]]()
+    for name in quantities or (*result.q.names, *result.outputs.names):
+        table = result.gradient(name)
+        cells = zip(table.row().items(), table.units, strict=True)
+        rows += [(name, by, f"{value + 0.0:.6g}", unit) for (by, value), unit in cells]
+    left = ("final derivative of", "by", "unit")
+    yield AnalysisTable(("final derivative of", "by", "value", "unit"), rows, left)
 
 
 KIND = Analysis(
@@ -115,6 +138,13 @@ KIND = Analysis(
             "A pin whose transmission angle to compute; C(B, D) if its bodies have several further joints.",
             "texts",
             "PIN",
+        ),
+        Option(
+            "--sensitivity",
+            "Differentiate the motion by parameters, or numbers of the file such as bodies.crank.mass.",
+            "columns",
+            "NAME,NAME",
+            "sensitivities",
         ),
         *motion_settings("Value of a coordinate: of several closed positions of MODEL the nearest is used."),
         *table_options(

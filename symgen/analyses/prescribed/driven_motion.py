@@ -13,6 +13,8 @@ import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from symgen.analyses.prescribed.driven_sensitivities import DrivenSensitivities
+from symgen.analyses.prescribed.kept_motion import KeptMotion
 from symgen.analyses.prescribed.own_states import states_along
 from symgen.analyses.prescribed.passing import Passage
 from symgen.analyses.prescribed.prescribed import driver_names, make_driven
@@ -21,6 +23,7 @@ from symgen.analyses.prescribed.transmission import transmission_angles
 from symgen.base import arguments
 from symgen.base.errors import InputError, plural, suggest
 from symgen.base.memory import require_memory
+from symgen.describe.facts.lifted import lift_numbers
 from symgen.result.labelled import Labelled, label_columns
 from symgen.result.motion_tables import Measured, MotionTables
 from symgen.result.plot import Plot, draw_or_save
@@ -70,8 +73,11 @@ class Kinematics(MotionTables):
         Names of the drivers.
     motion : PrescribedMotion
         Motion from which further tables are computed.
+    sensitivities : DrivenSensitivities or None
+        Derivatives of the motion, if it has some.
     """
 
+    of_process: ClassVar[tuple[str, ...]] = ("motion", "forces", "measured", "sensitivities")
     cached: ClassVar[tuple[str, ...]] = ("non_unique_reactions", "efforts")
 
     mechanism: str
@@ -90,6 +96,7 @@ class Kinematics(MotionTables):
     motion: PrescribedMotion
     forces: Forces
     measured: Measured = field(repr=False)
+    sensitivities: DrivenSensitivities | None = field(default=None, repr=False)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -143,6 +150,24 @@ class Kinematics(MotionTables):
         status = self.motion.status_columns
         return Labelled(status[:, [abi.PHI, abi.DRIFT]], ("position", "velocity"), ("m", "m/s"))
 
+    def gradient(self, name: str) -> Labelled:
+        """Return the derivatives of a quantity over time, one column for each number in `sensitivities`.
+
+        Parameters
+        ----------
+        name : str
+            A column such as ``rocker.theta``, ``motor.effort``, ``A.F`` or ``energy.kinetic``, an output of the file,
+            or a formula as in ``[outputs]``.
+
+        Raises
+        ------
+        InputError
+            If the motion has no ``sensitivities``, or there is no such quantity.
+        """
+        if self.sensitivities is None:
+            raise InputError("gradient", "kinematics with sensitivities=(...)", "one without")
+        return self.sensitivities.of_quantity(arguments.text("gradient", name, "a quantity"))
+
     def run_facts(self) -> dict[str, Any]:
         """Return data of the motion for a page and for the start of its live part, by the names of JSON."""
         start = {"t": float(self.t[0]), "q": self.q.row(0), "v": self.v.row(0)} if len(self.t) else {}
@@ -173,7 +198,15 @@ class Kinematics(MotionTables):
             "inputs": dict(self.inputs),
             "notes": list(self.notes),
             "steps": self.steps,
+            **self._sensitivities_at_end(),
         }
+
+    def _sensitivities_at_end(self) -> dict[str, Any]:
+        """Return derivatives of coordinates, velocities and outputs at the last time, if there are any."""
+        if self.sensitivities is None:
+            return {}
+        columns = (*self.q.names, *self.v.names, *self.outputs.names)
+        return {"sensitivities": self.sensitivities.to_json(columns)}
 
     def curve(self, point: str) -> Array:
         """Return the places of a named point, shape (k, 2), in space (k, 3): a coupler curve.
@@ -222,6 +255,7 @@ def driven_motion(
     times: ArrayLike | None = None,
     transmission: Sequence[str] = (),
     where: str = "kinematics",
+    sensitivities: Sequence[str] = (),
 ) -> Kinematics:
     """Return the motion of a mechanism whose freedom is all driven.
 
@@ -238,6 +272,8 @@ def driven_motion(
         Joints with requested transmission angles.
     where : str
         Name of the caller, for messages.
+    sensitivities : sequence of str
+        Numbers that the motion is differentiated by.
 
     Raises
     ------
@@ -248,7 +284,12 @@ def driven_motion(
     """
     instants = default_times(mechanism) if times is None else checked_times(f"{where}: times", times)
     pins = arguments.words("transmission", transmission)
-    run = make_driven(mechanism, settings, float(instants[-1]), where, min(0.0, float(instants[0])))
+    ends, by = (float(instants[-1]), min(0.0, float(instants[0]))), arguments.words("sensitivities", sensitivities)
+    kept: KeptMotion | None = None
+    if by:
+        lifted = lift_numbers(f"{where}: sensitivities", mechanism, by)
+        kept = KeptMotion(f"{where}: sensitivities", lifted.mechanism, settings, [*lifted.keys.values()], ends[0])
+    run = make_driven(mechanism, settings, ends[0], where, ends[1]) if kept is None else kept.run
     require_memory(f"{where}: times", f"{len(instants)} times", 16.0 * len(instants) * (run.compiled.info.ny + 16))
     traced, info, start, numbers = trace_motion(run, instants), run.compiled.info, run.start, run.numbers
     states, off = traced.states, ""
@@ -292,6 +333,7 @@ def driven_motion(
         motion=motion,
         forces=forces,
         measured=Measured(run.mechanism, motion, lambda: forces.multipliers().values),
+        sensitivities=None if kept is None else DrivenSensitivities.of_motion(by, kept, traced),
     )
 
 

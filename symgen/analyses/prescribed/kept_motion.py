@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from symgen.analyses.prescribed.prescribed import NotPrescribed, PrescribedRun, make_driven
 from symgen.analyses.prescribed.tracing import Traced, trace_motion
-from symgen.describe.formulas.duals import ParameterDuals, dual_slopes
+from symgen.base.errors import quote, suggest
+from symgen.describe.formulas.duals import Dual, ParameterDuals, dual_slopes
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.holds import read_holds
 from symgen.run.compiling.side import Side, compile_side
@@ -72,17 +73,17 @@ class KeptMotion:
 
     def __init__(self, where: str, mechanism: Mechanism, settings: Settings, keys: Sequence[str], until: float) -> None:
         self.keys = tuple(keys)
-        if mechanism.bounded or mechanism.states:
-            got = "states of the file's own" if mechanism.states else "friction, stops or contacts"
-            raise NotPrescribed(where, "forces that follow from positions and velocities", got)
+        if mechanism.states:
+            raise NotPrescribed(where, "forces that follow from positions and velocities", "states of the file's own")
         self.run = run = make_driven(mechanism, settings, until, where, directed=True)
         if run.held or run.p is not run.start.p:
             raise NotPrescribed(where, "inputs that one formula describes", "inputs that change by pieces")
         self.mechanism = run.mechanism
-        own = {q.name for q in self.mechanism.parameters}
+        own = {p.name: p.unit for p in self.mechanism.parameters if not p.input}
         for key in self.keys:
-            if key not in own or key in self.mechanism.inputs:
-                raise NotPrescribed(where, "parameters of the mechanism", f"'{key}'")
+            if key not in own:
+                raise NotPrescribed(where, "parameters of the mechanism", quote(key), suggest(key, own))
+        self.units = tuple(own[key] for key in self.keys)
         self._model = DirectedModel(run.compiled, lanes_for_directions(len(self.keys)))
         self._holds, self._branch = read_holds(self.mechanism), bool(settings.start)
         self._values = parameter_values(self.mechanism, run.plan.parameters)
@@ -119,7 +120,14 @@ class KeptMotion:
             start = replace(self.run.start, y=now.y.copy(), p=now.p.copy(), w=now.w.copy())
         run = replace(self.run, start=start, p=start.p)
         traced = trace_motion(run, times, crosses=False)
+        return KeptPoint(run, traced, self._directions(run, traced, duals))
+
+    def here(self, traced: Traced) -> DrivenDirections:
+        """Return the directions of a motion with the values of the settings."""
+        return self._directions(self.run, traced, self._duals.at(self._values))
+
+    def _directions(self, run: PrescribedRun, traced: Traced, duals: Mapping[str, Dual]) -> DrivenDirections:
         motion = DrivenStates(traced.times, np.ascontiguousarray(traced.states), np.ascontiguousarray(traced.status))
         seeds = np.zeros((self._model.sizes["p"], len(self.keys)))
         seeds[: len(self._names)] = [*dual_slopes([duals[name] for name in self._names], len(self.keys))]
-        return KeptPoint(run, traced, DrivenDirections(self._model, start, motion, seeds))
+        return DrivenDirections(self._model, run.start, motion, seeds)

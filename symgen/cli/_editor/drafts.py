@@ -24,7 +24,8 @@ from symgen.describe.files.places import Path as Place
 from symgen.describe.files.places import outline_of_document
 from symgen.describe.files.problems import Problem, problems_of_text
 from symgen.describe.files.renaming import remove_from_text, rename_in_text
-from symgen.describe.files.snippets import TURNED, Spot, snippet_changes
+from symgen.describe.files.snippet_tables import Spot
+from symgen.describe.files.snippets import TURNED, snippet_changes
 from symgen.describe.files.text_changes import apply_changes, utf16_places
 from symgen.describe.files.validate import validate
 from symgen.describe.formulas.evaluate import parameter_values

@@ -165,12 +165,12 @@ class Folding:
 
     def drop_unused(self, body: tuple[lang.Statement, ...]) -> tuple[lang.Statement, ...]:
         """Return statements without assignments to variables and views that nothing reads."""
+        read = _names_read(body)
         while True:
-            read = _names_read(body)
-            shorter = _drop_names(body, read)
-            if shorter == body:
+            body = _drop_names(body, read)
+            before, read = read, _names_read(body)
+            if read == before:  # bodies hold functions that they call: they are not compared
                 return body
-            body = shorter
 
     # -- values
 

@@ -30,6 +30,7 @@ from symgen.describe.bounds.bounded_modes import (
 )
 from symgen.describe.bounds.end_stop import EndStop
 from symgen.describe.bounds.row import Bounds
+from symgen.describe.contacts.outlines import Outline
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import ModeEvent, Output
 
@@ -272,6 +273,8 @@ class ContactGap(EndStop, frozen=True):
         The distance that is reported, where the gap is another function of it.
     table : str
         Its table in a file, where that is not an entry of the section.
+    outlines : tuple of Outline
+        The surfaces, for pictures.
     """
 
     family: ClassVar[RowFamily] = CONTACTS
@@ -280,6 +283,7 @@ class ContactGap(EndStop, frozen=True):
     tangent: Tangent | None = None
     distance: Expr | None = None
     table: str = ""
+    outlines: tuple[Outline, ...] = ()
 
     @property
     def row(self) -> str:

@@ -11,6 +11,7 @@ from symgen.base.errors import quote, suggest
 from symgen.base.registry import Registry
 from symgen.base.vocabulary.expressions import ZERO, Expr, call
 from symgen.base.vocabulary.measures import GROUND, Angle, Marker, Measure, Sum
+from symgen.describe.contacts.outlines import Outline
 from symgen.describe.parts.fields import Point, Scalar, read_table, value_in_words
 from symgen.describe.parts.scope import Scope
 
@@ -48,6 +49,11 @@ class Disc(msgspec.Struct, frozen=True):
         """Its body."""
         return self.centre.body
 
+    @property
+    def outline(self) -> Outline:
+        """Its outline."""
+        return Outline((self.centre,), self.radius)
+
 
 class Touch(msgspec.Struct, frozen=True):
     """What a pair of shapes is: its gap [m], the coordinate along it [m], and the bodies.
@@ -62,12 +68,15 @@ class Touch(msgspec.Struct, frozen=True):
         Coordinate whose rate is the speed of one surface along the other.
     distance : Expr or None
         The distance that is reported, where the gap is another function of it.
+    outlines : tuple of Outline
+        The surfaces, for pictures.
     """
 
     gap: Measure
     value: Expr
     slip: Measure
     distance: Expr | None = None
+    outlines: tuple[Outline, ...] = ()
 
 
 class Pair(msgspec.Struct, frozen=True):

@@ -10,6 +10,8 @@ import numpy as np
 
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.measures import GROUND, Marker, nested_parts
+from symgen.describe.contacts.outlines import Outline
+from symgen.describe.drawing.contact_parts import contact_items, outlines_of_contacts
 from symgen.describe.drawing.force_parts import force_item
 from symgen.describe.drawing.joint_parts import sliding_direction
 from symgen.describe.drawing.meshes import mesh_faces
@@ -82,6 +84,8 @@ def build_scene(
     unit = _symbol_size(numbers, points)
     pen = Pen(numbers, unit, up)
     guided = {name for joint in mechanism.joints if joint.kind in SHOWN for name in joint.bodies}
+    discs = [each for _, outlines in outlines_of_contacts(mechanism) for each in outlines if _is_central(numbers, each)]
+    guided |= {disc.points[0].body for disc in discs}
     bodies = [_body_item(pen, body, points[body.name], guided) for body in mechanism.bodies]
     joints = [joint_symbol(pen, joint) for joint in mechanism.joints]
     forces = [force_item(pen, force) for force in mechanism.forces if force.kind != "modal"]
@@ -89,7 +93,7 @@ def build_scene(
     return Scene(
         name=mechanism.name,
         title=mechanism.title,
-        items=(*_ground_item(pen), *bodies, *forces, *joints, *faults),
+        items=(*_ground_item(pen), *bodies, *contact_items(pen), *forces, *joints, *faults),
         spatial=numbers.spatial,
         up=up,
         unit=unit,
@@ -102,7 +106,7 @@ def _points_of_bodies(numbers: PlacedMechanism) -> dict[str, list[Point]]:
     """Return the points of each body from its centre of mass: points of joints and forces, and named points."""
     names = [body.name for body in numbers.mechanism.bodies]
     by_body: dict[str, dict[Point, None]] = {name: {} for name in names}
-    for element in (*numbers.mechanism.joints, *numbers.mechanism.forces):
+    for element in (*numbers.mechanism.joints, *numbers.mechanism.forces, *_outlines_with_points(numbers)):
         for marker in nested_parts(element):
             if isinstance(marker, Marker) and marker.body in by_body:
                 place = numbers.place(marker)
@@ -121,6 +125,17 @@ def _points_of_bodies(numbers: PlacedMechanism) -> dict[str, list[Point]]:
         for _, point in body.points:
             by_body[body.name][_round_point(numbers.place(Marker(body.name, point)).at)] = None
     return {name: list(points) for name, points in by_body.items()}
+
+
+def _outlines_with_points(numbers: PlacedMechanism) -> list[Outline]:
+    """Return the outlines of contacts whose points bodies reach to: all but lines, and discs about centres of mass."""
+    outlines = [each for _, outlines in outlines_of_contacts(numbers.mechanism) for each in outlines]
+    return [each for each in outlines if each.normal is None and not _is_central(numbers, each)]
+
+
+def _is_central(numbers: PlacedMechanism, outline: Outline) -> bool:
+    """Return whether an outline is a disc about the centre of mass of its body, which shows the body."""
+    return numbers.number(outline.radius) != 0.0 and not any(numbers.place(outline.points[0]).at)
 
 
 def _round_point(point: Point) -> Point:
@@ -144,6 +159,7 @@ def _symbol_size(numbers: PlacedMechanism, points: Mapping[str, list[Point]]) ->
     whole = float(np.linalg.norm(np.ptp(everything, axis=0)))
     spans = [float(np.linalg.norm(np.ptp(np.array(own), axis=0))) for own in points.values() if len(own) > 1]
     sizes = [numbers.number(e) for _, shape in numbers.mechanism.shapes for e in shape.sizes]
+    sizes += [abs(numbers.number(e.radius)) for _, each in outlines_of_contacts(numbers.mechanism) for e in each]
     whole = max([whole, *sizes])
     spans = [s for s in spans if s > 0.0]
     usual = float(np.median(spans)) if spans else whole

@@ -140,7 +140,7 @@ class Item:
 
     Attributes
     ----------
-    role : {"ground", "body", "joint", "force", "fault"}
+    role : {"ground", "body", "contact", "joint", "force", "fault"}
         What it is.
     name, kind : str
         Of the file.

@@ -251,7 +251,33 @@ class _Handles:
             size = sum(slope * slope for slope, _, _ in parts)
             right, up = (sum(part[0] * part[i] for part in parts) / size for i in (1, 2))
             result.append(Follower(start, end, float(self.text[start:end].replace("_", "")), right, up))
-        return tuple(result)
+        centres = [follower for spot in spots for follower in self.centre_that_follows(spot)]
+        return (*result, *centres) if result else ()
+
+    def centre_that_follows(self, spot: _Spot) -> Iterator[Follower]:
+        """Yield the numbers of a centre of mass that lies in the middle of points, of which one is moved.
+
+        These are all points of its body, or the first two or three, as of a bar or a plate that has further holes.
+        """
+        body = self.raw.get("bodies", {}).get(spot.body, {})
+        centre, points = body.get("centre_of_mass"), body.get("points")
+        if not spot.point or not _are_numbers(centre) or not isinstance(points, Mapping):
+            return
+        for count in (len(points), 2, 3):
+            of = dict([*points.items()][:count])
+            if spot.point not in of or not all(map(_are_numbers, of.values())):
+                continue
+            middle = [math.fsum(column) / len(of) for column in zip(*of.values(), strict=True)]
+            size = max(abs(x) for point in of.values() for x in point)
+            if max(abs(a - b) for a, b in zip(middle, centre, strict=True)) < 1e-5 * size:
+                break
+        else:
+            return
+        angle = self.poses[spot.body][2]
+        for k, way in enumerate(((math.cos(angle), math.sin(angle)), (-math.sin(angle), math.cos(angle)))):
+            span = self.spans.get((*spot.path[:2], "centre_of_mass", k))
+            if span is not None:
+                yield Follower(*span, float(centre[k]), way[0] / len(of), way[1] / len(of))
 
     def deciding_number(self, spot: _Spot, k: int, expression: Expr) -> tuple[tuple[int, int], float] | None:
         """Return the characters of the number that decides a coordinate, and metres for a unit of the number."""
@@ -275,6 +301,10 @@ class _Handles:
         amount = read_amount(value) if isinstance(value, str) else None
         unit = read_unit(amount.unit) if amount is not None else None
         return float(unit.factor) if isinstance(unit, Unit) else 1.0
+
+
+def _are_numbers(value: object) -> bool:
+    return isinstance(value, list) and len(value) == 2 and all(type(x) in (int, float) for x in value)
 
 
 def _path_in_words(path: Path) -> str:

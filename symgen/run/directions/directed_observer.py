@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.run.directions.directed_model import form_for_derivatives
 from symgen.run.layout import abi
 from symgen.run.layout.probe import rate_functions
 
@@ -99,6 +100,21 @@ class Observer:
             t, y, p = self._state_at_output(k)
             call(t, y, p, scratch[k].copy(), rates[k].copy(), out[k])
         return out[:, :length], out[:, length:].reshape(len(self.times), length, lanes)
+
+    def observe_energies(self) -> Array:
+        """Return the directions of kinetic and potential energy at the outputs, shape (k, 2, L)."""
+        model, module = self.model, self.model.plain.model
+        geometry = model.caller("geometry", model.whole.model.geometry)
+        measure = model.function(form_for_derivatives(module, "measure")).caller(abi.MEASURE.signature.arguments)
+        rows = np.zeros((len(self.times), 2, model.lanes))
+        for k in range(len(self.times)):
+            t, y, p = self._state_at_output(k)
+            w = self.w.copy()
+            self._wind_angles(w, k)
+            geometry(t, y, p, w)
+            measure(t, y, p, w)
+            rows[k] = model.directions_after(w, "w")[[abi.KINETIC, abi.POTENTIAL]]
+        return rows
 
     def violations_of_directions(self) -> Array:
         """Return the largest derivative of a row of Phi at the outputs in each direction, shape (k, L)."""

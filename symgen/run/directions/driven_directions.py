@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from symgen.base.vocabulary.rotations import composed_rotation
 from symgen.run.directions.directed_model import DirectedModel, Seeds
+from symgen.run.directions.directed_observer import Observer
 from symgen.run.layout import abi
 from symgen.run.layout.probe import rate_functions
 from symgen.run.layout.records import Outputs
@@ -116,6 +117,14 @@ class DrivenDirections:
             values = rows[:, :length]
             parts.append(rows[:, length:].reshape(k, length, model.lanes))
         return values, np.concatenate(parts, axis=-1)[..., : self.count]
+
+    def energies(self) -> Array:
+        """Return the directions of kinetic and potential energy, shape (k, 2, n)."""
+        windings, parts = self.motion.status[:, abi.N_STATUS :], list[Array]()
+        for states, (p, w) in zip(self._longer, self._parts, strict=True):
+            observer = Observer(self.model, self.motion.times, states, windings, ((np.inf, p),), w)
+            parts.append(observer.observe_energies())
+        return np.concatenate(parts, axis=-1)[..., : self.count]
 
     # -- states --------------------------------------------------------------------------------------------------------
 

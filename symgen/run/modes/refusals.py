@@ -64,7 +64,7 @@ SENTENCES = {
     NEGATIVE_GAP: Sentence(
         "{kind} {name}", "a gap of at least 0", "{first:.6g} at t = {t:.6g} s", "a start within all {kinds}"
     ),
-    NO_NUMBER: Sentence("{kind} of {name}", "formulas that stay defined", "one that is no number behind t = {t:.6g} s"),
+    NO_NUMBER: Sentence("{kind} of {name}", "formulas that stay defined", "one that is no number after t = {t:.6g} s"),
     NO_RESTITUTION: Sentence("{kind} {name}", "a restitution from 0 to 1", "{first:g}"),
     NO_BOUND_IN_MOTION: Sentence("{kind} of {name}", "a bound in motion above 0, as that at rest is above 0", "0"),
     NO_BOUNDS: Sentence(

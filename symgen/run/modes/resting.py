@@ -66,7 +66,7 @@ def is_tied(c: Choice, n: int, i: int) -> bool:
 
 @exact()
 def set_bounds(c: Choice, n: int, part: float) -> None:
-    """Set the bounds of forces: static ones where these hold, of tied rows a part of them, else those of motion."""
+    """Set the bounds of forces at rest: static bounds, of which tied rows have a part, or bounds of motion."""
     box = c.box
     for r in range(n):
         i = c.rest[r]

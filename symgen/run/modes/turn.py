@@ -187,7 +187,7 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
 
 
 def look_ahead(code: int, modes: OfModes, state: EventState) -> int:
-    """Return the code of a run whose step has failed, `NO_MODES` where a formula of a row is no number behind it."""
+    """Return the code of a run whose step has failed, `NO_MODES` where a formula of a row is no number after it."""
     c, t, step = modes.choice, state.clock[abi.TIME], state.clock[abi.STEP] if code == abi.NOT_FINITE else 0.0
     if find_undefined(t, step, c, state.y, state.p, state.w, state.iw) == SAME:
         return code

@@ -177,7 +177,7 @@ class TurnOfRun:
         Raises
         ------
         InputError
-            If a formula of a row is no number behind the present time.
+            If a formula of a row is no number after the present time.
         """
         if self.rows is not None:
             self._serve(END + code)

@@ -11,6 +11,7 @@ import numpy as np
 
 from symgen.base.errors import fit_lines
 from symgen.describe.drawing.drawing import Drawing
+from symgen.result.extremes import without_doubles
 from symgen.result.labelled import Labelled
 from symgen.result.plots import figure_over_column
 from symgen.study.design import tables
@@ -105,9 +106,9 @@ def _pictures(found: Design, runs: tuple[Result, Result]) -> Iterator[Picture]:
 def _quantities(runs: tuple[Result, Result]) -> DocumentTable:
     """Return the extremes of outputs and loads in both runs, so that nothing gets worse unseen."""
     first, last = (result.whole(("outputs", "elements", "magnitudes")) for result in runs)
-    rows = list[tuple[str, ...]]()
+    rows, kept = list[tuple[str, ...]](), {first.names[i] for i in without_doubles(first.names)}
     for name, unit in zip(first.names, first.units, strict=True):
-        if name in last.names:
+        if name in kept and name in last.names:
             pairs = (_range_in_words(table[name], unit) for table in (first, last))
             rows.append((name, *(cell for pair in pairs for cell in pair)))
     shown = fit_lines(len(rows), MOST_ROWS)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
@@ -190,18 +190,20 @@ class _Designing:
             )
         return first
 
-    def _starts(self, first: Candidate, starts: int, seed: int) -> list[Candidate]:
-        """Return where searches begin."""
+    def _starts(self, first: Candidate, starts: int, seed: int) -> Iterator[Candidate]:
+        """Yield where searches begin: at the file, then, when that search is done, at the best of many candidates."""
+        yield first
         if starts == 1:
-            return [first]
+            return
         screened = screen(self.search, starts - 1, seed)
         self.search.runs += screened.tried
         self.search.failed.update(screened.failed)
-        self._note_screened(first, screened)
-        found = [self.search.check(u) for u in screened.starts]
-        return [first, *(each for each in found if each is not None)]
+        self._note_screened(screened)
+        for u in screened.starts:
+            if (found := self.search.check(u)) is not None:
+                yield found
 
-    def _note_screened(self, first: Candidate, screened: Screened) -> None:
+    def _note_screened(self, screened: Screened) -> None:
         move = "moves" if screened.moving == 1 else "move"
         sentence = f"{screened.moving} of {plural(screened.tried, 'candidate')} {move}"
         if self.search.limits:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import msgspec
 import numpy as np
@@ -14,8 +14,9 @@ from symgen.analyses.fit.free_numbers import FreeNumbers
 from symgen.analyses.prescribed.kept_motion import KeptMotion
 from symgen.analyses.prescribed.prescribed import NotPrescribed, driver_names
 from symgen.base.errors import AssemblyError, InputError, SymgenError
-from symgen.base.vocabulary.expressions import Expr, readings_in
+from symgen.base.vocabulary.expressions import readings_in
 from symgen.base.vocabulary.measures import Integral
+from symgen.describe.facts.motion_quantities import MotionQuantity
 from symgen.describe.mechanism import Mechanism, Output
 from symgen.run.layout import abi
 
@@ -23,24 +24,6 @@ if TYPE_CHECKING:
     from symgen.base.settings import Settings
 
 Array = NDArray[np.float64]
-
-
-class Quantity(NamedTuple):
-    """A quantity of the motion.
-
-    Attributes
-    ----------
-    text : str
-        As it is written.
-    formula : Expr
-        As a formula of outputs.
-    unit : str
-        Its unit, empty for formulas.
-    """
-
-    text: str
-    formula: Expr
-    unit: str
 
 
 class NoMotion(Exception):
@@ -64,7 +47,7 @@ class Motions(Protocol):
 
 
 def motions_of(
-    mechanism: Mechanism, settings: Settings, keys: Sequence[str], until: float, quantities: Sequence[Quantity]
+    mechanism: Mechanism, settings: Settings, keys: Sequence[str], until: float, quantities: Sequence[MotionQuantity]
 ) -> Motions:
     """Return the motions of a mechanism.
 
@@ -78,7 +61,7 @@ def motions_of(
         Parameters that vary.
     until : float
         Last time [s].
-    quantities : sequence of Quantity
+    quantities : sequence of MotionQuantity
         What is known of a motion.
 
     Raises
@@ -87,7 +70,7 @@ def motions_of(
         If the settings, or the motion, allow no derivatives.
     """
     integrals = any(isinstance(r.source, Integral) for q in quantities for r in readings_in(q.formula))
-    if driver_names(mechanism) and not integrals:
+    if driver_names(mechanism) and not integrals and not mechanism.bounded:
         try:
             return DrivenMotions(mechanism, settings, keys, until, quantities)
         except NotPrescribed:
@@ -104,7 +87,7 @@ class DrivenMotions:
         settings: Settings,
         keys: Sequence[str],
         until: float,
-        quantities: Sequence[Quantity],
+        quantities: Sequence[MotionQuantity],
     ) -> None:
         self._kept = KeptMotion("design", mechanism, settings, keys, until)
         formulas = [(q.text, q.formula) for q in quantities]
@@ -135,7 +118,7 @@ class IntegratedMotions:
     """Motions of runs, whose derivatives are carried beside the state."""
 
     def __init__(
-        self, mechanism: Mechanism, settings: Settings, keys: Sequence[str], quantities: Sequence[Quantity]
+        self, mechanism: Mechanism, settings: Settings, keys: Sequence[str], quantities: Sequence[MotionQuantity]
     ) -> None:
         taken = {output.name for output in mechanism.outputs}
         self._names = [_free_name(f"design_{i}", taken) for i in range(len(quantities))]
@@ -188,7 +171,7 @@ def _free_name(name: str, taken: set[str]) -> str:
     return name
 
 
-def _finite(values: Array, slopes: Array, times: Array, quantities: Sequence[Quantity]) -> tuple[Array, Array]:
+def _finite(values: Array, slopes: Array, times: Array, quantities: Sequence[MotionQuantity]) -> tuple[Array, Array]:
     """Return values and slopes, all of them finite.
 
     Raises

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -13,15 +12,10 @@ from numpy.typing import NDArray
 from symgen.base import arguments
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.units import known_unit, read_unit
-from symgen.base.vocabulary.expressions import Name, Reading, names_in_expression
+from symgen.base.vocabulary.expressions import Name, names_in_expression
 from symgen.describe.facts.lifted import is_path, lift_numbers
+from symgen.describe.facts.motion_quantities import MotionQuantity, QuantityNames
 from symgen.describe.formulas.evaluate import evaluate, parameter_values
-from symgen.describe.formulas.readings import OUTPUT, Readings
-from symgen.describe.parts.context import Context
-from symgen.describe.parts.driven_mechanism import put_formulas
-from symgen.describe.parts.own_units import unit_of_quantity
-from symgen.describe.parts.scope import Scope
-from symgen.study.design.motions import Quantity
 from symgen.study.design.rows import Aim, Limit
 from symgen.study.design.wording import Taken, WrittenLimit, read_limits, read_taken, unknown_word
 from symgen.study.report.words import enumeration
@@ -34,7 +28,6 @@ Array = NDArray[np.float64]
 
 #: Most numbers that vary.
 MOST_VARIED = 200
-_COLUMN = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*")
 
 
 @dataclass(frozen=True)
@@ -148,19 +141,13 @@ class QuantityReader:
 
     Attributes
     ----------
-    quantities : list of Quantity
+    quantities : list of MotionQuantity
         Those that were read.
     """
 
     def __init__(self, mechanism: Mechanism) -> None:
-        self.mechanism, self.quantities = mechanism, list[Quantity]()
-        context = Context.of_mechanism(mechanism)
-        self._outputs = {output.name: output for output in mechanism.outputs}
-        names = (*context.state_names, *self._outputs)
-        self._context = type(context)(
-            **{f: getattr(context, f) for f in context.__struct_fields__} | {"state_names": names}
-        )
-        self._own = {p.name: p.unit for p in mechanism.parameters} | {x.name: x.unit for x in mechanism.states}
+        self.mechanism, self.quantities = mechanism, list[MotionQuantity]()
+        self._names, self._units = QuantityNames(mechanism), {p.name: p.unit for p in mechanism.parameters}
 
     def place(self, where: str, text: str) -> int:
         """Return the place of a quantity among `quantities`.
@@ -174,43 +161,21 @@ class QuantityReader:
             if quantity.text == text:
                 return i
         try:
-            formula = Scope(self._context, where).of_motion("", text)
+            return self._add(self._names.read(where, text))
         except InputError as error:
-            hint = unknown_word(text) or error.hint
-            raise InputError(where, error.expected, error.got, hint) from None
-        return self._add(Quantity(text, self._with_outputs(formula), self._unit(text, formula)))
+            raise InputError(where, error.expected, error.got, unknown_word(text) or error.hint) from None
 
     def parameter(self, name: str) -> int:
         """Return the place of a parameter."""
-        return self._add(Quantity(name, Name(name), self._own[name]))
+        return self.formula(name, Name(name), self._units[name])
 
     def formula(self, text: str, formula: Expr, unit: str) -> int:
         """Return the place of a formula of the machine, under a name for messages."""
-        return self._add(Quantity(text, self._with_outputs(formula), unit))
+        return self._add(self._names.of_formula(text, formula, unit))
 
-    def _add(self, quantity: Quantity) -> int:
+    def _add(self, quantity: MotionQuantity) -> int:
         self.quantities.append(quantity)
         return len(self.quantities) - 1
-
-    def _with_outputs(self, formula: Expr) -> Expr:
-        """Return a formula with the formulas of outputs and inputs in place of their names."""
-        outputs = {name: output.value for name, output in self._outputs.items()}
-        return put_formulas(put_formulas(formula, outputs), dict(self.mechanism.input_formulas))
-
-    def _unit(self, text: str, formula: Expr) -> str:
-        """Return the unit of a quantity that is a column, empty where it is a formula."""
-        if text in self._outputs:
-            return self._outputs[text].unit
-        if text in self._own:
-            return self._own[text]
-        scope = Scope(self._context, text)
-        if isinstance(formula, Name | Reading):
-            return unit_of_quantity(scope, formula)
-        path = tuple(text.split("."))
-        entry = None
-        if _COLUMN.fullmatch(text) and len(path) > 1:
-            entry = Readings(self._context, OUTPUT).meaning_with_unit(path, text)
-        return "" if entry is None else entry[1]
 
 
 def read_aim(reader: QuantityReader, aim: str) -> Aim:

@@ -15,6 +15,7 @@ from symgen.analyses.kinds.modes import mode_lines as shown_modes
 from symgen.analyses.reached_limits import ReachedLimit, reached_limits
 from symgen.base.errors import SymgenError, fit_lines, plural
 from symgen.describe.drawing.drawing import Drawing
+from symgen.result.extremes import without_doubles
 from symgen.result.labelled import Labelled, columns_at
 from symgen.result.plots import figure_over_column
 from symgen.result.summary import summary_lines
@@ -180,6 +181,7 @@ def _sketch_picture(name: str, caption: str, still: Drawing) -> Picture:
 def _load_tables(result: Result, along: Labelled) -> Iterator[DocumentTable]:
     """Yield a table for each unit of loads: the largest value of each, when and where."""
     every = result.whole(("elements", "magnitudes"))
+    every = columns_at(every, without_doubles(every.names))
     where = along.names[0] != "t"
     headings = ("quantity", "largest", "at t [s]", *([f"at {along.names[0]} [{along.units[0]}]"] if where else []))
     for unit, title in LOADS.items():
@@ -201,7 +203,7 @@ def _load_tables(result: Result, along: Labelled) -> Iterator[DocumentTable]:
 def _curve_pictures(result: Result, along: Labelled) -> Iterator[Picture]:
     """Yield pictures of loads, of joints and of energies, over time or over a column."""
     loads, joints = result.whole(("elements", "magnitudes")), result.whole(("joint_coordinates", "outputs"))
-    loads = columns_at(loads, [i for i, unit in enumerate(loads.units) if unit in LOADS])
+    loads = columns_at(loads, [i for i in without_doubles(loads.names) if loads.units[i] in LOADS])
     joints = columns_at(joints, [i for i, name in enumerate(joints.names) if not name.endswith(_RATE)])
     errors = result.overview()
     errors = columns_at(errors, [i for i, name in enumerate(errors.names) if name not in result.q.names])

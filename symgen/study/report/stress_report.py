@@ -13,7 +13,7 @@ from symgen.study.report import words
 from symgen.study.report.document import DocumentTable, ReportDocument, Section, TableCell
 from symgen.study.report.picture import sketches_section
 from symgen.study.report.stress_figures import outcome_maps, overview_picture, region_pictures
-from symgen.study.stress.beside import beside_yardstick, cells_beside, families_beside
+from symgen.study.stress.beside import beside_yardstick, cells_beside, extremes_beside, families_beside
 from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES
 from symgen.study.stress.findings import cause_of_failure, findings_of_study
 from symgen.study.stress.stress_rows import LEGEND, Map, Stress, StressRow, outcomes_of_models
@@ -102,18 +102,23 @@ def _beside_table(study: Stress) -> tuple[DocumentTable, ...]:
     lines = beside_yardstick(study)
     if len(lines) < 2:
         return ()
-    families, searched = families_beside(lines)
+    (families, searched), extremes = families_beside(lines), extremes_beside(lines)
     headings = (
         *("methods", "integrator", *(family.replace("-", " ") for family in families)),
         *(f"largest step, {family} [s]" for family in searched),
+        *(f"accurate up to, {family}" for family in extremes),
     )
     rows = tuple(
-        (words.enumeration(x.methods), x.integrator, *(c or words.NONE for c in cells_beside(x, families, searched)))
+        (
+            *(words.enumeration(x.methods), x.integrator),
+            *(c or words.NONE for c in cells_beside(x, families, searched, extremes)),
+        )
         for x in lines
     )
     caption = (
         "Beside lagrange with the same integrator: its error over the error of the method, above 1 where the method is "
-        "better, medians over the cases that both follow; and the largest constant steps that follow the motion. "
+        "better, medians over the cases that both follow; the largest constant steps that follow the motion; "
+        "and the extreme values up to which all runs are accurate, by bisection, of families in which they differ. "
         "Methods with the same numbers are one line."
     )
     return (DocumentTable(caption, headings, rows, words=2),)

@@ -16,7 +16,7 @@ from symgen.study.stress.stress_rows import Map
 from symgen.study.yardstick import YARDSTICK
 
 if TYPE_CHECKING:
-    from symgen.study.stress.stress_rows import Stress, StressRow
+    from symgen.study.stress.stress_rows import Extreme, Stress, StressRow
 
 #: Ratios that differ by less than this digit are one.
 DIGITS = 2
@@ -37,19 +37,22 @@ class LineBeside:
         method is better; None where no case resolves both.
     reached : mapping of str to float
         By family with a search: largest constant step that follows the motion [s].
+    extremes : mapping of str to float
+        By family with an extreme: largest value up to which all runs are accurate.
     """
 
     methods: tuple[str, ...]
     integrator: str
     ratios: dict[str, float | None]
     reached: dict[str, float | None]
+    extremes: dict[str, float | None]
 
 
 def beside_yardstick(study: Stress) -> tuple[LineBeside, ...]:
     """Return all methods beside `lagrange`, those with the same numbers as one; none without `lagrange`."""
     shown = Map.of_study(study)
     groups: dict[tuple[str, ...], list[str]] = {}
-    numbers: dict[tuple[str, ...], tuple[dict[str, float | None], dict[str, float | None]]] = {}
+    numbers: dict[tuple[str, ...], tuple[dict[str, float | None], ...]] = {}
     bases = {(row.integrator, row.model, row.family, row.case): row for row in shown.rows if row.method == YARDSTICK}
     with_base = {key[0] for key in bases}
     for method, integrator in shown.lines:
@@ -59,9 +62,12 @@ def beside_yardstick(study: Stress) -> tuple[LineBeside, ...]:
         ratios = {family: _median_of(_ratios(rows, family, bases)) for family in shown.families}
         own = [x for x in study.limits if (x.method, x.integrator) == (method, integrator)]
         reached = {family: _median_of(_steps(own, family)) for family in dict.fromkeys(x.family for x in own)}
-        key = (integrator, *map(_text, ratios.values()), *map(_text, reached.values()))
+        ends = [x for x in study.extremes if (x.method, x.integrator) == (method, integrator)]
+        extremes = {family: _median_of(_values(ends, family)) for family in dict.fromkeys(x.family for x in ends)}
+        numbers_of_method = ratios, reached, extremes
+        key = (integrator, *(_text(x) for each in numbers_of_method for x in each.values()))
         groups.setdefault(key, []).append(method)
-        numbers[key] = ratios, reached
+        numbers[key] = numbers_of_method
     return tuple(LineBeside(tuple(names), key[0], *numbers[key]) for key, names in groups.items())
 
 
@@ -86,6 +92,12 @@ def _steps(limits: Sequence[object], family: str) -> Iterator[float]:
             yield float(step)
 
 
+def _values(extremes: Sequence[Extreme], family: str) -> Iterator[float]:
+    for extreme in extremes:
+        if extreme.family == family and extreme.reached is not None:
+            yield extreme.reached
+
+
 def _median_of(values: Iterator[float]) -> float | None:
     known = list(values)
     return median(known) if known else None
@@ -95,11 +107,14 @@ def _text(value: float | None) -> str:
     return "" if value is None else f"{value:.{DIGITS}g}"
 
 
-def cells_beside(line: LineBeside, families: Sequence[str], searched: Sequence[str]) -> tuple[str, ...]:
-    """Return the cells of a line: ratios by family, and largest steps."""
+def cells_beside(
+    line: LineBeside, families: Sequence[str], searched: Sequence[str], extremes: Sequence[str] = ()
+) -> tuple[str, ...]:
+    """Return the cells of a line: ratios by family, largest steps, and extreme values."""
     return (
         *(_text(line.ratios.get(family)) for family in families),
         *(_text(line.reached.get(family)) for family in searched),
+        *(_text(line.extremes.get(family)) for family in extremes),
     )
 
 
@@ -108,3 +123,9 @@ def families_beside(lines: Sequence[LineBeside]) -> tuple[list[str], list[str]]:
     names = list(dict.fromkeys(family for line in lines for family in line.ratios))
     telling = [x for x in names if {_text(line.ratios[x]) for line in lines if x in line.ratios} - {"", "1"}]
     return telling, list(dict.fromkeys(family for line in lines for family in line.reached))
+
+
+def extremes_beside(lines: Sequence[LineBeside]) -> list[str]:
+    """Return the families whose extreme values differ between lines."""
+    names = dict.fromkeys(family for line in lines for family in line.extremes)
+    return [x for x in names if len({_text(line.extremes[x]) for line in lines if x in line.extremes}) > 1]

@@ -103,6 +103,26 @@ class Limit:
 
 
 @dataclass(frozen=True)
+class Extreme:
+    """The extreme value of a family that a method reaches with all runs up to it accurate.
+
+    Attributes
+    ----------
+    reached : float or None
+        The largest value tried; None where the least is too large.
+    beyond : float or None
+        The next one tried, which is too large; None where all are accurate.
+    """
+
+    model: str
+    family: str
+    method: str
+    integrator: str
+    reached: float | None
+    beyond: float | None
+
+
+@dataclass(frozen=True)
 class Stress:
     """Results of a stress study.
 
@@ -114,6 +134,8 @@ class Stress:
         Cells of the map and of the planes.
     limits : tuple of Limit
         Largest steps.
+    extremes : tuple of Extreme
+        Extreme values that methods reach, each with the integrator of its constant steps.
     skipped : tuple of (str, str, str)
         Model, family and why it has no cases.
     unusable : tuple of (str, str, str, str)
@@ -138,6 +160,7 @@ class Stress:
     interrupted: bool = False
     coordinates: str = "absolute"
     underived: tuple[tuple[str, str], ...] = ()
+    extremes: tuple[Extreme, ...] = ()
 
     @property
     def false_successes(self) -> tuple[StressRow, ...]:
@@ -161,6 +184,7 @@ class Stress:
             "outcomes": count_outcomes([row.outcome for row in self.rows]),
             "rows": [asdict(row) for row in self.rows],
             "limits": [asdict(limit) for limit in self.limits],
+            "extremes": [asdict(extreme) for extreme in self.extremes],
             "beside": [asdict(line) for line in beside_yardstick(self)],
             "skipped": [dict(zip(("model", "family", "why"), s, strict=True)) for s in self.skipped],
             "unusable": [dict(zip(("model", "family", "case", "why"), s, strict=True)) for s in self.unusable],

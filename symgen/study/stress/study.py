@@ -7,9 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, TypedDict, TypeVar
-
-import msgspec
+from typing import Any, TypeVar
 
 from symgen.base import arguments
 from symgen.base.errors import InputError
@@ -17,7 +15,6 @@ from symgen.base.settings import Settings, default_of_setting
 from symgen.derive.methods import METHODS
 from symgen.describe.mechanism import with_largest_step
 from symgen.describe.parts.event_sections import RESET
-from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.planning.automatic import AUTO, constant_integrator
 from symgen.run.planning.plan import refuse_ends, refuse_weightless
@@ -26,12 +23,13 @@ from symgen.study.references.effort import BUDGET, pairs_left_out
 from symgen.study.references.routes import parts_without_derivation
 from symgen.study.runner import Cell, run_cells
 from symgen.study.stress.bench import Base, Level, NotApplicable
-from symgen.study.stress.cell_outcome import OUTCOMES
 from symgen.study.stress.cell_references import cells_without_reference
 from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute_cell
+from symgen.study.stress.entries import check_limit, check_motion, check_run
+from symgen.study.stress.extremes import HALVINGS, QUICK_HALVINGS, search_extremes
 from symgen.study.stress.families import FAMILIES, levels_of_family
 from symgen.study.stress.shared_by_cells import identity_of
-from symgen.study.stress.stress_rows import Limit, Stress, StressRow
+from symgen.study.stress.stress_rows import Extreme, Limit, Stress, StressRow
 from symgen.study.stress.study_progress import Progress, Whole
 
 #: Integrators of each method besides its own default: an explicit adaptive one and an implicit one.
@@ -167,6 +165,7 @@ def stress(
         progress=progress or (lambda what, status: None),
         compilation=compilation,
         common=replace(common, max_step=None),  # mechanisms have it
+        max_step=common.max_step,
     )
     return study.run(tuple(skipped))
 
@@ -185,9 +184,14 @@ def _levels_of_families(
             model = "-" if FAMILIES[name].own else base.name
             try:
                 for level in levels_of_family(name, base, quick):
-                    yield replace(level, mechanism=with_largest_step(level.mechanism, max_step), model=model)
+                    yield _level_of_study(level, model, max_step)
             except (NotApplicable, InputError) as why:  # the latter e.g. where the model uses the name of a handle
                 skipped.append((base.name, name, str(why)))
+
+
+def _level_of_study(level: Level, model: str, max_step: float | None) -> Level:
+    """Return a case with the name of its model and the largest step of all runs."""
+    return replace(level, mechanism=with_largest_step(level.mechanism, max_step), model=model)
 
 
 @dataclass
@@ -201,6 +205,7 @@ class _Study:
     progress: Progress
     compilation: float
     common: Settings
+    max_step: float | None = None
 
     @cached_property
     def left_out(self) -> tuple[tuple[str, str, str, str], ...]:
@@ -217,7 +222,7 @@ class _Study:
         return tuple(out)
 
     def run(self, skipped: tuple[tuple[str, str, str], ...]) -> Stress:
-        """Compute references, then runs, then largest steps."""
+        """Compute references, then runs, largest steps and extreme values."""
         references = [CellReference(level, self.quick) for level in self.levels]
         unknown = [(task, dict[str, Any]()) for task in references]
         tasks: tuple[CellReference | RunTask, ...] = (
@@ -232,6 +237,10 @@ class _Study:
             runs, interrupted = self._compute_cells("runs", list(self._run_cells(motions)), whole)
         if not interrupted:
             searches, interrupted = self._compute_cells("largest steps", list(self._search_cells(motions)), whole)
+        extremes = tuple[Extreme, ...]()
+        if not interrupted:
+            halvings = QUICK_HALVINGS if self.quick else HALVINGS
+            extremes, interrupted = search_extremes(runs, self._level_at, self._compute_more, halvings)
         unusable = [
             (task.level, why) for task, motion in motions if (why := cells_without_reference(motion)) is not None
         ]
@@ -239,6 +248,7 @@ class _Study:
             models=tuple(base.name for base in self.bases),
             rows=tuple(_make_row(task, outcome) for task, outcome in runs),
             limits=tuple(_make_limit(task, outcome) for task, outcome in searches),
+            extremes=extremes,
             skipped=skipped,
             unusable=tuple((level.model, level.family, level.label, why) for level, why in unusable),
             left_out=self.left_out,
@@ -255,6 +265,16 @@ class _Study:
         cells = [_make_cell(task) for task in tasks]
         done, interrupted = run_cells(cells, compute_cell, self.journal, self.jobs, whole.begin_part(what, cells))
         return [(cell.task, done[cell.key]) for cell in cells if cell.key in done], interrupted
+
+    def _compute_more(self, what: str, tasks: Sequence[Any]) -> tuple[list[tuple[Any, Outcome]], bool]:
+        """Compute cells that follow from others, whose number was not known before."""
+        return self._compute_cells(what, tasks, Whole.of_study(map(_make_cell, tasks), self.progress))
+
+    def _level_at(self, model: str, family: str, value: float) -> Level | None:
+        """Return the case of a family at a value."""
+        base = next(base for base in self.bases if base.name == model)
+        level = FAMILIES[family].level(base, value)
+        return None if level is None else _level_of_study(replace(level, family=family), model, self.max_step)
 
     def _run_cells(self, motions: Motions) -> Iterator[RunTask]:
         for task, motion in motions:
@@ -313,61 +333,8 @@ def _make_cell(task: CellReference | RunTask) -> Cell:
     cost = 50.0 + steps * (10.0 if task.integrator == "radau5" else 1.0)
     if isinstance(task, LimitTask):
         cost *= SEARCH
-    check = _check_limit if isinstance(task, LimitTask) else _check_run
+    check = check_limit if isinstance(task, LimitTask) else check_run
     return Cell(cell_key(**parts, limits=limits), f"{name} {task.method}", task, cost, check)
-
-
-class _Motion(TypedDict):
-    unusable: None
-    how: str
-    estimated_error: float
-    q: list[list[float]]
-    decay: float
-    sines: list[float]
-    length: float
-    parameters: dict[str, float]
-
-
-class _Unusable(TypedDict):
-    unusable: str
-
-
-def check_motion(entry: Outcome) -> None:
-    """Raise `ValueError` unless an entry of a journal belongs to a reference."""
-    motion: dict[str, Any] = msgspec.convert(entry, _Motion if entry.get("unusable") is None else _Unusable)
-    if len({*map(len, motion.get("q", ()))}) > 1:
-        raise ValueError("rows of different lengths")
-
-
-class _Run(TypedDict):
-    outcome: str
-    error: float | None
-    relative_error: float | None
-    status: str
-    reason: str | None
-    evaluations: int
-    position_violation_max: float | None
-    velocity_violation_max: float | None
-    energy_drift_max: float | None
-    chosen: str
-    note: str
-
-
-class _Steps(TypedDict):
-    stable_step: float | None
-    accurate_step: float | None
-
-
-def _check_run(entry: Outcome) -> None:
-    """Raise `ValueError` unless an entry of a journal belongs to a run."""
-    run = msgspec.convert(entry, _Run)
-    if run["outcome"] not in OUTCOMES or run["status"] not in (OK, UNVERIFIED, FAILED, "not run"):
-        raise ValueError(run["status"])
-
-
-def _check_limit(entry: Outcome) -> None:
-    """Raise `ValueError` unless an entry of a journal belongs to a search."""
-    msgspec.convert(entry, _Steps)
 
 
 def _make_row(task: RunTask, outcome: Outcome) -> StressRow:

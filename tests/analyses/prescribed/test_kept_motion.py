@@ -8,6 +8,7 @@ import symgen
 from analyses.rods import of_raw
 from symgen.analyses.prescribed.kept_motion import KeptMotion
 from symgen.analyses.prescribed.prescribed import NotPrescribed
+from symgen.base.errors import InputError
 from symgen.base.settings import Settings
 from symgen.describe.parts.context import Context
 from symgen.describe.parts.scope import Scope
@@ -123,7 +124,45 @@ def test_slopes_in_space_are_those_of_differences_of_kinematics():
         assert np.abs(slopes[:, :, i] - beside).max() < 1e-8 * np.abs(beside).max()
 
 
-def test_friction_is_no_motion_of_positions_alone():
-    raw = {**PUMP, "joints": {**PUMP["joints"], "P": {**PUMP["joints"]["P"], "friction": {"sliding": 1.0}}}}
-    with pytest.raises(NotPrescribed, match="friction, stops or contacts"):
+def test_a_state_of_the_file_is_no_motion_of_positions_alone():
+    raw = PUMP | {"states": {"heat": {"start": 0.0, "rate": "motor.power"}}}
+    with pytest.raises(NotPrescribed, match="states of the file's own"):
         kept(raw, ["r"], ["piston.x"])
+
+
+# -- kinematics --------------------------------------------------------------------------------------------------------
+
+
+def test_kinematics_has_derivatives_of_motion_loads_and_energies_by_dimensions():
+    raw = PUMP | {"outputs": {"stroke": {"value": "1000*(piston.x - x0)", "unit": "mm"}}}
+    numbers, times = {"r": 0.06, "l": 0.35, "m": 3.1}, (ANGLES - 0.4) / SPEED
+    later = times >= 0.0
+    motion = of_raw(raw).kinematics(times[later], parameters=numbers, sensitivities=("r", "l", "m", "x0"))
+    assert motion.sensitivities.names == ("r", "l", "m", "x0")
+    columns = ("piston.x", "piston.vx", "rod.theta", "motor.effort")
+    for i, name in enumerate("rlm"):
+        step = np.array([*numbers.values()]).astype(complex)
+        step[i] += 1e-30j
+        beside = (pump(*step).imag / 1e-30)[:, later]
+        for column, expected in zip(columns, beside, strict=True):
+            assert np.abs(motion.gradient(column)[name] - expected).max() < 1e-10 * np.abs(beside).max()
+        assert np.abs(motion.gradient("2*piston.x")[name] - 2.0 * beside[0]).max() < 1e-11
+    assert motion.gradient("motor.effort").units == ("N m",) * 4  # plain numbers have no unit
+    # the power of the motor is the rate of all energy
+    rate = np.gradient(motion.gradient("energy.total")["l"], motion.t, edge_order=2)
+    assert np.abs(rate - SPEED * motion.gradient("motor.effort")["l"])[2:-2].max() < 0.02 * np.abs(rate).max()
+    # a pin carries m a of the piston along the rail
+    force, mass = motion.gradient("Q.Fx"), motion["piston.ax"]
+    assert np.abs(np.abs(force["m"]) - np.abs(mass)).max() < 1e-9 * np.abs(mass).max()
+
+
+def test_derivatives_of_kinematics_are_refused_in_one_sentence():
+    model, times = of_raw(PUMP), [0.0, 0.1]
+    with pytest.raises(InputError, match="kinematics: sensitivities: expected parameters of the mechanism, got 'rr'"):
+        model.kinematics(times, sensitivities=("rr",))
+    with pytest.raises(InputError, match="gradient: expected kinematics with sensitivities"):
+        model.kinematics(times).gradient("piston.x")
+    with pytest.raises(InputError, match="gradient: got the unknown body or joint 'pistn'; did you mean 'piston'"):
+        model.kinematics(times, sensitivities=("r",)).gradient("pistn.x")
+    with pytest.raises(InputError, match="expected a motion without singular positions"):
+        model.kinematics(np.linspace(0.0, 1.0, 50), sensitivities=("r",), parameters={"r": 0.32, "l": 0.32})

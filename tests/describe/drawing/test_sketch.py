@@ -11,6 +11,7 @@ from symgen.api import load
 from symgen.base.errors import InputError
 from symgen.describe import catalogue
 from symgen.describe.drawing import build_scene, sketch
+from symgen.describe.drawing.contact_parts import outlines_of_contacts
 from symgen.describe.drawing.mechanism_scene import convex_hull
 from symgen.describe.drawing.paper import Circle, items_on_paper
 from symgen.describe.drawing.scene import Disc
@@ -30,9 +31,11 @@ def test_everything_of_the_catalogue_is_drawn(name: str) -> None:
     mechanism = load(name).mechanism
     found = groups(sketch(mechanism))
     wanted = {f"body-{b.name}" for b in mechanism.bodies} | {f"joint-{j.name}" for j in mechanism.joints}
-    assert set(found) == wanted | {f"force-{f.name}" for f in mechanism.forces if f.kind != "modal"}
+    touching = {f"contact-{name}" for name, _ in outlines_of_contacts(mechanism)}
+    assert set(found) == wanted | touching | {f"force-{f.name}" for f in mechanism.forces if f.kind != "modal"}
     assert all(len(found[f"body-{b.name}"]) > 1 for b in mechanism.bodies)
-    assert all(len(found[f"joint-{j.name}"]) > 1 for j in mechanism.joints)
+    shown = (j for j in mechanism.joints if j.kind not in ("place", "rows"))  # contacts, and formulas
+    assert all(len(found[f"joint-{j.name}"]) > 1 for j in shown)
     assert sketch(mechanism) == sketch(mechanism)
 
 

@@ -148,3 +148,15 @@ CRANK = slider_crank(
 LIGHT = slider_crank(
     (0.12, 0.25), (0.04, 0.02, 0.0012), ((0.03, 0.05, 0.06), (4e-5, 2.6e-4, 3e-5)), (140.0, -66.0), (0.05, 0.3)
 )
+
+#: The same slider as a joint with play.
+CRANK_WITH_CLEARANCE = (
+    CRANK[: CRANK.index("[contacts.k1]")]
+    + """[joints.guide]
+type = "translational"
+between = ["ground", "slider"]
+at = [[0.0, 0.0], [0.0, 0.0]]
+axis = [1.0, 0.0]
+clearance = { length = 0.1, height = 0.05, gap = 0.001, restitution = 0.4, friction = "mu" }
+"""
+)

@@ -146,7 +146,7 @@ def test_a_block_rocks_and_comes_to_rest(integrator: str, tmp_path: Path) -> Non
     for until in (5.0, 5.5, 6.0, 7.0, 8.0):
         result = run_of(rocking_block(0.12, 0.45, 0.1), tmp_path, until, integrator)
         assert np.allclose(times_of(result, "hit")[:4], hits[:4], rtol=0.0, atol=1e-9)
-        (note,) = result.notes
+        (note,) = [note for note in result.notes if "accumulate" in note]
         assert note.startswith("impacts of ") and abs(float(note.split("t = ")[1].split(" s:")[0]) - limit) < 1e-7
         assert result.ok and result["left.mode"][-1] == result["right.mode"][-1] == 1.0
 

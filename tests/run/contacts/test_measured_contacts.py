@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from symgen.base.errors import InputError
-from tests.run.contacts.scenes import CRANK, body, head, loaded, woodpecker
+from tests.run.contacts.scenes import CRANK, CRANK_WITH_CLEARANCE, body, head, loaded, woodpecker
 
 
 def settings_of(integrator: str) -> dict[str, Any]:
@@ -17,9 +17,10 @@ def settings_of(integrator: str) -> dict[str, Any]:
 
 
 @pytest.mark.slow
-def test_a_slider_with_play_in_its_guide(tmp_path: Path) -> None:
+@pytest.mark.parametrize("text", [CRANK, CRANK_WITH_CLEARANCE], ids=["contacts", "clearance"])
+def test_a_slider_with_play_in_its_guide(text: str, tmp_path: Path) -> None:
     """Crank angles of an event-driven simulation in NumPy, with the uncertainty of its own."""
-    model = loaded(CRANK, tmp_path)
+    model = loaded(text, tmp_path)
     known = {0.005: (0.576050584, 1e-9), 0.04: (3.93500686, 1e-8), 0.2: (18.0836787, 2e-7)}
     angles = [
         model.simulate(until=0.2, coordinates=c, times=[0.0, *known], **settings_of("dop853"))["crank.theta"][1:]
@@ -86,3 +87,24 @@ def test_five_contacts_of_one_body_are_refused(tmp_path: Path) -> None:
         text += f"[contacts.c{i}]\nbetween = {shapes}\nfriction = 0.5\n"
     with pytest.raises(InputError, match="contact c4: expected at most four contacts that depend on each other"):
         loaded(text, tmp_path).simulate(until=0.1)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_a_block_with_play_on_a_slope(coordinates: str, tmp_path: Path) -> None:
+    """It falls by the play onto the right line of a tilted guide, loses mu of that rate along it, and slides on."""
+    angle, play, mu, v = 0.5, 0.003, 0.2, 0.7
+    c, s = math.cos(angle), math.sin(angle)
+    text = head("slope") + body("block", 1.3, 0.01, (0.2 * c, 0.2 * s), (-v * c, -v * s), angle=angle + 0.25)
+    text += '[joints.guide]\ntype = "translational"\nbetween = ["ground", "block"]\n'
+    text += f"at = [[0.0, 0.0], [0.0, 0.0]]\naxis = [{c!r}, {s!r}]\nangle = {angle + 0.25!r}\n"
+    text += f"clearance = {{ length = 0.2, height = 0.08, gap = {play!r}, friction = {mu!r} }}\n"
+    result = loaded(text, tmp_path).simulate(until=0.2, coordinates=coordinates, **settings_of("dop853"))
+    hits = math.sqrt(2.0 * play / (9.81 * c))
+    assert [event.name for event in result.events[:2]] == ["guide_back_right.hit", "guide_front_right.hit"]
+    assert abs(result.events[0].t - hits) < 1e-12
+    down, left = v + 9.81 * s * hits, 0.2 - hits
+    after = down - mu * 9.81 * c * hits
+    way = v * hits + 0.5 * 9.81 * s * hits**2 + after * left + 0.5 * 9.81 * (s - mu * c) * left**2
+    assert abs(result["guide.displacement"][-1] - (0.2 - way)) < 1e-12
+    assert abs(result["guide_back_right.force"][-1] + result["guide_front_right.force"][-1] - 1.3 * 9.81 * c) < 1e-10
+    assert abs(result["block.theta"][-1] - angle - 0.25) < 1e-12

@@ -250,6 +250,31 @@ def test_files_pickles_and_json(four_bar, tmp_path):
     assert "sensitivities" not in four_bar.simulate(until=0.2, integrator="dop853").to_json()
 
 
+def test_forces_of_joints_and_energies_have_derivatives_by_name(tmp_path):
+    run = model(tmp_path, ROD).simulate(times=[1.0, 3.0], sensitivities=("length", "g", "angle"), **TIGHT)
+    (turn, speed), start = ROD_STATE, 1.0
+    along, across = 2.5 * np.cos(turn) - 1.5 * np.cos(start), 0.25 * np.sin(turn)
+    size = np.hypot(along, across)  # the pin's force in weights
+    by_turn = (-2.5 * np.sin(turn) * along + 0.25 * np.cos(turn) * across) / size
+    own = {"length": 0.0, "g": size, "angle": 9.81 * 1.5 * np.sin(start) * along / size}
+    total = {"length": -9.81 / 2.0 * np.cos(start), "g": -0.5 * np.cos(start), "angle": 9.81 / 2.0 * np.sin(start)}
+    for name, (of_turn_, of_speed) in ROD_BY.items():
+        force = own[name] + 9.81 * by_turn * of_turn_
+        kinetic = speed * of_speed / 3.0 + (speed**2 / 3.0 if name == "length" else 0.0)
+        assert run.gradient("pin.F").row()[name] == pytest.approx(force, rel=1e-9, abs=1e-9)
+        assert run.gradient("sqrt(pin.Fx**2 + pin.Fy**2)").row()[name] == pytest.approx(force, rel=1e-9, abs=1e-9)
+        assert run.gradient("energy.kinetic").row()[name] == pytest.approx(kinetic, rel=1e-9)
+        assert run.gradient("energy.total").row()[name] == pytest.approx(total[name], rel=1e-9)
+    assert run.gradient("pin.F").units[0] == "N/m" and run.gradient("energy.total").units[1] == "J/(m/s^2)"
+    # D^T lambda acts on the second body, the reaction on the first
+    sign = run["multiplier.pin.x"][-1] / run["pin.Fx"][-1]
+    assert run.gradient("multiplier.pin.x").row()["g"] == pytest.approx(sign * run.gradient("pin.Fx").row()["g"])
+    own = model(tmp_path, ROD).gradient("pin.F", by=("g",), until=3.0, **TIGHT)
+    assert own.by["g"] == pytest.approx(run.gradient("pin.F").row()["g"], rel=1e-9) and own.unit == "N"
+    with pytest.raises(InputError, match=r"a quantity with sensitivities, got 'pin\.M'"):
+        run.gradient("pin.M")
+
+
 def test_another_run_goes_on_from_one_with_sensitivities(four_bar):
     first = four_bar.simulate(until=0.2, sensitivities="a", **TIGHT)
     second = four_bar.simulate(until=0.5, start=first, **TIGHT)

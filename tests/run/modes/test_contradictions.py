@@ -1,10 +1,14 @@
 """Drivers that run into stops, and bounds that become undefined, are named at once."""
 
+import subprocess
+from pathlib import Path
+
 import pytest
 
 import symgen
 from symgen.describe.files.load import parse_toml
 from symgen.describe.files.validate import validate
+from tests.result.targets.compilers import compiled, written
 
 RAM = """
 [mechanism]
@@ -140,7 +144,7 @@ def braked(bound: str, push: str) -> symgen.Model:
 def test_a_bound_that_becomes_undefined_is_named(bound: str, push: str, coordinates: str, integrator: str) -> None:
     run = braked(bound, push).simulate(until=2.0, coordinates=coordinates, **settings_of(integrator))
     assert run.status == "failed" and run.steps + run.rejected < 4000
-    sentence = "friction of rail: expected formulas that stay defined, got one that is no number behind t = "
+    sentence = "friction of rail: expected formulas that stay defined, got one that is no number after t = "
     assert run.reason.startswith(sentence)
     if bound == "end - t":
         assert float(run.reason.removeprefix(sentence).removesuffix(" s")) == pytest.approx(1.0, abs=1e-3)
@@ -161,3 +165,20 @@ def test_rows_and_steps_name_a_contradiction_too(integrator: str) -> None:
         with pytest.raises(symgen.SymgenError, match=r"expected (a motion|formulas that stay)"):
             for _ in range(8):
                 run.step(0.25)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("model", "time", "sentence"),
+    [
+        (ram("speed*t"), 1.25, "an impact that can change the rate of the gap"),
+        (squeezed("speed*t"), 1.25, "a motion in which no gap becomes negative"),
+        (braked("0.9995 - t", "3*t"), 1.0, "formulas that stay defined"),
+    ],
+    ids=["driver", "stops", "bound"],
+)
+def test_a_program_in_c_ends_with_the_sentence(model: symgen.Model, time: float, sentence: str, tmp_path: Path) -> None:
+    written(model.mechanism, tmp_path)
+    done = subprocess.run([compiled(tmp_path), "2.0", "0.001"], capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 1 and sentence in done.stderr
+    assert float(done.stdout.splitlines()[-1].partition(",")[0]) == pytest.approx(time, abs=4e-3)

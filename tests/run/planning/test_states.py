@@ -261,8 +261,8 @@ def test_integrals_and_states_stand_side_by_side():
             "'i', which has no meaning here; only forces, torques, rates of states",
         ),
         (
-            {"states": {"i": {"rate": "wheel.alpha"}}},
-            "states.i.rate: expected .*'alpha', which body 'wheel' does not have",
+            {"states": {"i": {"rate": "wheel.alfa"}}},
+            "states.i.rate: expected .*'alfa', which body 'wheel' does not have",
         ),
         (
             {"states": {"R": {"rate": "1"}}},

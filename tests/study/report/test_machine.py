@@ -5,6 +5,7 @@ import re
 import msgspec
 import numpy as np
 import pytest
+from analyses.rods import of_raw
 
 import symgen
 from symgen.base.errors import InputError
@@ -42,6 +43,28 @@ def test_the_largest_loads_are_those_of_the_run(driven):
     # the motor's power is its torque times the speed of the crank, which is constant
     power, torque = (si_number(rows[f"motor.{name}"][1]) for name in ("power", "effort"))
     assert power == pytest.approx(2 * np.pi * torque, rel=1e-2)
+
+
+def test_a_driver_along_a_slide_has_its_effort_alone():
+    block = {"mass": 3.0, "inertia": 0.1, "position": [0.0, 0.0]}
+    rail = {
+        "type": "translational",
+        "between": ["ground", "block"],
+        "at": [[0.0, 0.0], "centre"],
+        "axis": [1.0, 0.0],
+    }
+    raw = {
+        "mechanism": {"name": "slide", "gravity": [0.0, -9.81]},
+        "run": {"until": 1.0},
+        "bodies": {"block": block},
+        "joints": {"rail": rail, "ram": {"type": "driver", "joint": "rail", "value": "0.1*t**2"}},
+    }
+    model = of_raw(raw)
+    document = machine_report(model, model.simulate(output_step=0.1))
+    (loads,) = (s for s in document.sections if s.title == "Largest loads")
+    rows = {row[0]: row[1] for table in loads.tables for row in table.rows}
+    assert {*rows} == {"ram.effort", "ram.power", "rail.F"}
+    assert si_number(rows["ram.effort"]) == pytest.approx(0.6) and si_number(rows["rail.F"]) == pytest.approx(29.4)
 
 
 @pytest.mark.slow

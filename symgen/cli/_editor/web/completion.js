@@ -41,7 +41,7 @@ function offered(c) {
   if (!section) return [];
   if (!c.inValue) {
     if (c.inText) return [];
-    if (section.types) return Object.entries(section.types[c.type]?.keys || { type: "which kind it is" });
+    if (section.types) return Object.entries(section.types[c.type]?.keys || { type: "which kind it is", ...Object.assign({}, ...Object.values(section.types).map((kind) => kind.keys)) });
     if (section.named && c.table.length < 2 && !/\{/.test(c.line)) return [];
     return c.table.length > 2 ? [] : Object.entries(section.keys);
   }

@@ -6,10 +6,10 @@ const LARGEST = 1000000;
 const MOTION = 60, LIVE = 700; // milliseconds of rest before a motion, and its live part, are asked for
 let version = 0, checking = false, again = false, timer = 0, resume = null, lively = true, times = {}, fresh = true; // nothing has moved yet
 
-async function post(job, given) {
+async function post(job, given, further = {}) {
   if (given.text && given.text.length > LARGEST) return { error: `expected a text of at most ${LARGEST} characters, got ${given.text.length}` };
   try {
-    const answer = await fetch(job, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(given) });
+    const answer = await fetch(job, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(given), ...further });
     if (!answer.ok) throw new Error(`it refused, with ${answer.status}`);
     return await answer.json();
   } catch (error) {
@@ -40,7 +40,7 @@ function display(next, kind, code = NOTHING) {
   rows = [];
   ranges = null;
   document.querySelector("header h1").textContent = data.title;
-  if (view.spatial === spatial && (!empty || tool !== "move")) for (const key of ["turn", "tilt", "scale", "at"]) view.camera[key] = camera[key];
+  if (view.spatial === spatial && (!empty || tool !== "move")) for (const key of ["turn", "tilt", "scale", "at", "width", "height"]) view.camera[key] = camera[key];
   else fitted();
   if (kind === "start") return begun();
   if (kind === "live") begin(code);
@@ -58,11 +58,24 @@ function display(next, kind, code = NOTHING) {
   const shown = resume ?? time;
   resume = null;
   show(motion);
+  preferPlot();
   if (fresh) pace();
   if (fresh && tool === "move") fitted();
-  else if (!held && !steering && kind !== "live") outgrown(); // what a motion shows has its place already: nothing moves under a hand
+  else if (!held && !steering && !pressed && !spots.length && kind !== "live") outgrown(); // what a motion shows has its place already: nothing moves under a hand
   fresh = false;
   go(shown);
+}
+
+// What was asked for last is plotted again where a motion has it; what nobody asked for is not a mode.
+let askedPlot = null;
+$("group").addEventListener("change", () => (askedPlot = titled(motion.groups[$("group").value])));
+function preferPlot() {
+  const before = $("group").value, modes = (g) => g.names.every((name) => name.endsWith(".mode"));
+  let at = motion.groups.findIndex((g) => titled(g) === askedPlot);
+  if (at < 0 && motion.groups[before] && modes(motion.groups[before])) at = motion.groups.findIndex((g) => !modes(g));
+  if (at < 0 || String(at) === before) return;
+  $("group").value = String(at);
+  choose();
 }
 
 // A start alone: what is plotted waits for the motion.
@@ -87,14 +100,17 @@ function fitted() {
   if (scale / view.camera.scale > AWAY) Object.assign(view.camera, { scale, at });
 }
 
-// Look again where the mechanism has left the picture, or has become small in it and nothing is being added.
-function outgrown() {
+// Look again where the mechanism has left the picture, or has become small in it; while something is added, where a
+// point has left it, or room is asked for.
+function outgrown(room = false) {
+  const within = ([x, y]) => x > 12 && y > 12 && x < view.camera.width - 12 && y < view.camera.height - 12;
+  const seen = tool !== "move" && movable.every((h) => within(onPicture(h.x, h.y)));
+  if (seen && !room) return;
   const before = { ...view.camera, at: [...view.camera.at] };
   fitted();
   const now = view.camera, ratio = before.scale / now.scale;
   const aside = Math.hypot(...before.at.map((x, i) => x - now.at[i])) * before.scale;
-  const inside = tool !== "move" && ratio < 1.02 && aside < 0.5 * (1 - ratio) * Math.min(now.width, now.height);
-  const keep = inside || (ratio < 1.02 && ratio > 0.5 && aside < 16 + 0.5 * (1 - ratio) * Math.min(now.width, now.height));
+  const keep = (seen && ratio < 1.02) || (ratio < 1.02 && ratio > 0.5 && aside < 16 + 0.5 * (1 - ratio) * Math.min(now.width, now.height));
   if (keep) for (const key of ["scale", "at"]) view.camera[key] = before[key];
 }
 
@@ -232,7 +248,7 @@ function atCursor() {
 
 let naming = "";
 function rename() {
-  naming = atCursor();
+  naming = document.activeElement !== T && selected ? selected : atCursor();
   if (!naming) return say("put the cursor at a body, a joint, a force, a point or a parameter", true);
   $("naming").hidden = false;
   $("named").textContent = `New name of ${naming}`;
@@ -250,8 +266,8 @@ async function named_so(on) {
   if (T.value === text) setText(answer.text, Math.min(place, answer.text.length));
 }
 
-async function remove() {
-  const text = T.value, path = atCursor(), place = T.selectionStart;
+async function remove(path = atCursor()) {
+  const text = T.value, place = T.selectionStart;
   if (!path) return say("put the cursor into the table that is to be taken out", true);
   const answer = await post("remove", { text, path });
   if (answer.error) return say(answer.error, true);
@@ -260,7 +276,7 @@ async function remove() {
   say(`took out ${path}`);
 }
 $("rename").addEventListener("click", rename);
-$("remove").addEventListener("click", remove);
+$("remove").addEventListener("click", () => remove());
 $("give").addEventListener("click", () => named_so(true));
 $("keep").addEventListener("click", () => named_so(false));
 $("name").addEventListener("keydown", (e) => {
@@ -284,6 +300,6 @@ window.addEventListener("keydown", (e) => {
   act();
 }, { capture: true });
 
-window.symgen.editor = { times: () => times, version: () => version, handles: () => movable, place: onPicture, grid: (scale) => [gridded(BETWEEN, scale), parted(gridded(BETWEEN, scale))], check, kept: () => !keeping && !newer && kept, checked: () => times.checked === version, rest: () => !checking && !again && times.moved === version };
+window.symgen.editor = { times: () => times, version: () => version, handles: () => movable, place: onPicture, grid: (scale) => [gridded(BETWEEN, scale), parted(gridded(BETWEEN, scale))], check, offer, kept: () => !keeping && !newer && kept && !forgetting, checked: () => times.checked === version, rest: () => !checking && !again && times.moved === version };
 choosing("move");
 open();

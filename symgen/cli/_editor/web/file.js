@@ -73,6 +73,13 @@ function download() {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
+let forgetting = 0;
+async function forget(page) {
+  forgetting++;
+  await post("forget", { tab: page }, { keepalive: true }); // also where the page is left at once
+  forgetting--;
+}
+
 // A text of an earlier page, of one that crashed, or of another window.
 function offerUnsaved({ page, time, text }) {
   const when = new Date(1000 * time), today = when.toDateString() === new Date().toDateString();
@@ -81,10 +88,10 @@ function offerUnsaved({ page, time, text }) {
     ["Go on with it", async () => {
       setText(text, 0);
       await keep();
-      if (kept) post("forget", { tab: page });
+      if (kept) forget(page);
       say("this is the text that was never saved; Undo goes back to the one before");
     }],
-    ["Throw it away", () => post("forget", { tab: page })],
+    ["Throw it away", () => forget(page)],
   ]);
 }
 

@@ -8,11 +8,37 @@ const TOOLS = [
   ["pin", "Pin", 2, 2, "Points of two bodies; the same point twice pins it to the ground."],
   ["weld", "Weld", 2, 2, "Points of two bodies that do not turn against each other; the same point twice welds it to the ground."],
   ["slide", "Slide", 1, 2, "A point of a body that slides along x; drag from it for another direction, or onto a point of the body that it slides along. Its body keeps its angle."],
+  ["slot", "Slot", 1, 2, "A point of a body in a slot along x; drag from it for another direction, or onto a point of the body that has the slot. Its body may turn."],
   ["point", "Point", 2, 2, "A point of a body, then where another point of that body is: a further hole, or a point whose path is drawn."],
-  ["spring", "Spring", 2, 2, "Two points with a spring and a damper between them."],
+  ["copy", "Copy", 2, 2, "A point of a body, then where that point of its copy is."],
+  ["rod", "Rod", 2, 2, "Two points that keep their distance, without a body between them."],
+  ["gear", "Gear", 2, 2, "Two pins on one body or on the ground, whose other bodies are wheels in mesh."],
   ["motor", "Motor", 1, 1, "A pin that turns on with time."],
+  ["stop", "Stop", 1, 1, "A pin or a slide that goes only so far: click it; its limits stand in the text."],
+  ["friction", "Friction", 1, 1, "A pin or a slide that rubs: click it; its bound stands in the text."],
+  ["spring", "Spring", 2, 2, "Two points with a spring and a damper between them."],
+  ["cylinder", "Cylinder", 2, 2, "Two points that a cylinder pushes apart."],
   ["load", "Load", 1, 1, "A point of a body with a force on it."],
 ];
+const ICONS = {
+  move: "M12 3v18M3 12h18M12 3l-3 3M12 3l3 3M12 21l-3-3M12 21l3-3M3 12l3-3M3 12l3 3M21 12l-3-3M21 12l-3 3",
+  bar: "M5 19L19 5M7 19a2 2 0 1 1-4 0a2 2 0 1 1 4 0M21 5a2 2 0 1 1-4 0a2 2 0 1 1 4 0",
+  plate: "M4 19L20 17L11 4z",
+  pin: "M12 14a3 3 0 1 0 0-6a3 3 0 1 0 0 6M12 14l-5 6h10zM5 20h14",
+  weld: "M12 4v16M6 4h12M6 20h12M9 8l6 4l-6 4",
+  slide: "M3 18h18M7 9h10v6H7zM3 18l2 3M9 18l2 3M15 18l2 3",
+  slot: "M7 8h10a4 4 0 0 1 0 8H7a4 4 0 0 1 0-8M14 12a2 2 0 1 1-4 0a2 2 0 1 1 4 0",
+  copy: "M8 8h12v12H8zM16 4H4v12",
+  rod: "M6 18L18 6M6 18h.01M18 6h.01",
+  gear: "M11 9a4 4 0 1 1-8 0a4 4 0 1 1 8 0M21 15a5 5 0 1 1-10 0a5 5 0 1 1 10 0M7 3v2M7 13v2M16 8v2M16 20v2",
+  stop: "M5 4v16M19 4v16M8 12h8M8 12l2-2M8 12l2 2M16 12l-2-2M16 12l-2 2",
+  friction: "M3 17h18M6 17l-2 3M12 17l-2 3M18 17l-2 3M8 8h8v7H8z",
+  cylinder: "M3 9h11v6H3zM14 12h7M8 9v6",
+  point: "M4 20L20 4M15 12a3 3 0 1 1-6 0a3 3 0 1 1 6 0",
+  spring: "M3 12h3l2-5l3 10l3-10l3 10l2-5h2",
+  motor: "M19 12a7 7 0 1 1-3-5.7M16 2v5h-5M12 12h.01",
+  load: "M12 3v16M12 19l-4-5M12 19l4-5",
+};
 const NEAR = 14; // pixels
 let movable = [], held = null, tool = "move", spots = [], pressed = null, numbers = {}, numberUnits = {};
 let checkedText = null; // the text that `movable` belongs to
@@ -23,7 +49,9 @@ bench.id = "tools";
 bench.setAttribute("role", "toolbar");
 bench.setAttribute("aria-label", "Tools");
 for (const [name, label, , , hint] of TOOLS) {
-  const button = element("button", label);
+  const button = element("button");
+  button.innerHTML = `<svg viewBox="0 0 24 24" aria-hidden="true"><path d="${ICONS[name]}"/></svg>`; // from this file alone
+  button.append(element("span", label));
   button.dataset.tool = name;
   button.title = hint;
   button.addEventListener("click", () => choosing(name));
@@ -38,6 +66,7 @@ where.placeholder = "x, y or length < deg";
 where.setAttribute("aria-label", "Next point: x, y in metres, or length and angle from the last one as 0.2 < 30, Enter");
 where.title = where.getAttribute("aria-label");
 bench.append(snap, where);
+bench.setAttribute("aria-orientation", "vertical");
 $("stage").prepend(bench);
 $("picture").append(layer, pointer);
 underlay();
@@ -49,14 +78,16 @@ function choosing(name) {
   for (const button of bench.querySelectorAll("[data-tool]")) button.setAttribute("aria-pressed", button.dataset.tool === name);
   $("picture").classList.toggle("adding", name !== "move");
   where.hidden = name === "move";
-  if (name !== "move" && movable.length && !view.spatial) {
-    outgrown(); // room for what is added, before the first point is taken
+  if (name !== "move" && !view.spatial) {
+    if (movable.length) outgrown(true); // room for what is added, before the first point is taken
+    else Object.assign(view.camera, { at: [0, 0, 0], scale: 0.48 * Math.min(view.camera.width, view.camera.height) }); // a metre
     wanted = true;
   }
   layHandles();
   if (name !== "move") say(TOOLS.find((each) => each[0] === name)[4]);
 }
 
+const tidy = (x) => +x.toFixed(12); // what rounding leaves of 0
 const atStart = () => !playing && !view.spatial && time <= (motion.t[0] || 0) + 1e-12;
 
 function layHandles() {
@@ -73,7 +104,7 @@ function layHandles() {
     button.classList.toggle("fixed", !h.followers.length);
     button.classList.toggle("held", own === held);
     button.classList.toggle("taken", spots.some((s) => s.name === h.name));
-    const label = `${h.kind} ${h.name.split(".").slice(1).join(" ")}, x ${short(own.x)} m, y ${short(own.y)} m`;
+    const label = `${h.kind} ${h.name.split(".").slice(1).join(" ")}, x ${short(tidy(own.x))} m, y ${short(tidy(own.y))} m`;
     if (button.getAttribute("aria-label") !== label) button.setAttribute("aria-label", label);
     button.title = h.name;
   });
@@ -113,11 +144,17 @@ function newHandle() {
     else if (!e.detail) takePoints(spotOf(handle)); // by a key; the mouse is followed below
   });
   button.addEventListener("keydown", (e) => {
+    const first = e.key === "Enter" && e.shiftKey && ["slide", "slot"].includes(tool) && own();
+    if (first) { // the second point follows
+      e.preventDefault();
+      spots = [spotOf(first)];
+      return layHandles();
+    }
     const way = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[e.key], handle = own();
-    if (!way || !["move", "slide"].includes(tool) || !handle) return;
+    if (!way || !["move", "slide", "slot"].includes(tool) || !handle) return;
     e.preventDefault();
     e.stopPropagation();
-    if (tool === "slide") return takePoints(spotOf(handle), onGround(handle.x + way[0], handle.y + way[1]));
+    if (tool !== "move") return takePoints(spotOf(handle), onGround(handle.x + way[0], handle.y + way[1]));
     if (!handle.followers.length || checkedText !== T.value) return;
     const step = gridded(e.shiftKey ? 2 : 8);
     setText(moved(handle, T.value, way[0] * step, way[1] * step, step));
@@ -187,7 +224,10 @@ function spotOf(handle) {
 // What is at a place of the picture: a ringed point, or a place of the grid.
 function spotAt(px, py) {
   const near = movable.find((h) => Math.hypot(...onPicture(h.x, h.y).map((p, i) => p - [px, py][i])) < NEAR), step = handStep();
-  return near ? spotOf(near) : onGround(...onPlane(px, py).map((x) => onLattice(x, step)));
+  if (near) return spotOf(near);
+  const place = onGround(...onPlane(px, py).map((x) => onLattice(x, step)));
+  const part = ["stop", "friction"].includes(tool) ? partAt(px, py) : ""; // the joint itself, as it is drawn
+  return part.startsWith("joints.") ? { ...place, joint: part.slice(7) } : place;
 }
 
 // A place that is taken twice is a point of another body that lies there, or held by the ground.
@@ -208,8 +248,8 @@ async function takePoints(...taken) {
   if (answer.error) return say(answer.error, true);
   if (T.value !== given.text) return;
   setText(answer.text);
-  const at = answer.text.indexOf(`[${answer.path}]`);
-  if (at >= 0) select(at + 1, at + 1 + answer.path.length, false);
+  const at = answer.text.indexOf(`[${answer.path.split(".").slice(0, 2).join(".")}]`);
+  if (at >= 0) select(at + 1, answer.text.indexOf("]", at), false);
   say(`added ${answer.path}`);
 }
 

@@ -69,6 +69,7 @@ torque.addEventListener("click", () => {
   const name = jointAtCursor(), at = motion.groups.findIndex((g) => g.names.includes(`${name}.effort`));
   if (at < 0) return;
   $("group").value = String(at);
+  askedPlot = titled(motion.groups[at]);
   single = motion.groups[at].names.length > 1 ? motion.groups[at].names.indexOf(`${name}.effort`) : null;
   $("over").value = [`${name}.angle`, `${name}.displacement`].find((x) => [...$("over").options].some((o) => o.value === x)) || "";
   choose();

@@ -67,6 +67,7 @@ T.addEventListener("beforeinput", (e) => {
 T.addEventListener("input", (e) => {
   const now = performance.now(), together = now - typed.at < 600 && typed.kind === e.inputType && /^(insertText|delete)/.test(e.inputType);
   typed = { at: now, kind: e.inputType };
+  reveal(T.selectionStart);
   remember({ text: T.value, from: T.selectionStart, to: T.selectionEnd }, together);
   noteChange();
 });
@@ -104,6 +105,8 @@ function mark() {
 // Bring a character into view.
 function reveal(place) {
   const top = TOP + (lineAt(place) - 1) * LINE, box = $("paper");
+  const column = place - (T.value.lastIndexOf("\n", place - 1) + 1), far = T.offsetLeft + 8 * (column + 3); // of its end, at most
+  if (far < box.clientWidth) box.scrollLeft = 0; // what a long line has moved goes back
   if (top < box.scrollTop + LINE || top > box.scrollTop + box.clientHeight - 2 * LINE) box.scrollTop = Math.max(0, top - box.clientHeight / 3);
 }
 

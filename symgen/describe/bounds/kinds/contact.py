@@ -85,10 +85,10 @@ def rows_of_contact(
     within = f"{key}." if key else ""
     law = read_restitution(scope, f"{within}restitution", restitution)
     tangent = None if friction is None else _read_friction(scope, f"{within}friction", name, touch, friction)
-    table = f"joints.{name}.{key}" if key else ""
+    table = f"joints.{scope.name}.{key}" if key else ""
     if tangent is not None and table:
         tangent = msgspec.structs.replace(tangent, table=table)
-    gap = ContactGap(name, name, touch.gap, touch.value, "m", law, tangent, touch.distance, table)
+    gap = ContactGap(name, name, touch.gap, touch.value, "m", law, tangent, touch.distance, table, touch.outlines)
     return (gap,) if tangent is None else (tangent, gap)
 
 

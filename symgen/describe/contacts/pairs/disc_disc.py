@@ -38,7 +38,7 @@ def touch_of_discs(scope: Scope, key: str, one: Disc, other: Disc) -> Touch:
     gap = Sum(((Number(-1.0), stretch),)) if inside else stretch
     apart_now = Reading(f"{scope.name}.distance", Distance(one.centre, other.centre))
     distance = call("sub", length, apart_now) if inside else call("sub", apart_now, length)
-    return Touch(gap, ZERO, Sum(_terms_of_slip(scope, total, one, other)), distance)
+    return Touch(gap, ZERO, Sum(_terms_of_slip(scope, total, one, other)), distance, (one.outline, other.outline))
 
 
 def _terms_of_slip(scope: Scope, total: Expr, one: Disc, other: Disc) -> tuple[tuple[Expr, Measure], ...]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import msgspec
 
 from symgen.base.vocabulary.expressions import ONE, call
-from symgen.base.vocabulary.measures import Component, Direction
+from symgen.base.vocabulary.measures import Component, Direction, Marker
+from symgen.describe.contacts.outlines import Outline
 from symgen.describe.contacts.surfaces import Disc, Pair, Touch, slip_with_turns
 from symgen.describe.parts.fields import Point, Vector
 from symgen.describe.parts.scope import Scope
@@ -33,10 +34,16 @@ def read_line(scope: Scope, key: str, table: LineTable, disc: Disc) -> Touch:
     """Return the height over the line less the radius, and the way along the line plus what the disc has turned."""
     body = scope.body(f"{key}.line", table.line)
     on, normal = scope.marker(f"{key}.on", body, table.on), scope.direction(f"{key}.normal", body, table.normal)
+    return touch_of_line(scope, on, normal, disc)
+
+
+def touch_of_line(scope: Scope, on: Marker, normal: Direction, disc: Disc) -> Touch:
+    """Return gap and slip of a disc over the line through a point, with a direction towards the disc."""
     x, y = normal.vector
-    along = Component(on, disc.centre, Direction(body, (y, call("neg", x))))
-    slip = slip_with_turns(scope, ((ONE, along),), disc.radius, (body, disc.body))
-    return Touch(Component(on, disc.centre, normal), disc.radius, slip)
+    along = Component(on, disc.centre, Direction(on.body, (y, call("neg", x))))
+    slip = slip_with_turns(scope, ((ONE, along),), disc.radius, (on.body, disc.body))
+    outlines = disc.outline, Outline((on,), normal=normal)
+    return Touch(Component(on, disc.centre, normal), disc.radius, slip, None, outlines)
 
 
 KIND = Pair("line", LineTable, read_line, lambda table: str(table.line))

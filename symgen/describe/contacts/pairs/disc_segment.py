@@ -8,6 +8,7 @@ import msgspec
 
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, Reading, call, difference
 from symgen.base.vocabulary.measures import GROUND, Angle, Component, Direction, FormulaMeasure, Marker
+from symgen.describe.contacts.outlines import Outline
 from symgen.describe.contacts.surfaces import Disc, Pair, Touch
 from symgen.describe.parts.fields import Vector
 from symgen.describe.parts.scope import Scope
@@ -62,7 +63,8 @@ def read_segment(scope: Scope, key: str, table: SegmentTable, disc: Disc) -> Tou
     for of, sign in ((disc.body, "add"), (body, "sub")):
         if of != GROUND and scope.turns(of):
             slip = call(sign, slip, call("mul", disc.radius, Reading(f"{of}.theta", Angle(GROUND, of))))
-    return Touch(FormulaMeasure(difference(gap, disc.radius)), ZERO, FormulaMeasure(slip))
+    outlines = disc.outline, Outline(tuple(ends))
+    return Touch(FormulaMeasure(difference(gap, disc.radius)), ZERO, FormulaMeasure(slip), None, outlines)
 
 
 def _readings(name: str, ends: list[Marker], centre: Marker, along: Direction) -> tuple[Reading, Reading]:

@@ -1,0 +1,68 @@
+"""How the surfaces of contacts are drawn: discs with a spoke, holes, points, lines as guides, and segments."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from symgen.describe.contacts.outlines import Outline
+from symgen.describe.drawing.pen import EARTH, BodyPoint, Pen
+from symgen.describe.drawing.scene import GROUNDED, INK, Array, Item, Line, Look, Mark
+from symgen.describe.mechanism import Mechanism
+
+
+def contact_items(pen: Pen) -> list[Item]:
+    """Return the surfaces of all contacts; one that several share is drawn once."""
+    items, seen = list[Item](), set[Outline]()
+    for name, outlines in outlines_of_contacts(pen.numbers.mechanism):
+        marks = list[Mark]()
+        for outline in outlines:
+            others = [point for other in outlines if other != outline for point in _places(pen, other)]
+            if outline not in seen or outline.normal is not None:
+                marks += _marks(pen, outline, others)
+            seen.add(outline)
+        items.append(Item("contact", name, "contact", tuple(marks)))
+    return items
+
+
+def outlines_of_contacts(mechanism: Mechanism) -> list[tuple[str, tuple[Outline, ...]]]:
+    """Return the outlines of contacts that have some, by name."""
+    gaps: list[Any] = [row for row in mechanism.bounded if row.in_contact and row.one_sided]
+    return [(gap.name, gap.outlines) for gap in gaps if gap.outlines]
+
+
+def _places(pen: Pen, outline: Outline) -> list[BodyPoint]:
+    return [pen.numbers.place(marker) for marker in outline.points]
+
+
+def _marks(pen: Pen, outline: Outline, others: list[BodyPoint]) -> list[Mark]:
+    """Return the marks of a surface; `others` are points of what it meets, along which a line is long enough."""
+    places = _places(pen, outline)
+    body, at = places[0].body, pen.numbers.in_ground_frame(places[0])
+    look = EARTH if body == GROUNDED else Look(pen.colour(body), "", 1.6)
+    if outline.normal is not None:
+        normal = pen.numbers.direction(outline.normal)
+        return _line(pen, places[0], normal, others)
+    if len(places) > 1:
+        return [Line(body, tuple(place.at for place in places), replace(look, width=2.4))]
+    radius = pen.numbers.number(outline.radius)
+    if radius == 0.0:
+        return [pen.dot(places[0], 0.22, replace(look, fill=look.ink))]
+    ring = pen.ring(body, at, np.array([0.0, 0.0, 1.0]), abs(radius), look)
+    if radius < 0.0:
+        return [ring]
+    filled = replace(ring, look=replace(look, fill=look.ink, opacity=0.16))
+    return [filled, Line(body, (places[0].at, ring.points[0]), replace(look, width=1.0))]
+
+
+def _line(pen: Pen, on: BodyPoint, normal: Array, others: list[BodyPoint]) -> list[Mark]:
+    """Return a line as a guide as long as what is over it goes."""
+    along, at = np.array([normal[1], -normal[0], 0.0]), pen.numbers.in_ground_frame(on)
+    spans = [pen.numbers.ends_of_travel(on, other, along) for other in others]
+    reach = min((low for low, _ in spans), default=0.0), max((high for _, high in spans), default=0.0)
+    if on.body != GROUNDED:
+        start, end = reach[0] - 2.2 * pen.unit, reach[1] + 2.2 * pen.unit
+        return [pen.line(on.body, [at + start * along, at + end * along], Look(INK, "", 1.6))]
+    return pen.rail(on.body, at, along, reach, -normal)
