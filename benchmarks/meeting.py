@@ -210,6 +210,11 @@ FEATURES: Mapping[str, str] = {
     "clearance of a slide": lowered(0.002, cart())
     .replace(_RAIL, f"{_RAIL}\n{_GUIDE}")
     .replace("[0.1, 0.0]", "[0.1, -0.002]\nvelocity = [0.3, 0.0]"),
+    "rope over a sheave": cart(
+        more="[bodies.weight]\nmass = 0.5\ninertia = 0.01\nposition = [0.5, -0.6]\n"
+        '[joints.rope]\ntype = "rope"\nbetween = ["pole", "weight"]\nat = ["tip", "centre"]\n'
+        'over = [{ at = [0.4, 0.2], radius = 0.1, turn = "right" }]'
+    ),
     "wheel that gives way": cart(
         more="[bodies.wheel]\nmass = 0.5\ninertia = 0.01\nposition = [0.1, 0.3]\nvelocity = [0.2, 0.0]\n"
         '[joints.road]\ntype = "rolling"\nbetween = ["wheel", "cart"]\nradius = 0.2\naxis = [1.0, 0.0]\n'

@@ -32,6 +32,7 @@ FEATURES = {
     "efficiency": "efficiencies of gears",
     "states": "states that read results",
     "poses": "orientations of time",
+    "ropes": "ropes over sheaves",
 }
 _PAGE = """# Examples of other systems
 

@@ -8,7 +8,7 @@ import symgen
 from symgen.extension import GROUND, JOINTS, ONE, BodyPair, Distance, Holonomic, Joint, PointPair, Scalar, Sum
 
 
-class Rope(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Thread(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A rope over two pulleys of the ground: its two free lengths keep their sum."""
 
     SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
@@ -28,14 +28,14 @@ class Rope(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         return Joint(scope.name, scope.kind, bodies, (Holonomic("rope", measure, length),))
 
 
-JOINTS.register("rope", Rope)
+JOINTS.register("thread", Thread)
 
 if __name__ == "__main__":
     builder = symgen.MechanismBuilder("atwood", gravity=(0.0, -9.81))
     builder.body("left", type="point", mass=2.0, position=(0.0, -1.0), velocity=(0.0, 0.0))
     builder.body("right", type="point", mass=1.0, position=(0.5, -1.0), velocity=(0.0, 0.0))
     pulleys = ((0.0, 0.0), (0.5, 0.0))
-    builder.joint("rope", "rope", between=("left", "right"), at=("centre", "centre"), pulleys=pulleys, length=2.0)
+    builder.joint("rope", "thread", between=("left", "right"), at=("centre", "centre"), pulleys=pulleys, length=2.0)
     result = symgen.load(builder.build()).simulate(until=0.5)
     acceleration = 9.81 * (2.0 - 1.0) / (2.0 + 1.0)
     print(f"fallen {-1.0 - result['left.y'][-1]:.9f} m; by Atwood's formula {acceleration * 0.5**2 / 2:.9f} m")

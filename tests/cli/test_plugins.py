@@ -70,11 +70,11 @@ def test_a_method_runs_and_is_compared_with_three_gains(tmp_path: Path) -> None:
 def test_a_joint_of_a_file_falls_as_atwood_says(tmp_path: Path) -> None:
     text = guide("own-joint", tmp_path)
     (tmp_path / "atwood.toml").write_text(_TEXT.findall(text)[0], encoding="utf-8")
-    final = run("run", "atwood.toml", "--plugin", "rope.py", cwd=tmp_path)["final"]
+    final = run("run", "atwood.toml", "--plugin", "thread.py", cwd=tmp_path)["final"]
     acceleration = 9.81 * (2.0 - 1.0) / (2.0 + 1.0)
     assert abs(final["q"]["left.y"] + 1.0 + 0.5 * acceleration * final["t"] ** 2) < 1e-11
     without = symgen(["run", "atwood.toml"], cwd=tmp_path)
-    assert without.returncode == 2 and "joints.rope.type: expected a joint type, got 'rope'" in without.stderr
+    assert without.returncode == 2 and "joints.rope.type: expected a joint type, got 'thread'" in without.stderr
 
 
 def test_an_integrator_has_its_order(tmp_path: Path) -> None:

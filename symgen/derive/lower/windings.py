@@ -56,11 +56,11 @@ def measures_of_element(element: Joint | Force) -> list[Any]:
 def counts_turns(mechanism: Mechanism) -> bool:
     """Return whether a mechanism may have angles whose turns are counted.
 
-    In the plane only joints report these, and rows with bounds are along them.
+    In the plane only joints have these, and rows with bounds are along them.
     """
-    reported = (m for joint in mechanism.joints for _, m in joint.coordinates)
-    turned = any(isinstance(m, Turning) for m in reported) or counted_turns(row.measure for row in mechanism.bounded)
-    return bool(mechanism.space != "planar" or turned)
+    if mechanism.space != "planar" or counted_turns(row.measure for row in mechanism.bounded):
+        return True
+    return any(counted_turns(measures_of_element(joint)) for joint in mechanism.joints)
 
 
 def follows_places(mechanism: Mechanism) -> bool:

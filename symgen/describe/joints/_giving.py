@@ -65,11 +65,6 @@ class GivingContact(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
     damping: Scalar | None = None
     friction: SlipFriction | None = None
 
-    def refuse_damping(self, scope: Scope) -> None:
-        """Refuse damping where nothing gives way."""
-        if self.stiffness is None and self.damping is not None:
-            raise scope.error("damping", "the key stiffness beside it", value_in_words(self.damping))
-
     def force_of_contact(
         self,
         scope: Scope,
@@ -100,11 +95,33 @@ class GivingContact(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
         return Force(scope.name, scope.kind, bodies, tuple(efforts))
 
 
-class _Push:
-    """The push of a plane as formulas of a height and its rate."""
+def refuse_damping(scope: Scope, stiffness: float | str | None, damping: float | str | None) -> None:
+    """Refuse damping where nothing gives way."""
+    if stiffness is None and damping is not None:
+        raise scope.error("damping", "the key stiffness beside it", value_in_words(damping))
 
-    def __init__(self, scope: Scope, stiffness: float | str, damping: float | str, radius: Expr) -> None:
-        self.radius = radius
+
+def force_of_pull(
+    scope: Scope,
+    bodies: tuple[str, ...],
+    label: str,
+    way: Measure,
+    length: Expr,
+    stiffness: float | str,
+    damping: float | str | None,
+) -> Force:
+    """Return a force along a length that only pulls, where that is beyond another one."""
+    pull = _Push(scope, stiffness, damping or 0.0, length, beyond=True)
+    return Force(scope.name, scope.kind, bodies, (Effort(label, way, pull.damper(), pull.potential()),))
+
+
+class _Push:
+    """The push of a plane as formulas of a height and its rate, below an edge or with `beyond` above it."""
+
+    def __init__(
+        self, scope: Scope, stiffness: float | str, damping: float | str, edge: Expr, beyond: bool = False
+    ) -> None:
+        self.edge, self.beyond = edge, beyond
         self.stiffness = scope.constant("stiffness", stiffness, positive=True)
         self.damping = scope.constant("damping", damping)
         if (size := scope.value(self.damping, "damping")) < 0.0:
@@ -125,7 +142,8 @@ class _Push:
         return sum_of_terms(call("mul", self.stiffness, self._depth(height)), self._damper(height, rate))
 
     def _depth(self, height: Expr) -> Expr:
-        return call("max", difference(self.radius, height), ZERO)
+        depth = difference(height, self.edge) if self.beyond else difference(self.edge, height)
+        return call("max", depth, ZERO)
 
     def _damper(self, height: Expr, rate: Expr) -> Expr:
         """Return the force of the damper: at most the spring's, so that nothing jumps as the body touches."""

@@ -17,7 +17,7 @@ from symgen.base.vocabulary.measures import (
     RollingSpeed,
     Speed,
 )
-from symgen.describe.joints._giving import GivingContact, gap_of
+from symgen.describe.joints._giving import GivingContact, gap_of, refuse_damping
 from symgen.describe.joints._space import opposite, plane_of_body
 from symgen.describe.mechanism import Force, Joint
 from symgen.describe.parts.fields import Axis, BodyName, BodyPair, Point, Scalar
@@ -113,7 +113,7 @@ class RollingContact(GivingContact, frozen=True, kw_only=True, forbid_unknown_fi
 
     def joint_of(self, scope: Scope, contact: Contact, height: Holonomic) -> Joint:
         """Return the joint without slip, or without rows where the contact gives way."""
-        self.refuse_damping(scope)
+        refuse_damping(scope, self.stiffness, self.damping)
         if self.stiffness is None:
             return contact.held(scope, height)
         return Joint(scope.name, scope.kind, contact.bodies, (), (gap_of(*contact.height),))

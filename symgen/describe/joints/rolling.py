@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from symgen.base.vocabulary.expressions import ONE, call
 from symgen.base.vocabulary.measures import Angle, Component, Direction, Holonomic, Marker, Sum
-from symgen.describe.joints._giving import GivingContact, gap_of
+from symgen.describe.joints._giving import GivingContact, gap_of, refuse_damping
 from symgen.describe.mechanism import Force, Joint
 from symgen.describe.parts.fields import Axis, BodyPair, Point, Scalar, value_in_words
 from symgen.describe.parts.scope import CENTRE, Scope
@@ -54,7 +54,7 @@ class Rolling(GivingContact, frozen=True, kw_only=True, forbid_unknown_fields=Tr
         centre, line, along, normal = self._disc_on_line(scope, disc, base)
         displacement = ("displacement", Component(line, centre, along))
         radius = scope.constant("radius", self.radius, positive=True)
-        self.refuse_damping(scope)
+        refuse_damping(scope, self.stiffness, self.damping)
         if self.stiffness is not None:
             if self.offset != 0.0:
                 raise scope.error(

@@ -53,7 +53,7 @@ JOINTS: Registry[type[JointKind]] = Registry(
         **dict.fromkeys(("slider", "slide", "linear", "translation", "sliding", "guide"), "translational"),
         **dict.fromkeys(("ball", "ball-joint", "ball-and-socket"), "spherical"),
         **dict.fromkeys(("weld", "fixed", "fix", "clamp", "welded", "bolted"), "rigid"),
-        **{"motor": "driver", "motion": "driver", "actuator": "driver", "rope": "distance", "link": "distance"},
+        **{"motor": "driver", "motion": "driver", "actuator": "driver", "link": "distance"},
         **{"cardan": "universal", "hooke": "universal", "slot": "pin-in-slot", "belt": "gear", "helical": "screw"},
     },
 )

@@ -22,7 +22,7 @@ import sympy as sp
 from numba import types
 from numpy.typing import NDArray
 
-from symgen.base.errors import SimulationError
+from symgen.base.errors import InputError, SimulationError
 from symgen.describe.mechanism import Mechanism
 from symgen.result.points import Points
 from symgen.study.references.extrapolation import compute_rate, integrate_by_extrapolation
@@ -165,7 +165,10 @@ class CompiledEquations(IndependentEquations):
         return {p.name: symbol for p, symbol in zip(self.mechanism.parameters, self.symbols, strict=True)}
 
     def _compile(self, formulas: ReferenceFormulas, outputs: list[Any]) -> Callable[..., Any]:
-        """Return the outputs as a compiled function (t, q, v, p, out)."""
+        """Return the outputs as a compiled function (t, q, v, p, out), which counts no turns."""
+        if formulas.turns:
+            expected, got = "a mechanism whose rows and forces count no turns, for references", "angles with turns"
+            raise InputError(self.mechanism.name, expected, got, "symgen run --verify estimates errors")
         text, space = self._function_text(formulas, outputs)
         signature = EQUATIONS.signature
         make = numba.njit(signature, error_model="numpy", nogil=True)

@@ -1,0 +1,199 @@
+"""Rope: a thread over sheaves, which keeps its length or stretches; in the plane."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import ClassVar, Literal, NamedTuple
+
+import msgspec
+
+from symgen.base.vocabulary.expressions import (
+    ZERO,
+    Expr,
+    Number,
+    Reading,
+    call,
+    difference,
+    literal_of,
+    product,
+    sum_of_terms,
+)
+from symgen.base.vocabulary.measures import GROUND, Bearing, Component, FormulaMeasure, Holonomic, Marker, axes
+from symgen.describe.joints._giving import force_of_pull, refuse_damping
+from symgen.describe.joints._paired import Paired
+from symgen.describe.mechanism import Force, Joint
+from symgen.describe.parts.fields import BodyName, Point, Scalar
+from symgen.describe.parts.scope import CENTRE, Scope
+
+
+class Sheave(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A sheave on the way of a rope.
+
+    Parameters
+    ----------
+    body : body name
+        The body that carries it; the ground by default.
+    at : point
+        Its centre.
+    radius : scalar
+        [m], above 0.
+    turn : {"left", "right"}
+        Which way the rope turns round it, from the first end on.
+    """
+
+    at: Point
+    radius: Scalar
+    turn: Literal["left", "right"]
+    body: BodyName = GROUND
+
+
+class _Stop(NamedTuple):
+    """An end, or a sheave with a radius that is below 0 where the rope turns right."""
+
+    centre: Marker
+    radius: Expr
+
+
+class _Straight(NamedTuple):
+    """A straight part of the rope: its length and its direction, as formulas, and the direction at the start."""
+
+    length: Expr
+    direction: Expr
+    angle: float
+
+
+class Rope(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A rope between points of two bodies over sheaves, on which it glides freely.
+
+    Parameters
+    ----------
+    between : pair of body names
+        The bodies at its ends.
+    at : pair of points
+        The ends.
+    over : list of tables
+        The sheaves on its way, each ``{ body, at, radius, turn }``; the rope turns round each by less than a turn at
+        the start.
+    length : scalar
+        Length [m]; that of the way as the bodies are described to start by default.
+    stiffness : scalar
+        Of a rope that stretches, tension over stretch [N/m], above 0: it may go slack. Without it the rope keeps its
+        length, and would push where its tension is below 0.
+    damping : scalar
+        Beside it, tension over the rate of the stretch [N s/m]; 0 by default. It adds or takes at most what the
+        stiffness gives, so that the rope never pushes.
+
+    Notes
+    -----
+    One row. Multiplier ``NAME.tension`` [N]. With `stiffness` there is a force in its place, which reports
+    ``NAME.length`` [m] and ``NAME.force`` [N], below 0 where it pulls, as springs do; the joint then reports
+    ``NAME.stretch`` [m], below 0 where the rope is slack.
+    """
+
+    SPACES: ClassVar[tuple[str, ...]] = ("planar",)
+
+    over: tuple[Sheave, ...] = ()
+    length: Scalar | None = None
+    stiffness: Scalar | None = None
+    damping: Scalar | None = None
+
+    def build(self, scope: Scope) -> Joint:
+        """Resolve to the sum of straight parts and arcs."""
+        refuse_damping(scope, self.stiffness, self.damping)
+        bodies, way, length = self._way(scope)
+        if self.stiffness is None:
+            return Joint(scope.name, scope.kind, bodies, (Holonomic("tension", FormulaMeasure(way), length),))
+        stretch = FormulaMeasure(call("sub", way, length))
+        return Joint(scope.name, scope.kind, bodies, (), (("stretch", stretch),))
+
+    def give(self, scope: Scope) -> Force | None:
+        """Return the force in place of the row, None where there is a row."""
+        if self.stiffness is None:
+            return None
+        bodies, way, length = self._way(scope)
+        return force_of_pull(scope, bodies, "force", FormulaMeasure(way), length, self.stiffness, self.damping)
+
+    def _way(self, scope: Scope) -> tuple[tuple[str, ...], Expr, Expr]:
+        """Return the bodies, the length of the way as a formula, and the length of the rope."""
+        (a, b), ends = self.ends(scope, turns=(False, False))
+        stops, bodies = [_Stop(ends[0], ZERO)], [a, b]
+        for i, sheave in enumerate(self.over):
+            key = f"over[{i}]"
+            body = scope.body(f"{key}.body", sheave.body)
+            radius = scope.constant(f"{key}.radius", sheave.radius, positive=True)
+            centre = scope.marker(f"{key}.at", body, CENTRE if sheave.at == CENTRE else sheave.at)
+            stops.append(_Stop(centre, radius if sheave.turn == "left" else call("neg", radius)))
+            bodies.append(body)
+        stops.append(_Stop(ends[1], ZERO))
+        straights = [_straight(scope, i, *pair) for i, pair in enumerate(pairwise(stops))]
+        parts = [straight.length for straight in straights]
+        for stop, before, after in zip(stops[1:], straights, straights[1:], strict=False):
+            parts.append(_arc(scope, stop, before, after))
+        way = sum_of_terms(*parts)
+        if self.length is not None:
+            length = scope.constant("length", self.length, positive=True)
+        else:
+            length = literal_of(sum(_numbers_at_start(scope, stops)))
+        carried = (body for body in bodies[2:] if body != GROUND)
+        return tuple(dict.fromkeys((a, b, *carried))), way, length
+
+
+def _straight(scope: Scope, i: int, a: _Stop, b: _Stop) -> _Straight:
+    """Return the straight part between two sheaves or ends.
+
+    With u along it, n to its left and signed radii r, the centres are apart by l u + (r_b - r_a) n.
+    """
+    x, y = axes(GROUND, 2)
+    components = [Reading(f"rope{i}.{k}", Component(a.centre, b.centre, axis)) for k, axis in (("x", x), ("y", y))]
+    square = sum_of_terms(*(call("mul", e, e) for e in components))
+    across = difference(b.radius, a.radius)
+    bearing = Reading(f"rope{i}.angle", Bearing(a.centre, b.centre, x, y))
+    (ax, ay), (bx, by) = (_place_at_start(scope, stop.centre) for stop in (a, b))
+    apart, side = math.hypot(bx - ax, by - ay), scope.value(across, "over")
+    if not apart > abs(side):
+        raise scope.error("over", "sheaves and ends apart from each other", f"parts {i + 1} and {i + 2} that overlap")
+    angle = math.atan2(by - ay, bx - ax) - math.asin(side / apart)
+    if across == ZERO:
+        return _Straight(call("sqrt", square), bearing, angle)
+    length = call("sqrt", call("sub", square, product(across, across)))
+    return _Straight(length, call("sub", bearing, call("asin", call("div", across, call("sqrt", square)))), angle)
+
+
+def _arc(scope: Scope, stop: _Stop, before: _Straight, after: _Straight) -> Expr:
+    """Return the arc on a sheave, by less than a turn at the start."""
+    way = math.copysign(1.0, scope.value(stop.radius, "over"))
+    turned = after.angle - before.angle
+    whole = math.floor(way * turned / math.tau)  # turns that the two directions differ by beyond the arc
+    turn = call("sub", after.direction, before.direction)
+    return product(stop.radius, turn if whole == 0 else call("sub", turn, Number(way * whole * math.tau)))
+
+
+def _numbers_at_start(scope: Scope, stops: Sequence[_Stop]) -> list[float]:
+    """Return the lengths of the straight parts and arcs as the bodies are described to start."""
+    lengths, angles = list[float](), list[float]()
+    for a, b in pairwise(stops):
+        (ax, ay), (bx, by) = (_place_at_start(scope, stop.centre) for stop in (a, b))
+        apart, side = math.hypot(bx - ax, by - ay), scope.value(difference(b.radius, a.radius), "over")
+        lengths.append(math.sqrt(apart**2 - side**2))
+        angles.append(math.atan2(by - ay, bx - ax) - math.asin(side / apart))
+    for stop, before, after in zip(stops[1:], angles, angles[1:], strict=False):
+        radius = scope.value(stop.radius, "over")
+        lengths.append(abs(radius) * (math.copysign(1.0, radius) * (after - before) % math.tau))
+    return lengths
+
+
+def _place_at_start(scope: Scope, marker: Marker) -> tuple[float, float]:
+    """Return where a point is as the bodies are described to start."""
+    x, y = (scope.value(e, "at") for e in marker.point)
+    if marker.body == GROUND:
+        return x, y
+    body = scope.context.bodies[marker.body]
+    px, py = (scope.value(e, "at") for e in body.position)
+    angle = scope.value(body.angle, "at") if scope.turns(marker.body) else 0.0  # type: ignore[union-attr]  # planar
+    c, s = math.cos(angle), math.sin(angle)
+    return px + c * x - s * y, py + s * x + c * y
+
+
+KIND = Rope
