@@ -66,7 +66,7 @@ def test_a_linear_system_has_zeros_for_rounding(name: str) -> None:
 def test_a_quantity_alone_is_judged_beside_its_motion(capsys: pytest.CaptureFixture[str]) -> None:
     """The ram is guided level and does not turn: its columns are rounding throughout."""
     main(["run", "shaper", "--quantity", "ram"])
-    rows = [line.split() for line in capsys.readouterr().out.split("quantity ")[1].splitlines()[1:]]
+    rows = [line.split() for line in capsys.readouterr().out.split("quantity ")[-1].splitlines()[1:]]
     shown = {row[0]: row[1:4] for row in rows if row}
     assert shown["ram.x"] != ["0"] * 3
     assert all(shown[f"ram.{name}"] == ["0"] * 3 for name in ("theta", "vy", "omega", "ay", "alpha"))

@@ -286,12 +286,13 @@ def test_files_of_other_people_stay_as_they_are(tmp_path):
     assert not (folder / "simulate.py").exists(), "it reads what is no longer in model.json"
 
 
-def has_friction(name):
-    return any("friction" in joint for joint in catalogue.raw(name).get("joints", {}).values())
+def changes_modes(name):
+    raw = catalogue.raw(name)
+    return "contacts" in raw or any({"friction", "clearance"} & {*joint} for joint in raw.get("joints", {}).values())
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", of_turn((name for name in catalogue.all_names() if not has_friction(name)), 3))
+@pytest.mark.parametrize("name", of_turn((name for name in catalogue.all_names() if not changes_modes(name)), 3))
 def test_packages_of_the_catalogue_give_the_numbers_of_runs(name, alone, tmp_path):
     agrees(name, alone, tmp_path)
 

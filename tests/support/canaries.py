@@ -103,6 +103,13 @@ BESIDE: dict[str, dict[str, Any]] = {
         ("coupling", SMALL, {"terms": {"pin": "k"}, "value": "sin(t)"}),
         ("place", SMALL, {"between": ["ground", "rod"], "at": [[0.0, "k"], "P"]}),
         ("orientation", SMALL, {"between": ["ground", "rod"], "angle": "k"}),
+        (
+            *("rope", SMALL),
+            {
+                **{"between": ["ground", "rod"], "at": [[-9.0, 5.0], "P"], "length": 30.0, "stiffness": "k"},
+                "over": [{"body": "ground", "at": [9.0, 9.0], "radius": 0.5, "turn": "right"}],
+            },
+        ),
         ("parallel-axes", _IN_SPACE, {"between": ["rod", "box"], "axis": [0.0, 0.0, 1.0]}),
         ("perpendicular", _IN_SPACE, {"between": ["rod", "box"], "axes": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]}),
     )
