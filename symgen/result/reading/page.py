@@ -164,6 +164,10 @@ class EquationPage:
         title = self.whole.title or self.whole.name
         kind = "bodies" if self.mechanism.topology is None else "the joints of a tree"
         sizes = f"{sizes_in_words(e)}, {plural(len(e.parameters), 'parameter')}"
+        own = [self._joint_section(j, listed is not None) for j in joints]
+        own += [
+            self._section_beside(x, listed is not None) for x in self.sheet.joints if x not in {j.name for j in joints}
+        ]
         rates = _OFFERED if script else f"This page offers no right-hand side to scripts: {why}."
         body = [
             f"<h1>{escape(title)}</h1>",
@@ -174,7 +178,7 @@ class EquationPage:
             section_html("sketch", "Sketch", [f'<div class="scene">{self._sketch_svg()}</div>', small_html(_SKETCH)]),
             section_html("topology", "Topology", self._topology_section()),
             section_html("coordinates", "Coordinates", self._coordinates_section()),
-            section_html("rows", "Joints and their rows", [self._joint_section(j, listed is not None) for j in joints]),
+            section_html("rows", "Joints and their rows", own),
             section_html("patterns", "Patterns", self._patterns_section()),
             section_html("law", f"The law of {method}, as solved", self._law_section()),
             section_html("operations", "Operations", self._operations_section()),
@@ -243,7 +247,7 @@ class EquationPage:
         return parts
 
     def _joint_section(self, joint: Joint, code: bool) -> str:
-        rows, g = self.sheet.rows_of_joint(joint.name), self.e.graph
+        rows = self.sheet.rows_of_joint(joint.name)
         links = [f'<a href="#joint-{attribute_text(joint.name)}">in the sketch</a>']
         place = self.places.get(f"joints.{joint.name}")
         if place is not None:
@@ -253,6 +257,15 @@ class EquationPage:
             prescribed = self.sheet.sentences_on_drivers().get(joint.name)
             sentence = "It carries a body in the tree" if prescribed is None else f"It prescribes {prescribed}"
             parts.append(f"<p>{escape(sentence)}: it has no rows.</p>")
+        names = f"{escape(joint.kind)} between {escape(' and '.join(dict.fromkeys(joint.bodies)))}"
+        return self._rows_html(joint.name, names, parts, code)
+
+    def _section_beside(self, name: str, code: bool) -> str:
+        """Return the rows of a stop or a contact of its own section."""
+        return self._rows_html(name, "in force while closed", [], code)
+
+    def _rows_html(self, name: str, words: str, parts: list[str], code: bool) -> str:
+        rows, g = self.sheet.rows_of_joint(name), self.e.graph
         phi = {line.key: line for line in self.sheet.phi(rows)}
         nu = {line.key: line for line in self.sheet.nu(rows)}
         gamma = {line.key: line for line in self.sheet.gamma(rows)}
@@ -272,12 +285,11 @@ class EquationPage:
             parts.append(equation_html(gamma[r.name]))
             parts.append(self._links_to_lines(r.name) if code else "")
             parts.append("</div>")
-        parts.append(equations_html(self.sheet.jacobian(joint.name)))
+        parts.append(equations_html(self.sheet.jacobian(name)))
         nodes = [n for r in rows for n in (r.phi, r.nu, r.gamma, *(x for _, x in r.entries)) if n is not None]
-        names = f"{escape(joint.kind)} between {escape(' and '.join(dict.fromkeys(joint.bodies)))}"
         sizes = f"{plural(len(rows), 'row')}, {plural(g.count_operations(nodes), 'operation')}"
-        head = f"<b>{escape(joint.name)}</b>: {names}, {sizes}"
-        return folded_html(head, "\n".join(parts), ident=f"rows-{joint.name}", marked=True)
+        head = f"<b>{escape(name)}</b>: {words}, {sizes}"
+        return folded_html(head, "\n".join(parts), ident=f"rows-{name}", marked=True)
 
     def _links_to_lines(self, name: str) -> str:
         links = [
