@@ -78,10 +78,10 @@ def trace_motion(run: PrescribedRun, times: Array, crosses: bool = True) -> Trac
     before = Traced._make((*rows, back.passages[::-1], back.ended, back.steps))
     if first == len(times):
         return before
-    behind = Tracer(run, times[first:], crosses).run()
-    rows = (np.concatenate(arrays) for arrays in zip(before[:4], behind[:4], strict=True))
-    ended = "; ".join(part.ended for part in (before, behind) if part.ended)
-    return Traced._make((*rows, before.passages + behind.passages, ended, before.steps + behind.steps))
+    after = Tracer(run, times[first:], crosses).run()
+    rows = (np.concatenate(arrays) for arrays in zip(before[:4], after[:4], strict=True))
+    ended = "; ".join(part.ended for part in (before, after) if part.ended)
+    return Traced._make((*rows, before.passages + after.passages, ended, before.steps + after.steps))
 
 
 def refine_times(times: Array) -> tuple[Array, NDArray[np.bool_]]:

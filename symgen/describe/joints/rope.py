@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from itertools import pairwise
 from typing import ClassVar, Literal, NamedTuple
 
@@ -57,10 +56,11 @@ class _Stop(NamedTuple):
 
 
 class _Straight(NamedTuple):
-    """A straight part of the rope: its length and its direction, as formulas, and the direction at the start."""
+    """A straight part of the rope: its length and its direction, as formulas and at the start."""
 
     length: Expr
     direction: Expr
+    start: float
     angle: float
 
 
@@ -128,14 +128,13 @@ class Rope(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
             bodies.append(body)
         stops.append(_Stop(ends[1], ZERO))
         straights = [_straight(scope, i, *pair) for i, pair in enumerate(pairwise(stops))]
-        parts = [straight.length for straight in straights]
-        for stop, before, after in zip(stops[1:], straights, straights[1:], strict=False):
-            parts.append(_arc(scope, stop, before, after))
-        way = sum_of_terms(*parts)
+        bends = zip(stops[1:], straights, straights[1:], strict=False)
+        arcs = [_arc(scope, stop, before, after) for stop, before, after in bends]
+        way = sum_of_terms(*(straight.length for straight in straights), *(arc for arc, _ in arcs))
         if self.length is not None:
             length = scope.constant("length", self.length, positive=True)
         else:
-            length = literal_of(sum(_numbers_at_start(scope, stops)))
+            length = literal_of(sum([straight.start for straight in straights] + [start for _, start in arcs]))
         carried = (body for body in bodies[2:] if body != GROUND)
         return tuple(dict.fromkeys((a, b, *carried))), way, length
 
@@ -154,34 +153,22 @@ def _straight(scope: Scope, i: int, a: _Stop, b: _Stop) -> _Straight:
     apart, side = math.hypot(bx - ax, by - ay), scope.value(across, "over")
     if not apart > abs(side):
         raise scope.error("over", "sheaves and ends apart from each other", f"parts {i + 1} and {i + 2} that overlap")
-    angle = math.atan2(by - ay, bx - ax) - math.asin(side / apart)
+    start, angle = math.sqrt(apart**2 - side**2), math.atan2(by - ay, bx - ax) - math.asin(side / apart)
     if across == ZERO:
-        return _Straight(call("sqrt", square), bearing, angle)
+        return _Straight(call("sqrt", square), bearing, start, angle)
     length = call("sqrt", call("sub", square, product(across, across)))
-    return _Straight(length, call("sub", bearing, call("asin", call("div", across, call("sqrt", square)))), angle)
+    direction = call("sub", bearing, call("asin", call("div", across, call("sqrt", square))))
+    return _Straight(length, direction, start, angle)
 
 
-def _arc(scope: Scope, stop: _Stop, before: _Straight, after: _Straight) -> Expr:
-    """Return the arc on a sheave, by less than a turn at the start."""
-    way = math.copysign(1.0, scope.value(stop.radius, "over"))
-    turned = after.angle - before.angle
+def _arc(scope: Scope, stop: _Stop, before: _Straight, after: _Straight) -> tuple[Expr, float]:
+    """Return the arc on a sheave, by less than a turn at the start, and its length there."""
+    radius = scope.value(stop.radius, "over")
+    way, turned = math.copysign(1.0, radius), after.angle - before.angle
     whole = math.floor(way * turned / math.tau)  # turns that the two directions differ by beyond the arc
     turn = call("sub", after.direction, before.direction)
-    return product(stop.radius, turn if whole == 0 else call("sub", turn, Number(way * whole * math.tau)))
-
-
-def _numbers_at_start(scope: Scope, stops: Sequence[_Stop]) -> list[float]:
-    """Return the lengths of the straight parts and arcs as the bodies are described to start."""
-    lengths, angles = list[float](), list[float]()
-    for a, b in pairwise(stops):
-        (ax, ay), (bx, by) = (_place_at_start(scope, stop.centre) for stop in (a, b))
-        apart, side = math.hypot(bx - ax, by - ay), scope.value(difference(b.radius, a.radius), "over")
-        lengths.append(math.sqrt(apart**2 - side**2))
-        angles.append(math.atan2(by - ay, bx - ax) - math.asin(side / apart))
-    for stop, before, after in zip(stops[1:], angles, angles[1:], strict=False):
-        radius = scope.value(stop.radius, "over")
-        lengths.append(abs(radius) * (math.copysign(1.0, radius) * (after - before) % math.tau))
-    return lengths
+    arc = product(stop.radius, turn if whole == 0 else call("sub", turn, Number(way * whole * math.tau)))
+    return arc, abs(radius) * (way * turned % math.tau)
 
 
 def _place_at_start(scope: Scope, marker: Marker) -> tuple[float, float]:

@@ -19,15 +19,13 @@ from symgen.run.compiling.events import bounded_rows, effects_of_events
 from symgen.run.effects.applying import apply_effects
 from symgen.run.layout import abi
 from symgen.run.layout.start_records import Instant
-from symgen.run.modes.bounded_rows import TOUCHING
+from symgen.run.modes.bounded_rows import DEPENDENT, TOUCHING
+from symgen.run.modes.contact_parts import COUPLED
 
 if TYPE_CHECKING:
     from symgen.run.planning.prepare import Prepared
 
 Array = NDArray[np.float64]
-
-#: Contacts depend on each other above this part of their own mobilities; rows of a smaller part depend on others.
-_COUPLED, _DEPENDENT = 1e-12, 1e-11
 
 
 def contact_facts(run: Prepared) -> dict[str, dict[str, Any]]:
@@ -66,7 +64,7 @@ def contact_facts(run: Prepared) -> dict[str, dict[str, Any]]:
     for part in _parts_of(rows, owners):
         lines = [j for j, i in enumerate(owners) if i in part and (bounds[i] > 0.0 or j == owners.index(i))]
         values = np.linalg.eigvalsh(rows[np.ix_(lines, lines)])
-        unique = bool(values[0] > _DEPENDENT * values[-1])
+        unique = bool(values[0] > DEPENDENT * values[-1])
         for i in part:
             facts[closed[i].name] |= {"part": [closed[j].name for j in part], "unique": unique}
     return facts
@@ -91,23 +89,18 @@ def _rows_of(run: Prepared, closed: list[ContactGap]) -> Array:
     own = rows[m:]
     moved = np.linalg.solve(mass, np.concatenate([joints, own]).T)
     held, free = moved[:, : len(joints)], moved[:, len(joints) :]
-    taken = np.linalg.pinv(joints @ held, rcond=_DEPENDENT) @ (joints @ free) if len(joints) else joints @ free
+    taken = np.linalg.pinv(joints @ held, rcond=DEPENDENT) @ (joints @ free) if len(joints) else joints @ free
     return np.asarray(own @ (free - held @ taken))
 
 
 def _parts_of(rows: Array, owners: list[int]) -> list[list[int]]:
     """Return the connected parts of contacts."""
-    count, parts = max(owners) + 1, list[list[int]]()
+    count = max(owners) + 1
     size = np.sqrt(np.abs(np.outer(np.diag(rows), np.diag(rows))))
-    tied = np.zeros((count, count), dtype=bool)
-    for a, b in np.argwhere(np.abs(rows) > _COUPLED * size):
+    tied = np.eye(count, dtype=bool)
+    for a, b in np.argwhere(np.abs(rows) > COUPLED * size):
         tied[owners[a], owners[b]] = True
-    left = list(range(count))
-    while left:
-        part, new = list[int](), [left[0]]
-        while new:
-            part += new
-            new = [i for i in left if i not in part and tied[part, i].any()]
-        parts.append(sorted(part))
-        left = [i for i in left if i not in part]
-    return parts
+    part_of = np.arange(count)
+    for _ in range(count):  # each takes the least number of those that it is tied to
+        part_of = np.where(tied, part_of, count).min(axis=1)
+    return [np.flatnonzero(part_of == part).tolist() for part in np.unique(part_of)]

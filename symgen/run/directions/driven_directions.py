@@ -149,12 +149,12 @@ class DrivenDirections:
     ) -> tuple[list[Array], list[Array]]:
         """Return sections of the scratch after ``geometry``, and the directions of sections, shape (k, size, L)."""
         model, sections, lanes = self.model, self.info.sections, self.model.lanes
-        behind, places = model.sizes["w"], list[int]()
+        plain_size, places = model.sizes["w"], list[int]()
         for name in plain:
             places += sections[name]
         for name in directed:
             first, size = sections[name]
-            places += (behind + first * lanes, size * lanes)
+            places += (plain_size + first * lanes, size * lanes)
         rows = np.zeros((len(states), sum(places[1::2])))
         outputs = Outputs(self.motion.times, states, self.motion.status)
         sizes, where = model_sizes(model.whole), np.array(places, dtype=np.int64)

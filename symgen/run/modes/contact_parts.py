@@ -26,7 +26,7 @@ from symgen.run.modes.bounded_rows import (
 from symgen.run.modes.choice import copy_state, find_mobility, measure_accelerations, size_forces, symmetrise
 
 #: Rows depend on each other above this part of their own mobilities.
-_COUPLED = 1e-12
+COUPLED = 1e-12
 
 
 @exact()
@@ -120,7 +120,7 @@ def find_parts(c: Choice) -> int:
             for b in range(n):
                 i, j = c.rest[a], c.rest[b]
                 size = math.sqrt(abs(c.matrix[i * k + i] * c.matrix[j * k + j]))
-                tied = c.partner[i] == j or abs(c.matrix[i * k + j]) > _COUPLED * size
+                tied = c.partner[i] == j or abs(c.matrix[i * k + j]) > COUPLED * size
                 if tied and c.part[j] < c.part[i]:
                     c.part[i], again = c.part[j], True
     return int(n)
