@@ -340,7 +340,7 @@ def test_a_comparison_has_the_tightest_tolerances_that_can_be_attained(monkeypat
 def test_long_references_of_a_quick_study_are_rough_or_implicit(monkeypatch):
     assert tried(monkeypatch, {ROUGH: 0.1}, enough=1e-5, quick=True) == ([TIGHT, ROUGH], 0.1)
     assert tried(monkeypatch, {}, enough=1e-5, quick=True) == ([TIGHT, ROUGH, LONG_ROUGH], f"not {LONG_ROUGH}")
-    stiff, implicit = {"decay": 2.0 * routes.LOOPED_BUDGET}, (1e-10, "straight")
+    stiff, implicit = {"decay": 2.0 * routes.LOOPED_BUDGET}, (1e-10, "looped")
     assert tried(monkeypatch, {implicit: 1e-9}, enough=1e-5, quick=True, **stiff) == ([implicit], 1e-9)
     assert tried(monkeypatch, {TIGHT: 1e-14}, enough=1e-5, quick=True, **stiff) == ([implicit, TIGHT], 1e-14)
     assert tried(monkeypatch, {TIGHT: 1e-14}, enough=1e-5, **stiff)[0] == [TIGHT]
