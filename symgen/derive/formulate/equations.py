@@ -199,6 +199,11 @@ class Equations(Counted):
     state_rates: tuple[int, ...] = ()
     drags: tuple[Drag, ...] = ()
 
+    @property
+    def reads_results(self) -> bool:
+        """Whether the rates of states have v' or multipliers among their inputs."""
+        return not {space for space, _ in self.graph.inputs_of(self.state_rates)}.isdisjoint(("ydot", "multipliers"))
+
     def nodes(self, rows: Iterable[ConstraintRow] | None = None) -> dict[str, list[int]]:
         """Return the nodes of each quantity by its name, for `rows` or else for all rows."""
         rows = self.rows if rows is None else tuple(rows)

@@ -14,6 +14,7 @@ from symgen.base.ir.program import MODE_NUMBERS, table_of_payload
 from symgen.base.vocabulary.expressions import ZERO
 from symgen.base.vocabulary.measures import GROUND, Dot, Holonomic, Row, StiffHolonomic, Sum
 from symgen.base.vocabulary.quantities import Quantity
+from symgen.derive.formulate.derived_measure import DerivedMeasure
 from symgen.derive.formulate.equations import (
     ConstraintRow,
     Drag,
@@ -26,7 +27,7 @@ from symgen.derive.formulate.equations import (
 from symgen.derive.formulate.exertion import exertion_of_effort
 from symgen.derive.formulate.flexure import exertions_of_force
 from symgen.derive.formulate.joint_tree import energies_on_tree
-from symgen.derive.formulate.measure_nodes import DerivedMeasure, ModelNodes
+from symgen.derive.formulate.measure_nodes import ModelNodes
 from symgen.derive.formulate.modal_inertia import add_modal_inertia
 from symgen.derive.formulate.of_time import time_function
 from symgen.describe.bounded import BoundedRow
