@@ -63,6 +63,9 @@ def _write(request: Request) -> Package:
     # inputs with formulas remain inputs of the FMU: the importing tool connects them
     mechanism = msgspec.structs.replace(request.mechanism, input_formulas=())
     model = CModel.of(replace(request, mechanism=mechanism), "fmu")
+    if request.derivatives and not model.exchanges:
+        reason = f"the steps of '{request.integrator}'" if model.named else "contacts, whose modes an importer cannot find"
+        raise InputError("derivatives", "an FMU for model exchange, of whose states derivatives are", reason)
     files = fmu_files(model, request.fmi)
     files |= _binaries(model.prefix, files, request.fmi)
     content = io.BytesIO()
@@ -82,6 +85,7 @@ def fmu_files(model: CModel, fmi: int) -> dict[str, bytes]:
     values = model.values | values_of_exchange(model)
     values |= {
         "fmi": fmi,
+        "derivatives": model.derivatives,
         "guid": f"{{{uuid5(NAMESPACE_OID, ' '.join([*texts.values(), str(fmi), __version__]))}}}",
         "version": __version__,
         **{"at_column": _COLUMN, "at_output": _OUTPUT, "at_state": _STATE, "at_rate": _RATE, "at_event": _EVENT},
@@ -182,4 +186,4 @@ def _binaries(prefix: str, files: Mapping[str, bytes], fmi: int) -> dict[str, by
     return binaries
 
 
-KIND = Target(_write, ".fmu", bounded=True, runs=True)
+KIND = Target(_write, ".fmu", bounded=True, runs=True, derivatives=True)
