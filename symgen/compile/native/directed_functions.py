@@ -285,6 +285,10 @@ class _Directed(DirectionRules[lang.Expression]):
 
     def call(self, e: lang.FunctionCall) -> lang.FunctionCall:
         """Return a call of the function with directions: of what it stores, or of its result."""
+        if self.passes_arguments_on(e):
+            own = {p.name for p in e.function.parameters}
+            same = tuple(sorted((name, place) for name, place in self.places.items() if name in own))
+            return lang.FunctionCall(e.type, _directed(e.function.key, _Held(e.function), same, True), e.arguments)
         arguments, places = list[lang.Expression | str](), dict[str, int]()
         for p, a in zip(e.function.parameters, e.arguments, strict=True):
             if isinstance(a, str):
@@ -298,6 +302,13 @@ class _Directed(DirectionRules[lang.Expression]):
                 arguments.append(self.plain(a))
         function = _directed(e.function.key, _Held(e.function), tuple(sorted(places.items())), False)
         return lang.FunctionCall(e.type, function, tuple(arguments))
+
+    def passes_arguments_on(self, e: lang.FunctionCall) -> bool:
+        """Whether a callee takes the arguments of an entry under the same names: it is called as entries are."""
+        own = {p.name: p for p in self.function.parameters if p.name not in self.function.variables}
+        names = (a if isinstance(a, str) else a.name if isinstance(a, lang.Variable) else "" for a in e.arguments)
+        same = [*map(own.get, names)] == [*e.function.parameters]
+        return self.is_entry and same and e.function.returned != "float"
 
     def print_dual(self, e: lang.Expression) -> Dual:
         """Return a float that may stand in several places, with its direction."""
@@ -367,16 +378,9 @@ class _Directed(DirectionRules[lang.Expression]):
 
     def print_whole_power(self, base: lang.Expression, exponent: int) -> lang.Expression:
         """Return a power with a whole exponent."""
-        if exponent < 2:
-            return base if exponent == 1 else self.named(self.power_of(base, exponent))
-        return self.named(self.power_of(base, exponent))
-
-    @staticmethod
-    def power_of(base: lang.Expression, exponent: int) -> lang.Expression:
-        """Return the operation of a power."""
-        if not exponent:
-            return lang.Constant("float", 1.0)
-        return lang.ScalarOperation("float", "pow", (base, lang.Constant("int", exponent)))
+        if exponent in (0, 1):
+            return base if exponent else lang.Constant("float", 1.0)
+        return self.named(lang.ScalarOperation("float", "pow", (base, lang.Constant("int", exponent))))
 
     def print_sines(self, angle: lang.Expression, value: lang.Expression) -> tuple[lang.Expression, lang.Expression]:
         """Return sine and cosine of an angle."""

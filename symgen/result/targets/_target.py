@@ -44,7 +44,7 @@ class Request:
     rtol, atol : float or None
         Tolerances of its adaptive steps; None for those of runs.
     derivatives : bool
-        Whether derivatives are written as well.
+        Whether derivatives are written as well: of functions, or directional ones of an FMU.
     """
 
     mechanism: Mechanism

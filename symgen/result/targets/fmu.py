@@ -25,6 +25,7 @@ from symgen.derive.emit.module import render_template
 from symgen.result.targets._base_units import base_unit
 from symgen.result.targets._c_model import CModel, sources
 from symgen.result.targets._fmu_modes import indicator_names, values_of_exchange
+from symgen.result.targets._fmu_structure import outputs_of_states
 from symgen.result.targets._target import Request, Target
 from symgen.run.planning.package import Package
 
@@ -54,6 +55,7 @@ class ModelVariable:
     description: str = ""
     derivative: ModelVariable | None = None
     index: int = 0
+    dependencies: str | None = None
 
 
 def _write(request: Request) -> Package:
@@ -129,6 +131,12 @@ def _variables(model: CModel, values: Mapping[str, Any], fmi: int) -> dict[str, 
     for i, variable in enumerate(variables, 1):
         variable.index = i
         variable.unit = "" if variable.unit == "1" else variable.unit
+    if model.derivatives:
+        columns, own = outputs_of_states(model)
+        knowns = " ".join(str(s.index if fmi == 2 else s.reference) for s in states)
+        knowns += f" {_TIME}" if fmi == 3 else ""
+        for variable, is_known in zip(outputs, [columns] * len(model.columns) + own, strict=True):
+            variable.dependencies = knowns if is_known and variable.variability == "continuous" else None
     units = sorted({v.unit for v in variables} - {""})
     return {
         "variables": variables,
