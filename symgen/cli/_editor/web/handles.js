@@ -249,6 +249,7 @@ async function takePoints(...taken) {
   setText(answer.text);
   const at = answer.text.indexOf(`[${answer.path.split(".").slice(0, 2).join(".")}]`);
   if (at >= 0) select(at + 1, answer.text.indexOf("]", at), false);
+  if (answer.path.startsWith("bodies.")) selected = answer.path.split(".").slice(0, 2).join("."); // its dimensions are shown
   say(`added ${answer.path}`);
 }
 

@@ -18,7 +18,7 @@ function menu(id, word, ...parts) {
 
 {
   const [first, second] = document.querySelectorAll("#controls > .row"), shown = ["loop", "labels", "forces", "gaps"].map((id) => $(id).closest("label"));
-  second.prepend(menu("seen", "View", $("trace").closest("label"), rateBox, longest, ...shown, second.querySelector(".end")));
+  second.prepend(menu("seen", "View", $("trace").closest("label"), rateBox, longest, ...shown.slice(0, 2), sizesBox, ...shown.slice(2), second.querySelector(".end")));
   first.after(second);
   const head = document.querySelector("body > header"), title = element("div", "", "title"), placed = element("div", "", "placed");
   title.append(...head.children, freedomLine, modeLine);
