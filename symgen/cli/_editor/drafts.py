@@ -39,6 +39,7 @@ from symgen.result.viewed import view_data
 from symgen.run.compiling.pipeline import refuse_loops
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare
+from symgen.run.starts.assembler import close_for_drawing
 
 #: Errors of a text that are sent at most.
 MOST_ERRORS = 100
@@ -77,7 +78,8 @@ class Drafts:
         q, open_joints, errors, warnings = described, tuple[str, ...](), list[dict[str, Any]](), tuple[str, ...]()
         freedoms: dict[str, Any] = {}
         try:
-            run = prepare(*_closing_part(mechanism), Purpose.STATE)
+            with close_for_drawing():
+                run = prepare(*_closing_part(mechanism), Purpose.STATE)
             start = run.start
             q, warnings = start.y[: len(described)], start.warnings
             count = run.compiled.info.nv - start.rank
@@ -230,7 +232,8 @@ class Drafts:
     def _coordinates_at_start(self, mechanism: Mechanism) -> Array:
         """Return the coordinates of bodies where assembly ends."""
         try:
-            return prepare(*_closing_part(mechanism), Purpose.STATE).start.y
+            with close_for_drawing():
+                return prepare(*_closing_part(mechanism), Purpose.STATE).start.y
         except AssemblyError as error:
             return np.array(error.q) if error.q else Model(mechanism).initial_state({})[0]
 
