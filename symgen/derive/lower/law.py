@@ -288,11 +288,12 @@ def _rates_by_residual(hoister: Hoister, scalars: ScalarNodes, record: RecordedL
     ]
 
 
-def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part) -> Block:
-    """Return a function of a law as a block."""
+def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part, further: Sequence[tuple[OutputSlot, int]] = ()) -> Block:
+    """Return a function of a law as a block, with further outputs."""
     flag = None if part.flag is None else scalars.values[part.flag]
     purpose = part.purpose + ("" if flag is None else "; 1 where a pivot of S is suspicious")
-    block = hoister.block_with_hoisted(part.name, purpose, part_outputs(scalars, part), ARGUMENTS[part.name], flag)
+    outputs = [*part_outputs(scalars, part), *further]
+    block = hoister.block_with_hoisted(part.name, purpose, outputs, ARGUMENTS[part.name], flag)
     return replace(block, role=part.role)
 
 

@@ -51,7 +51,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
     )
     hoister = Hoister(scalars.graph, layout.parameters)
     blocks = [
-        law_block(hoister, scalars, geometry),
+        law_block(hoister, scalars, geometry, modes_of_states(equations)),
         law_block(hoister, scalars, spread),
         measure_block(hoister, scalars),
         observe_block(hoister, scalars),
@@ -75,6 +75,17 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         tables=equations.tables,
         plan=plan,
     )
+
+
+def modes_of_states(equations: Equations) -> Outputs:
+    """Return the modes that states of the file say: 1 where a row is in force, and what it holds beyond its value."""
+    rows = [row for row in equations.rows if row.held is not None]
+    return [
+        (OutputSlot("modes", MODE_NUMBERS * k + i), node)
+        for k, row in enumerate(rows)
+        if row.held is not None and row.place is not None
+        for i, node in enumerate((row.held, row.place))
+    ]
 
 
 def diagonal_at_origin(scalars: ScalarNodes) -> Outputs:

@@ -84,7 +84,7 @@ def serving_function(modes: bool, effects: bool, turning: tuple[str, ...]) -> tu
     name = "_".join(("serve_modes" if modes else "serve", *["and_resets"] * (modes and effects), *turning))
     signature = types.int64(types.float64, FURTHER["modes" if modes else "effects"], EVENT_STATE)
     if name not in _loops:
-        meanings = {**KEEPING, **(meanings_of_turn(effects, turning) if modes else {})}
+        meanings = {**KEEPING, **meanings_of_turn(effects and modes, turning)}
         source = serve_modes if modes else serve_resets
         name_of_loop = f"compiled_{name}"  # it is found by its name, as all loops are
         _loops[name] = globals()[name_of_loop] = compiled_loop(__name__, name_of_loop, source, signature, **meanings)
@@ -204,9 +204,17 @@ class TurnOfRun:
             self.sharing |= sharing_contacts(self.rows, modes)
         if self.rows is not None and self.memory.renewed[0]:  # the matrices of a scheme depend on the rows
             self.memory.renewed[0] = 0
-            simulation = self.simulation
-            simulation.scheme = simulation.integrator.setup(simulation.compiled, simulation.spec, state.w).scheme
+            self._renew_scheme()
+        elif self.watched.holding:
+            self._renew_scheme()
         return code
+
+    def _renew_scheme(self) -> None:
+        """Set up the scheme for the rows that are in force."""
+        simulation = self.simulation
+        simulation.scheme = simulation.integrator.setup(
+            simulation.compiled, simulation.spec, simulation.state.w
+        ).scheme
 
     def _refusal(self, code: int) -> InputError:
         """Return why the run cannot go on."""
