@@ -7,6 +7,7 @@ from symgen.derive.formulate.equations import Equations
 from symgen.derive.lower.factor import fill_of_order
 from symgen.derive.lower.hoist import Hoister
 from symgen.derive.lower.law import law_block
+from symgen.derive.lower.modes_of_states import modes_of_states
 from symgen.derive.lower.plans import cheapest_plan
 from symgen.derive.lower.position_changes import position_change_blocks
 from symgen.derive.lower.record import record_model
@@ -75,17 +76,6 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         tables=equations.tables,
         plan=plan,
     )
-
-
-def modes_of_states(equations: Equations) -> Outputs:
-    """Return the modes that states of the file say: 1 where a row is in force, and what it holds beyond its value."""
-    rows = [row for row in equations.rows if row.held is not None]
-    return [
-        (OutputSlot("modes", MODE_NUMBERS * k + i), node)
-        for k, row in enumerate(rows)
-        if row.held is not None and row.place is not None
-        for i, node in enumerate((row.held, row.place))
-    ]
 
 
 def diagonal_at_origin(scalars: ScalarNodes) -> Outputs:
