@@ -27,7 +27,7 @@ from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.loops.event_loop import EVENT_STATE, EventState
 from symgen.run.modes.bounded_rows import NOT_APPLIED, SIGN
-from symgen.run.modes.refusals import names_in, refusal
+from symgen.run.modes.refusals import HOLDING_SENTENCES, names_in, refusal, refusal_of_catch
 from symgen.run.modes.turn import (
     FURTHER,
     OfModes,
@@ -223,6 +223,9 @@ class TurnOfRun:
         v = state.y[info.nq : info.work].copy()
         if code == e.IMPOSSIBLE:
             numbers = np.flatnonzero(resets.chosen).tolist()
+            if failure in HOLDING_SENTENCES:
+                event = self.watched.names[int(resets.ends[e.IMPOSSIBLE_EVENT])]
+                return refusal_of_catch(int(failure), event, first, self._now)
             if failure == NO_VALUES:
                 return self.effects.no_values(numbers, resets.chosen, resets.work, self._now)
             return self.effects.no_velocities(numbers, resets.work, v, self._now)
