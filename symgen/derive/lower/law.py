@@ -26,6 +26,7 @@ from symgen.derive.lower.descriptor_blocks import blocks_of_form, unknowns_of_fo
 from symgen.derive.lower.factor import FactorNodes
 from symgen.derive.lower.hoist import Hoister
 from symgen.derive.lower.plans import closing_plan
+from symgen.derive.lower.modes_of_states import nodes_with_stored_modes
 from symgen.derive.lower.record import ARGUMENTS, BEHIND, Part, RecordedLaw, record_law
 from symgen.derive.lower.record_form import record_form
 from symgen.derive.lower.replay import Nodes
@@ -281,11 +282,14 @@ def _rates_by_residual(hoister: Hoister, scalars: ScalarNodes, record: RecordedL
     ]
 
 
-def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part) -> Block:
-    """Return a function of a law as a block."""
+def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part, further: Sequence[tuple[OutputSlot, int]] = ()) -> Block:
+    """Return a function of a law as a block, with further outputs."""
     flag = None if part.flag is None else scalars.values[part.flag]
+    if flag is not None and "y" not in ARGUMENTS[part.name]:
+        (flag,) = nodes_with_stored_modes(scalars.equations, scalars.graph, [flag])
     purpose = part.purpose + ("" if flag is None else "; 1 where a pivot of S is suspicious")
-    block = hoister.block_with_hoisted(part.name, purpose, part_outputs(scalars, part), ARGUMENTS[part.name], flag)
+    outputs = [*part_outputs(scalars, part), *further]
+    block = hoister.block_with_hoisted(part.name, purpose, outputs, ARGUMENTS[part.name], flag)
     return replace(block, role=part.role)
 
 
@@ -303,6 +307,9 @@ def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
         outputs += [(OutputSlot(JAMMING, i), node) for i, node in enumerate(scalars.jamming)]
     if part.name in _KEEPS_MASS:
         outputs += [(OutputSlot("mass_entry", k), node) for k, node in enumerate(scalars.mass_entries)]
+    if "y" not in ARGUMENTS[part.name]:
+        nodes = nodes_with_stored_modes(scalars.equations, scalars.graph, [node for _, node in outputs])
+        outputs = [(slot, node) for (slot, _), node in zip(outputs, nodes, strict=True)]
     return outputs
 
 

@@ -49,6 +49,7 @@ from symgen.run.modes.bounded_rows import (
     Choice,
     switch_off,
 )
+from symgen.run.modes.catching import HOLDING
 from symgen.run.modes.choice import (
     choose_modes,
     find_fault,
@@ -439,14 +440,14 @@ TOUCHED = Meanings(
     log_changes=log_changes_of_contacts,
     log_changes_in_pieces=log_changes_of_contacts,
 )
-#: Meanings for what a run's rows with bounds have (`symgen.run.loops.run_spec.Watched.turning`).
-TURNING = {"pressed": PRESSED, "corners": CORNERED, "pieces": IN_PIECES, "contacts": TOUCHED}
+#: Meanings for what a run's rows have (`symgen.run.loops.run_spec.Watched.turning`).
+TURNING = {"pressed": PRESSED, "corners": CORNERED, "pieces": IN_PIECES, "contacts": TOUCHED, "holding": HOLDING}
 #: Type of what follows the functions of a model, where events change a run, and where rows have bounds.
 FURTHER = {"effects": record_type(OfEffects), "modes": record_type(OfModes)}
 
 
 def meanings_of_turn(strikes: bool, turning: Sequence[str]) -> dict[str, Any]:
-    """Return the meanings of names in the turns of a run with bounded rows.
+    """Return the meanings of names in the turns of a run with bounded rows, or with joints that hold for a while.
 
     Parameters
     ----------
