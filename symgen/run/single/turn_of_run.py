@@ -249,8 +249,8 @@ class TurnOfRun:
     def effects_in_order(self) -> list[tuple[tuple[int, ...], Array, Array, Any]]:
         """Effects of the latest turn in their order.
 
-        Numbers of events, state before, scratch after each, and of contacts which impulses held velocities, and the
-        signs of the multiples that others were; else None.
+        Numbers of events, state before, scratch after each, and of contacts which impulses held velocities, the signs
+        of the multiples that others were, and what velocities are parts of; else None.
         """
         resets = self._resets
         found: list[Any] = [(resets.kept, np.flatnonzero(resets.chosen), resets.kept.w, None)]
@@ -259,8 +259,10 @@ class TurnOfRun:
             active, ties = np.flatnonzero(strikes.active), strikes.ties
             w = strikes.rested.w.copy()  # the formulas of rows that come to rest read their signs
             w[choice.first + MODE_NUMBERS * active + SIGN] = 1.0
-            tied = (ties.kept.copy(), ties.kept_ways.copy()), (ties.held.copy(), ties.ways.copy())
-            both = tied if self.rows.contacts else (None, None)
+            none = np.full_like(ties.leads, -1), np.zeros_like(ties.parts)
+            struck = ties.kept.copy(), ties.kept_ways.copy(), *none
+            rested = ties.held.copy(), ties.ways.copy(), ties.leads.copy(), ties.parts.copy()
+            both = (struck, rested) if self.rows.contacts else (None, None)
             found += [(strikes.struck, strikes.events[active], strikes.struck.w, both[0])]
             found += [(strikes.rested, strikes.events[active], w, both[1])]
         happened = [x for x in found if not np.isnan(x[0].energy[0])]
