@@ -67,7 +67,7 @@ PUSHED = "rhs_pushed"
 
 #: Names that the modules ``machine`` and ``model`` define.
 _MACHINE = (*(name for name, *_ in _GENERIC), "run", "tables", *_MODES)
-_SHARED = ("geometry", "spread", "measure", "observe", "move", "turn", "normalise")
+_SHARED = ("geometry", "spread", "drift", "measure", "observe", "move", "turn", "normalise")
 
 
 def emit_shared_model(generator: str) -> str:
