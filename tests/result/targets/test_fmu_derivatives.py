@@ -227,10 +227,10 @@ def test_what_has_none_says_so(tmp_path):
         assert b"irectional" not in archive.read("modelDescription.xml")
         assert b"directed" not in archive.read("sources/cart_pole.c")
     with pytest.raises(
-        InputError, match="derivatives: expected an FMU for model exchange, .*, got the steps of 'dop853'"
+        InputError, match=r"derivatives: expected an FMU for model exchange, .*, got the steps of 'dop853'"
     ):
         fmu_of(load("cart-pole"), tmp_path / "run.fmu", integrator="dop853", derivatives=True)
-    with pytest.raises(InputError, match="derivatives: expected an FMU for model exchange, .*, got contacts"):
+    with pytest.raises(InputError, match=r"derivatives: expected an FMU for model exchange, .*, got contacts"):
         fmu_of(load("rocking-block"), tmp_path / "touch.fmu", derivatives=True)
     assert sorted(x.name for x in tmp_path.iterdir()) == ["plain.fmu"]
 

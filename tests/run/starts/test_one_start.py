@@ -1,9 +1,9 @@
 """The one start: every bit is the same interpreted, compiled and in a sweep, and both shapes start alike."""
 
-import tomllib
 import os
 import subprocess
 import sys
+import tomllib
 
 import numpy as np
 import pytest
