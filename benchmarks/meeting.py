@@ -370,6 +370,7 @@ GROUPS: Mapping[str, Mapping[str, Place]] = {
         "C, dop853": _generated("c", "c", "--integrator", "dop853"),
         "FMU": _generated("fmu", "cart.fmu"),
         "FMU, model exchange": _exchanged,
+        "FMU, derivatives": _generated("fmu", "cart.fmu", "--derivatives"),
         "JavaScript": _generated("javascript", "js"),
         "live page": _live,
     },

@@ -119,7 +119,9 @@ class DirectionRules(ABC, Generic[V]):
         lower = self.print_whole_power(base, n - 1)
         return g.mul(lower, base), self.scale_directions(directions, lambda: g.mul(g.constant(float(n)), lower))
 
-    def differentiate_power(self, e: lang.ScalarOperation, base: tuple[V, V | None], exponent: tuple[V, V | None]) -> tuple[V, V | None]:
+    def differentiate_power(
+        self, e: lang.ScalarOperation, base: tuple[V, V | None], exponent: tuple[V, V | None]
+    ) -> tuple[V, V | None]:
         """Print a power with any exponent; at 0 raised to less than 1 its slope rises without bound."""
         g, (a, da), (b, db), constant = self.numbers, base, exponent, e.arguments[1]
         value = g.call("pow", a, b)

@@ -51,4 +51,3 @@ class PrintedNumbers:
 
     def _print_operation(self, name: str, a: str, b: str) -> str:
         return self.printer.print_instruction(f"{name}{self.printer.flag} double {a}, {b}")
-

@@ -66,7 +66,9 @@ def _write(request: Request) -> Package:
     mechanism = msgspec.structs.replace(request.mechanism, input_formulas=())
     model = CModel.of(replace(request, mechanism=mechanism), "fmu")
     if request.derivatives and not model.exchanges:
-        reason = f"the steps of '{request.integrator}'" if model.named else "contacts, whose modes an importer cannot find"
+        reason = (
+            f"the steps of '{request.integrator}'" if model.named else "contacts, whose modes an importer cannot find"
+        )
         raise InputError("derivatives", "an FMU for model exchange, of whose states derivatives are", reason)
     files = fmu_files(model, request.fmi)
     files |= _binaries(model.prefix, files, request.fmi)

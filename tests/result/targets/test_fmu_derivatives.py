@@ -171,9 +171,7 @@ def test_they_are_those_of_differences(name, fmi, tmp_path):
         by_time = unit.directions(unknowns, ["time"], [1.0])
         assert np.abs((by_time - expected[:, -1]) / size[:, 0]).max() < 1e-6
         weights = random.uniform(-1, 1, len(unknowns))
-        adjoint = unit.fmu.getAdjointDerivative(
-            unit.refs(unknowns), unit.refs(knowns), list(weights), len(knowns)
-        )
+        adjoint = unit.fmu.getAdjointDerivative(unit.refs(unknowns), unit.refs(knowns), list(weights), len(knowns))
         np.testing.assert_allclose(adjoint, weights @ found, rtol=0, atol=1e-11 * np.abs(found).max())
 
 
@@ -228,9 +226,11 @@ def test_what_has_none_says_so(tmp_path):
     with zipfile.ZipFile(path) as archive:
         assert b"irectional" not in archive.read("modelDescription.xml")
         assert b"directed" not in archive.read("sources/cart_pole.c")
-    with pytest.raises(InputError, match="derivatives: expected an FMU for model exchange, .*, got the steps of 'dop853'"):
+    with pytest.raises(
+        InputError, match=r"derivatives: expected an FMU for model exchange, .*, got the steps of 'dop853'"
+    ):
         fmu_of(load("cart-pole"), tmp_path / "run.fmu", integrator="dop853", derivatives=True)
-    with pytest.raises(InputError, match="derivatives: expected an FMU for model exchange, .*, got contacts"):
+    with pytest.raises(InputError, match=r"derivatives: expected an FMU for model exchange, .*, got contacts"):
         fmu_of(load("rocking-block"), tmp_path / "touch.fmu", derivatives=True)
     assert sorted(x.name for x in tmp_path.iterdir()) == ["plain.fmu"]
 
