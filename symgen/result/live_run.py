@@ -65,7 +65,7 @@ def live_of_run(
     step = run["step"] or mechanism.defaults.step
     settings = Settings(shape="straight", coordinates=run["coordinates"], parameters=parameters, step=step)
     settings = replace(settings, method=method) if method else settings
-    if mechanism.bounded:  # whose run is the loop of this scheme
+    if mechanism.has_modes:  # whose run is the loop of this scheme
         settings = replace(settings, integrator=LIVE_INTEGRATOR)
     prepared = prepare(mechanism, settings, Purpose.STATE)
     state = {**initial["q"], **initial["v"]}

@@ -9,7 +9,7 @@ joint. All else that runs have for states and events they have for these: target
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -17,6 +17,7 @@ import msgspec
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, Reading, call, readings_in
 from symgen.base.vocabulary.measures import GROUND, Angle, FormulaMeasure, Holonomic, Measure
+from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.readings import reads_results
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import Holding, Joint, Mechanism, ModeEvent, Output, StateVariable
@@ -254,6 +255,55 @@ def with_holding(mechanism: Mechanism, read: Sequence[ReadHolding]) -> Mechanism
         cuts=tuple(dict.fromkeys((*mechanism.cuts, *names))),
         holding=tuple(holding),
     )
+
+
+def in_modes(mechanism: Mechanism, values: Mapping[str, float], states: Mapping[str, float] | None = None) -> Mechanism:
+    """Return a mechanism whose joints hold for good, or not at all, as they do in one state.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    values : mapping of str to float
+        Values of all parameters.
+    states : mapping of str to float, optional
+        States of the file's own by name; those of the start by default.
+    """
+    if not mechanism.holding:
+        return mechanism
+    where, joints, own = mechanism.name, list[Joint](), set[str]()
+    off = {x.joint for x in mechanism.holding if evaluate(mode_of(x), {**_at_start(x), **values, **(states or {})}, where) < 0.5}
+    for x in mechanism.holding:
+        own |= {f"{x.joint}.{CHANGED}", f"{x.joint}.{DISSIPATED}", f"{x.joint}.{MODE}", *places_of(mechanism, x)}
+        own |= {f"{x.joint}.{CATCHES}", f"{x.joint}.{RELEASES}"}
+    for joint in mechanism.joints:
+        joints.append(msgspec.structs.replace(joint, kind="place", rows=()) if joint.name in off else joint)
+    changed: dict[str, Any] = {
+        part: tuple(x for x in getattr(mechanism, part) if x.name not in own) for part in ("states", "events", "outputs")
+    }
+    return msgspec.structs.replace(mechanism, **changed, joints=tuple(joints), switchable=(), holding=())
+
+
+def _at_start(holding: Holding) -> dict[str, float]:
+    return {f"{holding.joint}.{CHANGED}": 0.0}
+
+
+def places_of(mechanism: Mechanism, holding: Holding) -> tuple[str, ...]:
+    """Return the names of the states that say where the rows of a joint hold."""
+    rows = mechanism.joint_named(holding.joint).rows if holding.present else ()
+    return tuple(name_of_place(holding.joint, row.label) for row in rows)
+
+
+def refuse_holding(where: str, mechanism: Mechanism) -> None:
+    """Refuse joints that hold for a while where motions are taken in one mode.
+
+    Raises
+    ------
+    InputError
+        If there are any.
+    """
+    if names := ", ".join(x.joint for x in mechanism.holding):
+        raise InputError(where, "joints that hold for good", f"'holds' of {names}", "runs and sweeps have it")
 
 
 def _events_of(holding: Holding, joint: Joint) -> list[ModeEvent]:

@@ -132,21 +132,25 @@ def look_at_conditions(functions: Rates, t: float, now: Instant, iw: Integers, p
     return int(past.scratch.shape[0])
 
 
-def find_contradiction(effects: OfEffects) -> int:
+def find_contradiction(effects: OfEffects, value: float, slope: float) -> int:
     """Return the event of a joint whose catch makes it release at once, or holds it at the limit; -1 for none.
 
-    `look_at_conditions` has been called before the catch, which is in ``values`` and ``slopes``, and after it.
+    Parameters
+    ----------
+    effects : OfEffects
+        After `look_at_conditions` at the state after the catch.
+    value, slope : float
+        Size of the function of the catch just before it, the largest one, and of its rate, the least one.
     """
     past, catches, n = effects.past, effects.model[4].catches, effects.past.values.shape[0]
     for k in range(effects.chosen.shape[0]):
         release = catches[2 * k + 1]
         if effects.chosen[k] != 0 and catches[2 * k] >= 0 and release >= 0:
-            near = _AT_LIMIT * abs(past.values[k]) + _ROUNDED * past.out[2 * n + release]
+            near = _AT_LIMIT * value + _ROUNDED * past.out[2 * n + release]
             if past.out[release] > near:
                 effects.ends[e.FAILURE] = float(CONTRADICTED)
                 return k
-            stays = abs(past.out[n + release]) <= _STAYS * abs(past.slopes[k])
-            if stays and past.slopes[k] != 0.0 and past.out[release] >= -near:
+            if slope > 0.0 and abs(past.out[n + release]) <= _STAYS * slope and past.out[release] >= -near:
                 effects.ends[e.FAILURE] = float(AT_ITS_LIMIT)
                 return k
     return -1
@@ -170,14 +174,16 @@ def apply_with_holding(last: int, effects: OfEffects, state: EventState) -> int:
     """
     layout, _, _, _, changes = effects.model
     past, n, caught, moded = effects.past, effects.past.values.shape[0], False, False
+    value, slope = 0.0, math.inf
     for k in range(effects.chosen.shape[0] if last >= 0 else 0):
         caught = caught or (effects.chosen[k] != 0 and changes.catches[2 * k] >= 0)
         moded = moded or (effects.chosen[k] != 0 and changes.catches[2 * k] != -1)
     functions, now = (effects.rates, effects.confirm, effects.happens), Instant(state.y, state.p, state.w)
     if caught:
         look_at_conditions(functions, state.clock[abi.TIME], now, state.iw, past)
-        for k in range(n):
-            past.values[k], past.slopes[k] = past.out[k], past.out[n + k]
+        for k in range(effects.chosen.shape[0]):
+            if effects.chosen[k] != 0 and changes.catches[2 * k] >= 0:
+                value, slope = max(value, abs(past.out[k])), min(slope, abs(past.out[n + k]))
     code = int(apply_all(last, effects, state))
     if code == e.IMPOSSIBLE:
         effects.ends[e.FIRST_NUMBER] = effects.work.energy[0]
@@ -187,7 +193,7 @@ def apply_with_holding(last: int, effects: OfEffects, state: EventState) -> int:
         look_anew(state)
     if caught:
         look_at_conditions(functions, state.clock[abi.TIME], now, state.iw, past)
-        event = find_contradiction(effects)
+        event = find_contradiction(effects, value, slope)
         if event >= 0:
             effects.ends[e.IMPOSSIBLE_EVENT], effects.ends[e.FIRST_NUMBER] = float(event), math.nan
             return int(e.IMPOSSIBLE)

@@ -20,7 +20,6 @@ LAWS = (
     ("null-space", "dop853", 1e-10),
     ("coordinate-partitioning", "dop853", 1e-10),
     ("augmented-lagrangian", "dop853", 1e-9),
-    ("generalized-alpha", "generalized-alpha", 1e-6),
     ("lagrange", "bdf", 1e-7),
 )
 
@@ -37,7 +36,7 @@ def loaded(tmp_path):
 
 def steps_of(integrator: str) -> dict[str, float]:
     tight = {"rtol": 1e-12, "atol": 1e-12}
-    return {"step": 1e-3} if integrator in ("rk4", "generalized-alpha") else {"rtol": 1e-9} if integrator == "bdf" else tight
+    return {"step": 1e-3} if integrator == "rk4" else {"rtol": 1e-9} if integrator == "bdf" else tight
 
 
 def swing(t0: float) -> tuple[float, float]:
@@ -102,7 +101,7 @@ def test_a_carriage_drops_what_swings_from_it(loaded) -> None:
 
 def test_a_jumper_falls_and_swings_on_a_cord(loaded) -> None:
     """Free fall by 20 m, then a harmonic motion about 80 g/120 below."""
-    run = loaded(JUMPER).simulate(times=[0.4, 1.5, 4.0, 6.0], **TIGHT)
+    run = loaded(JUMPER).simulate(times=[0.4, 1.5, 4.0, 5.5], until=5.5, **TIGHT)
     touch, speed, omega, sag = 0.5 + np.sqrt(40.0 / G), np.sqrt(40.0 * G), np.sqrt(120.0 / 80.0), 80.0 * G / 120.0
     late = run.t[2:] - touch
     swung = -20.0 - sag + sag * np.cos(omega * late) - speed / omega * np.sin(omega * late)
@@ -185,7 +184,7 @@ def test_catches_that_cannot_be_end_a_run_with_a_sentence(machine, change, sente
 @pytest.mark.parametrize(
     ("old", "new", "sentence"),
     [
-        ('"t < t0"', '"t0"', "joints.rod.holds: expected a condition such as 't < 0.3', got 't0'"),
+        ('"t < t0"', '"t - t0"', "joints.rod.holds: expected a condition such as 't < 0.3', got 't - t0'"),
         ('"t < t0"', "{ whlie = 't < t0' }", "the unknown key 'whlie'"),
         ('"t < t0"', "{ at_start = true }", "expected a condition: during, catches or releases, got none"),
         ('"t < t0"', "{ during = 't < 1', releases = 't > 1' }", "expected the condition during, or catches and"),
