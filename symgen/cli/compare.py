@@ -198,7 +198,7 @@ def _note_left_out(unused: Sequence[str], methods: Sequence[str]) -> None:
     for option in unused:
         click.echo(f"symgen: {option} counted for nothing: no run of these integrators has such steps", err=True)
     if methods:
-        click.echo(f"symgen: these integrators solve no form of {', '.join(methods)}: left out", err=True)
+        click.echo(f"symgen: left out, as these integrators solve no form of them: {', '.join(methods)}", err=True)
 
 
 def _label_ranges(steps: tuple[float, ...], rtols: tuple[float, ...], at: bool) -> dict[str, tuple[str, str]]:

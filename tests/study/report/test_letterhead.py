@@ -70,7 +70,7 @@ def test_the_command_takes_them(cli, tmp_path, monkeypatch):
 
 REFUSED = {
     "--paper a5": "--paper: expected one of a4, letter, got 'a5'; known: a4, letter",
-    "--logo none.png": "--logo: expected a picture that is PNG or SVG, got 'none.png' (No such file or directory)",
+    "--logo none.png": "--logo: expected a picture that is PNG or SVG, got 'none.png' (no such file or folder)",
     "--logo text.png": "--logo: expected a picture that is PNG or SVG, got 'text.png', which is neither",
     "--logo large.png": "--logo: expected a file of at most 500 kB, got 600 kB",
 }
