@@ -169,7 +169,7 @@ def command(
         across = [asdict(line) for line in across_mechanisms(studies)]
         write_json(tables[0] if len(models) == 1 else {"studies": tables, "across": across})
     else:
-        from symgen.cli._tables import show_across, show_study
+        from symgen.cli._comparison_tables import show_across, show_study
 
         for study in studies:
             show_study(study)

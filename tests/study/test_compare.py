@@ -12,7 +12,7 @@ from support.runs import interrupt
 import symgen
 import symgen.derive.methods
 from symgen.base.errors import InputError, SimulationError
-from symgen.cli._tables import show_study
+from symgen.cli._comparison_tables import show_study
 from symgen.study.comparison import combinations
 from symgen.study.comparison import compare_models as whole
 from symgen.study.comparison import model_comparison as module

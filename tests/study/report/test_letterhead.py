@@ -2,6 +2,7 @@
 
 import base64
 import re
+from itertools import pairwise
 
 import pytest
 
@@ -100,4 +101,4 @@ def test_grey_paper_tells_lines_apart():
     assert axes.get_legend() is None
     assert sorted(heights, key=heights.get) == sorted(ends, key=ends.get)
     steps = sorted(heights.values())
-    assert all(high - low >= 0.074 for low, high in zip(steps, steps[1:], strict=False))
+    assert all(high - low >= 0.074 for low, high in pairwise(steps))
