@@ -214,10 +214,8 @@ def make_driven(
         got = "a singular position, from which several motions go on"
         raise InputError(what, "a start that is none of several branches", got, hint)
     if freedom > 0:
-        of = "1 degree of freedom that is" if freedom == 1 else f"{freedom} degrees of freedom that are"
-        hint = f"a driver drives {'it' if freedom == 1 else 'each'}, and symgen run needs none"
-        got = f"{of} not driven: {', '.join(free_coordinates(run, freedom))}"
-        raise NotPrescribed(what, "a driver for every freedom", got, hint)
+        got = f"none for {', '.join(free_coordinates(run, freedom))}"
+        raise NotPrescribed(what, "a driver for every freedom", got, "symgen run needs no drivers")
     return run
 
 

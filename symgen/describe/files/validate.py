@@ -55,6 +55,7 @@ from symgen.describe.parts.holding_joints import formulas_of_holding, with_holdi
 from symgen.describe.parts.holds import body_holds, read_holds
 from symgen.describe.parts.kinds import FORCES, kind_and_keys
 from symgen.describe.parts.limits import read_limits_of_entry
+from symgen.describe.parts.meant_words import hint_on_section
 from symgen.describe.parts.numbers import read_run_defaults, read_table_function
 from symgen.describe.parts.own_units import check_own_unit
 from symgen.describe.parts.parameters import Parameters
@@ -145,7 +146,7 @@ class _Validator:
             if key not in SECTIONS:
                 with self.errors.part_of_description(*(content if isinstance(content, Mapping) else ())):
                     expected, got = f"the sections {', '.join(SECTIONS)}", f"the unknown section {quote(key)}"
-                    raise InputError(self.source, expected, got, suggest(key, SECTIONS), key)
+                    raise InputError(self.source, expected, got, hint_on_section(key, content, SECTIONS), key)
         where = self.place_in_file("mechanism")
         with self.errors.part_of_description():
             if "mechanism" not in self.raw:

@@ -13,8 +13,9 @@ from typing import Annotated, Any, Literal, TypeVar, cast, get_args, get_origin
 import msgspec
 from msgspec import Meta
 
-from symgen.base.errors import InputError, quote, suggest
+from symgen.base.errors import InputError, quote
 from symgen.base.units import si_hint
+from symgen.describe.parts.meant_words import hint_on_key, hint_on_list
 
 Text = Annotated[str, Meta(description="a text")]
 Scalar = Annotated[float | str, Meta(description="a number or an expression of parameters")]
@@ -203,8 +204,7 @@ def read_table(kind: type[T], raw: object, where: str, further: tuple[str, ...] 
     meant = ""
     for key in raw:
         if key not in fields:
-            hint = suggest(str(key), names)
-            hint = "" if hint.startswith("known") else hint
+            hint = hint_on_key(str(key), names)
             meant += hint
             wrong.append(
                 InputError(where, f"the keys {', '.join(names)}", f"the unknown key {quote(key)}", hint, str(key))
@@ -242,7 +242,9 @@ def read_value(type_: object, value: object, where: str) -> Any:
             read_table(table, value, where)  # whose sentence names the key
         path = _AT.search(str(error))
         part = _value_at_path(value, path.group(1) if path else "")
-        raise InputError(where, describe_type(type_), value_in_words(part), si_hint(part)) from None
+        raise InputError(
+            where, describe_type(type_), value_in_words(part), si_hint(part) or hint_on_list(part)
+        ) from None
 
 
 def _type_of_entries(type_: object) -> Any:

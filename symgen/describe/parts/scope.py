@@ -26,6 +26,7 @@ from symgen.describe.mechanism import ACCELERATIONS, Joint, Vec
 from symgen.describe.parts.context import Context
 from symgen.describe.parts.fields import value_in_words
 from symgen.describe.parts.key_units import unit_of_number
+from symgen.describe.parts.meant_words import hint_on_body, hint_on_vector
 
 #: The name by which a file means a body's centre of mass.
 CENTRE = "centre"
@@ -100,7 +101,7 @@ class Scope:
             return name
         if name not in self.context.bodies:
             names = [*self.context.bodies, GROUND] if ground else list(self.context.bodies)
-            raise self.error(key, "the name of a body", f"the unknown body {quote(name)}", suggest(name, names))
+            raise self.error(key, "the name of a body", f"the unknown body {quote(name)}", hint_on_body(name, names))
         if turns and self.context.bodies[name].is_point:
             raise self.error(key, f"a body with an angle for '{self.kind}'", f"the point mass '{name}'")
         return name
@@ -206,6 +207,7 @@ class Scope:
                 key,
                 what if self.spatial else "two numbers or expressions of parameters [x, y]",
                 value_in_words(components),
+                hint_on_vector(components, self.dimension),
             )
         return tuple(self.constant(key, e) for e in components)
 

@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 
 #: Numbers on the first screen at most, and pins among them.
 MOST_NUMBERS, MOST_PINS = 7, 2
-#: Share of a range that is rounding at one of its ends, and of the work back and forth that its sum over outputs misses.
+#: Share of a range that is rounding at one of its ends, and of work back and forth that its sum over outputs misses.
 FINEST, MISSED = 1e-6, 1e-4
 #: What the way to a dead centre is called.
 ROOM = "room to the dead centre"
@@ -138,7 +138,7 @@ def _range_of_output(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber
 
 
 def _least_transmission_angle(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
-    """Yield the least transmission angle of the pins that have one; a link that a driver moves needs no transmission."""
+    """Yield the least transmission angle of pins that have one; a link that a driver moves needs no transmission."""
     driven = {name for joint in mechanism.joints if joint.kind == "driver" for name in joint.bodies}
     if mechanism.space != "planar" or not driven:
         return

@@ -142,7 +142,7 @@ def _first_section(model: Model, result: Result, numbers: Sequence[KeyNumber]) -
 
 
 def _position_at_the_end(mechanism: Mechanism, result: Result) -> DocumentTable:
-    """Return how far a failed run came: its time, and coordinates of joints there and at the start, the ground's first."""
+    """Return how far a failed run came: time and coordinates of joints there and at the start, the ground's first."""
     joints = result.whole(("joint_coordinates",))
     grounded = {joint.name for joint in mechanism.joints if GROUND in joint.bodies}
     chosen = [i for i, name in enumerate(joints.names) if not name.endswith(_RATE)]

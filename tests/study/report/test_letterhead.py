@@ -2,6 +2,7 @@
 
 import base64
 import re
+from itertools import pairwise
 
 import pytest
 
@@ -70,7 +71,7 @@ def test_the_command_takes_them(cli, tmp_path, monkeypatch):
 
 REFUSED = {
     "--paper a5": "--paper: expected one of a4, letter, got 'a5'; known: a4, letter",
-    "--logo none.png": "--logo: expected a picture that is PNG or SVG, got 'none.png' (No such file or directory)",
+    "--logo none.png": "--logo: expected a picture that is PNG or SVG, got 'none.png' (no such file or folder)",
     "--logo text.png": "--logo: expected a picture that is PNG or SVG, got 'text.png', which is neither",
     "--logo large.png": "--logo: expected a file of at most 500 kB, got 600 kB",
 }
@@ -100,4 +101,4 @@ def test_grey_paper_tells_lines_apart():
     assert axes.get_legend() is None
     assert sorted(heights, key=heights.get) == sorted(ends, key=ends.get)
     steps = sorted(heights.values())
-    assert all(high - low >= 0.074 for low, high in zip(steps, steps[1:], strict=False))
+    assert all(high - low >= 0.074 for low, high in pairwise(steps))
