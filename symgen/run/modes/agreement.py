@@ -20,6 +20,7 @@ from symgen.run.modes.bounded_rows import (
     HELD,
     JAMMED,
     LIMIT,
+    NO_FACTOR,
     NO_FORCES,
     NOT_DETERMINED,
     NOT_FINITE,
@@ -38,7 +39,7 @@ from symgen.run.modes.choice import (
     symmetrise,
     write_modes,
 )
-from symgen.run.modes.holding import hold_rows
+from symgen.run.modes.holding import find_carriers, hold_rows
 from symgen.run.modes.resting import set_bounds, solve_rest
 
 #: Bounds by reactions agree within this part of them, after so many solutions at most.
@@ -219,17 +220,43 @@ def can_move(c: Choice) -> int:
     return 1 if farthest_row(layout, layout.nv, layout.m, SKIP, 1, c.w, c.room) < layout.nv else 0
 
 
-@exact(entry=True)
-def follow_reactions(c: Choice, resting: int) -> int:
-    """Have largest efforts follow the reaction, unless rows share a force; return `SAME` or `SHARED`.
+@exact()
+def is_shared_among(c: Choice, i: int, count: int) -> bool:
+    """Whether the reaction of a row at rest with bounds by it depends on how row `i` shares its effort.
 
-    `resting` is the number of coordinates at rest whose bounds depend on reactions.
+    It changes by less than rounding then, by the whole of the bound of the row.
     """
-    after, sharing = c.after, 0
+    k, most = c.count, find_carriers(c, i, count)
+    for p in range(k):
+        if c.pressed[p] != 0 and c.after[MODE_NUMBERS * p + HELD] != 0.0:
+            for part in range(2):
+                at, a = (2 * p + part) * k, 0
+                total = c.parts[at + i]
+                size = abs(total)
+                for j in range(k):
+                    if c.taken[j] != 0:
+                        carries = abs(c.box.left[a]) > NO_FACTOR * most
+                        if j == p and carries:
+                            return True
+                        total -= c.box.left[a] * c.parts[at + j]
+                        size += abs(c.box.left[a] * c.parts[at + j])
+                        a += 1
+                if abs(total) * c.static[i] > NO_FACTOR * (size * c.static[i] + c.sizes[p]):
+                    return True
+    return False
+
+
+@exact(entry=True)
+def follow_reactions(c: Choice) -> int:
+    """Have largest efforts follow the reaction, unless it depends on a force that rows share; else return `SHARED`."""
+    after, shared, count = c.after, False, 0
+    for i in range(c.count):
+        count += 1 if c.taken[i] != 0 else 0
     for i in range(c.count):
         at = MODE_NUMBERS * i
-        sharing += 1 if after[at + HELD] == 0.0 and after[at + CONSTANT] != 0.0 else 0
-    if sharing > 0 and resting > 0 and (c.changes != 0 or can_move(c) != 0):
+        if after[at + HELD] == 0.0 and after[at + CONSTANT] != 0.0:
+            shared = shared or c.pressed[i] != 0 or is_shared_among(c, i, count)
+    if shared and (c.changes != 0 or can_move(c) != 0):
         count = 0
         for i in range(c.count):
             at = MODE_NUMBERS * i
@@ -240,7 +267,7 @@ def follow_reactions(c: Choice, resting: int) -> int:
         return SHARED
     for i in range(c.count):
         at = MODE_NUMBERS * i
-        if c.pressed[i] != 0 and (sharing == 0 or after[at + HELD] == 0.0):
+        if c.pressed[i] != 0 and (not shared or after[at + HELD] == 0.0):
             after[at + LIMIT] = 0.0
     return SAME
 
@@ -251,9 +278,7 @@ def choose_pressed(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Intege
     c.named[0] = find_redundant(c, w)
     if c.named[0] >= 0:
         return REDUNDANT
-    n, resting = find_rest(c, w), 0
-    for r in range(n):
-        resting += 1 if c.pressed[c.rest[r]] != 0 else 0
+    n = find_rest(c, w)
     for i in range(c.count):
         c.bounds[i], c.bounds[c.count + i] = c.static[i], c.sliding[i]
     code = probe_reactions(t, c, y, p, w, iw, control)
@@ -264,7 +289,7 @@ def choose_pressed(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Intege
         apply_sizes(c)
         add_forces(c)
     if code == SAME:
-        code = NOT_DETERMINED if hold_rows(c, w) != SAME else follow_reactions(c, resting)
+        code = NOT_DETERMINED if hold_rows(c, w) != SAME else follow_reactions(c)
     for i in range(c.count):
         c.static[i], c.sliding[i] = c.bounds[i], c.bounds[c.count + i]
     return int(write_modes(c, w)) if code == SAME else int(code)
