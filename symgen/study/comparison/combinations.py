@@ -26,8 +26,6 @@ DEFAULT_METHODS = (
     *("lagrange", "baumgarte", "augmented-lagrangian", "index1-augmented-lagrangian"),
     *("coordinate-partitioning", "direct-correction"),
 )
-#: Those of them for mechanisms with bounded rows.
-MODE_METHODS = tuple(name for name in DEFAULT_METHODS if name != "coordinate-partitioning")
 #: Default integrators; a method that none of them suits gets its own.
 DEFAULT_INTEGRATORS = ("rk4", "dopri5", "dop853")
 #: Every method or integrator.
@@ -71,7 +69,7 @@ class Combinations:
         for name, value in (words | numbers).items():
             object.__setattr__(self, name, value)
 
-    def settings(self, base: Settings, own: float, modes: bool = False) -> Iterator[Settings]:
+    def settings(self, base: Settings, own: float, mechanism: Mechanism | None = None) -> Iterator[Settings]:
         """Return the settings of all runs.
 
         Parameters
@@ -80,17 +78,17 @@ class Combinations:
             Common settings, with the end time.
         own : float
             The mechanism's own step [s].
-        modes : bool
-            Whether rows may be off, which methods that read D of all rows do not take.
+        mechanism : Mechanism, optional
+            What is compared; methods that cannot take its rows with bounds are left out, unless they are named.
 
         Raises
         ------
         InputError
             If a method or integrator does not exist, or no selected integrator solves a form of a selected method.
         """
-        left_out = self.left_out
+        left_out = {*self.left_out, *(() if mechanism is None else self.without_modes(mechanism))}
         for state in tuple(dict.fromkeys(self.coordinates)) or COORDINATES[:1]:
-            for words in _select_names(self.methods, MODE_METHODS if modes else DEFAULT_METHODS, METHODS.names):
+            for words in _select_names(self.methods, DEFAULT_METHODS, METHODS.names):
                 method, variant = split_variant(words)
                 methods = [split_variant(other)[0] for other in self.methods]
                 if method in left_out:
@@ -112,6 +110,18 @@ class Combinations:
         unfit = tuple(n for n in METHODS.names if n not in named and not _fitting_integrators(n, self.integrators))
         return unfit if len(unfit) < len(METHODS.names) else ()
 
+    def without_modes(self, mechanism: Mechanism) -> tuple[str, ...]:
+        """Methods that are not named, and cannot take the rows with bounds of a mechanism."""
+        if not mechanism.bounded:
+            return ()
+        named = {split_variant(words)[0] for words in self.methods}
+        every = _select_names(self.methods, DEFAULT_METHODS, METHODS.names)
+        return tuple(
+            name
+            for name in every
+            if name not in named and not (":" in name or takes_modes(name, self.integrators, mechanism))
+        )
+
     def _settings_by_step(self, common: Settings, own: float) -> Iterator[Settings]:
         name = str(common.integrator)
         if chooses_steps(INTEGRATORS.get(name, "integrators"), common.options):
@@ -122,6 +132,13 @@ class Combinations:
             factors = STEP_FACTORS_AT if self.error_at else STEP_FACTORS
             for step in self.steps or [h for h in (own * f for f in factors) if h <= common.until] or [common.until]:
                 yield replace(common, step=step)
+
+
+def takes_modes(name: str, integrators: Sequence[str], mechanism: Mechanism) -> bool:
+    """Return whether a method takes the rows with bounds of a mechanism in a form that an integrator solves."""
+    forms = METHODS.get(name, "methods").forms
+    shapes = {bool(EXPLICIT_FORMS.isdisjoint(INTEGRATORS.get(i, "integrators").forms)) for i in _fitting_integrators(name, integrators)}
+    return all(takes_bounded_rows(choose_method(name, None, implicit), mechanism) for implicit in shapes or {False} if forms)
 
 
 def split_variant(words: str) -> tuple[str, dict[str, str]]:
