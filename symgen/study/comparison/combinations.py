@@ -9,6 +9,9 @@ from symgen.base import arguments
 from symgen.base.errors import InputError
 from symgen.base.settings import COORDINATES, Settings
 from symgen.derive.methods import METHODS
+from symgen.derive.methods._base import EXPLICIT_FORMS
+from symgen.describe.mechanism import Mechanism
+from symgen.run.compiling.method_choice import choose_method, takes_bounded_rows
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.loops.integrator import chooses_steps
 
@@ -26,6 +29,8 @@ DEFAULT_METHODS = (
     *("lagrange", "baumgarte", "augmented-lagrangian", "index1-augmented-lagrangian"),
     *("coordinate-partitioning", "direct-correction"),
 )
+#: Those of them for mechanisms with bounded rows, if they take these.
+MODE_METHODS = tuple(name for name in DEFAULT_METHODS if name != "coordinate-partitioning")
 #: Default integrators; a method that none of them suits gets its own.
 DEFAULT_INTEGRATORS = ("rk4", "dopri5", "dop853")
 #: Every method or integrator.
@@ -69,7 +74,7 @@ class Combinations:
         for name, value in (words | numbers).items():
             object.__setattr__(self, name, value)
 
-    def settings(self, base: Settings, own: float, mechanism: Mechanism | None = None) -> Iterator[Settings]:
+    def settings(self, base: Settings, own: float, mechanism: Mechanism) -> Iterator[Settings]:
         """Return the settings of all runs.
 
         Parameters
@@ -78,7 +83,7 @@ class Combinations:
             Common settings, with the end time.
         own : float
             The mechanism's own step [s].
-        mechanism : Mechanism, optional
+        mechanism : Mechanism
             What is compared; methods that cannot take its rows with bounds are left out, unless they are named.
 
         Raises
@@ -86,9 +91,9 @@ class Combinations:
         InputError
             If a method or integrator does not exist, or no selected integrator solves a form of a selected method.
         """
-        left_out = {*self.left_out, *(() if mechanism is None else self.without_modes(mechanism))}
+        left_out = {*self.left_out, *self.without_modes(mechanism)}
         for state in tuple(dict.fromkeys(self.coordinates)) or COORDINATES[:1]:
-            for words in _select_names(self.methods, DEFAULT_METHODS, METHODS.names):
+            for words in _select_names(self.methods, _methods_by_default(mechanism), METHODS.names):
                 method, variant = split_variant(words)
                 methods = [split_variant(other)[0] for other in self.methods]
                 if method in left_out:
@@ -111,16 +116,11 @@ class Combinations:
         return unfit if len(unfit) < len(METHODS.names) else ()
 
     def without_modes(self, mechanism: Mechanism) -> tuple[str, ...]:
-        """Methods that are not named, and cannot take the rows with bounds of a mechanism."""
-        if not mechanism.bounded:
-            return ()
+        """Return the methods that cannot take the rows with bounds of a mechanism, but those that are named."""
         named = {split_variant(words)[0] for words in self.methods}
-        every = _select_names(self.methods, DEFAULT_METHODS, METHODS.names)
-        return tuple(
-            name
-            for name in every
-            if name not in named and not (":" in name or takes_modes(name, self.integrators, mechanism))
-        )
+        every = _select_names(self.methods, _methods_by_default(mechanism), METHODS.names)
+        free = [name for name in every if split_variant(name)[0] not in named and name not in self.left_out]
+        return tuple(name for name in free if not _takes_bounds(name, self.integrators, mechanism))
 
     def _settings_by_step(self, common: Settings, own: float) -> Iterator[Settings]:
         name = str(common.integrator)
@@ -132,13 +132,6 @@ class Combinations:
             factors = STEP_FACTORS_AT if self.error_at else STEP_FACTORS
             for step in self.steps or [h for h in (own * f for f in factors) if h <= common.until] or [common.until]:
                 yield replace(common, step=step)
-
-
-def takes_modes(name: str, integrators: Sequence[str], mechanism: Mechanism) -> bool:
-    """Return whether a method takes the rows with bounds of a mechanism in a form that an integrator solves."""
-    forms = METHODS.get(name, "methods").forms
-    shapes = {bool(EXPLICIT_FORMS.isdisjoint(INTEGRATORS.get(i, "integrators").forms)) for i in _fitting_integrators(name, integrators)}
-    return all(takes_bounded_rows(choose_method(name, None, implicit), mechanism) for implicit in shapes or {False} if forms)
 
 
 def split_variant(words: str) -> tuple[str, dict[str, str]]:
@@ -184,6 +177,17 @@ def _suitable_integrators(method: str, integrators: Sequence[str]) -> tuple[str,
         return fit or (chosen.default_integrator,)
     forms = ", ".join(chosen.forms)
     raise InputError("integrators", f"one that solves a form of {method} ({forms})", f"'{', '.join(integrators)}'")
+
+
+def _methods_by_default(mechanism: Mechanism) -> tuple[str, ...]:
+    return MODE_METHODS if mechanism.bounded else DEFAULT_METHODS
+
+
+def _takes_bounds(method: str, integrators: Sequence[str], mechanism: Mechanism) -> bool:
+    """Return whether a method takes the rows with bounds of a mechanism, in all forms that its integrators solve."""
+    fit = _suitable_integrators(method, integrators)
+    implicit = {not EXPLICIT_FORMS & set(INTEGRATORS.get(name, "integrators").forms) for name in fit}
+    return all(takes_bounded_rows(choose_method(method, None, each), mechanism) for each in sorted(implicit))
 
 
 def _fitting_integrators(method: str, integrators: Sequence[str]) -> tuple[str, ...]:
