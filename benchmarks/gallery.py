@@ -39,6 +39,8 @@ DATA = FOLDER / "data"
 PICTURES = DOCS / "pictures"
 #: Timed runs a row, after a warm-up.
 REPEAT = 7
+#: What run times are of; data without it have the wall clock.
+CLOCK = "processor"
 #: No picture of the gallery is larger, none of README, and no film [bytes].
 LARGEST, LARGEST_OF_README, LARGEST_FILM = 60_000, 80_000, 700_000
 
@@ -142,6 +144,7 @@ def measure(entry: CatalogueEntry) -> None:
         reference={"how": study.how, "estimated_error": study.estimated_error, "note": study.note},
         versions=library_versions(),
         machine=machine_class(),
+        clock=CLOCK,
         rows=[_fields(row) for row in study.rows],
     )
 
@@ -322,7 +325,7 @@ def index() -> str:
         "# Gallery",
         "",
         "All studied mechanisms of the catalogue, with measurements. Written by `python -m benchmarks.gallery`.",
-        "Times are of the loop alone. Those measured before 2026-11-29 are of the wall clock, beside other work.",
+        " ".join(["Times are processor time of the loop alone.", *_other_clock()]),
         "",
         "| | mechanism | most accurate row |",
         "| --- | --- | --- |",
@@ -343,6 +346,13 @@ def index() -> str:
     ]
     lines += [f"| ![{e.name}]({e.name}.svg) | [`{e.name}`]({e.name}.md): {e.title} |" for e in entries(MACHINES)]
     return "\n".join([*lines, ""])
+
+
+def _other_clock() -> list[str]:
+    """Return a sentence that names the entries whose times are of the wall clock, none where there are none."""
+    measured = [entry.name for entry in entries() if "rows" in (data(entry.name) or {})]
+    names = [f"`{name}`" for name in measured if (data(name) or {}).get("clock") != CLOCK]
+    return [f"Those of {', '.join(names)} are of the wall clock, beside other work."] if names else []
 
 
 def _across() -> list[str]:
