@@ -296,7 +296,8 @@ def test_derivatives_by_an_efficiency(tmp_path):
         (
             "mesh",
             "high",
-            "mesh.efficiency: expected a number or an expression of t, rate, parameters and body coordinates, got the unknown name 'high'",
+            "mesh.efficiency: expected a number or an expression of t, rate, parameters and body coordinates, got the "
+            "unknown name 'high'",
         ),
     ],
 )
