@@ -124,7 +124,9 @@ class CModel:
         words = f"in C, names of '{self.mechanism.name}' begin with {self.prefix}: {name} has another meaning there"
         alone = "the FMU is for co-simulation alone: an importer that integrates does not find modes of contacts"
         has_contacts = any(row.in_contact for row in self.mechanism.bounded)
-        return (words,) * (self.prefix != name) + (alone,) * (has_contacts and self.target == "fmu")
+        holding = "the FMU is for co-simulation alone: an importer that integrates does not choose rows of joints anew"
+        notes = (words,) * (self.prefix != name) + (alone,) * (has_contacts and self.target == "fmu")
+        return notes + (holding,) * (bool(self.mechanism.holding) and self.target == "fmu")
 
     @cached_property
     def text(self) -> str:
@@ -291,8 +293,9 @@ class CModel:
 
     @property
     def exchanges(self) -> bool:
-        """Whether an importer may integrate: in FMUs without a named integrator, and without contacts."""
-        return self.target == "fmu" and not self.named and not any(row.in_contact for row in self.mechanism.bounded)
+        """Whether an importer may integrate: in FMUs without a named integrator, contacts and joints that let go."""
+        contacts = any(row.in_contact for row in self.mechanism.bounded)
+        return self.target == "fmu" and not (self.named or contacts or self.mechanism.holding)
 
     @cached_property
     def partition(self) -> Any:

@@ -90,7 +90,9 @@ def notes_of(held: Held, summary: Array, changes: Sequence[StartChange], info: M
         follow = _list_changes([change for change in positions if change.name not in own])
         notes.append(f"the start holds {held.positions(info)}" + (f"; {follow}" if follow else ""))
     elif positions:
-        notes.append(f"initial positions were closed by the shortest changes: {_list_changes(positions)}")
+        notes.append(
+            f"described positions leave joints open, which the shortest changes close: {_list_changes(positions)}"
+        )
     if summary[e.START_VELOCITIES]:
         speeds = (change for change in changes if change.name not in names)
         largest = max(speeds, key=lambda change: abs(change.after - change.before), default=None)
