@@ -81,6 +81,8 @@ def parts_without_derivation(mechanism: Mechanism) -> str:
         return "modal bodies"
     for family in rows_by_family(mechanism):
         return family.noun
+    if mechanism.holding:
+        return "joints that hold for a while"
     return "events that change the state" if any(event.action == RESET for event in mechanism.events) else ""
 
 
