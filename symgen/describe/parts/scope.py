@@ -19,10 +19,11 @@ from symgen.base.vocabulary.expressions import (
     scalar_product_of,
 )
 from symgen.base.vocabulary.measures import GROUND, Direction, Marker, Measure
+from symgen.describe.coordinate_names import ACCELERATIONS
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.formulas.readings import OUTPUT, Readings
-from symgen.describe.mechanism import ACCELERATIONS, Joint, Vec
+from symgen.describe.mechanism import Joint, Vec
 from symgen.describe.parts.context import Context
 from symgen.describe.parts.fields import value_in_words
 from symgen.describe.parts.key_units import unit_of_number
