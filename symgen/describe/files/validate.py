@@ -44,6 +44,7 @@ from symgen.describe.parts.columns import check_columns
 from symgen.describe.parts.context import Context
 from symgen.describe.parts.event_sections import read_event
 from symgen.describe.parts.fields import OutputFunction, read_table, read_value, value_in_words
+from symgen.describe.parts.holding_joints import formulas_of_holding, with_holding
 from symgen.describe.parts.holds import body_holds, read_holds
 from symgen.describe.parts.kinds import read_force
 from symgen.describe.parts.limits import read_limits_of_entry
@@ -199,6 +200,7 @@ class _Validator:
         events = self.read_each_entry(
             "events", lambda name, value: read_event(self.scope_of_entry("events", name), name, value)
         )
+        holding = [self.joints.holding[joint.name] for joint in joints if joint.name in self.joints.holding]
         self.errors.leave_if_any()
         mechanism = Mechanism(
             name=head.name,
@@ -216,7 +218,9 @@ class _Validator:
             states=states,
             outputs=outputs,
             seats=tuple(self.joints.seats.items()),
-            cuts=self._joints_with_multipliers(joints, [*(x.rate for x in states), *(o.value for o in outputs)]),
+            cuts=self._joints_with_multipliers(
+                joints, [*(x.rate for x in states), *(o.value for o in outputs), *formulas_of_holding(holding)]
+            ),
             holds=tuple(holds),
             shapes=tuple(shapes),
             beams=b"" if beams is None else msgspec.json.encode(beams.count_elements()),
@@ -226,6 +230,7 @@ class _Validator:
             revision=one_line(head.revision),
         )
         with self.errors.part_of_description():
+            mechanism = with_holding(mechanism, holding)
             mechanism = rows_as_forces(with_bounded_outputs(mechanism), [row for row in bounded if row.smooth])
             check_columns(mechanism, self.source)
             check_bounds(mechanism, self.source)

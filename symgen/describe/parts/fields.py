@@ -144,11 +144,20 @@ Scalars = Annotated[
     tuple[float | str, ...], Meta(description="a list of numbers or expressions of parameters", min_length=2)
 ]
 BodyNames = Annotated[tuple[str, ...], Meta(description="names of bodies", min_length=1)]
+#: A condition, or a table of conditions (`symgen.describe.parts.holding_joints.HoldsSection`).
+Holds = Annotated[
+    str | dict[str, str | bool],
+    Meta(description="a condition such as 't < 0.3', or a table such as { releases = 'hook.F > 500' }"),
+]
+HoldsAt = Annotated[
+    Literal["described", "present"], Meta(description="'described' or 'present', the positions that a catch keeps")
+]
 PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]
 
 #: Keys, with their types, that joints of any kind may have besides their own and those of rows with bounds.
 OF_ANY_JOINT: Mapping[str, Any] = {
     **{"start": JointStart, "cut": Flag, "rotor_inertia": Scalar, "gear_ratio": Scalar},
+    **{"holds": Holds, "holds_at": HoldsAt},
 }
 
 T = TypeVar("T")

@@ -288,9 +288,13 @@ class Scope:
         )
         return self._parse_expression(key, value, names, conditions)
 
-    def of_motion(self, key: str, value: float | str, *, integrals: bool = True) -> Expr:
-        """Return a number or an expression of t, parameters and all quantities available at outputs."""
-        what = "a number or an expression of t, parameters and what is known of the motion"
+    def of_motion(self, key: str, value: float | str, *, integrals: bool = True, conditions: bool = False) -> Expr:
+        """Return a number or an expression of t, parameters and all quantities available at outputs.
+
+        With `conditions` it may be true or false instead.
+        """
+        kind = "a condition" if conditions else "a number"
+        what = f"{kind} or an expression of t, parameters and what is known of the motion"
         own = {
             name: (*coordinates, *(ACCELERATIONS[speed] for speed in self.context.bodies[name].speeds))
             for name, coordinates in self.context.coordinates.items()
@@ -298,7 +302,7 @@ class Scope:
         readings = Readings(self.context, OUTPUT)
         plain, tables = self.context.states, self.context.functions
         names = FormulaNames(what, plain, own, tables, readings=readings, integrals=integrals)
-        return self._parse_expression(key, value, names)
+        return self._parse_expression(key, value, names, conditions)
 
     def potential(self, key: str, value: float | str, words: Mapping[str, str]) -> Expr:
         """Return an expression of parameters and the element's own coordinate."""

@@ -3,6 +3,8 @@
 Where more rows rest than the mechanism has freedom, forces at rest are not determined. Rows in force take what changes,
 and others keep the efforts that they have, until one is at its bound. As any forces within all bounds hold, efforts are
 then shared out anew: those whose largest part of a static bound is least. Only where this part is 1 does the row move.
+
+Bounds that depend on reactions have another `solve_within` (`symgen.run.modes.agreement`).
 """
 
 from __future__ import annotations
@@ -79,10 +81,16 @@ def set_bounds(c: Choice, n: int, part: float) -> None:
 
 
 @exact()
+def solve_within(c: Choice, n: int, part: float) -> int:
+    """Find the forces at rest within bounds, tied ones within a part of static bounds; return `SAME` or `NO_FORCES`."""
+    set_bounds(c, n, part)
+    return SAME if solve_box(n, c.box) == 0 else NO_FORCES
+
+
+@exact()
 def rest_within(c: Choice, n: int, part: float) -> bool:
     """Whether the rows that share the effort of a broken one all rest within a part of their static bounds."""
-    set_bounds(c, n, part)
-    if solve_box(n, c.box) != 0:
+    if solve_within(c, n, part) != SAME:
         return False
     for r in range(n):
         if is_tied(c, n, c.rest[r]) and moves_at(c, n, r):
@@ -122,7 +130,7 @@ def share_anew(c: Choice, n: int) -> float:
 
 @exact()
 def solve_rest(c: Choice, n: int, w: Array) -> int:
-    """Find the forces at rest, and the signs of rows that they do not hold; return `SAME` `NO_FORCES` or `CONTRARY`."""
+    """Find the forces at rest, and the signs of rows that they do not hold; return `SAME`, or why there are none."""
     k, box = c.count, c.box
     for r in range(n):
         i = c.rest[r]
@@ -132,9 +140,9 @@ def solve_rest(c: Choice, n: int, w: Array) -> int:
             box.matrix[r * n + s] = c.matrix[i * k + c.rest[s]]
     part = share_anew(c, n)
     while True:
-        set_bounds(c, n, part)
-        if solve_box(n, box) != 0:
-            return NO_FORCES
+        code = solve_within(c, n, part)
+        if code != SAME:
+            return int(code)
         for r in range(n):
             if c.pushes[c.rest[r]] != 0 and box.left[r] < -NO_ACCELERATION * usual_of(c, w, c.rest[r]):
                 if is_contrary(n, r, box):
@@ -152,7 +160,7 @@ def solve_rest(c: Choice, n: int, w: Array) -> int:
         part = 1.0
     for r in range(n):
         i = c.rest[r]
-        bound, force, moves = c.static[i] if c.taken[i] != 0 else c.sliding[i], box.forces[r], moves_at(c, n, r)
+        bound, force, moves = box.bounds[r], box.forces[r], moves_at(c, n, r)
         c.passing[i] = 1 if moves else 0
         if c.pushes[i] != 0:
             moves = moves and box.left[r] > 0.0
