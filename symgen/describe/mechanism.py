@@ -15,36 +15,15 @@ from symgen.base.vocabulary.measures import Direction, Effort, Flexure, Marker, 
 from symgen.base.vocabulary.rotations import IDENTITY, Orientation
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.modal_body import (
-    ACCELERATION,
     COORDINATE,
-    MOST_MODES,
     SPEED,
     CarriedInterface,
     Modal,
-    names_of_modes,
 )
 from symgen.describe.spanning_tree import Topology
 from symgen.describe.table_functions import Table
 
 T = TypeVar("T")
-
-#: Velocity -> name of its rate.
-ACCELERATIONS = {
-    "vx": "ax",
-    "vy": "ay",
-    "vz": "az",
-    "omega": "alpha",
-    "wx": "alphax",
-    "wy": "alphay",
-    "wz": "alphaz",
-    **dict(zip(names_of_modes(SPEED, MOST_MODES), names_of_modes(ACCELERATION, MOST_MODES), strict=True)),
-}
-
-
-def is_speed(name: str) -> bool:
-    """Whether a coordinate or velocity of a body, such as ``rod.vx``, is a velocity."""
-    return name.rpartition(".")[2] in ACCELERATIONS
-
 
 #: Components of a vector: two in the plane, three in space.
 Vec = tuple[Expr, ...]
@@ -177,14 +156,6 @@ def _names_of_body(body: AnyBody, moving: tuple[str, ...], turning: tuple[str, .
         return ()
     own = moving if body.is_point else moving + turning
     return own if body.modal is None else own + body.modal.names(mode)
-
-
-def names_of_modal_body(dimension: int, count: int) -> tuple[str, ...]:
-    """Return the names of coordinates, velocities and accelerations that a modal body has."""
-    moving, turning = tuple("xyz"[:dimension]), ("theta",) if dimension == 2 else ("e0", "e1", "e2", "e3")
-    speeds = tuple(f"v{x}" for x in moving) + (("omega",) if dimension == 2 else ("wx", "wy", "wz"))
-    speeds += names_of_modes(SPEED, count)
-    return (*moving, *turning, *names_of_modes(COORDINATE, count), *speeds, *(ACCELERATIONS[speed] for speed in speeds))
 
 
 class Shape(msgspec.Struct, frozen=True):

@@ -201,9 +201,11 @@ def _name_lines(ax: Any) -> None:
     ends = [_height_of_end(ax, line) for line in lines]
     counts = [line.get_label().count("\n") + 1 for line in lines]
     for line, end, place in zip(lines, ends, _spread_names(ends, counts), strict=True):
-        look = {"color": line.get_color(), "transform": ax.transAxes, "clip_on": False, "gid": NAMED}
-        ax.add_artist(Line2D([1.0, 1.025], [end, place], linewidth=0.5, **look))
-        ax.add_artist(Line2D([1.025, 1.075], [place, place], linestyle=line.get_linestyle(), linewidth=1.2, **look))
+        outside = {"transform": ax.transAxes, "clip_on": False, "gid": NAMED, "label": "_"}
+        ax.add_artist(Line2D([1.0, 1.025], [end, place], linewidth=0.5, color=line.get_color(), **outside))
+        sample = Line2D([1.025, 1.075], [place, place])
+        sample.update_from(line)  # a list of dashes has no name
+        ax.add_artist(sample).set(**outside)
         ax.text(1.083, place, line.get_label(), transform=ax.transAxes, va="center", fontsize=7, gid=NAMED)
 
 

@@ -21,7 +21,7 @@ from symgen.base.vocabulary.measures import (
     axes,
 )
 from symgen.derive.formulate.derived_measure import DerivedMeasure
-from symgen.describe.mechanism import is_speed
+from symgen.describe.coordinate_names import is_speed
 from symgen.describe.modal_body import mode_number
 
 if TYPE_CHECKING:

@@ -34,7 +34,7 @@ from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import name_of_number, places_of_first_modes
 from symgen.describe.bounds.by_reaction import pressed_rows, refuse_shared_reactions
 from symgen.describe.facts.repeats import without_repeats
-from symgen.describe.formulas.readings import reads_results
+from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.mechanism import Holding, Mechanism, Rotor, SpatialBody
 from symgen.describe.parts.holding_joints import CHANGED, name_of_place
 from symgen.describe.parts.topology import UNITS, state_quantities

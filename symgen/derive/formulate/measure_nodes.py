@@ -42,8 +42,8 @@ from symgen.derive.formulate.tree_plane import PlanarTree
 from symgen.derive.formulate.tree_space import SpatialTree
 from symgen.describe.bounds.bounded_modes import mode_names
 from symgen.describe.bounds.by_reaction import jamming_names
+from symgen.describe.coordinate_names import ACCELERATIONS
 from symgen.describe.formulas.formula_nodes import Formulas
-from symgen.describe.mechanism import ACCELERATIONS
 
 
 @dataclass

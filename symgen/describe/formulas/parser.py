@@ -7,7 +7,6 @@ grammar then gives the structure, of which a handful of node types is translated
 from __future__ import annotations
 
 import ast
-import keyword
 import math
 import re
 from collections.abc import Mapping
@@ -24,18 +23,17 @@ from symgen.base.vocabulary.expressions import (
     Number,
     Reading,
     call,
-    literal_of,
     readings_in,
 )
 from symgen.base.vocabulary.measures import Integral
 from symgen.describe.formulas.formula_slips import (
     hint_on_commas,
     hint_on_grammar,
-    hint_on_sign,
-    hint_on_units,
     meant_coordinate,
     meant_name,
 )
+from symgen.describe.formulas.formula_tokens import deepest_bracket, slip_in_tokens
+from symgen.describe.formulas.formula_trees import depth_of_tree, fold_choice, fold_logic
 from symgen.describe.formulas.identifiers import CALLABLE, INTEGRAL
 
 if TYPE_CHECKING:
@@ -46,16 +44,8 @@ DEEPEST = 100
 MOST_NODES = 5_000
 LARGEST_EXPONENT = 64.0
 
-_TOKEN = re.compile(
-    r"""(?P<space>\s+)
-      | (?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![A-Za-z0-9_.]))
-      | (?P<word>[A-Za-z][A-Za-z0-9_]*|(?<=\.)_[0-9]+)
-      | (?P<operator>\*\*|<=|>=|[-+*/<>(),.](?!=))""",
-    re.VERBOSE,
-)
 #: The number of a beam's node between dots, which Python's grammar does not allow.
 _NODE = re.compile(r"(?<=[A-Za-z0-9_])\.([0-9]+)(?=\.[A-Za-z])")
-_WORDS = frozenset({"and", "or", "not", "if", "else"})
 _BINARY: Mapping[type, str] = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div", ast.Pow: "pow"}
 _COMPARE: Mapping[type, str] = {ast.Lt: "lt", ast.LtE: "le", ast.Gt: "gt", ast.GtE: "ge"}
 
@@ -135,7 +125,10 @@ class _Reader:
         if not text.strip():
             raise self.formula_error("an empty text")
         text = _NODE.sub(r"._\1", text)
-        self.scan_text(text)
+        if (slip := slip_in_tokens(text)) is not None:
+            raise self.formula_error(*slip)
+        if deepest_bracket(text) > DEEPEST:
+            raise self.too_deep_error()
         try:
             # A formula may span lines in the file; Python's grammar would take the line end for the formula's.
             tree = ast.parse(re.sub(r"\s", " ", text).strip(), mode="eval")
@@ -148,7 +141,7 @@ class _Reader:
             raise self.too_deep_error() from None
         condition = conditions and _is_condition(tree.body)
         result = self.convert_condition(tree.body, 0) if condition else self.convert_quantity(tree.body, 0)
-        if _depth_of_tree(result) > DEEPEST:
+        if depth_of_tree(result) > DEEPEST:
             raise self.too_deep_error()
         return result
 
@@ -158,33 +151,6 @@ class _Reader:
     def too_deep_error(self) -> InputError:
         expected = f"a formula nested at most {DEEPEST} levels deep"
         return self.formula_error("deeper nesting", "long sums nest as well: group their terms in brackets", expected)
-
-    def scan_text(self, text: str) -> None:
-        """Refuse every character and word that has no place in a formula."""
-        position = brackets = 0
-        while position < len(text):
-            token = _TOKEN.match(text, position)
-            if token is None:
-                sign = text[position]
-                if sign in "0123456789.":
-                    wrong = re.split(r"[^A-Za-z0-9_.]", text[position:], maxsplit=1)[0]
-                    raise self.formula_error(
-                        f"{quote(wrong)}, which is not a number, at column {position + 1}", hint_on_units(text)
-                    )
-                raise self.formula_error(
-                    f"the character {quote(sign)} at column {position + 1}", hint_on_sign(sign, text)
-                )
-            brackets += {"(": 1, ")": -1}.get(token.group(), 0)
-            if brackets > DEEPEST:
-                raise self.too_deep_error()
-            if token.group("number") and not math.isfinite(float(token.group())):
-                raise self.formula_error("a number beyond 1.8e308")
-            word = token.group("word")
-            if word and keyword.iskeyword(word) and word not in _WORDS:
-                raise self.formula_error(f"the word '{word}' at column {position + 1}")
-            position = token.end()
-        if "//" in text:
-            raise self.formula_error(f"'//' at column {text.index('//') + 1}", "a division is written /")
 
     def convert_node(self, node: ast.expr, depth: int) -> Expr:
         """Translate one node of Python's tree; all other nodes are refused."""
@@ -421,32 +387,3 @@ def _is_condition(node: ast.expr) -> bool:
     """Whether the text is a condition; the tree cannot tell, as a folded condition is a plain number."""
     negated = isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not)
     return negated or isinstance(node, ast.Compare | ast.BoolOp)
-
-
-def fold_choice(condition: Expr, yes: Expr, no: Expr) -> Expr:
-    """Return the choice, already made where the condition is a literal."""
-    if isinstance(condition, Number):
-        return yes if condition.value else no
-    return call("where", condition, yes, no)
-
-
-def fold_logic(function: str, operands: tuple[Expr, ...]) -> Expr:
-    """Return and, or, not with literal operands folded away: a condition in a tree is never a literal."""
-    if function == "not":
-        return call("not", operands[0])
-    left, right = operands
-    absorbing = 0.0 if function == "and" else 1.0
-    for literal, other in ((left, right), (right, left)):
-        if isinstance(literal, Number):
-            return literal_of(absorbing) if bool(literal.value) == bool(absorbing) else other
-    return call(function, left, right)
-
-
-def _depth_of_tree(expression: Expr) -> int:
-    deepest, stack = 0, [(expression, 1)]
-    while stack:
-        node, depth = stack.pop()
-        deepest = max(deepest, depth)
-        if isinstance(node, Call):
-            stack.extend((argument, depth + 1) for argument in node.arguments)
-    return deepest

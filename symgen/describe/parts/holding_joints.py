@@ -18,7 +18,7 @@ from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, Reading, call, readings_in
 from symgen.base.vocabulary.measures import GROUND, Angle, FormulaMeasure, Holonomic, Measure
 from symgen.describe.formulas.evaluate import evaluate
-from symgen.describe.formulas.readings import reads_results
+from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import Holding, Joint, Mechanism, ModeEvent, Output, StateVariable
 from symgen.describe.parts.driven_mechanism import replace_names

@@ -19,10 +19,11 @@ from symgen.base.vocabulary.expressions import (
     scalar_product_of,
 )
 from symgen.base.vocabulary.measures import GROUND, Direction, Marker, Measure
+from symgen.describe.coordinate_names import ACCELERATIONS
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.formulas.readings import OUTPUT, Readings
-from symgen.describe.mechanism import ACCELERATIONS, Joint, Vec
+from symgen.describe.mechanism import Joint, Vec
 from symgen.describe.parts.context import Context
 from symgen.describe.parts.fields import value_in_words
 from symgen.describe.parts.key_units import unit_of_number
@@ -287,9 +288,7 @@ class Scope:
         )
         return self._parse_expression(key, value, names, conditions)
 
-    def of_motion(
-        self, key: str, value: float | str, *, integrals: bool = True, conditions: bool = False
-    ) -> Expr:
+    def of_motion(self, key: str, value: float | str, *, integrals: bool = True, conditions: bool = False) -> Expr:
         """Return a number or an expression of t, parameters and all quantities available at outputs.
 
         With `conditions` it may be true or false instead.

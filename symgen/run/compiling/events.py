@@ -16,7 +16,7 @@ from symgen.describe.bounds.losses import places_of_losses
 from symgen.describe.facts.corners import corner_events, rows_that_turn
 from symgen.describe.facts.kinks import KINKS, Discontinuity, changes_in_time, discontinuities_of, rows_with_kinks
 from symgen.describe.formulas.formula_text import to_text
-from symgen.describe.formulas.readings import reads_results
+from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.mechanism import Event, Mechanism, ModeEvent
 from symgen.describe.parts.holding_joints import CATCHES, DISSIPATED, RELEASES
 from symgen.run.compiling.masses import entries_of_masses, formulas_of_masses

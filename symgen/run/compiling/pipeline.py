@@ -13,7 +13,7 @@ from dataclasses import replace
 from typing import Any
 
 from symgen.base.errors import InputError
-from symgen.describe.formulas.readings import reads_results
+from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.closing import choice_at_start
 from symgen.run.compiling.method_choice import MethodChoice, choice_for_coordinates, choose_method

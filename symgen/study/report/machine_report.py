@@ -240,7 +240,7 @@ def _curve_pictures(result: Result, along: Labelled) -> Iterator[Picture]:
     errors = result.overview()
     errors = columns_at(errors, [i for i, name in enumerate(errors.names) if name not in result.q.names])
     if result.status == "failed":
-        joints = columns_at(joints, [i for i, unit in enumerate(joints.units) if unit not in LOADS])
+        joints = columns_at(joints, [i for i, unit in enumerate(joints.units) if unit not in (*LOADS, "J")])
     parts = [
         *([] if result.status == "failed" else [("loads", "Efforts, forces and powers", loads)]),
         ("joints", "Coordinates of joints, and outputs", joints),

@@ -100,5 +100,9 @@ def test_grey_paper_tells_lines_apart():
     ends = {name: result[name][-1] for name in table.names}
     assert axes.get_legend() is None
     assert sorted(heights, key=heights.get) == sorted(ends, key=ends.get)
+    samples = [line for line in axes.get_lines() if line.get_clip_on() is False]
+    assert len(samples) == 2 * len(ends)  # a connection and a sample for each
+    dashes = {str(line._unscaled_dash_pattern) for line in axes.get_lines() if line not in samples}
+    assert {str(line._unscaled_dash_pattern) for line in samples[1::2]} == dashes and len(dashes) == len(ends)
     steps = sorted(heights.values())
     assert all(high - low >= 0.074 for low, high in pairwise(steps))
