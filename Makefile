@@ -7,6 +7,7 @@
 
 PYTHON ?= $(shell .ci/python 3.11 3.12 3.13 3.14 3)
 WORKERS ?= 2
+MINUTES ?= 45
 DEMO_MODEL ?= four-bar
 BENCH_VENV ?= .bench-venv
 
@@ -86,8 +87,8 @@ gallery: $(INSTALLED)  ## measure the catalogue anew: data, pictures and pages o
 findings: $(INSTALLED)  ## measure tables of pages and write them there: TABLES=names, TIMES=--times on a quiet machine
 	@"$(BIN)/python" -m benchmarks.findings $(TABLES) $(TIMES)
 
-paper: $(INSTALLED)  ## write the paper with tables of records and a lock file of libraries into out/paper; pdflatex sets it
-	@"$(BIN)/python" -m benchmarks.paper out/paper
+paper: $(INSTALLED)  ## write the paper, tables of records, a lock file, and what MINUTES=45 of measuring anew find, into out/paper
+	@"$(BIN)/python" -m benchmarks.paper out/paper --minutes $(MINUTES)
 
 peers: $(INSTALLED)  ## measure other tools beside symgen into README, on a quiet machine; installs them into $(BENCH_VENV)
 	@test -x "$(BENCH_VENV)/bin/python" || { echo "installing other tools into $(BENCH_VENV), once"; \

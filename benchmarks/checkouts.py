@@ -1,6 +1,7 @@
 """Runs of two checkouts in turns: processor times of the same runs, their ratio, and whether states have the same bits.
 
     python -m benchmarks.checkouts OTHER [MODEL ...] [--integrator rk4] [--method NAME] [--coordinates joint]
+                                [--shape looped]
 
 Each measurement is a process of its own, which imports symgen from its checkout; the smallest time of some runs counts,
 and of several rounds in turns the least ratio of this checkout to the other, as other work only adds to either.
@@ -32,9 +33,9 @@ COUNT, REPEATS, ROUNDS = 1000, 30, 3
 MEASURED = """
 import hashlib, json, sys
 from symgen.api import load
-name, method, integrator, coordinates, step, count, repeats = *sys.argv[1:5], *map(float, sys.argv[5:])
+name, method, integrator, coordinates, shape, step, count, repeats = *sys.argv[1:6], *map(float, sys.argv[6:])
 options = {"step": step} if integrator == "rk4" else {"rtol": 1e-9}
-options |= {"method": method, "integrator": integrator, "coordinates": coordinates}
+options |= {"method": method, "integrator": integrator, "coordinates": coordinates, "shape": shape}
 settings = {"until": step * count, "output_step": step * count, **options}
 model = load(name)
 runs = [model.simulate(**settings, verify=False, max_violation=1.0) for _ in range(int(repeats))]
@@ -54,7 +55,7 @@ def measure(checkout: Path, name: str, *how: str) -> tuple[float, str, str]:
     name : str
         Mechanism of the catalogue.
     *how : str
-        Method, integrator and coordinates.
+        Method, integrator, coordinates and shape of the code.
     """
     numbers = STEPS.get(name, 1e-3), COUNT, REPEATS
     words = [sys.executable, "-c", MEASURED, name, *how, *map(str, numbers)]
@@ -72,8 +73,9 @@ def main(arguments: list[str]) -> None:
     parser.add_argument("--integrator", default="rk4", choices=("rk4", "dop853"))
     parser.add_argument("--method", default="direct-correction")
     parser.add_argument("--coordinates", default="auto")
+    parser.add_argument("--shape", default="auto", choices=("auto", "straight", "looped"))
     given = parser.parse_args(arguments)
-    how = given.method, given.integrator, given.coordinates
+    how = given.method, given.integrator, given.coordinates, given.shape
     table = Table("model", "other [ms]", "this [ms]", "ratio", "bits")
     ratios = list[float]()
     for name in given.models or MODELS:

@@ -1,7 +1,8 @@
 r"""The paper: its numbers and tables from records and measured pages, its pictures, and the PDF.
 
-    python -m benchmarks.paper FOLDER    writes paper.tex, numbers.tex, three pictures and, with pdflatex, paper.pdf;
-                                         tables.md has the tables of all records, lock.txt the libraries
+    python -m benchmarks.paper FOLDER [--minutes M]
+        writes paper.tex, numbers.tex, three pictures and, with pdflatex, paper.pdf; tables.md has the tables of all
+        records, lock.txt the libraries, and again.md what M minutes of measuring anew have found
 
 The text is ``docs/paper/paper.tex``, in which every measured number is ``\n{KEY}`` and every table of numbers
 ``\numbers{KEY}``. What it says in words about their order is in `claims`, and a test asks for it.
@@ -9,6 +10,7 @@ The text is ``docs/paper/paper.tex``, in which every measured number is ``\n{KEY
 
 from __future__ import annotations
 
+import argparse
 import math
 import platform
 import shutil
@@ -22,7 +24,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from benchmarks import equal_error, equal_work, literature, statistics
+from benchmarks import equal_error, equal_work, literature, measured_again, statistics
 from benchmarks.page_tables import ROOT, PageTable, cells_of, markdown, place
 from benchmarks.records import Line
 
@@ -274,18 +276,26 @@ def _equal(axes: Axes) -> None:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Write the paper into a folder; 1 if LaTeX finds errors."""
-    folder = Path(arguments[0] if arguments else "out/paper")
+    """Write the paper into a folder; 1 if LaTeX finds errors, or numbers measured anew are others."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.paper")
+    parser.add_argument("folder", nargs="?", type=Path, default=Path("out/paper"))
+    parser.add_argument("--minutes", type=float, default=0.0, help="of measuring anew; none by default")
+    chosen = parser.parse_args(arguments)
+    folder, sources = chosen.folder, measured_again.sources_of_paper(seed=1) if chosen.minutes else []
     folder.mkdir(parents=True, exist_ok=True)
     shutil.copy(SOURCE, folder)
     (folder / "numbers.tex").write_text(macros(), encoding="utf-8")
     (folder / "tables.md").write_text(tables_of_records(), encoding="utf-8")
     (folder / "lock.txt").write_text(lock(), encoding="utf-8")
     pictures(folder)
+    if sources:
+        measured_again.measure_in_turns(sources, 60.0 * chosen.minutes)
+        (folder / "again.md").write_text(measured_again.in_words(sources), encoding="utf-8")
+    differ = int(not all(source.agrees for source in sources))
     engine = shutil.which("pdflatex")
     if engine is None:
         sys.stdout.write(f"{folder}: the PDF needs pdflatex\n")
-        return 0
+        return differ
     words = [engine, "-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape", SOURCE.name]
     for _ in range(2):
         done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
@@ -293,7 +303,7 @@ def main(arguments: Sequence[str]) -> int:
             sys.stderr.write(done.stdout[-2000:])
             return 1
     sys.stdout.write(f"{folder / 'paper.pdf'}\n")
-    return 0
+    return differ
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 
 Accelerations in a tangent basis that is carried on from step to step.
 Mani, Haug, Atkinson, J. Mech. Trans. Autom. Des. 107 (1985) 82-87; Singh, Likins, J. Appl. Mech. 52 (1985) 943-948; Kim, Vanderploeg, J. Mech. Trans. Autom. Des. 108 (1986) 183-188; Blajer, Comput...
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 2000922542137291
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 074c9a478b9eac01
 p[24] tolerance (default 1e-13)
 
 Constraints Phi(q, t) = 0, their rates D v = nu and D v' = gamma; M v' = f - D^T lambda; S = D M^-1 D^T.

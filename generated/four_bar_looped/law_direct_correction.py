@@ -19,7 +19,7 @@ from machine import (
     MOTION, MULTIPLIERS, NQ, NU, NV, PIVOT, RATES, RESIDUAL, SAVED, VECTORS, VECTOR_SIZE, columns_times,
     factorise, factorise_forward, gram, inverse_mass_times, rows_times, run, solve, solve_rest, tables, weigh,
 )
-from model import geometry as geometry_of_model, measure, move, normalise
+from model import drift, geometry as geometry_of_model, measure, move, normalise
 
 POWER = 18  # places in w and T
 SCHUR_LOWER = 62
@@ -137,7 +137,7 @@ def accept(t, y, p, w, iw):
         near = w[4] < 1e-4
         closed = violation <= (0.01 * tolerance if near else tolerance) or stalled or round == 14
         if closed:
-            measure(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
+            drift(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
         spread(p, w)
         if closed:
             for j in range(nq, nq + nv):

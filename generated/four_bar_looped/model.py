@@ -85,8 +85,8 @@ def spread(p, w):
 
 
 @njit(error_model="numpy", fastmath={"contract"})
-def measure(t, y, p, w):
-    """D v - nu with the D and nu that `geometry` left, and the energies."""
+def drift(t, y, p, w):
+    """D v - nu with the D and nu that `geometry` left."""
     T = tables(w)
     nq, nv, m = np.int64(T[NQ]), np.int64(T[NV]), np.int64(T[M])
     residual, nu, x = np.int64(T[RESIDUAL]), np.int64(T[NU]), np.int64(T[VECTORS])
@@ -96,6 +96,14 @@ def measure(t, y, p, w):
     if T[DRIVEN] != 0:
         for i in range(m):
             w[residual + i] -= w[nu + i]
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def measure(t, y, p, w):
+    """D v - nu as `drift` leaves it, its norm, and the energies."""
+    T = tables(w)
+    drift(t, y, p, w)
     violation(T, w, 1, 9)
     run(SPEEDS, t, y, p, w, T, w)
     w[2] = 0.0

@@ -169,7 +169,7 @@ def command(
         across = [asdict(line) for line in across_mechanisms(studies)]
         write_json(tables[0] if len(models) == 1 else {"studies": tables, "across": across})
     else:
-        from symgen.cli._tables import show_across, show_study
+        from symgen.cli._comparison_tables import show_across, show_study
 
         for study in studies:
             show_study(study)
@@ -198,7 +198,7 @@ def _note_left_out(unused: Sequence[str], methods: Sequence[str]) -> None:
     for option in unused:
         click.echo(f"symgen: {option} counted for nothing: no run of these integrators has such steps", err=True)
     if methods:
-        click.echo(f"symgen: these integrators solve no form of {', '.join(methods)}: left out", err=True)
+        click.echo(f"symgen: left out, as these integrators solve no form of them: {', '.join(methods)}", err=True)
 
 
 def _label_ranges(steps: tuple[float, ...], rtols: tuple[float, ...], at: bool) -> dict[str, tuple[str, str]]:

@@ -335,6 +335,21 @@ class ModeEvent(Event, frozen=True):
     row: int = -1
 
 
+class Holding(msgspec.Struct, frozen=True):
+    """A joint whose rows are in force for a while.
+
+    Where a run begins they are in force if `first`, a formula of parameters, is 1, and off if it is 0. They come into
+    force where `catches` becomes larger than 0, and are off again where `releases` does; None where they never do. A
+    joint that holds `present` positions keeps those of the catch.
+    """
+
+    joint: str
+    first: Expr
+    catches: Expr | None = None
+    releases: Expr | None = None
+    present: bool = False
+
+
 class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     """A validated mechanism, all of it planar or all of it spatial.
 
@@ -367,6 +382,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     limits: tuple[OperatingLimit, ...] = ()  # of outputs and parameters: nothing is computed with them
     author: str = ""  # as is the title, for people
     revision: str = ""
+    holding: tuple[Holding, ...] = ()  # those of `switchable` whose states and events say where they are in force
 
     def __repr__(self) -> str:
         counted = (

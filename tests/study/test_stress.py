@@ -6,6 +6,7 @@ import math
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ import pytest
 import symgen
 from symgen.base.errors import InputError, SimulationError
 from symgen.result.points import Points
+from symgen.run.compiling.method_choice import choose_method
 from symgen.run.starts import assembler
 from symgen.study.journal import Journal
 from symgen.study.references.independent import IndependentEquations
@@ -24,8 +26,9 @@ from symgen.study.stress.bench import Base, Level
 from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute_cell
 from symgen.study.stress.families import FAMILIES, levels_of_family
 from symgen.study.stress.findings import largest_root
+from symgen.study.stress.shared_by_cells import code_of_cell
 from symgen.study.stress.stress_rows import save_stress_csv
-from symgen.study.stress.study import QUICK_COMPILATION, _Study, method_pairs, stress
+from symgen.study.stress.study import QUICK_COMPILATION, _make_cell, _Study, method_pairs, stress
 from tests.study.test_reference import start_of
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -371,8 +374,6 @@ def test_cells_see_a_force_between_two_places(space, tmp_path):
 
 def test_what_is_too_slow_is_told_without_a_clock():
     level = levels_of_family("duration", Base.of_mechanism("four-bar"), True)[0]
-    from dataclasses import replace
-
     known = {"unusable": None, "estimated_error": 0.0, "length": 1.0, "decay": 0.0, "parameters": {}}
     predicted = compute_cell(RunTask(replace(level, step=1e-7), "lagrange", "rk4", known))
     assert predicted["outcome"] == "too slow" and predicted["evaluations"] == 0
@@ -407,6 +408,25 @@ def test_a_run_that_stops_itself_is_judged_by_what_it_was_doing():
     (row,) = study.rows
     assert row.status == "failed" and row.outcome in ("inaccurate", "diverged")
     assert row.note.startswith("ended at t = ")
+
+
+@pytest.mark.slow
+def test_bars_that_repeat_constraints_are_judged_by_the_motion_without_them():
+    study = stress(["four-bar"], ["redundancy", "step"], ["direct-correction"], quick=True)
+    errors = {row.family: row.error for row in study.rows if row.case in ("1 bar more", "0.001 s")}
+    assert set(errors) == {"redundancy", "step"} and max(errors.values()) < 1e-6
+    base = Base.of_mechanism("four-bar")
+    bars, steps = (levels_of_family(family, base, True)[0] for family in ("redundancy", "step"))
+    keys = {_make_cell(CellReference(replace(level, model="four-bar"), True)).key for level in (bars, steps)}
+    assert len(keys) == 1  # computed once
+
+
+def test_looped_code_is_one_object_for_all_starts():
+    base, choice = Base.of_mechanism("four-bar"), replace(choose_method("lagrange"), shape="looped")
+    slow, fast = levels_of_family("spin-rate", base, True)
+    (bars,) = levels_of_family("redundancy", base, True)
+    first, second, other = (code_of_cell(level.mechanism, choice) for level in (slow, fast, bars))
+    assert slow.mechanism != fast.mechanism and first is second is not other
 
 
 # -- the study ---------------------------------------------------------------------------------------------------------

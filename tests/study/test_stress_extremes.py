@@ -68,8 +68,14 @@ def test_a_search_ends_where_a_run_cannot_be_judged():
 @pytest.mark.slow
 def test_the_largest_damper_is_where_the_largest_step_is_the_step_of_the_mechanism():
     """The decay grows with the damper, and a scheme follows it up to a product of decay and step."""
-    study = stress(["pendulum"], ["damping"], ["lagrange"], quick=True)
+    study = stress(["pendulum"], ["damping"], ["lagrange"])
     (extreme,), (limit,), step = study.extremes, study.limits, study.rows[0].step
     expected = float(limit.case.split()[0]) * limit.stable_step / step
     assert extreme.integrator == limit.integrator == "rk4" and study.to_json()["extremes"][0]["family"] == "damping"
     assert 0.9 * extreme.reached < expected < 1.1 * extreme.beyond
+
+
+def test_a_quick_study_leaves_stiffness_to_the_largest_steps():
+    study = stress(["pendulum"], ["damping", "gravity"], ["lagrange"], quick=True)
+    assert {extreme.family for extreme in study.extremes} == {"gravity"}
+    assert {limit.family for limit in study.limits} == {"damping"}

@@ -74,6 +74,8 @@ class Editor(ThreadingHTTPServer):
             "joint": lambda asked: drafts.equations_of_joint(asked.draft, asked.name),
             "make": lambda asked: drafts.make_file(asked.draft, asked.kind),
             "add": lambda asked: drafts.add_part(asked.draft, asked.part, [place.spot for place in asked.spots]),
+            "dimensions": lambda asked: drafts.dimensions(asked.draft, asked.path),
+            "dimension": lambda asked: drafts.set_dimension(asked.draft, asked.name, asked.value),
             "rename": lambda asked: drafts.rename_part(asked.draft, asked.path, asked.name),
             "remove": lambda asked: drafts.remove_part(asked.draft, asked.path),
         }

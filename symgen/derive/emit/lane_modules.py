@@ -86,8 +86,6 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
         blocks["geometry_of_model"] = replace(blocks.pop("geometry"), name="geometry_of_model")
     names = [name for name in _BLOCKS if name in blocks and (correction.any or name not in ("move", "spread"))]
     parts = Parts(LaneLayout(program, "t, z, lanes" if equations.spins else "", access), correction)
-    if "drift" in blocks:
-        parts.values["drift"] = "drift"
     if "refactor" in blocks:
         parts.print_template("lanes_metric")
     parts.print_template(f"lanes_{kind_of_acceptance(correction)}")

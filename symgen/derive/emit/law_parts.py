@@ -102,7 +102,6 @@ class Parts:
             "turning": layout.turning,
             "evaluation": "rhs",
             "kept": False,
-            "drift": "measure",  # what leaves D v - nu for a correction
         }
 
     def print_template(self, part: str, role: str = "", **roles: str) -> None:
@@ -235,8 +234,6 @@ def _functions_with_loops(
 ) -> list[tuple[str, ModulePiece]]:
     """Return the functions of a law with loops, with their roles, in the order of their text."""
     form, parts = law.form, Parts(layout, law.correction)
-    if "drift" in names:
-        parts.values["drift"] = "drift"
     if BY_RESIDUAL in names:
         parts.pieces += (
             ("derivation", _scalar_function(layout, name, arguments)) for name, arguments in CARRIED.items()

@@ -53,6 +53,8 @@ def canonical_text(mechanism: Mechanism) -> str:
         parts.append(["rotors", [_canonical_value(rotor) for rotor in mechanism.rotors]])
     if mechanism.switchable:
         parts.append(["switchable", sorted(mechanism.switchable)])
+    if mechanism.holding:
+        parts.append(["holding", [_canonical_value(x) for x in mechanism.holding]])
     for family, rows in rows_by_family(mechanism).items():
         parts.append([family.part, [_canonical_value(row) for row in rows]])
     if mechanism.topology is not None:
@@ -92,6 +94,7 @@ def mechanism_digest(mechanism: Mechanism) -> str:
         ", rotors=()",
         ", beams=b''",
         ", switchable=()",
+        ", holding=()",
         ", pressed=()",
         ", across=()",
         ", speed=None",

@@ -14,6 +14,7 @@ from symgen.describe.bounds.keys import keys_of_any_joint, rows_of_joint
 from symgen.describe.mechanism import Force, Hold, Joint, Rotor
 from symgen.describe.parts.collected import Errors, Incomplete
 from symgen.describe.parts.fields import Flag, JointStart, Scalar, read_table, read_value, value_in_words
+from symgen.describe.parts.holding_joints import ReadHolding, read_holding
 from symgen.describe.parts.holds import joint_holds
 from symgen.describe.parts.kinds import JOINTS, kind_and_keys
 from symgen.describe.parts.topology import articulation_of_joint
@@ -48,6 +49,8 @@ class JointTables:
         Joints that carry nothing in a tree.
     forces : dict
         Joint -> the force in place of its rows, of those that give way.
+    holding : dict
+        Joint -> when its rows are in force, of those that hold for a while.
     """
 
     def __init__(
@@ -59,6 +62,7 @@ class JointTables:
         self.rotors: dict[str, Rotor] = {}
         self.cuts: list[str] = []
         self.forces: dict[str, Force] = {}
+        self.holding: dict[str, ReadHolding] = {}
         self._joints: dict[str, Joint | None] = {}
         self._open = 0  # joints being resolved, each because the one before refers to it
         self._scopes: dict[str, tuple[Scope, Joint]] = {}  # in the order in which joints are resolved
@@ -130,6 +134,8 @@ class JointTables:
                 table = self.tables[name]
                 taken = _taken_keys(JOINTS.get(joint.kind), table)
                 rows[name] = tuple(rows_of_joint(scope, joint, {k: x for k, x in table.items() if k not in taken}))
+                if (holding := read_holding(self.scope("joints", name, joint.kind), joint, table)) is not None:
+                    self.holding[name] = holding
             if name in self.cuts or any(row.pressed for row in rows.get(name, ())):
                 cuts.append(name)  # its reaction is a multiplier
         self.cuts = cuts

@@ -51,9 +51,11 @@ from symgen.describe.parts.fields import (
     read_value,
     value_in_words,
 )
+from symgen.describe.parts.holding_joints import formulas_of_holding, with_holding
 from symgen.describe.parts.holds import body_holds, read_holds
 from symgen.describe.parts.kinds import FORCES, kind_and_keys
 from symgen.describe.parts.limits import read_limits_of_entry
+from symgen.describe.parts.meant_words import hint_on_section
 from symgen.describe.parts.numbers import read_run_defaults, read_table_function
 from symgen.describe.parts.own_units import check_own_unit
 from symgen.describe.parts.parameters import Parameters
@@ -144,7 +146,7 @@ class _Validator:
             if key not in SECTIONS:
                 with self.errors.part_of_description(*(content if isinstance(content, Mapping) else ())):
                     expected, got = f"the sections {', '.join(SECTIONS)}", f"the unknown section {quote(key)}"
-                    raise InputError(self.source, expected, got, suggest(key, SECTIONS), key)
+                    raise InputError(self.source, expected, got, hint_on_section(key, content, SECTIONS), key)
         where = self.place_in_file("mechanism")
         with self.errors.part_of_description():
             if "mechanism" not in self.raw:
@@ -206,6 +208,7 @@ class _Validator:
         events = self.read_each_entry(
             "events", lambda name, value: read_event(self.scope_of_entry("events", name), name, value)
         )
+        holding = [self.joints.holding[joint.name] for joint in joints if joint.name in self.joints.holding]
         self.errors.leave_if_any()
         mechanism = Mechanism(
             name=head.name,
@@ -223,7 +226,9 @@ class _Validator:
             states=states,
             outputs=outputs,
             seats=tuple(self.joints.seats.items()),
-            cuts=self._joints_with_multipliers(joints, [*(x.rate for x in states), *(o.value for o in outputs)]),
+            cuts=self._joints_with_multipliers(
+                joints, [*(x.rate for x in states), *(o.value for o in outputs), *formulas_of_holding(holding)]
+            ),
             holds=tuple(holds),
             shapes=tuple(shapes),
             beams=b"" if beams is None else msgspec.json.encode(beams.count_elements()),
@@ -233,6 +238,7 @@ class _Validator:
             revision=one_line(head.revision),
         )
         with self.errors.part_of_description():
+            mechanism = with_holding(mechanism, holding)
             mechanism = rows_as_forces(with_bounded_outputs(mechanism), [row for row in bounded if row.smooth])
             check_columns(mechanism, self.source)
             check_bounds(mechanism, self.source)

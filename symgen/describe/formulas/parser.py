@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from symgen.base.errors import InputError, quote, suggest
-from symgen.base.units import Unit, read_unit
 from symgen.base.vocabulary.expressions import (
     FUNCTIONS,
     Call,
@@ -29,6 +28,14 @@ from symgen.base.vocabulary.expressions import (
     readings_in,
 )
 from symgen.base.vocabulary.measures import Integral
+from symgen.describe.formulas.formula_slips import (
+    hint_on_commas,
+    hint_on_grammar,
+    hint_on_sign,
+    hint_on_units,
+    meant_coordinate,
+    meant_name,
+)
 from symgen.describe.formulas.identifiers import CALLABLE, INTEGRAL
 
 if TYPE_CHECKING:
@@ -46,24 +53,9 @@ _TOKEN = re.compile(
       | (?P<operator>\*\*|<=|>=|[-+*/<>(),.](?!=))""",
     re.VERBOSE,
 )
-#: A number followed by a word, which may be a unit.
-_WITH_UNIT = re.compile(r"(?<![A-Za-z0-9_])[0-9.]+(?:[eE][-+]?[0-9]+)?\s*([A-Za-z%°]+)")
 #: The number of a beam's node between dots, which Python's grammar does not allow.
 _NODE = re.compile(r"(?<=[A-Za-z0-9_])\.([0-9]+)(?=\.[A-Za-z])")
 _WORDS = frozenset({"and", "or", "not", "if", "else"})
-#: Words that users write for names of formulas.
-_MEANT = {"time": "t", "pi": "pi", "π": "pi", "seconds": "t"}
-_HINTS = {
-    "^": "a power is written **",
-    "%": "there is no remainder",
-    "=": "conditions are written with <, <=, > and >=",
-    "!": "conditions are written with <, <=, > and >=, and 'not'",
-    "&": "write 'and'",
-    "|": "write 'or'",
-    "[": "a formula has no lists",
-    '"': "a formula has no text in it",
-    "'": "a formula has no text in it",
-}
 _BINARY: Mapping[type, str] = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div", ast.Pow: "pow"}
 _COMPARE: Mapping[type, str] = {ast.Lt: "lt", ast.LtE: "le", ast.Gt: "gt", ast.GtE: "ge"}
 
@@ -150,7 +142,7 @@ class _Reader:
         except SyntaxError as error:
             near = f" near column {error.offset}" if (error.offset or 0) > 1 else ""
             raise self.formula_error(
-                f"{quote(text)}, which is incomplete or has a syntax error{near}", _hint_on_units(text)
+                f"{quote(text)}, which is incomplete or has a syntax error{near}", hint_on_grammar(text)
             ) from None
         except (MemoryError, RecursionError, ValueError):
             raise self.too_deep_error() from None
@@ -177,10 +169,11 @@ class _Reader:
                 if sign in "0123456789.":
                     wrong = re.split(r"[^A-Za-z0-9_.]", text[position:], maxsplit=1)[0]
                     raise self.formula_error(
-                        f"{quote(wrong)}, which is not a number, at column {position + 1}", _hint_on_units(text)
+                        f"{quote(wrong)}, which is not a number, at column {position + 1}", hint_on_units(text)
                     )
-                hint = _HINTS.get(sign, "") or _hint_on_units(text)
-                raise self.formula_error(f"the character {quote(sign)} at column {position + 1}", hint)
+                raise self.formula_error(
+                    f"the character {quote(sign)} at column {position + 1}", hint_on_sign(sign, text)
+                )
             brackets += {"(": 1, ")": -1}.get(token.group(), 0)
             if brackets > DEEPEST:
                 raise self.too_deep_error()
@@ -239,7 +232,8 @@ class _Reader:
                 )
             case ast.Call(func=ast.Name(id=function), args=arguments, keywords=[]):
                 return self.convert_function(function, arguments, depth)
-        raise self.formula_error(f"{quote(ast.unparse(node))}, which is no formula")
+        text = ast.unparse(node)
+        raise self.formula_error(f"{quote(text)}, which is no formula", hint_on_commas(text))
 
     def convert_quantity(self, node: ast.expr, depth: int) -> Expr:
         """Translate a node whose value must be a number."""
@@ -269,8 +263,7 @@ class _Reader:
             listed = ", ".join(f"{name}.{c}" for c in self.names.coordinates[name])
             raise self.formula_error(f"the body '{name}' in place of a number", f"it has {listed}")
         known = [*self.names.plain, "pi"]
-        meant = _MEANT.get(name.lower(), "")
-        hint = f"did you mean '{meant}'?" if meant in known else suggest(name, known)
+        hint = meant_name(name, known, self.names.coordinates) or suggest(name, known)
         raise self.formula_error(f"the unknown name {quote(name)}", hint)
 
     def convert_dotted_name(self, path: tuple[str, ...]) -> Expr:
@@ -308,6 +301,7 @@ class _Reader:
         names = (*own, *(() if readings is None else readings.names_of(owner, self.where)))
         what = f"{quote('.'.join(path[1:]))}, which {'body ' if own else ''}'{owner}' does not have"
         listed = f"it has {', '.join(names)}" if names else "it has nothing to read"
+        listed = meant_coordinate(owner, path[-1], names) or listed
         raise self.formula_error(what, listed if len(names) <= 20 else suggest(text, [f"{owner}.{k}" for k in names]))
 
     def refuse_integral(self, reading: Expr, text: str) -> None:
@@ -399,7 +393,8 @@ class _Reader:
     def check_argument_count(self, function: str, nodes: list[ast.expr], number: int) -> None:
         if len(nodes) != number:
             expected = "one argument" if number == 1 else f"{number} arguments"
-            raise self.formula_error(f"{function}() with {len(nodes)}", expected=expected)
+            hint = hint_on_commas(", ".join(map(ast.unparse, nodes)))
+            raise self.formula_error(f"{function}() with {len(nodes)}", hint, expected)
 
     def convert_piecewise(self, nodes: list[ast.expr], depth: int) -> Expr:
         if len(nodes) < 3 or len(nodes) % 2 == 0:
@@ -455,10 +450,3 @@ def _depth_of_tree(expression: Expr) -> int:
         if isinstance(node, Call):
             stack.extend((argument, depth + 1) for argument in node.arguments)
     return deepest
-
-
-def _hint_on_units(text: str) -> str:
-    """Return a hint where a number in a formula has a unit."""
-    words = (match[1] for match in _WITH_UNIT.finditer(text))
-    unit = next((word for word in words if isinstance(read_unit(word), Unit)), "")
-    return f"a formula has no units, its numbers are in SI units: make the number in {unit} a parameter" if unit else ""

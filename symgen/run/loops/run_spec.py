@@ -196,6 +196,8 @@ class Watched:
         Numbers of the rows with bounds whose gaps are formulas, which may turn sharply.
     missed : float
         Fraction of a step by which a corner may be missed.
+    holding : bool
+        Whether joints hold for a while.
     """
 
     names: tuple[str, ...]
@@ -215,20 +217,21 @@ class Watched:
     corners: tuple[int, ...] = ()
     turns: tuple[int, ...] = ()
     missed: float = 0.0
+    holding: bool = False
 
     @property
     def turning(self) -> tuple[str, ...]:
-        """What of rows with bounds has its own meanings in a turn, see `symgen.run.modes.turn.TURNING`."""
-        rows = self.bounded
+        """What of rows has its own meanings in a turn, see `symgen.run.modes.turn.TURNING`."""
+        rows, holding = self.bounded, ("holding",) * self.holding
         if rows is None:
-            return ()
+            return holding
         has = {
             "pressed": rows.pressed,
             "corners": self.corners,
             "pieces": rows.pieces,
             "contacts": rows.contacts,
         }
-        return tuple(kind for kind, those in has.items() if those)
+        return (*(kind for kind, those in has.items() if those), *holding)
 
     def events_of_rows(self, word: str, rows: int) -> list[int]:
         """Return the event with a word of each of some rows with bounds; -1 where a row has none."""

@@ -153,6 +153,8 @@ class Choice(Record):
     mode, best, other, carrier, part, option : Array of int64, shapes (k,)
         Working memory of contacts: modes of a combination, of the first that is right and of a second one, rows that
         carry others, parts of G, and the combination.
+    flying : Array of int64, shape (k,)
+        1 for gaps of contacts between two impacts, however low they fly.
     moved : Array, shape (k,)
         Gaps that a start has put to 0, before that; else 0.
     rows, right, shift, space, order : Array, Array of int64
@@ -229,6 +231,7 @@ class Choice(Record):
     carrier: Integers
     part: Integers
     option: Integers
+    flying: Integers
     moved: Array
     rows: Array
     right: Array
@@ -336,6 +339,7 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         carrier=flags(),
         part=flags(),
         option=flags(),
+        flying=flags(),
         moved=numbers(k),
         rows=numbers(m * n),
         right=numbers(m),

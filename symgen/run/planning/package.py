@@ -172,7 +172,7 @@ def _stem(choice: MethodChoice) -> str:
 
 def _suits_target(choice: MethodChoice, mechanism: Mechanism, shape: str, target: str) -> bool:
     """Whether a method can be emitted for a mechanism in a shape and for a target."""
-    if mechanism.bounded:
+    if mechanism.has_modes:
         try:
             pressed = next((row.family.one for row in pressed_rows(mechanism)), "")
             refuse_bounded_rows(choice.method, choice.options, choice.implicit, pressed)
@@ -201,6 +201,8 @@ def _plans_at_start(plans: Sequence[Plan]) -> tuple[list[Plan], dict[str, Any] |
         plans = [replace(p, choice=p.choice.with_options(solver=solver)) if p.solver_is_free else p for p in plans]
     if usual.mechanism.bounded:
         return list(plans), None, f"modes of {nouns_of_families()} are chosen by who calls this code"
+    if usual.mechanism.holding:
+        return list(plans), None, "joints that hold for a while change at events, which who calls this code looks for"
     try:
         refuse_jumps(usual.mechanism, {}, usual.spec.until)
     except InputError as error:

@@ -187,11 +187,12 @@ def _attempts_in_order(mechanism: Mechanism, evaluations: float, enough: float, 
     if evaluations > explicit_budget(mechanism, STIFF_FROM):
         yield Attempt(STIFF_ROUTES, "straight", implicit_budget(mechanism, STIFF_BUDGET))
         return
+    looped, rough = not straight_alone(mechanism), quick or enough > 0.0
     if quick and evaluations > LOOPED_BUDGET and _has_implicit(mechanism):
-        yield Attempt(STIFF_ROUTES, "straight", implicit_budget(mechanism, TRIED_STIFF_BUDGET))
+        budget = implicit_budget(mechanism, TRIED_STIFF_BUDGET)
+        yield Attempt(STIFF_ROUTES, "looped" if looped else "straight", budget)
     most = explicit_budget(mechanism, BUDGET)
     shape = "straight" if straight_alone(mechanism) or straight_seconds(mechanism) < LONGEST_COMPILATION else "looped"
-    looped, rough = not straight_alone(mechanism), quick or enough > 0.0
     if looped:
         short = min(most, LOOPED_BUDGET)
         yield Attempt(ROUTES, "looped", short)

@@ -79,6 +79,9 @@ class Level:
         Closed form for comparison: a catalogue entry, or ``"parallelogram"``.
     family, model : str
         Names of the family and of the base model, ``-`` for a mechanism of the family's own.
+    plain : Mechanism or None
+        Mechanism of the same motion without rows that repeat others, None for the mechanism itself: dependent rows make
+        a reference slow and less accurate.
     """
 
     label: str
@@ -98,6 +101,12 @@ class Level:
     closed: str | None = None
     family: str = ""
     model: str = "-"
+    plain: Mechanism | None = None
+
+    @property
+    def of_reference(self) -> Mechanism:
+        """The mechanism whose motion judges the case."""
+        return self.mechanism if self.plain is None else self.plain
 
 
 @dataclass(frozen=True)

@@ -120,10 +120,10 @@ def times_of_cell(level: Level) -> list[float]:
 
 def emitted_geometry(level: Level, parameters: Mapping[str, float], compiled: CompiledModel, start: Start) -> Any:
     """Return what has Phi, D and nu of a case: its independent equations, or in space its emitted functions."""
-    mechanism = derivable_part(level.mechanism)
+    mechanism = derivable_part(level.of_reference)
     if mechanism.space == "planar" and not mechanism.has_modal_bodies:
-        return equations_of_cell(mechanism, parameters, interpreted=mechanism is not level.mechanism)
-    if mechanism is not level.mechanism:  # rows that are off are in neither
+        return equations_of_cell(mechanism, parameters, interpreted=mechanism is not level.of_reference)
+    if mechanism is not level.of_reference:  # rows that are off are in neither
         own = prepare(mechanism, Settings("lagrange", "rk4", level.step, parameters=parameters), Purpose.STATE)
         compiled, start = own.compiled, own.start
     return EmittedGeometry(compiled, start)

@@ -59,6 +59,11 @@ class CellReference:
     level: Level
     quick: bool = False
 
+    @property
+    def mechanism(self) -> Mechanism:
+        """What moves."""
+        return self.level.of_reference
+
 
 @dataclass(frozen=True)
 class RunTask:
@@ -75,6 +80,11 @@ class RunTask:
     common: Settings = field(default_factory=Settings)
     quick: bool = False
 
+    @property
+    def mechanism(self) -> Mechanism:
+        """What moves."""
+        return self.level.mechanism
+
 
 @dataclass(frozen=True)
 class LimitTask(RunTask):
@@ -88,10 +98,10 @@ class LimitTask(RunTask):
 
 def compute_cell(task: CellReference | RunTask) -> Fields:
     """Compute a cell; see the classes of tasks."""
-    level = replace(task.level, mechanism=kept.shared_mechanism(task.level.mechanism))
+    level = replace(task.level, mechanism=kept.shared_mechanism(task.mechanism))
     with close_many_starts():
         if isinstance(task, CellReference):
-            return reference_of_cell(level, task.quick)
+            return reference_of_cell(replace(level, plain=None), task.quick)
         task = replace(task, level=level)
         fields: Fields = json_value(_find_limit(task) if isinstance(task, LimitTask) else _run_cell(task))
         return fields

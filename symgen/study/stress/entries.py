@@ -2,13 +2,30 @@
 
 from __future__ import annotations
 
-from typing import Any, TypedDict
+from typing import Any, TypedDict, get_type_hints
 
 import msgspec
 
 from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.study.journal import Outcome
 from symgen.study.stress.cell_outcome import OUTCOMES
+from symgen.study.stress.stress_rows import Limit, StressRow
+
+#: Fields of a row and of a largest step that follow from their task; their entry stores the others.
+OF_TASK = frozenset(
+    (
+        *("model", "family", "case", "values", "method", "integrator", "step", "until"),
+        *("reference_error", "watched"),
+    )
+)
+
+
+def _stored(row: type) -> type[msgspec.Struct]:
+    """Return the type of an entry: the fields of a row without those of its task."""
+    return msgspec.defstruct(row.__name__, [(n, kind) for n, kind in get_type_hints(row).items() if n not in OF_TASK])
+
+
+_RUN, _STEPS = _stored(StressRow), _stored(Limit)
 
 
 class _Motion(TypedDict):
@@ -33,32 +50,13 @@ def check_motion(entry: Outcome) -> None:
         raise ValueError("rows of different lengths")
 
 
-class _Run(TypedDict):
-    outcome: str
-    error: float | None
-    relative_error: float | None
-    status: str
-    reason: str | None
-    evaluations: int
-    position_violation_max: float | None
-    velocity_violation_max: float | None
-    energy_drift_max: float | None
-    chosen: str
-    note: str
-
-
-class _Steps(TypedDict):
-    stable_step: float | None
-    accurate_step: float | None
-
-
 def check_run(entry: Outcome) -> None:
     """Raise `ValueError` unless an entry of a journal belongs to a run."""
-    run = msgspec.convert(entry, _Run)
-    if run["outcome"] not in OUTCOMES or run["status"] not in (OK, UNVERIFIED, FAILED, "not run"):
-        raise ValueError(run["status"])
+    msgspec.convert(entry, _RUN)
+    if entry["outcome"] not in OUTCOMES or entry["status"] not in (OK, UNVERIFIED, FAILED, "not run"):
+        raise ValueError(entry["status"])
 
 
 def check_limit(entry: Outcome) -> None:
     """Raise `ValueError` unless an entry of a journal belongs to a search."""
-    msgspec.convert(entry, _Steps)
+    msgspec.convert(entry, _STEPS)

@@ -153,7 +153,8 @@ def redundancy(base: Base, count: float) -> Level | None:
         return None
     joints = {f"stress_bar{i}": bar for i, bar in enumerate(bars)}
     mechanism = base.build({"joints": joints}, f"redundant-{int(count)}")
-    return base.build_level(f"{int(count)} bar{'s' if count > 1 else ''} more", count, mechanism=mechanism)
+    label = f"{int(count)} bar{'s' if count > 1 else ''} more"
+    return base.build_level(label, count, mechanism=mechanism, plain=base.stressed, closed=base.closed)
 
 
 def _bar_tables(base: Base) -> list[dict[str, Any]]:

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from symgen.base.latest import get_or_make
-from symgen.describe.facts.digest import mechanism_digest
+from symgen.describe.facts.digest import digest, mechanism_digest
+from symgen.describe.formulas.readings import integrals_of_outputs
 from symgen.describe.remembered import compute_once
 from symgen.run.planning.starts import compiled_for
 
@@ -16,8 +17,9 @@ if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.planning.prepare import Assembled
 
-#: Mechanisms, and methods of each, that are kept at a time: cells come mechanism by mechanism and method by method.
-MECHANISMS, METHODS = 16, 8
+#: Mechanisms, and codes of methods, that are kept at a time: cells come mechanism by mechanism and method by method,
+#: and those of searches for extreme values again and again.
+MECHANISMS, METHODS = 16, 96
 #: Values of parameters of which closed starts are kept.
 STARTS = 32
 
@@ -25,8 +27,8 @@ STARTS = 32
 identity_of = compute_once(mechanism_digest)
 #: Mechanisms by their identity, the latest last; what is remembered of a mechanism is remembered of its object.
 _mechanisms = dict[str, "Mechanism"]()
-#: Compiled models by mechanism, method, shape, the latest last.
-_codes = dict[tuple[str, str, str], "CompiledModel"]()
+#: Compiled models by mechanism or what its looped code depends on, method, shape, the latest last.
+_codes = dict[tuple[object, str, str], "CompiledModel"]()
 #: Closed starts by mechanism, parameters and options, the latest last.
 _starts = dict[tuple[str, tuple[tuple[str, float], ...], tuple[str, ...]], "dict[Any, Assembled]"]()
 
@@ -37,8 +39,12 @@ def shared_mechanism(mechanism: Mechanism) -> Mechanism:
 
 
 def code_of_cell(mechanism: Mechanism, choice: MethodChoice) -> CompiledModel:
-    """Return the compiled model of a run as `compiled_for` does, the same object for all values of parameters."""
-    key = identity_of(mechanism), choice.stem, choice.shape
+    """Return the compiled model of a run as `compiled_for` does, the same object for all values of parameters.
+
+    Looped code is the same for all starts too; straight code may use which velocities are free at the start.
+    """
+    of_looped = digest(mechanism), *integrals_of_outputs(mechanism)
+    key = of_looped if choice.shape == "looped" else identity_of(mechanism), choice.stem, choice.shape
     return get_or_make(_codes, key, lambda: compiled_for(mechanism, choice), METHODS)
 
 

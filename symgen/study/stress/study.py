@@ -191,7 +191,8 @@ def _levels_of_families(
 
 def _level_of_study(level: Level, model: str, max_step: float | None) -> Level:
     """Return a case with the name of its model and the largest step of all runs."""
-    return replace(level, mechanism=with_largest_step(level.mechanism, max_step), model=model)
+    plain = None if level.plain is None else with_largest_step(level.plain, max_step)
+    return replace(level, mechanism=with_largest_step(level.mechanism, max_step), plain=plain, model=model)
 
 
 @dataclass
@@ -239,8 +240,10 @@ class _Study:
             searches, interrupted = self._compute_cells("largest steps", list(self._search_cells(motions)), whole)
         extremes = tuple[Extreme, ...]()
         if not interrupted:
+            # how far a scheme follows stiffness and damping, its largest step says as well
+            tried = [(task, run) for task, run in runs if not (self.quick and task.level.family in STIFF)]
             halvings = QUICK_HALVINGS if self.quick else HALVINGS
-            extremes, interrupted = search_extremes(runs, self._level_at, self._compute_more, halvings)
+            extremes, interrupted = search_extremes(tried, self._level_at, self._compute_more, halvings)
         unusable = [
             (task.level, why) for task, motion in motions if (why := cells_without_reference(motion)) is not None
         ]
@@ -310,11 +313,11 @@ class _Study:
 
 def _make_cell(task: CellReference | RunTask) -> Cell:
     """Return the cell of a task, its key from everything that the outcome depends on."""
-    level, name = task.level, task.level.mechanism.name
+    level, name = task.level, task.mechanism.name
     parts: dict[str, Any] = {
         "kind": type(task).__name__,
         "code": code_identity(),
-        "mechanism": identity_of(level.mechanism),
+        "mechanism": identity_of(task.mechanism),
         "parameters": dict(level.parameters),
         "until": level.until,
         "outputs": level.outputs,
