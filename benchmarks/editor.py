@@ -4,8 +4,8 @@
 
 A scissor lift of so many bodies is checked and run as the page asks for it, first as it was opened, then after each of
 three changes of a number, with what was loaded before out of the collector's sight, as in the server. Processor time is
-that of this process [s]; with `--browser` Chromium drags a pin until there are twelve pictures: pictures of the mechanism a second with
-the server's processor time for each, and processor time of the page's thread for each of its frames [ms].
+that of this process [s]. With `--browser` Chromium drags a pin until there are twelve pictures: how many come in a
+second, the server's processor time for each [s], and that of the page's thread for each of its frames [ms].
 """
 
 from __future__ import annotations
@@ -166,8 +166,8 @@ def main() -> None:
         if given.browser:
             drag = frames_of_drag(bodies)
             print(
-                f"{bodies:4d} bodies  a pin is dragged: {drag.pictures:.1f} pictures a second, {drag.served:.3f} s for each;"
-                f" frames of {drag.mean:.1f} ms, at most {drag.worst:.1f} ms by the clock"
+                f"{bodies:4d} bodies  a pin is dragged: {drag.pictures:.1f} pictures a second,"
+                f" {drag.served:.3f} s for each; frames of {drag.mean:.1f} ms, at most {drag.worst:.1f} ms by the clock"
             )
 
 
