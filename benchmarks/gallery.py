@@ -18,31 +18,24 @@ import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from statistics import median
 from typing import Any
 
+from benchmarks.kept_pictures import DOCS, REPEAT, put, readme_pictures
 from symgen.api import load
 from symgen.describe.catalogue import MACHINES, CatalogueEntry, entries
 from symgen.describe.drawing.traced import traced_points
 from symgen.describe.facts.digest import digest
 from symgen.study.comparison.comparison_rows import Row
-from symgen.study.comparison.comparison_study import Study
 from symgen.study.machine_class import library_versions, machine_class
 from symgen.study.report import words
 from symgen.study.report.document import Picture
 from symgen.study.yardstick import YARDSTICK
 
-DOCS = Path(__file__).resolve().parents[1] / "docs"
 FOLDER = DOCS / "gallery"
 DATA = FOLDER / "data"
-PICTURES = DOCS / "pictures"
-#: Timed runs a row, after a warm-up.
-REPEAT = 7
 #: What run times are of; data without it have the wall clock.
 CLOCK = "processor"
-#: No picture of the gallery is larger, none of README, and no film [bytes].
-LARGEST, LARGEST_OF_README, LARGEST_FILM = 60_000, 80_000, 700_000
 
 
 @dataclass(frozen=True)
@@ -199,32 +192,6 @@ def _fields(row: Row) -> dict[str, Any]:
     """Return of a row what the pages show, to three digits."""
     all_of_it = asdict(row)
     return {k: float(f"{x:.3g}") if isinstance(x := all_of_it[k], float) else x for k in KEPT}
-
-
-def put(picture: Picture, folder: Path, name: str = "") -> Path:
-    """Write a picture, unless it is too large."""
-    content = slim(picture.data.decode()).encode() if picture.kind == "svg" else picture.data
-    largest = LARGEST_OF_README if folder == PICTURES else LARGEST
-    if len(content) > largest:
-        raise ValueError(f"{picture.name} has {len(content)} bytes, more than {largest}")
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / f"{name or picture.name}.{picture.kind}"
-    path.write_bytes(content)
-    return path
-
-
-def slim(svg: str) -> str:
-    """Return a drawing without what nobody sees: names of groups, comments, blanks, and far digits."""
-    svg = re.sub(r"<!--.*?-->|<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
-    svg = re.sub(r'<g id="[^"]*"', "<g", svg)
-    svg = re.sub(r' (?:x|y)="[^"]*"|translate\([^)]*\)', lambda m: re.sub(r"(\.\d\d)\d+", r"\1", m.group()), svg)
-    curve = re.compile(r'(?<=<path d=")[^"]*(?=" clip-path)')
-    # a tenth of a point is enough, and numbers behind a move are lines without being called so
-    svg = curve.sub(lambda m: re.sub(r"(\.\d)\d+", r"\1", re.sub(r"\s+L(?=\s)", "", m.group())), svg)
-    svg = svg.replace("xlink:href", "href").replace("DejaVuSans-", "")
-    svg = re.sub(r'(?<= style=")[^"]*', lambda m: re.sub(r"([:;])\s+", r"\1", m.group()), svg)
-    svg = re.sub(r"(?<= d=\")[^\"]*", lambda m: " ".join(m.group().split()), svg)
-    return re.sub(r">\s+<", "><", re.sub(r"\n\s*", "\n", svg)) + "\n"
 
 
 # -- pages -------------------------------------------------------------------------------------------------------------
@@ -403,29 +370,6 @@ def write_pages() -> None:
     """Write all pages."""
     for name, text in pages().items():
         (FOLDER / name).write_text(text, encoding="utf-8")
-
-
-# -- pictures of README ------------------------------------------------------------------------------------------------
-
-#: What the map of README shows.
-STRESSED = ("four-bar", ("stiffness", "mass-ratio", "step", "gravity", "inconsistent-start"))
-STRESSED_METHODS = ("lagrange", "baumgarte", "penalty", "augmented-lagrangian", "direct-correction", "auto")
-
-
-def readme_pictures() -> None:
-    """Make the three pictures of README: error against run time, violation over time, stress map."""
-    from symgen.study.comparison.compare_models import compare
-    from symgen.study.report.figures import pictures_of_study
-    from symgen.study.report.stress_figures import outcome_maps
-    from symgen.study.stress.study import stress
-
-    study: Study = compare("four-bar", integrators=("rk4", "dopri5", "dop853"), repeat=REPEAT)
-    drawn = {picture.name: picture for picture in pictures_of_study(study)}
-    put(drawn["four-bar-error-rk4"], PICTURES, "error-against-run-time")
-    put(drawn["four-bar-position-violation"], PICTURES, "violation-over-time")
-    model, families = STRESSED
-    outcomes = stress([model], families, STRESSED_METHODS)
-    put(next(p for p in outcome_maps(outcomes) if p.name == f"map-{model}"), PICTURES, "stress-map")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

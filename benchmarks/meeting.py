@@ -117,6 +117,13 @@ friction = { sliding = 0.2, static = 0.3 }
 [contacts.right]
 between = [{ body = "sled", at = [0.2, -0.1] }, { line = "ground", on = [0.0, -0.7] }]
 friction = { sliding = 0.2, static = 0.3 }"""
+_LATCH = """[joints.latch]
+type = "rigid"
+between = ["cart", "pole"]
+at = ["centre", "pin"]
+holds = "cart.x < 0.095 and t < 0.3"
+holds_at = "present"
+"""
 _STOP = "stop = { lower = -2.2, upper = -1.0, restitution = 0.3 }"
 _TABLE = 'x = [-2.0, -1.0, 0.0, 1.0, 2.0]\ny = [-60.0, -30.0, 0.0, 30.0, 65.0]\ninterpolation = "cubic"'
 
@@ -191,6 +198,9 @@ FEATURES: Mapping[str, str] = {
         '[joints.mesh]\ntype = "gear"\nbetween = ["pole", "wheel"]\ncarrier = "cart"\nratio = 0.5\n'
         "efficiency = [0.9, 0.8]"
     ),
+    "friction, two directions": cart(
+        pin="friction = { sliding = { forwards = 0.3, backwards = 0.2 }, static = { forwards = 0.5, backwards = 0.25 } }"
+    ),
     "friction, smooth": cart(pin='friction = { sliding = 0.3, law = "tanh", speed = 1e-3 }'),
     "friction, light body": cart(inertia="0.0", pin="friction = { sliding = 0.3 }"),
     "stop": cart(pin=_STOP),
@@ -210,6 +220,9 @@ FEATURES: Mapping[str, str] = {
     "clearance of a slide": lowered(0.002, cart())
     .replace(_RAIL, f"{_RAIL}\n{_GUIDE}")
     .replace("[0.1, 0.0]", "[0.1, -0.002]\nvelocity = [0.3, 0.0]"),
+    "joint that lets go": cart(pin='holds = "t < 0.25"'),
+    "joint that catches": cart(more=_LATCH),
+    "joint that catches, friction and stop": cart(pin=f"friction = {{ sliding = 0.3 }}\n{_STOP}", more=_LATCH),
     "rope over a sheave": cart(
         more="[bodies.weight]\nmass = 0.5\ninertia = 0.01\nposition = [0.5, -0.6]\n"
         '[joints.rope]\ntype = "rope"\nbetween = ["pole", "weight"]\nat = ["tip", "centre"]\n'
@@ -370,6 +383,7 @@ GROUPS: Mapping[str, Mapping[str, Place]] = {
         "C, dop853": _generated("c", "c", "--integrator", "dop853"),
         "FMU": _generated("fmu", "cart.fmu"),
         "FMU, model exchange": _exchanged,
+        "FMU, derivatives": _generated("fmu", "cart.fmu", "--derivatives"),
         "JavaScript": _generated("javascript", "js"),
         "live page": _live,
     },

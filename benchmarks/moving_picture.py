@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.gallery import PICTURES
+from benchmarks.kept_pictures import PICTURES
 from symgen.api import load
 from symgen.describe.drawing.scene import COLOURS
 

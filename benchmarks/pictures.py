@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from benchmarks.gallery import DOCS, PICTURES, put
+from benchmarks.kept_pictures import DOCS, PICTURES, put
 from symgen.analyses.linear.animation import mode_recording
 from symgen.api import Model, load
 from symgen.describe.drawing import Drawing

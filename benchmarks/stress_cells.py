@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from benchmarks.gallery import slim
+from benchmarks.kept_pictures import slim
 from benchmarks.page_tables import KEPT, ROOT, PageTable, list_of, print_tables
 from benchmarks.records import Line, Pair, Record
 from symgen.derive.methods import METHODS

@@ -74,7 +74,7 @@ NAVIGATION = {
 
 
 def _navigation() -> dict[str, list[str]]:
-    """Return the sidebar, with what stands nowhere else behind the guides."""
+    """Return the sidebar, with what stands nowhere else after the guides."""
     found = {caption: list(pages) for caption, pages in NAVIGATION.items()}
     named = {page for pages in NAVIGATION.values() for page in pages}
     own = [f"docs/{path.stem}" for path in sorted((ROOT / "docs").glob("*.md")) if path.stem != "README"]

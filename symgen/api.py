@@ -277,7 +277,8 @@ class Model(Analysed, Shown):
         rtol, atol : float, optional
             Tolerances of its adaptive steps; by default those of `simulate`.
         derivatives : bool
-            Of ``c-functions``: whether derivatives of the functions and of a step are written as well.
+            Of ``c-functions``: whether derivatives of the functions and of a step are written as well. Of FMUs for
+            model exchange: whether they have directional derivatives.
 
         Returns
         -------

@@ -30,11 +30,12 @@ from benchmarks.bounded.compare import ROWS, RUNS, UNTIL, examined
 from benchmarks.bounded.corners import cornered
 from benchmarks.bounded.draw import KINDS, Drawn, drawn
 from benchmarks.bounded.rotors import geared
+from benchmarks.bounded.sleds import sledded
 from benchmarks.mechanisms.toml import text
 from benchmarks.show import show
 
-#: What mechanisms have besides, by name: nothing, floors with corners (in the plane alone), rotors.
-DRAWERS = {"": drawn, "corners": cornered, "rotors": geared}
+#: What mechanisms have besides, by name: nothing, floors with corners (in the plane alone), rotors, sleds.
+DRAWERS = {"": drawn, "corners": cornered, "rotors": geared, "sleds": sledded}
 OUTCOMES = ("right", "coarse", "sentence", "failed", "unverified", "WRONG", "raised")
 
 

@@ -209,7 +209,9 @@ def name_without_unit(heading: str) -> str:
 
 
 def system_message(error: Exception) -> str:
-    """Return the system's message about a file."""
+    """Return the system's message about a file, as a part of a sentence."""
+    if isinstance(error, FileNotFoundError):
+        return "no such file or folder"
     return getattr(error, "strerror", None) or str(error) or "an error"
 
 

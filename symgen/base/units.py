@@ -142,8 +142,8 @@ def _unit_hint(part: str, text: str, brief: bool) -> str:
         return "one factor follows '/', or several in brackets, as in 'W/(m K)'"
     if text.startswith("^"):
         return "a power of a number is written **"
-    if re.match(r"[A-Za-z]\w*\(", text):
-        return f"a product is written with *, as in 2*{text[:20]}"
+    if re.match(r"[·×∙]?[A-Za-z]\w*\(", text):
+        return f"a product is written with *, as in 2*{text.lstrip('·×∙')[:20]}"
     what = "" if part == text or len(part) > 12 else f"{quote(part)} is no unit, "
     if part in MEANT:
         return f"{what}did you mean '{MEANT[part]}'?"

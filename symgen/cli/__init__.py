@@ -91,7 +91,10 @@ class LazyGroup(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """Return the command, or suggest the nearest name."""
         if args and args[0] not in COMMANDS and not args[0].startswith("-") and not ctx.resilient_parsing:
-            raise click.UsageError(f"there is no command '{args[0]}'; {suggest(args[0], COMMANDS)}", ctx)
+            hint = suggest(args[0], COMMANDS)
+            if not hint.startswith("did") and _is_model(args[0]):
+                hint = f"did you mean 'symgen run {args[0]}'?"
+            raise click.UsageError(f"there is no command '{args[0]}'; {hint}", ctx)
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
@@ -253,6 +256,13 @@ def _sentence_of_error(error: click.ClickException) -> str:
         text = text[: number.start()].rstrip() + f" expected a number, got '{number[1]}'{_hint_on_number(number[1])}"
     help_at = f" (symgen {context.info_name} --help)" if context is not None and context.parent is not None else ""
     return text[:1].lower() + text[1:].rstrip(".") + help_at
+
+
+def _is_model(word: str) -> bool:
+    """Return whether a word is a file of a mechanism or a name of the catalogue."""
+    from symgen.describe.catalogue import all_names
+
+    return word.endswith(".toml") or word in all_names()
 
 
 def _hint_on_number(word: str) -> str:

@@ -223,7 +223,9 @@ def read_pairs(option: str, texts: Sequence[str], form: str = "NAME=VALUE") -> d
     for text in texts:
         name, equals, value = (part.strip() for part in text.partition("="))
         if not equals or not name or not value:
-            raise InputError(option, form, quote(text))
+            colon = re.fullmatch(r"([\w.]+)\s*:\s*(\S+)", text)
+            hint = f"did you mean {colon[1]}={colon[2]}?" if colon and form == "NAME=VALUE" else ""
+            raise InputError(option, form, quote(text), hint)
         if name in values:
             raise InputError(f"{option} {name}", "each name once", "it twice")
         values[name] = value
@@ -258,7 +260,9 @@ def _number_above(where: str, expected: str, text: str, above: float = -math.inf
     except ValueError:
         value = math.nan
     if not (math.isfinite(value) and value > above):
-        raise InputError(where, expected, quote(text))
+        comma = re.fullmatch(r"\s*([-+]?\d+),(\d+)\s*", text)
+        hint = f"a number has a decimal point: {comma[1]}.{comma[2]}" if comma else ""
+        raise InputError(where, expected, quote(text), hint)
     return value
 
 

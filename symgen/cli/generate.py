@@ -51,7 +51,11 @@ _LISTED = [f"  {name:<12}{_TARGETS.summary(name)}" for name in _TARGETS.names]
     help="What the code is for: see the list below.",
 )
 @click.option("--fmi", type=click.Choice(["2", "3"]), default="2", show_default=True, help="Version of an FMU.")
-@click.option("--derivatives", is_flag=True, help="Of c-functions: write derivatives as well, and those of a step.")
+@click.option(
+    "--derivatives",
+    is_flag=True,
+    help="Of c-functions: write derivatives as well, and those of a step. Of an FMU: directional derivatives.",
+)
 @click.option("-o", "--output", metavar="PATH", help="Folder, or FMU, to write; the mechanism's name by default.")
 @json_option
 def command(

@@ -27,13 +27,32 @@ from symgen.cli._shared_options import examples_in_help, setting_options, write_
     *("options", "coordinates"),
 )
 @click.option("--over", metavar="NAME", default="t", help="Draw curves over NAME, such as crank.theta.  [default: t]")
+@click.option("--paper", metavar="SIZE", default="a4", help="Size of the paper: a4 or letter.  [default: a4]")
+@click.option("--number", metavar="TEXT", default="", help="Number of the report, below its title.")
+@click.option("--logo", metavar="FILE", help="A mark at the top right: a picture, PNG or SVG.")
+@click.option(
+    "--sign",
+    metavar="WHO",
+    multiple=True,
+    help="A page that WHO signs, such as Customer; several times for several.",
+)
 @click.option(
     "-o", "--output", metavar="FILE", help="The report: .html, .md, or .pdf by a browser or matplotlib.  [MODEL.html]"
 )
 @click.option(
     "--page", metavar="FILE", help="A page that plays the motion (.html), beside the report, which links to it."
 )
-def command(model: str, over: str, output: str | None, page: str | None, **values: Any) -> int:
+def command(
+    model: str,
+    over: str,
+    paper: str,
+    number: str,
+    logo: str | None,
+    sign: tuple[str, ...],
+    output: str | None,
+    page: str | None,
+    **values: Any,
+) -> int:
     """Write one document of MODEL: drawing, motion, largest loads with their times, curves, frequencies at rest.
 
     It ends with how far the run can be trusted and the command that makes it again.
@@ -41,10 +60,11 @@ def command(model: str, over: str, output: str | None, page: str | None, **value
     from symgen.api import load
     from symgen.cli._progress import Bar
     from symgen.study.report.browser_pdf import printer_in_words
+    from symgen.study.report.letterhead import letterhead_of_options
     from symgen.study.report.machine_report import machine_report
     from symgen.study.report.write import check_report, write
 
-    settings = Settings(**values)
+    settings, letterhead = Settings(**values), letterhead_of_options(number, logo, sign, paper)
     loaded = load(model)
     path = Path(output or f"{loaded.name}.html")
     check_report("--output", path)
@@ -52,7 +72,7 @@ def command(model: str, over: str, output: str | None, page: str | None, **value
     with Bar(loaded.name, settings.until or loaded.mechanism.defaults.until) as bar:
         result = loaded.simulate(settings, progress=bar)
     write_note((*result.notes, *(f"warning: {w}" for w in result.warnings)))
-    document = machine_report(loaded, result, command_line_again(), over, player.name if player else "")
+    document = machine_report(loaded, result, command_line_again(), over, player.name if player else "", letterhead)
     code = write_complaint(f"failed: {result.reason}", FAILURE) if result.status == "failed" else OK
     by = f", {printer_in_words()}" if path.suffix.lower() == ".pdf" else ""
     files: dict[Path | None, Callable[[Path], object]] = {path: lambda file: write(document, file)}

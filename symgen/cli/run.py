@@ -114,13 +114,11 @@ def command(
             result.to_json() | {"proposals": list(result.proposals)} | ({"quantities": chosen} if quantities else {})
         )
     else:
-        from symgen.cli._tables import show_quantities, show_result, show_sensitivities
+        from symgen.cli._tables import show_result, show_sensitivities
 
-        show_result(result)
+        show_result(result, quantities)
         if sensitivities:
             show_sensitivities(result, quantities)
-        if quantities:
-            show_quantities(chosen, (result.q, result.v, result.a, result.lam))
     files = {
         save_path: lambda path: result.save(path, quantities, units),
         plot_path: lambda path: result.plot(path, quantities, over or "t"),

@@ -83,8 +83,6 @@ def command(
     if as_json:
         write_json(study.to_json())
     else:
-        from symgen.cli._tables import show_stress
-
         show_stress(study)
 
     def write_report(file: Path) -> None:
@@ -111,3 +109,43 @@ def _exit_code(study: Stress, stored: bool) -> int:
         cells = "1 cell" if wrong == 1 else f"{wrong} cells"
         return write_complaint(f"auto reports success with an error above 1e-3 of the length in {cells}", FAILURE)
     return OK
+
+
+def show_stress(study: Stress) -> None:
+    """Print a stress study."""
+    from symgen.base.errors import plural
+    from symgen.cli._tables import make_console, show_rows
+    from symgen.study.stress.beside import beside_yardstick, cells_beside, extremes_beside, families_beside
+    from symgen.study.stress.findings import findings_of_study
+    from symgen.study.stress.stress_rows import LEGEND, Map
+
+    out = make_console()
+    out.print(f"{', '.join(study.models)}: {plural(len(study.rows), 'cell')}")
+    shown = Map.of_study(study)
+    if shown.rows:
+        headings = ("method", "integrator", *(family.replace("-", " ") for family in shown.families))
+        rows = [(*line, *(shown.entry(line, family).text for family in shown.families)) for line in shown.lines]
+        show_rows(out, headings, rows, headings, first=2)
+        out.print(f"accurate cells of those judged; {LEGEND}", style="dim")
+    lines = beside_yardstick(study)
+    if len(lines) > 1:
+        (families, searched), extremes = families_beside(lines), extremes_beside(lines)
+        headings = (
+            *("methods", "integrator", *(family.replace("-", " ") for family in families)),
+            *(f"step, {family}" for family in searched),
+            *(f"up to, {family}" for family in extremes),
+        )
+        cells = [(", ".join(x.methods), x.integrator, *cells_beside(x, families, searched, extremes)) for x in lines]
+        title = (
+            "error of lagrange with the same integrator over the error: medians; largest steps that follow [s]; "
+            "extreme values up to which runs are accurate"
+        )
+        show_rows(out, headings, cells, headings[:2], title, first=2)
+    if study.limits:
+        out.print("largest constant step [s] that follows the motion, and with an error below 1e-3 of the length")
+        steps = [["none" if h is None else f"{h:.3g}" for h in (x.stable_step, x.accurate_step)] for x in study.limits]
+        words = [(x.model, f"{x.family} {x.case}", x.method, x.integrator) for x in study.limits]
+        headings = ("model", "case", "method", "integrator", "stable", "accurate")
+        show_rows(out, headings, [(*a, *b) for a, b in zip(words, steps, strict=True)], headings[:4], first=4)
+    for sentence in findings_of_study(study):
+        out.print(sentence)

@@ -23,6 +23,9 @@ from symgen.cli._shared_options import (
 )
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from symgen.study.ensemble.sweep_study import Sweep
 
 
@@ -138,8 +141,6 @@ def command(
     if as_json:
         write_json({**study.to_json(), "output": output})
     else:
-        from symgen.cli._tables import show_sweep
-
         show_sweep(study, path)
     draw = {plot_path: lambda file: study.plot(file, drawn, over or "")}
     return write_files(_exit_code(study, path), draw, None if as_json else lambda file: click.echo(f"written: {file}"))
@@ -168,3 +169,73 @@ def _exit_code(study: Sweep, path: Path | None) -> int:
     if counts["failed"]:
         write_complaint(f"warning: {counts['failed']} of {len(study)} runs failed", OK)
     return OK
+
+
+def _show_contributions(study: Sweep) -> None:
+    """Print what each varied number contributes to the variance of the kept quantities, where enough runs have them."""
+    from symgen.cli._tables import make_console, show_rows
+
+    names = list(study.ensemble.grid.names)[:8]
+    rows = list[tuple[str, ...]]()
+    for q in study.ensemble.recipe.kept[:24]:
+        try:
+            shares = study.contributions(q.name)
+        except InputError:  # too few runs
+            continue
+        if any(shares.values()):
+            rows.append(
+                (q.name, *(f"{100.0 * shares[name]:.1f}" for name in names), f"{100 * sum(shares.values()):.1f}")
+            )
+    if rows:
+        headings = ("quantity", *names, "together")
+        show_rows(make_console(), headings, rows, headings[:1], "share of the variance [%], by straight lines")
+
+
+def show_sweep(study: Sweep, written: Path | None) -> None:
+    """Print the results of an ensemble: axes, statuses, reasons, and final values of the kept quantities."""
+    import numpy as np
+
+    from symgen.base.digits import format_column, scale_of
+    from symgen.base.errors import plural
+    from symgen.cli._tables import make_console, show_facts, show_rows
+    from symgen.study.ensemble.samples import PERCENTILES, has_samples
+
+    facts, ensemble = study.to_json(), study.ensemble
+    steps = f"step {facts['step']:g} s" if facts["rtol"] is None else f"rtol {facts['rtol']:g}"
+    rate = f", {len(study) / study.seconds:.3g} runs a second" if study.seconds > 0.0 and not study.interrupted else ""
+    grid, units = study.as_written()
+    axes = [item for axis in grid.axes for item in axis.values.items()]
+
+    def range_of_values(name: str, x: NDArray[np.float64]) -> str:
+        return f"{x.min():.6g} to {x.max():.6g} {units[name]}".strip()
+
+    lines = [
+        ("mechanism", facts["mechanism"]),
+        ("method", f"{facts['method']}, {facts['integrator']}, {steps}, until {facts['until']:g} s"),
+        *(("varies", f"{name}: {plural(len(x), 'value')} from {range_of_values(name, x)}") for name, x in axes),
+        ("runs", f"{len(study)} in {study.seconds:.3g} s{rate}"),
+        *(("status", f"{status}: {count}") for status, count in study.counts.items() if count),
+        *(("reason", f"{count} x {reason}") for reason, count in study.reasons()),
+        ("error", "not estimated: symgen run --verify does so for a single run"),
+        *([("written", str(written))] if written is not None and not study.interrupted else []),
+    ]
+    out = make_console()
+    show_facts(out, lines)
+    rows, sampled, scales = list[tuple[str, ...]](), has_samples(ensemble.grid), dict[str, float]()
+    for i, q in enumerate(ensemble.recipe.kept):  # a column may be rounding throughout beside others of its unit
+        sizes = np.abs(study.values[:, i, -1])
+        largest = float(sizes[np.isfinite(sizes)].max(initial=0.0))
+        scales[q.unit] = max(scales.get(q.unit, 0.0), scale_of([largest], q.unit))
+    for i, q in enumerate(ensemble.recipe.kept[:24]):
+        last = study.values[:, i, -1]
+        last = last[np.isfinite(last)]
+        if len(last):
+            middle = np.percentile(last, PERCENTILES) if sampled else [last.mean()]
+            cells = format_column([last.min(), *middle, last.max()], q.unit, least=scales[q.unit])
+            rows.append((q.name, q.unit, *cells))
+    if rows:
+        between = [f"{share:g} %" for share in PERCENTILES] if sampled else ["mean"]
+        headings = ("quantity", "unit", "least", *between, "largest")
+        show_rows(out, headings, rows, headings[:2], "at the last output")
+    if sampled:
+        _show_contributions(study)

@@ -15,36 +15,15 @@ from symgen.base.vocabulary.measures import Direction, Effort, Flexure, Marker, 
 from symgen.base.vocabulary.rotations import IDENTITY, Orientation
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.modal_body import (
-    ACCELERATION,
     COORDINATE,
-    MOST_MODES,
     SPEED,
     CarriedInterface,
     Modal,
-    names_of_modes,
 )
 from symgen.describe.spanning_tree import Topology
 from symgen.describe.table_functions import Table
 
 T = TypeVar("T")
-
-#: Velocity -> name of its rate.
-ACCELERATIONS = {
-    "vx": "ax",
-    "vy": "ay",
-    "vz": "az",
-    "omega": "alpha",
-    "wx": "alphax",
-    "wy": "alphay",
-    "wz": "alphaz",
-    **dict(zip(names_of_modes(SPEED, MOST_MODES), names_of_modes(ACCELERATION, MOST_MODES), strict=True)),
-}
-
-
-def is_speed(name: str) -> bool:
-    """Whether a coordinate or velocity of a body, such as ``rod.vx``, is a velocity."""
-    return name.rpartition(".")[2] in ACCELERATIONS
-
 
 #: Components of a vector: two in the plane, three in space.
 Vec = tuple[Expr, ...]
@@ -177,14 +156,6 @@ def _names_of_body(body: AnyBody, moving: tuple[str, ...], turning: tuple[str, .
         return ()
     own = moving if body.is_point else moving + turning
     return own if body.modal is None else own + body.modal.names(mode)
-
-
-def names_of_modal_body(dimension: int, count: int) -> tuple[str, ...]:
-    """Return the names of coordinates, velocities and accelerations that a modal body has."""
-    moving, turning = tuple("xyz"[:dimension]), ("theta",) if dimension == 2 else ("e0", "e1", "e2", "e3")
-    speeds = tuple(f"v{x}" for x in moving) + (("omega",) if dimension == 2 else ("wx", "wy", "wz"))
-    speeds += names_of_modes(SPEED, count)
-    return (*moving, *turning, *names_of_modes(COORDINATE, count), *speeds, *(ACCELERATIONS[speed] for speed in speeds))
 
 
 class Shape(msgspec.Struct, frozen=True):
@@ -335,6 +306,21 @@ class ModeEvent(Event, frozen=True):
     row: int = -1
 
 
+class Holding(msgspec.Struct, frozen=True):
+    """A joint whose rows are in force for a while.
+
+    Where a run begins they are in force if `first`, a formula of parameters, is 1, and off if it is 0. They come into
+    force where `catches` becomes larger than 0, and are off again where `releases` does; None where they never do. A
+    joint that holds `present` positions keeps those of the catch.
+    """
+
+    joint: str
+    first: Expr
+    catches: Expr | None = None
+    releases: Expr | None = None
+    present: bool = False
+
+
 class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     """A validated mechanism, all of it planar or all of it spatial.
 
@@ -367,6 +353,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     limits: tuple[OperatingLimit, ...] = ()  # of outputs and parameters: nothing is computed with them
     author: str = ""  # as is the title, for people
     revision: str = ""
+    holding: tuple[Holding, ...] = ()  # those of `switchable` whose states and events say where they are in force
 
     def __repr__(self) -> str:
         counted = (

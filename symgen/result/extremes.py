@@ -32,6 +32,8 @@ class Extreme(NamedTuple):
         Its smallest and its largest value.
     low_at, high_at : float
         Their times [s].
+    last : float
+        The value at the last output.
     """
 
     name: str
@@ -40,13 +42,16 @@ class Extreme(NamedTuple):
     low_at: float
     high: float
     high_at: float
+    last: float
 
 
-def extremes_of_run(result: Result) -> list[Extreme]:
+def extremes_of_run(result: Result, quantities: Sequence[str] = ()) -> list[Extreme]:
     """Return outputs of the file, loads by size, and coordinates of joints; of bodies where there is nothing else.
 
-    A failed run has no loads, as its last ones tell of the failure alone.
+    A failed run has no loads, as its last ones tell of the failure alone. `quantities` takes the place of all that.
     """
+    if quantities:
+        return [*_rows(result, result.select(quantities))]
     loads = [] if result.status == "failed" else [*_loads(result)]
     rows = [*_rows(result, result.whole(("outputs",))), *loads]
     joints = result.whole(("joint_coordinates",))
@@ -80,6 +85,5 @@ def _rows(result: Result, table: Labelled) -> Iterator[Extreme]:
         good: NDArray[np.int64] = np.flatnonzero(np.isfinite(values))
         if len(good):
             low, high = (int(good[place(values[good])]) for place in (np.argmin, np.argmax))
-            yield Extreme(
-                name, unit, float(values[low]), float(result.t[low]), float(values[high]), float(result.t[high])
-            )
+            ends = float(values[low]), float(result.t[low]), float(values[high]), float(result.t[high])
+            yield Extreme(name, unit, *ends, float(values[-1]))

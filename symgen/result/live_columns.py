@@ -10,8 +10,8 @@ from symgen.base.vocabulary.measures import GROUND, Integral
 from symgen.compile.native.javascript_code import HELPERS, javascript_functions
 from symgen.compile.native.read import Foreign
 from symgen.describe.facts.carriers import bodies_of_reactions, seats_on_carriers
-from symgen.describe.formulas.readings import TABLES as FORMULAS
-from symgen.describe.formulas.readings import integrals_of_outputs
+from symgen.describe.formulas.reported_columns import TABLES as FORMULAS
+from symgen.describe.formulas.results_read import integrals_of_outputs
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.event_sections import RESET
 from symgen.result.signals import Signal, signals_of_run

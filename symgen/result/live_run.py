@@ -10,6 +10,7 @@ import numpy as np
 
 from symgen.base.errors import AssemblyError, InputError
 from symgen.derive.methods import METHODS
+from symgen.describe.facts.pulled import Pulled, pull_bodies
 from symgen.describe.formulas.evaluate import independent_values, parameter_values
 from symgen.describe.parts.event_sections import DOES
 from symgen.result.labelled import Array
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
 #: The scheme of pages.
 LIVE_INTEGRATOR = "rk4"
+#: Characters of emitted code for the spring by which a hand pulls a body, about.
+A_SPRING = 1300
 
 
 def is_live(method: str) -> bool:
@@ -38,7 +41,7 @@ def live_of_run(
     """Return the live part of a page with coordinates, start, parameters and inputs of a run, by their names in JSON.
 
     Formulas of inputs are part of the mechanism. Inputs jump where one has other words, or is held by switches.
-    Parameters that are `fixed` have no sliders.
+    Parameters that are `fixed` have no sliders. The code has a spring on each body, by which a hand pulls it.
     """
     from symgen.base.settings import Settings
     from symgen.run.planning.plan import Purpose
@@ -55,12 +58,14 @@ def live_of_run(
     for name, action in run["watched"]:
         if action in DOES and name not in own:
             return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages look only for events of the file"
+    pulled = pull_bodies(mechanism)
+    mechanism = mechanism if pulled is None else pulled.mechanism
     numbers = {name: x for name, x in inputs.items() if not isinstance(x, str)}
     parameters = independent_values(mechanism, parameter_values(mechanism, {**run["parameters"], **numbers}))
     step = run["step"] or mechanism.defaults.step
     settings = Settings(shape="straight", coordinates=run["coordinates"], parameters=parameters, step=step)
     settings = replace(settings, method=method) if method else settings
-    if mechanism.bounded:  # whose run is the loop of this scheme
+    if mechanism.has_modes:  # whose run is the loop of this scheme
         settings = replace(settings, integrator=LIVE_INTEGRATOR)
     prepared = prepare(mechanism, settings, Purpose.STATE)
     state = {**initial["q"], **initial["v"]}
@@ -68,19 +73,28 @@ def live_of_run(
     names += [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]
     begin = np.array([state[n] for n in names]) if set(names) <= set(state) else None
     if prepared.tree is not None:
-        return _live_part_on_tree(prepared, prepared.tree, step, begin, run["until"], fixed)
+        return _live_part_on_tree(prepared, prepared.tree, step, begin, run["until"], fixed, pulled)
     live, note = live_part(
-        mechanism, prepared.compiled, prepared.start, step, begin, fixed, acting=prepared.mechanism, run=prepared
+        *(mechanism, prepared.compiled, prepared.start, step, begin, fixed),
+        acting=prepared.mechanism,
+        run=prepared,
+        room=_room_for_springs(pulled),
     )
     if live is None and run["coordinates"] == "absolute":  # a tree has a tenth of the operations, or less
         prepared = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
         if prepared.tree is not None:
-            return _live_part_on_tree(prepared, prepared.tree, step, begin, run["until"], fixed)
-    return _add_columns(live, mechanism, prepared, run["until"]), note
+            return _live_part_on_tree(prepared, prepared.tree, step, begin, run["until"], fixed, pulled)
+    return _add_columns(live, mechanism, prepared, run["until"], pulled), note
 
 
 def _live_part_on_tree(
-    run: Prepared, tree: TreeRun, step: float, initial: Array | None, until: float, fixed: Collection[str]
+    run: Prepared,
+    tree: TreeRun,
+    step: float,
+    initial: Array | None,
+    until: float,
+    fixed: Collection[str],
+    pulled: Pulled | None,
 ) -> tuple[Live | None, str]:
     """Return the live part in joint coordinates, which cannot close bodies: without sliders that move their start."""
     from symgen.run.planning.plan import Purpose
@@ -92,8 +106,9 @@ def _live_part_on_tree(
     values, moving, info = parameter_values(mechanism, run.plan.parameters), list[str](), run.compiled.info
     turns = start.w[abi.WINDING :][: info.windings].tolist()
     own_start = exported_start(run.mechanism, run.compiled, start.datum or (), turns)
+    springs = frozenset[str]() if pulled is None else pulled.names
     for name, x in values.items():
-        if name in fixed:
+        if name in fixed or name in springs:
             continue
         parameters = {**settings.parameters, name: 1.01 * x if x else 0.01}
         try:
@@ -111,16 +126,30 @@ def _live_part_on_tree(
         of_bodies = replace(tree.body_start, y=y)
         carried = map_to_tree(mechanism, tree.mechanism, tree.bodies, tree.compiled)
         start = begin_on_tree(mechanism, tree.mechanism, carried, of_bodies, run.plan.method_parameters).start
-    live, note = live_part(mechanism, run.compiled, start, step, still=[*moving, *fixed], acting=run.mechanism, run=run)
+    live, note = live_part(
+        *(mechanism, run.compiled, start, step),
+        still=[*moving, *fixed],
+        acting=run.mechanism,
+        run=run,
+        room=_room_for_springs(pulled),
+    )
     if live is not None and moving:
         note = f"no sliders for {', '.join(moving)}: they move the start, which pages close in coordinates of bodies"
-    return _add_columns(live, mechanism, run, until), note
+    return _add_columns(live, mechanism, run, until, pulled), note
 
 
-def _add_columns(live: Live | None, mechanism: Mechanism, run: Prepared, until: float) -> Live | None:
+def _room_for_springs(pulled: Pulled | None) -> int:
+    return 0 if pulled is None else A_SPRING * len(pulled.springs)
+
+
+def _add_columns(
+    live: Live | None, mechanism: Mechanism, run: Prepared, until: float, pulled: Pulled | None
+) -> Live | None:
     """Return a live part of motions until a time [s], also where an event ended the run before, with all columns."""
     if live is None:
         return None
+    if pulled is not None:
+        mechanism = pulled.without_springs(mechanism)
     law = run.compiled.law
     units = {parameter.name: parameter.unit for parameter in METHODS.get(law.method).parameters}
     gains = [
@@ -132,7 +161,19 @@ def _add_columns(live: Live | None, mechanism: Mechanism, run: Prepared, until: 
     ]
     bodies = None if run.tree is None else run.tree.bodies
     text, spec = live_columns(mechanism, run.compiled, run.start, bodies, run.mechanism)
-    parameters = [*live.spec["parameters"], *gains]
-    return replace(
-        live, columns=text, spec={**live.spec, "until": float(until), "parameters": parameters, "columns": spec}
-    )
+    own = live.spec["parameters"]
+    springs = frozenset[str]() if pulled is None else pulled.names
+    parameters = [{**p, "place": i} for i, p in enumerate(own) if p["name"] not in springs] + gains
+    places = {p["name"]: i for i, p in enumerate(own)}
+    hand = None if pulled is None else _hand_in_page(pulled, places)
+    further = {"until": float(until), "parameters": parameters, "columns": spec, "hand": hand}
+    return replace(live, columns=text, spec={**live.spec, **further})
+
+
+def _hand_in_page(pulled: Pulled, places: Mapping[str, int]) -> dict[str, Any]:
+    """Return the places of the parameters by which a page pulls bodies."""
+    return {
+        "at": [places[name] for name in pulled.at],
+        "to": [places[name] for name in pulled.to],
+        "bodies": [[body, *(places[name] for name in spring)] for body, spring in pulled.springs.items()],
+    }

@@ -17,7 +17,7 @@ from symgen.base.arguments import kind_of_value, one_word_of, text, truth_value,
 from symgen.base.arguments import path_argument as argument_path
 from symgen.base.errors import InputError, plural
 from symgen.base.files import check_path
-from symgen.describe.formulas.readings import TABLES as FORMULAS
+from symgen.describe.formulas.reported_columns import TABLES as FORMULAS
 from symgen.describe.parts.columns import column_name
 from symgen.result.contract import json_series
 from symgen.result.export import COLUMNS, data_frame, write_columns

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,9 +11,10 @@ import numpy as np
 from symgen.base.errors import fit_lines
 from symgen.result.labelled import Labelled, columns_at
 
-#: Okabe and Ito's colours, told apart with every kind of colour vision; dashes tell repeats apart.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000", "#F0E442")
-DASHES = ("-", "--", ":", "-.")
+#: Okabe and Ito's colours, told apart with every kind of colour vision.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000", "#B8A900")
+#: Dashes, told apart on grey paper; their number shares no divisor with that of the colours, so that 40 pairs differ.
+DASHES = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)), (0, (9, 2, 2.5, 2)))
 #: Lines of a panel at most: those that change most are drawn, all of them with a key.
 LONGEST_LEGEND = 14
 #: Smaller violations are drawn here: a logarithm has no zero.
@@ -21,6 +22,8 @@ FLOOR = 1e-17
 #: Letters of a figure in print [pt]; height of a panel over its width, of a line of the legend, and widths of its
 #: handles and of a letter [inch].
 LETTERS, PANEL, LINE, HANDLE, LETTER = 8.0, 0.65, 0.16, 0.5, 0.057
+#: Height of a name at the end of its line, as a part of a panel, and how the artists of names are found again.
+ROW, NAMED = 0.075, "name"
 #: Curves that are nowhere further apart than this part of the picture are one line.
 APART = 1e-6
 #: Unit -> what has it.
@@ -71,7 +74,7 @@ def empty_figure(title: str, count: int) -> tuple[Any, Any]:
     from matplotlib.figure import Figure
 
     count = max(1, count)
-    figure = Figure(figsize=(8.0, 1.2 + 2.4 * count), layout="constrained")
+    figure = Figure(figsize=(8.0, 0.9 + 2.0 * count), layout="constrained")
     axes = np.atleast_1d(figure.subplots(count, 1, sharex=True))
     for ax in axes:
         ax.grid(True, alpha=0.3)
@@ -105,9 +108,11 @@ def fit_into(figure: Any, width: float) -> None:
     named = dict[str, Any]()
     for ax in figure.axes:
         handles, labels = ax.get_legend_handles_labels()
-        if ax.get_legend() is not None:
+        at_lines = [artist for artist in ax.get_children() if artist.get_gid() == NAMED]
+        if ax.get_legend() is not None or at_lines:
             named |= dict(zip(labels, handles, strict=True))
-            ax.get_legend().remove()
+        for artist in filter(None, (ax.get_legend(), *at_lines)):
+            artist.remove()
         ax.tick_params(labelsize=LETTERS - 1)
         for text in (ax.xaxis.label, ax.yaxis.label, ax.title):
             text.set_fontsize(LETTERS)
@@ -127,8 +132,11 @@ def line_style_of(index: int, count: int = 1) -> dict[str, Any]:
         from matplotlib import colormaps
 
         return {"color": colormaps["viridis"](index / (count - 1)), "linewidth": 0.7}
-    dashes = DASHES[index // len(COLOURS) % len(DASHES)]
-    return {"color": COLOURS[index % len(COLOURS)], "linestyle": dashes, "linewidth": 1.2}
+    return {
+        "color": COLOURS[index % len(COLOURS)],
+        "linestyle": DASHES[index % len(DASHES)],
+        "linewidth": 1.2,
+    }
 
 
 def _distinct_curves(curves: Mapping[str, Any]) -> dict[str, Any]:
@@ -170,9 +178,57 @@ def _draw_lines(ax: Any, along: Any, table: Labelled, logarithmic: bool) -> None
     if logarithmic:
         ax.set_yscale("log")
     if len(table.names) > 1:
-        place_legend(ax)
+        _name_lines(ax)
 
 
 def place_legend(ax: Any) -> None:
     """Put the legend of a panel to the right of it, where it hides nothing."""
     ax.legend(fontsize=7, ncols=1, loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
+
+
+def _name_lines(ax: Any) -> None:
+    """Name lines at their right ends, each with a piece of its dashes, so that grey paper tells them apart.
+
+    Lines that end elsewhere, such as closed curves, have a legend.
+    """
+    from matplotlib.lines import Line2D
+
+    lines = [line for line in ax.get_lines() if not line.get_label().startswith("_")]
+    right = ax.get_xlim()[1] - 0.05 * np.ptp(ax.get_xlim())
+    if not all(len(line.get_xdata()) and line.get_xdata()[-1] >= right for line in lines):
+        place_legend(ax)
+        return
+    ends = [_height_of_end(ax, line) for line in lines]
+    counts = [line.get_label().count("\n") + 1 for line in lines]
+    for line, end, place in zip(lines, ends, _spread_names(ends, counts), strict=True):
+        outside = {"transform": ax.transAxes, "clip_on": False, "gid": NAMED, "label": "_"}
+        ax.add_artist(Line2D([1.0, 1.025], [end, place], linewidth=0.5, color=line.get_color(), **outside))
+        sample = Line2D([1.025, 1.075], [place, place])
+        sample.update_from(line)  # a list of dashes has no name
+        ax.add_artist(sample).set(**outside)
+        ax.text(1.083, place, line.get_label(), transform=ax.transAxes, va="center", fontsize=7, gid=NAMED)
+
+
+def _height_of_end(ax: Any, line: Any) -> float:
+    """Return how high the last finite value of a line is, from 0 to 1 of its panel."""
+    values = np.asarray(line.get_ydata(), dtype=float)
+    finite = values[np.isfinite(values)]
+    if not len(finite):
+        return 0.5
+    height = ax.transAxes.inverted().transform(ax.transData.transform((0.0, finite[-1])))[1]
+    return min(1.0, max(0.0, float(height)))
+
+
+def _spread_names(ends: Sequence[float], counts: Sequence[int]) -> list[float]:
+    """Return heights of names near the ends of their lines, a name of several rows having room for them."""
+    order = sorted(range(len(ends)), key=lambda i: -ends[i])
+    room = [ROW * count for count in counts]
+    places, free = list(ends), np.inf
+    for i in order:
+        places[i] = min(ends[i], free - 0.5 * room[i])
+        free = places[i] - 0.5 * room[i]
+    free = -0.5 * ROW
+    for i in reversed(order):
+        places[i] = max(places[i], free + 0.5 * room[i])
+        free = places[i] + 0.5 * room[i]
+    return places

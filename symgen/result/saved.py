@@ -14,7 +14,7 @@ import numpy as np
 
 from symgen.base.errors import InputError, quote
 from symgen.base.files import check_csv_rows, check_file_name, name_without_unit, need_library
-from symgen.describe.mechanism import ACCELERATIONS
+from symgen.describe.coordinate_names import ACCELERATIONS
 from symgen.describe.parts.columns import FORMS
 from symgen.result.export import LAST_HEADER, LAST_PREFIX, SAVED
 from symgen.result.labelled import Array

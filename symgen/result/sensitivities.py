@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError, quote, suggest
 from symgen.describe.facts.kinks import discontinuities_of
 from symgen.describe.facts.motion_quantities import QuantityNames
-from symgen.describe.formulas.readings import TABLES as FORMULAS
+from symgen.describe.formulas.reported_columns import TABLES as FORMULAS
 from symgen.result.evaluated import Evaluated
 from symgen.result.labelled import Labelled
 from symgen.result.step_errors import DOUBTFUL, errors_of_steps

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 from symgen.base.arguments import words
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.vocabulary.measures import GROUND
+from symgen.describe.coordinate_names import ACCELERATIONS
 from symgen.describe.facts.carriers import bodies_of_reactions
-from symgen.describe.formulas.readings import TABLES as FORMULAS
-from symgen.describe.mechanism import ACCELERATIONS
+from symgen.describe.formulas.reported_columns import TABLES as FORMULAS
 from symgen.describe.parts.columns import column_name
 from symgen.result.labelled import Array, Labelled
 from symgen.run.layout import abi

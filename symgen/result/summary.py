@@ -27,8 +27,7 @@ def summary_lines(result: Result) -> list[tuple[str, str]]:
     spread = f" (spread {s.run_spread:.2g} s)" if s.run_spread else ""
     derivation = f"; derived in {s.derive:.3g} s, emitted in {s.emit:.3g} s" if s.derive else ""
     dropped = f", {rank.identical_rows_dropped} identical dropped" if rank.identical_rows_dropped else ""
-    width = result.vector_width
-    together = f" at eight nodes together, in vectors of {width}" if width else ""
+    together = ", eight at a time" if result.vector_width else ""
     pairs = [
         ("mechanism", result.mechanism),
         ("method", f"{result.method}, {result.integrator}, {steps}, until {result.until:g} s"),

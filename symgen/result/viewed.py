@@ -13,8 +13,8 @@ from symgen.base.digits import clean
 from symgen.base.errors import AssemblyError, InputError
 from symgen.base.vocabulary.measures import GROUND
 from symgen.derive.methods import METHODS
+from symgen.describe.coordinate_names import ACCELERATIONS
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.describe.mechanism import ACCELERATIONS
 from symgen.describe.parts.input_data import are_words_of_data
 from symgen.result.export import SAVED
 from symgen.result.labelled import Array, Labelled, columns_at, least_scale, unit_scales

@@ -1,11 +1,12 @@
 """Reports in a browser: sketches are bounded in height."""
 
+import re
 from pathlib import Path
 
 import pytest
 
 import symgen
-from symgen.study.report.document import ReportDocument
+from symgen.study.report.document import Letterhead, ReportDocument
 from symgen.study.report.machine_report import machine_report
 from symgen.study.report.picture import sketches_section
 from symgen.study.report.write import html_report, write
@@ -39,3 +40,10 @@ def test_a_report_is_printed(tmp_path):
     model = symgen.load("pendulum")
     path = write(machine_report(model, model.simulate(until=0.5)), tmp_path / "pendulum.pdf")
     assert path.read_bytes().startswith(b"%PDF") and path.stat().st_size > 20_000
+
+
+@pytest.mark.parametrize(("paper", "points"), [("a4", rb"59\d[.\d]* 841[.\d]*"), ("letter", rb"612 792")])
+def test_a_browser_prints_the_size(paper, points, tmp_path):
+    document = ReportDocument("press", (), (), "", letterhead=Letterhead(paper=paper))
+    data = write(document, tmp_path / "a.pdf").read_bytes()
+    assert re.search(rb"/MediaBox \[0 0 " + points + rb"\]", data)

@@ -13,7 +13,7 @@ import pytest
 from rich.console import Console
 
 from symgen.api import load
-from symgen.cli import COMMANDS, _tables, group, main
+from symgen.cli import COMMANDS, _comparison_tables, _tables, group, main
 from symgen.cli import list as list_command
 from symgen.study.comparison.comparison_rows import Row
 from symgen.study.comparison.comparison_study import Study
@@ -22,11 +22,12 @@ from symgen.study.comparison.comparison_study import Study
 @pytest.fixture
 def narrow(monkeypatch: pytest.MonkeyPatch) -> None:
     """Make standard output a terminal of 80 characters."""
-    monkeypatch.setattr(
-        _tables,
-        "make_console",
-        lambda: Console(width=80, force_terminal=True, color_system=None, markup=False, highlight=False),
-    )
+    for module in (_tables, _comparison_tables):
+        monkeypatch.setattr(
+            module,
+            "make_console",
+            lambda: Console(width=80, force_terminal=True, color_system=None, markup=False, highlight=False),
+        )
 
 
 def study() -> Study:
@@ -43,7 +44,7 @@ def study() -> Study:
 
 
 def test_a_comparison_has_whole_numbers(narrow: None, capsys: pytest.CaptureFixture[str]) -> None:
-    _tables.show_study(study())
+    _comparison_tables.show_study(study())
     lines = capsys.readouterr().out.splitlines()
     assert all(len(line) <= 80 for line in lines) and not any("…" in line for line in lines)
     text = "\n".join(lines)
@@ -54,7 +55,7 @@ def test_a_comparison_has_whole_numbers(narrow: None, capsys: pytest.CaptureFixt
 
 
 def test_a_wide_terminal_has_all_columns(capsys: pytest.CaptureFixture[str]) -> None:
-    _tables.show_study(study())
+    _comparison_tables.show_study(study())
     text = capsys.readouterr().out
     assert "left out" not in text and "123456789" in text and "3.5e-13" in text
 
@@ -140,3 +141,23 @@ def test_whoever_reads_nothing_is_no_failure(words, closing, tmp_path):
         ["bash", "-c", command], cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False
     )
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_chosen_quantities_take_the_place_of_the_first_ones(cli) -> None:
+    """One table, with the times of extremes and the last value; the second one had neither."""
+    code, out, _ = cli(
+        "run", "pendulum", "--until", "0.5", "--integrator", "rk4", "--step", "0.01", "--quantity", "bob.x"
+    )
+    assert code == 0
+    (heading,) = (line for line in out.splitlines() if line.startswith("quantity"))
+    assert heading.split("  ")[0] == "quantity" and heading.rstrip().endswith("at the end  unit")
+    assert [line.split()[0] for line in out[out.index(heading) :].splitlines()[1:]] == ["bob.x"]
+
+
+def test_transmission_angles_have_their_row(cli) -> None:
+    code, out, _ = cli("kinematics", "driven-four-bar", "--times", "lin(0, 1, 5)", "--transmission", "C")
+    assert code == 0
+    row = next(line.split() for line in out.splitlines() if line.startswith("transmission.C"))
+    angle = load("driven-four-bar").kinematics(np.linspace(0.0, 1.0, 5), transmission=("C",)).transmission.values[:, 0]
+    assert [float(x) for x in row[1:4]] == pytest.approx([angle[-1], angle.min(), angle.max()], rel=1e-5)
+    assert row[-1] == "rad"

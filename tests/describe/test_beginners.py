@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from symgen.api import load
-from symgen.base.errors import InputError
+from symgen.base.errors import AssemblyError, InputError
 from symgen.describe.files.large_angles import warnings_on_angles
 from symgen.describe.files.problems import sentence_with_line
 
@@ -87,12 +87,80 @@ SLIPS = {
     "degrees in a formula": ("3*sin(t)", "3*sin(30 deg)", ":31: forces.wind.torque", "make the number in deg a para"),
     "negative mass": ('"12 kg"', "-12", ":6: bodies.boom.mass: expected a value above 0", "got -12"),
     "no mass": ('mass = "12 kg"\n', "", ":5: bodies.boom.mass: expected a number", "got no such key"),
+    "no value": ("mass = 40.0", "mass =", ":13: expected a value after '='", "a line without a value is left out"),
+    "no sign": ("mass = 40.0", "mass 40.0", ":13: expected KEY = VALUE", "did you mean 'mass = 40.0'?"),
+    "two signs": ("mass = 40.0", "mass == 40.0", ":13: expected one '='", "did you mean 40.0?"),
+    "blank of a word processor": ("mass = 40.0", "mass =\u00a040.0", ":13: expected plain blanks", "'mass = 40.0'?"),
+    "no digit after the point": ("40.0", "40.", ":13: expected a digit on both sides", "did you mean 40.0?"),
+    "no digit before the point": ("0.5", ".5", ":14: expected a digit on both sides", "did you mean 0.5?"),
+    "formula without quotes": ("40.0", "1/2", ":13: expected a formula in quotation marks", 'did you mean "1/2"?'),
+    "list with semicolons": ("[2.0, -1.0]", "[2.0; -1.0]", ":15: expected a list", "did you mean [2.0, -1.0]?"),
+    "list in round brackets": ("[2.0, -1.0]", "(2.0, -1.0)", ":15: expected a list", "did you mean [2.0, -1.0]?"),
+    "list without commas": ("[2.0, -1.0]", "[2.0 -1.0]", ":15: expected a list", "did you mean [2.0, -1.0]?"),
+    "list that stays open": ("[2.0, -1.0]", "[2.0, -1.0", ":15: expected a list", "did you mean [2.0, -1.0]?"),
+    "list as a text": ("[2.0, -1.0]", '"2.0, -1.0"', ":15: bodies.weight.position", "did you mean [2.0, -1.0]?"),
+    "decimal commas in a list": ("[2.0, -1.0]", "[2,0, -1,0]", ":15: bodies.weight.position", "mean [2.0, -1.0]?"),
+    "table of a section": ("[bodies.weight]", "[weight]", ":12: ", "did you mean '[bodies.weight]'?"),
+    "table without brackets": ("[bodies.weight]", "bodies.weight:", ":12: ", "did you mean '[bodies.weight]'?"),
+    "list of tables": ("[bodies.weight]", "[[bodies]]", ":12: expected one pair of brackets", "'[bodies.NAME]'"),
+    "letter with an accent": ("[bodies.weight]", "[bodies.wéight]", ":12: expected a name of letters", "'é' is none"),
+    "name with a digit first": ("[bodies.weight]", "[bodies.2nd]", ":12: bodies: expected a body name", "got '2nd'"),
+    "theta": ('angle = "0 deg"', "theta = 0.0", ":10: bodies.boom: got the unknown key", "did you mean 'angle'?"),
+    "g": ("gravity =", "g =", ":3: mechanism: got the unknown key 'g'", "did you mean 'gravity'?"),
+    "world": ('["ground"', '["world"', ":20: joints.base.between", "did you mean 'ground'?"),
+    "one body twice": ('["boom", "weight"]', '["boom", "boom"]', ":25: joints.hook.between: expected two different"),
+    "no bodies": (
+        'between = ["boom", "weight"]\n',
+        "",
+        ":23: joints.hook.between: expected the names of two",
+        "no such",
+    ),
+    "no points": ('at = ["tip", "eye"]\n', "", ":23: joints.hook.at: expected two points", "got no such key"),
+    "force without a body": ('body = "boom"\n', "", ":28: forces.wind.body: expected a value", "got no such key"),
+    "negative inertia": ("inertia = 0.5", "inertia = -0.5", ":14: bodies.weight.inertia: expected a value above 0"),
+    "force for a mass": ("12 kg", "5 N", ":6: bodies.boom.mass: expected a unit such as kg", "got 'N'"),
+    "bracket that stays open": ("3*sin(t)", "3*sin(t", ":31: forces.wind.torque", "a bracket is not closed"),
+    "function without brackets": ("3*sin(t)", "3*sin t", ":31: forces.wind.torque", "did you mean 'sin(t)'?"),
+    "no sign of a product with a name": ("3*sin(t)", "sin(2pi*t)", ":31: forces.wind.torque", "did you mean '2*pi'?"),
+    "dot of a product": ("3*sin(t)", "3·sin(t)", ":31: forces.wind.torque", "a product is written with *"),
+    "decimal comma in a formula": ("3*sin(t)", "3,5*sin(t)", ":31: forces.wind.torque", "did you mean 3.5,"),
+    "then": ("3*sin(t)", "if t > 1 then 3", ":31: forces.wind.torque", "a choice is written A if CONDITION else B"),
+    "angle of a body": ("3*sin(t)", "3*boom.angle", ":31: forces.wind.torque", "did you mean 'boom.theta'?"),
+    "coordinate without its body": ("3*sin(t)", "3*theta", ":31: forces.wind.torque", "did you mean 'boom.theta'?"),
+    "driver of a body": (
+        "[forces.wind]",
+        '[joints.motor]\ntype = "driver"\njoint = "boom"\nvalue = "t"\n[forces.wind]',
+        ":30: joints.motor.joint: expected the name of a joint",
+        "known: base, hook",
+    ),
+    "driver along what a joint lacks": (
+        "[forces.wind]",
+        '[joints.motor]\ntype = "driver"\njoint = "hook"\ncoordinate = "displacement"\nvalue = "t"\n[forces.wind]',
+        ":31: joints.motor.coordinate: expected a coordinate of joint 'hook'",
+        "known: angle",
+    ),
+    "name twice": ("[forces.wind]", "[forces.boom]", ":28: forces.boom: expected a name used once", "a body already"),
+    "end of the run": ("[mechanism]", "[run]\nend = 5\n[mechanism]", ":2: run: got the unknown key", "mean 'until'?"),
+    "gravity in space": ("[0.0, -9.81]", "[0, 0, -9.81]", ":3: mechanism.gravity", "has space = 'spatial'"),
     "gravity": ("[0.0, -9.81]", "9.81", ":3: mechanism.gravity: expected two numbers", "got 9.81"),
 }
 COMMANDS = {
     "run four-bar --until 5s": "'--until': expected a number, got '5s'; numbers of options are in SI units: 5",
     "run four-bar --step 2ms": "'--step': expected a number, got '2ms'; numbers of options are in SI units: 0.002",
     "run four-bar --until 1,5": "'--until': expected a number, got '1,5'; a number has a decimal point: 1.5",
+}
+#: Further commands, and what their sentences say.
+MISTYPED = {
+    "rum four-bar": "there is no command 'rum'; did you mean 'run'?",
+    "four-bar": "there is no command 'four-bar'; did you mean 'symgen run four-bar'?",
+    "run four-bra": "got 'four-bra'; did you mean 'four-bar'?",
+    "run four-bar --untl 5": "there is no option '--untl'; did you mean '--until'? (symgen run --help)",
+    "run four-bar --set crank_mass:2": "expected NAME=VALUE, got 'crank_mass:2'; did you mean crank_mass=2?",
+    "run four-bar --set crank_mass=2,5": "expected a finite number, got '2,5'; a number has a decimal point: 2.5",
+    "run four-bar --set crank_mas=2": "got none of that name; did you mean 'crank_mass'?",
+    "sweep four-bar --vary crank_mass=1,2,3": "got '1,2,3'; did you mean values(1, 2, 3)?",
+    "kinematics four-bar": "expected a driver for every freedom, got none for A.angle; symgen run needs no drivers",
+    "import none.urdf": "none.urdf: expected a file that can be read, got no such file or folder",
 }
 
 
@@ -117,6 +185,21 @@ def test_an_angle_of_many_turns_is_asked_about(tmp_path):
     assert warning == 'bodies.boom.angle: 30 rad are 4.77 turns; an angle in degrees is written "30 deg"'
     file.write_text(CRANE.replace('angle = "0 deg"', "angle = 6.2"))
     assert not [*warnings_on_angles(load(file).mechanism)]
+
+
+def test_a_loop_that_cannot_close_says_where_it_stays_open(tmp_path):
+    file = tmp_path / "crane.toml"
+    tie = '[joints.tie]\ntype = "distance"\nbetween = ["ground", "weight"]\nat = [[5.0, 0.0], "eye"]\nlength = 1.0\n'
+    file.write_text(CRANE + tie)  # the tip is 2 m from the origin, and the tie reaches to 4 m
+    with pytest.raises(AssemblyError, match=r"joint 'tie' stays open by \S+ m; check its points"):
+        load(file).simulate(until=0.1)
+
+
+@pytest.mark.parametrize("command", MISTYPED)
+def test_a_mistyped_command_is_answered_in_one_sentence(command, cli):
+    code, out, err = cli(*command.split())
+    assert (code, out) == (2, "") and err.startswith("symgen: ") and err.count("\n") == 1
+    assert MISTYPED[command] in err
 
 
 @pytest.mark.parametrize("command", COMMANDS)

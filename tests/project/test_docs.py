@@ -16,7 +16,7 @@ import pytest
 from support.processes import COMMAND, python
 
 import symgen
-from benchmarks import gallery
+from benchmarks import gallery, kept_pictures
 from symgen.api import load
 from symgen.derive.methods import METHODS
 from symgen.describe.beams.beam_sections import BeamSection
@@ -205,8 +205,8 @@ def test_pictures_are_there() -> None:
     for page, target in each_target(_PICTURE):
         file = (page.parent / target).resolve()
         assert file.is_file() and file.is_relative_to(ROOT), f"{name(page)} shows {target}, which does not exist"
-        largest = gallery.LARGEST_OF_README if file.parent == gallery.PICTURES else gallery.LARGEST
-        largest = gallery.LARGEST_FILM if file.suffix == ".gif" else largest
+        largest = kept_pictures.LARGEST_OF_README if file.parent == kept_pictures.PICTURES else kept_pictures.LARGEST
+        largest = kept_pictures.LARGEST_FILM if file.suffix == ".gif" else largest
         assert file.stat().st_size <= largest, f"{target} is larger than {largest} bytes"
 
 

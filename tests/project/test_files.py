@@ -65,7 +65,7 @@ def test_a_folder_that_goes_away_meanwhile(tmp_path):
     folder.mkdir()
     files.check_writable("--save", folder / "a")
     folder.rmdir()
-    with pytest.raises(InputError, match="a file that can be written, got No such file or directory"):
+    with pytest.raises(InputError, match="a file that can be written, got no such file or folder"):
         files.write_whole(folder / "a", "text")
 
 

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from benchmarks import moving_picture
-from benchmarks.gallery import PICTURES
+from benchmarks.kept_pictures import PICTURES
 
 KEPT = (PICTURES / f"{moving_picture.NAME}.svg").read_text(encoding="utf-8")
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from benchmarks import gallery, pictures
+from benchmarks import gallery, kept_pictures, pictures
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 
@@ -19,8 +19,8 @@ def split(svg: str) -> tuple[str, np.ndarray]:
 @pytest.mark.parametrize("name", pictures.DRAWN)
 def test_a_picture_is_drawn_as_it_is_kept(name: str) -> None:
     """Numbers are tenths of a pixel: another machine's rounding moves some by one of these."""
-    kept = (gallery.PICTURES / f"{name}.svg").read_text(encoding="utf-8")
-    (words, places), (words_now, places_now) = split(kept), split(gallery.slim(pictures.DRAWN[name]()))
+    kept = (kept_pictures.PICTURES / f"{name}.svg").read_text(encoding="utf-8")
+    (words, places), (words_now, places_now) = split(kept), split(kept_pictures.slim(pictures.DRAWN[name]()))
     assert words_now == words, "run python -m benchmarks.pictures"
     np.testing.assert_allclose(places_now, places, rtol=0.0, atol=0.25)
     assert len(kept) < 15_000

@@ -119,13 +119,13 @@ def test_a_plot_without_a_path_shows_itself(result, tmp_path):
 def test_a_figure_fits_into_a_column_of_a_page(result, tmp_path):
     """84 mm at 150 dots an inch are 496 pixels; each legend beside a panel would need 40 of the 84 mm."""
     plot = result.plot(None, ["q", "energy"])
-    beside = [ax.get_legend() for ax in plot.figure.axes if ax.get_legend()]
-    named = sum(len(legend.get_texts()) for legend in beside)
+    beside = [ax.texts for ax in plot.figure.axes if ax.texts]
+    named = sum(map(len, beside))
     data = plot.save(tmp_path / "column.png", width=84).read_bytes()
     assert int.from_bytes(data[16:20], "big") == 496
     (legend,) = plot.figure.legends
     assert len(beside) > 1 and len(legend.get_texts()) == named
-    assert not any(ax.get_legend() for ax in plot.figure.axes) and plot.figure.get_suptitle() == ""
+    assert not any(ax.texts for ax in plot.figure.axes) and plot.figure.get_suptitle() == ""
     drawn = plot.figure.get_tightbbox()
     assert drawn.width <= 84 / 25.4 and drawn.height <= plot.figure.get_size_inches()[1]
     with pytest.raises(InputError, match="width: expected 30 to 1000 mm, got 12"):

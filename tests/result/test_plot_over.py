@@ -24,7 +24,7 @@ def test_torque_over_angle(wiper):
     assert figure.axes[-1].get_xlabel() == "crank.theta [rad]"
     x, y = figure.axes[0].lines[0].get_data()
     assert np.array_equal(x, wiper["crank.theta"]) and np.array_equal(y, wiper["motor.torque"])
-    assert [t.get_text() for t in figure.axes[2].get_legend().get_texts()] == ["shaft.F", "pivot.F"]
+    assert [t.get_text() for t in figure.axes[2].texts] == ["shaft.F", "pivot.F"]
 
 
 def test_curves_that_coincide_are_one_line_with_both_names():

@@ -8,7 +8,7 @@ import pytest
 import symgen
 from study.report import made
 from symgen.base.errors import InputError
-from symgen.cli._tables import show_study
+from symgen.cli._comparison_tables import show_study
 from symgen.study.comparison.combinations import Combinations
 from symgen.study.comparison.equal_error import pareto_front, time_at_error, times_at
 from symgen.study.journal import Journal

@@ -26,7 +26,7 @@ from benchmarks.bounded.touch.modes import (
 )
 
 #: Gaps that count as zero [m], rates of impacts that do not spring back [m/s], parts of a step that are looked at.
-TOUCHING, SLOW, PARTS = 1e-11, 2e-6, 6
+TOUCHING, SLOW, PARTS = 1e-13, 1e-7, 6
 #: Longest step [s], most events, and energy that an impact may add, over that before.
 LONGEST, MOST, _GAIN = 4e-3, 4000, 1e-9
 
@@ -190,7 +190,7 @@ def _until_event(
 
 
 def _short(scene: Scene, phase: Phase, y: Array, rate: Array) -> float:
-    """Return a step that sees the flights that begin."""
+    """Return a step that sees the flights that begin, and those that end."""
     n, least = len(y) // 2, np.inf
     problem, gaps = Problem(scene, y[:n], y[n:]), scene.gaps(y[:n])
     for i in range(len(scene.contacts)):
@@ -199,6 +199,8 @@ def _short(scene: Scene, phase: Phase, y: Array, rate: Array) -> float:
             pull = float(problem.gap[i] @ rate[n:] + problem.gained[problem.joints + i])
             if up > 0.0 and pull < 0.0:
                 least = min(least, -0.25 * up / pull)
+            elif up < 0.0:
+                least = min(least, max(-0.25 * gaps[i] / up, 1e-9))
     return least
 
 

@@ -21,6 +21,7 @@ from symgen.base.errors import InputError, plural
 from symgen.describe.bounds.bounded_modes import refuse_contacts
 from symgen.describe.bounds.smooth import sliding_rows_as_forces
 from symgen.describe.formulas.evaluate import parameter_values
+from symgen.describe.parts.holding_joints import refuse_holding
 from symgen.describe.parts.input_data import are_words_of_data
 from symgen.result.labelled import Labelled, label_columns
 from symgen.result.motion_tables import Tables
@@ -175,6 +176,7 @@ def inverse_dynamics(
 ) -> Inverse:
     """Return the efforts that a motion needs; see `symgen.api.Model.inverse`, which has these arguments and errors."""
     refuse_contacts("inverse dynamics", mechanism)
+    refuse_holding("inverse dynamics", mechanism)
     contacts = Contacts.of_mechanism(mechanism)
     mechanism = sliding_rows_as_forces(WHERE, mechanism, contacts.rows)
     names = arguments.words(WHERE, actuators)

@@ -89,7 +89,11 @@ def command(
     check_over(over, plot)
     result = kinematics(load(), times, settings, transmission, sensitivities)
     result.along(over or "t")
-    shown = extreme_values(result.select(quantities) if quantities else result.whole(("q",))) if len(result.t) else {}
+    shown = (
+        extreme_values(result.select(quantities) if quantities else result.whole(("q", "transmission")))
+        if len(result.t)
+        else {}
+    )
     loads = any(entry["unit"] in PRODUCTS or entry["unit"] == "N" for entry in shown.values())
     scales = common_scales((result.q, result.v, result.a, *((result.lam,) if loads else ())))
     scaled = {name: {**entry, "scale": scales.get(entry["unit"], 0.0)} for name, entry in shown.items()}

@@ -18,6 +18,7 @@ from symgen.describe.bounds.bounded_modes import without_bounds
 from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
+from symgen.describe.parts.holding_joints import in_modes
 from symgen.run.breaks.seams import seams_of_motion
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
@@ -137,6 +138,7 @@ def make_ready(
     InputError, AssemblyError
         If settings are wrong, or the mechanism cannot be closed.
     """
+    mechanism = in_modes(mechanism, parameter_values(mechanism, settings.parameters))
     branch = settings.start if driver_names(mechanism) else {}
     if not isinstance(branch, Mapping):
         raise InputError("start", "values of coordinates by name, to choose a branch by", "a state of a run")
@@ -212,10 +214,8 @@ def make_driven(
         got = "a singular position, from which several motions go on"
         raise InputError(what, "a start that is none of several branches", got, hint)
     if freedom > 0:
-        of = "1 degree of freedom that is" if freedom == 1 else f"{freedom} degrees of freedom that are"
-        hint = f"a driver drives {'it' if freedom == 1 else 'each'}, and symgen run needs none"
-        got = f"{of} not driven: {', '.join(free_coordinates(run, freedom))}"
-        raise NotPrescribed(what, "a driver for every freedom", got, hint)
+        got = f"none for {', '.join(free_coordinates(run, freedom))}"
+        raise NotPrescribed(what, "a driver for every freedom", got, "symgen run needs no drivers")
     return run
 
 

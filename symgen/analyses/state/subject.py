@@ -18,6 +18,8 @@ from symgen.base.settings import Settings
 from symgen.derive.lower.windings import winding_order
 from symgen.describe.bounds.bounded_modes import one_sided_rows, without_bounds
 from symgen.describe.facts.digest import digest
+from symgen.describe.formulas.evaluate import parameter_values
+from symgen.describe.parts.holding_joints import in_modes
 from symgen.run.compiling.linearised import DescriptorForm, LinearisedState, compile_linearised
 from symgen.run.compiling.pipeline import straight_alone
 from symgen.run.compiling.side import compile_side
@@ -329,6 +331,7 @@ def make_subject(mechanism: Mechanism, settings: Settings, by: Sequence[str] = (
         If a setting is wrong, or a name of `by` is no parameter.
     """
     settings = _without_bounded_state(mechanism, settings)
+    mechanism, settings = _in_modes_at_start(mechanism, settings)
     along, pushing = [row for row in mechanism.bounded if row.signed], one_sided_rows(mechanism)
     mechanism = without_bounds(mechanism)
     placed, inputs = put_inputs_at_start(mechanism, settings), mechanism.inputs
@@ -370,12 +373,27 @@ def make_subject(mechanism: Mechanism, settings: Settings, by: Sequence[str] = (
 
 def _without_bounded_state(mechanism: Mechanism, settings: Settings) -> Settings:
     """Have the state of a run of a mechanism with bounded rows start one without them."""
-    if not mechanism.bounded or isinstance(settings.start, Mapping):
+    if not mechanism.has_modes or isinstance(settings.start, Mapping):
         return settings
     last = settings.start.last_state
     if last.digest != digest(mechanism):
         return settings  # of another mechanism, which is refused
     return replace(settings, start=replace(last, digest="", windings=(), rank=0, made=None, arrays=None))
+
+
+def _in_modes_at_start(mechanism: Mechanism, settings: Settings) -> tuple[Mechanism, Settings]:
+    """Return a mechanism whose joints hold for good, or not at all, as at the start, and settings for it."""
+    if not mechanism.holding:
+        return mechanism, settings
+    last = None if isinstance(settings.start, Mapping) else settings.start.last_state
+    states = {} if last is None else dict(last.states or {})
+    values = parameter_values(mechanism, {k: x for k, x in settings.parameters.items() if not isinstance(x, str)})
+    held = in_modes(mechanism, values, states)
+    if last is not None:
+        own = {x.name for x in held.states}
+        kept = {name: x for name, x in states.items() if name in own}
+        settings = replace(settings, start=replace(last, states=kept or None))
+    return held, settings
 
 
 def put_inputs_at_start(mechanism: Mechanism, settings: Settings) -> Inputs:

@@ -36,14 +36,13 @@ class Elementary:
 _NEVER_NOTHING = 1e-100
 
 
-def nonzero_divisor(g: Any, a: int, part: float = _NEVER_NOTHING) -> int:
+def nonzero_divisor(g: Any, a: Any, part: float = _NEVER_NOTHING) -> Any:
     """Return the divisor of a slope that is unbounded at the end of a function's range: a, and never 0.
 
     The parts of the argument hardly ever change it there: the root of v^2 + w^2 at rest, or a penetration
     where nothing touches. Infinity times such a 0 would not be a number.
     """
-    shifted: int = g.add(a, g.constant(part))
-    return shifted
+    return g.add(a, g.constant(part))
 
 
 def _cosine_of_arcsine(g: Any, a: int) -> int:

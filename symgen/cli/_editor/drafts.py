@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +15,10 @@ from symgen.base.errors import AssemblyError, InputError, SymgenError
 from symgen.base.settings import Settings
 from symgen.cli._editor.joints import joint_equations
 from symgen.cli._editor.made import make_file_for_browser
+from symgen.describe.drawing.scene import Array
 from symgen.describe.facts.digest import digest
 from symgen.describe.facts.lifted import lift_numbers, numbers_of_file
+from symgen.describe.files.dimensions import dimension_changes, dimensions_of_file
 from symgen.describe.files.handles import movable_points, spans_of_parameters
 from symgen.describe.files.load import LARGEST_FILE, parse_toml
 from symgen.describe.files.origins import Source, origin_of
@@ -37,6 +39,7 @@ from symgen.result.viewed import view_data
 from symgen.run.compiling.pipeline import refuse_loops
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare
+from symgen.run.starts.assembler import close_for_drawing
 
 #: Errors of a text that are sent at most.
 MOST_ERRORS = 100
@@ -59,6 +62,7 @@ class Drafts:
         self._enlivening, self._without_live = threading.Lock(), set[str]()
         self._asked: dict[str, int] = {}
         self._last: tuple[str, tuple[dict[str, Any], Mechanism]] | None = None
+        self._start: tuple[str, list[float]] | None = None
 
     def check_text(self, text: str) -> dict[str, Any]:
         """Return the errors of a text, each at its line, or the drawing of its start and what may be moved in it."""
@@ -74,7 +78,8 @@ class Drafts:
         q, open_joints, errors, warnings = described, tuple[str, ...](), list[dict[str, Any]](), tuple[str, ...]()
         freedoms: dict[str, Any] = {}
         try:
-            run = prepare(*_closing_part(mechanism), Purpose.STATE)
+            with close_for_drawing():
+                run = prepare(*_closing_part(mechanism), Purpose.STATE)
             start = run.start
             q, warnings = start.y[: len(described)], start.warnings
             count = run.compiled.info.nv - start.rank
@@ -91,7 +96,8 @@ class Drafts:
         ghost = Recording(mechanism, values, np.zeros(1), np.atleast_2d(described)) if moved else None
         data = page_data(recording, second=ghost, open_joints=open_joints, note="; ".join(warnings))
         wide = utf16_places(text)
-        movable = movable_points(mechanism, raw, parts.values, text, [float(x) for x in q])
+        self._start = text, [float(x) for x in q]
+        movable = movable_points(mechanism, raw, parts.values, text, self._start[1])
         numbers = spans_of_parameters(raw, parts.values, text)
         return {
             "errors": errors,
@@ -182,6 +188,26 @@ class Drafts:
         added, path = snippet_changes(part, spots, raw, outline_of_document(text), text, angles)
         return {"text": apply_changes(text, added), "path": path}
 
+    def dimensions(self, text: str, part: str) -> dict[str, Any]:
+        """Return the lengths and angles of a part of a text where the page draws it at the start, or of all parts."""
+        self._refuse_large(text)
+        found = dimensions_of_file(*self._described_start(text), part)
+        return {"dimensions": [each._asdict() for each in found]}
+
+    def set_dimension(self, text: str, name: str, value: str) -> dict[str, Any]:
+        """Return a text in which a dimension has the value that was typed."""
+        self._refuse_large(text)
+        return {"text": apply_changes(text, dimension_changes(*self._described_start(text), name, value))}
+
+    def _described_start(
+        self, text: str
+    ) -> tuple[Mechanism, dict[str, Any], Mapping[Place, tuple[int, int]], str, list[float]]:
+        """Return a mechanism with its tables and their places, and coordinates of its bodies at the start."""
+        raw, mechanism = self._read_text(text)
+        if self._start is None or self._start[0] != text:
+            self._start = text, [float(x) for x in self._coordinates_at_start(mechanism)]
+        return mechanism, raw, outline_of_document(text).values, text, self._start[1]
+
     def rename_part(self, text: str, path: str, name: str) -> dict[str, Any]:
         """Return a text with another name of a part, wherever it is named."""
         self._refuse_large(text)
@@ -195,16 +221,21 @@ class Drafts:
     def _angles_at_start(self, text: str) -> dict[str, float]:
         """Return how far bodies are turned where the page draws them at the start."""
         mechanism = self._read_text(text)[1]
-        try:
-            q = prepare(*_closing_part(mechanism), Purpose.STATE).start.y
-        except AssemblyError as error:
-            q = np.array(error.q) if error.q else Model(mechanism).initial_state({})[0]
+        q = self._coordinates_at_start(mechanism)
         angles, at = dict[str, float](), 0
         for body in mechanism.bodies:
             if "theta" in body.coordinates:
                 angles[body.name] = float(q[at + 2])
             at += len(body.coordinates)
         return angles
+
+    def _coordinates_at_start(self, mechanism: Mechanism) -> Array:
+        """Return the coordinates of bodies where assembly ends."""
+        try:
+            with close_for_drawing():
+                return prepare(*_closing_part(mechanism), Purpose.STATE).start.y
+        except AssemblyError as error:
+            return np.array(error.q) if error.q else Model(mechanism).initial_state({})[0]
 
     def _read_text(self, text: str) -> tuple[dict[str, Any], Mechanism]:
         """Return the tables and the mechanism of a text; the last text is read once."""

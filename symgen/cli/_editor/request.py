@@ -38,7 +38,10 @@ class EditorRequest(msgspec.Struct, frozen=True):
     tab, asked : str, int
         Which page asks, and the number of its question.
     path, name : str, str
-        What is renamed or taken out, such as ``bodies.rod``; a new name, or that of a joint.
+        What is renamed, taken out or has dimensions, such as ``bodies.rod``; a new name, or that of a joint or of a
+        dimension.
+    value : str
+        What was typed for a dimension.
     kind, part, spots : str, str, list of RequestedPlace
         Kind of the file that is made; what is added, and where.
     """
@@ -50,6 +53,7 @@ class EditorRequest(msgspec.Struct, frozen=True):
     asked: int = 0
     path: str = ""
     name: str = ""
+    value: str = ""
     kind: str = ""
     part: str = ""
     spots: list[RequestedPlace] = []

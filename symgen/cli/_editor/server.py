@@ -6,6 +6,7 @@ page has another `Origin`, or a `Host` that is not this address, and is refused 
 
 from __future__ import annotations
 
+import gc
 import json
 import secrets
 import sys
@@ -74,6 +75,8 @@ class Editor(ThreadingHTTPServer):
             "joint": lambda asked: drafts.equations_of_joint(asked.draft, asked.name),
             "make": lambda asked: drafts.make_file(asked.draft, asked.kind),
             "add": lambda asked: drafts.add_part(asked.draft, asked.part, [place.spot for place in asked.spots]),
+            "dimensions": lambda asked: drafts.dimensions(asked.draft, asked.path),
+            "dimension": lambda asked: drafts.set_dimension(asked.draft, asked.name, asked.value),
             "rename": lambda asked: drafts.rename_part(asked.draft, asked.path, asked.name),
             "remove": lambda asked: drafts.remove_part(asked.draft, asked.path),
         }
@@ -107,6 +110,8 @@ class Editor(ThreadingHTTPServer):
         def read() -> None:
             with suppress(SymgenError):
                 self.jobs["check"](EditorRequest(self.document.read()["text"]))
+            gc.collect()
+            gc.freeze()  # what is loaded now stays: looking through it again and again took a fifth of each answer
 
         threading.Thread(target=read, name="symgen-edit", daemon=True).start()
 

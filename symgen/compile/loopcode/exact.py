@@ -31,6 +31,10 @@ class Exact:
     def __init__(self, function: FunctionType, entry: bool, once: bool) -> None:
         self.py_func, self._entry, self._once = function, entry, once
 
+    def like(self, function: FunctionType) -> Exact:
+        """Return another function of the same kind."""
+        return Exact(function, self._entry, self._once)
+
     @cached_property
     def compiled(self) -> RuntimeFunction:
         """The compiled function; other than an entry, it is for calls from compiled code."""

@@ -14,6 +14,7 @@ import types as python
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
+from symgen.compile.loopcode.exact import Exact
 from symgen.compile.native import types
 from symgen.compile.native.compiler import is_interpreted
 from symgen.compile.native.pieces import Piece
@@ -80,6 +81,16 @@ def compiled_loop(
     copy = Instances(meanings, functools.partial(part, contracted=contracted)).copy(function)
     copy.__module__, copy.__name__, copy.__qualname__ = module, name, name
     return jit(signature, once=once, contracted=contracted)(copy)
+
+
+def exact_instance(function: Function, meanings: Mapping[str, Any]) -> Function:
+    """Return an exact function with other meanings of names in it and in its callees; see `Instances`."""
+
+    def same_kind(copy: python.FunctionType, original: object) -> Any:
+        return original.like(copy) if isinstance(original, Exact) else copy
+
+    made: Function = Instances(meanings, same_kind).of(function)
+    return made
 
 
 def signature_of(loop: object) -> Any:

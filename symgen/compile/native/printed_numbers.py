@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from symgen.base.vocabulary.elementary_functions import nonzero_divisor
 from symgen.compile.native.llvm_values import float_literal
 
 if TYPE_CHECKING:
@@ -52,9 +51,3 @@ class PrintedNumbers:
 
     def _print_operation(self, name: str, a: str, b: str) -> str:
         return self.printer.print_instruction(f"{name}{self.printer.flag} double {a}, {b}")
-
-
-def nonzero_divisor_text(g: object, a: str, part: float = 1e-100) -> str:
-    """Return the divisor of a slope that is unbounded at the end of a function's range, see `nonzero_divisor`."""
-    own: Any = a
-    return str(nonzero_divisor(g, own, part))

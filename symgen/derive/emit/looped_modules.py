@@ -13,7 +13,7 @@ from symgen.derive.emit.module import ModulePiece, function_source, render_templ
 from symgen.derive.emit.printer import Access, Printer
 from symgen.derive.emit.whole import Places
 from symgen.derive.lower.looped import statements as data
-from symgen.derive.lower.looped.layout import BESIDE, GENERIC, HEAD, PRESSED, ROTORS
+from symgen.derive.lower.looped.layout import BESIDE, GENERIC, HEAD, ROTORS, TOUCHED
 from symgen.derive.lower.looped.looped_law import LoopedLaw
 from symgen.derive.lower.record import ARGUMENTS
 
@@ -75,28 +75,28 @@ def emit_shared_model(generator: str) -> str:
     return render_template("looped/model.py.j2", {"format": FORMAT, "generator": generator, "status": _STATUS})
 
 
-def rates_with_reactions() -> ModulePiece:
-    """Return the right-hand side around one at given efforts that depend on reactions."""
+def rates_with_reactions(drags: str) -> ModulePiece:
+    """Return the right-hand side around one at given efforts that depend on reactions, `PRESSED`, or `TOUCHED`."""
     places = {"effort": MODES.index("effort"), **{name: i for i, name in enumerate(BESIDE)}}
-    body = render_template("looped/pressed.j2", {"drag": places, "number": NUMBERS}).strip("\n").split("\n")
+    body = render_template("looped/pressed.j2", {"drag": places, "number": NUMBERS, "signed": drags == TOUCHED}).strip("\n").split("\n")
     purpose = "Rates of the state with efforts that depend on reactions; 1 where a pivot of S is suspicious."
     calls = {"GRAM_FACTOR", PUSHED, "run", "tables", "numpy", "math"}
     return function_source("rhs", ", ".join(ARGUMENTS["rhs"]), purpose, body, calls=calls)
 
 
 def emit_looped_law(
-    law: LoopedLaw, generator: str, summary: str, reference: str, whole: bool = False, pressed: bool = False
+    law: LoopedLaw, generator: str, summary: str, reference: str, whole: bool = False, drags: str = ""
 ) -> dict[str, str]:
     """Return the source of the modules of a law; the last one is its own, as for `symgen.derive.emit.emit.emit_law`.
 
-    `pressed`: for mechanisms with efforts that depend on reactions.
+    `drags`: for mechanisms with efforts that depend on reactions, `PRESSED`, or on forces of gaps, `TOUCHED`.
     """
     info = law.info
     layout = TableLayout([name for name, _ in info.parameters])
-    names = {"rhs": PUSHED} if pressed else {}
+    names = {"rhs": PUSHED} if drags else {}
     printed = [(f.part.role, print_function(f, names.get(f.part.name, f.part.name))) for f in law.functions]
-    if pressed:
-        printed.append(("acceleration", rates_with_reactions()))
+    if drags:
+        printed.append(("acceleration", rates_with_reactions(drags)))
     nothing = function_source("prepare", "p", "Nothing depends on parameters of the method alone.", ["return 0"])
     versions = f"format {FORMAT}, generator {generator}"
     origins = {name: ("machine", name) for name in (*map(str.upper, HEAD), *_MACHINE)}
@@ -111,7 +111,7 @@ def emit_looped_law(
         origins | {name: ("model", name) for name in _SHARED} | {"geometry_of_model": ("model", "geometry")},
         f"Method `{info.method}`, for any mechanism, in the looped shape.",
         law_header(info, summary, reference, versions, "parameter {}:"),
-        f"law_{info.key}{PRESSED if pressed else ''}",
+        f"law_{info.key}{drags}",
         offsets={name: (at, "places in w and T") for name, at in {**_STATUS, **places}.items()},
         places=Places() if whole else None,
     )

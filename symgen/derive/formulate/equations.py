@@ -18,7 +18,8 @@ class ConstraintRow:
     With bodies on a tree of joints a whole row may vanish, at a dead centre for instance: its square is compared with
     `size`, the square of the row over the velocities of bodies; None for a row that cannot vanish.
     `stiffness` is the node of a stiffness specified in the file [N/m]. `held` is the node of 1 where a row that may be
-    off is in force, and of 0 where it is off; None for a row that is always in force. `axes` marks the two rows of a
+    off is in force, and of 0 where it is off; None for a row that is always in force. Where states of the file say so,
+    `place` is the node of what the row holds beyond its value: ``geometry`` writes both to the modes. `axes` marks the two rows of a
     joint that keep an axis of one body parallel to one of another, over the velocities of bodies.
     The forces of `bounded` rows have bounds.
     """
@@ -35,6 +36,7 @@ class ConstraintRow:
     held: int | None = None
     axes: bool = False
     bounded: bool = False
+    place: int | None = None
 
 
 @dataclass(frozen=True)
@@ -198,6 +200,11 @@ class Equations(Counted):
     states: tuple[Quantity, ...] = ()
     state_rates: tuple[int, ...] = ()
     drags: tuple[Drag, ...] = ()
+
+    @property
+    def reads_results(self) -> bool:
+        """Whether the rates of states have v' or multipliers among their inputs."""
+        return not {space for space, _ in self.graph.inputs_of(self.state_rates)}.isdisjoint(("ydot", "multipliers"))
 
     def nodes(self, rows: Iterable[ConstraintRow] | None = None) -> dict[str, list[int]]:
         """Return the nodes of each quantity by its name, for `rows` or else for all rows."""

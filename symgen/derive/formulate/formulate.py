@@ -14,6 +14,7 @@ from symgen.base.ir.program import MODE_NUMBERS, table_of_payload
 from symgen.base.vocabulary.expressions import ZERO
 from symgen.base.vocabulary.measures import GROUND, Dot, Holonomic, Row, StiffHolonomic, Sum
 from symgen.base.vocabulary.quantities import Quantity
+from symgen.derive.formulate.derived_measure import DerivedMeasure
 from symgen.derive.formulate.equations import (
     ConstraintRow,
     Drag,
@@ -26,15 +27,16 @@ from symgen.derive.formulate.equations import (
 from symgen.derive.formulate.exertion import exertion_of_effort
 from symgen.derive.formulate.flexure import exertions_of_force
 from symgen.derive.formulate.joint_tree import energies_on_tree
-from symgen.derive.formulate.measure_nodes import DerivedMeasure, ModelNodes
+from symgen.derive.formulate.measure_nodes import ModelNodes
 from symgen.derive.formulate.modal_inertia import add_modal_inertia
 from symgen.derive.formulate.of_time import time_function
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import name_of_number, places_of_first_modes
 from symgen.describe.bounds.by_reaction import pressed_rows, refuse_shared_reactions
 from symgen.describe.facts.repeats import without_repeats
-from symgen.describe.formulas.readings import reads_results
-from symgen.describe.mechanism import Mechanism, Rotor, SpatialBody
+from symgen.describe.formulas.results_read import reads_results
+from symgen.describe.mechanism import Holding, Mechanism, Rotor, SpatialBody
+from symgen.describe.parts.holding_joints import CHANGED, name_of_place
 from symgen.describe.parts.topology import UNITS, state_quantities
 
 
@@ -59,9 +61,13 @@ def formulate(mechanism: Mechanism) -> Equations:
     mechanism, repeats = without_repeats(mechanism)
     with refuse_overflow("mechanism"):
         model = ModelNodes(mechanism)
-    modes = dict(places_of_first_modes(mechanism))
+    modes, holding = dict(places_of_first_modes(mechanism)), {x.joint: x for x in mechanism.holding}
     rows = tuple(
-        row if joint.name not in modes else _switchable_row(model, row, modes[joint.name] + MODE_NUMBERS * i)
+        row
+        if joint.name not in modes
+        else _row_of_holding(model, row, holding[joint.name])
+        if joint.name in holding
+        else _switchable_row(model, row, modes[joint.name] + MODE_NUMBERS * i)
         for joint in mechanism.joints
         for i, row in enumerate(_equations_of_row(model, joint.name, row) for row in joint.rows)
     )
@@ -206,6 +212,16 @@ def _switchable_row(model: ModelNodes, row: ConstraintRow, first: int) -> Constr
     g, held = model.graph, model.graph.input("modes", first)
     phi = row.phi if row.phi is None else g.mul(held, g.sub(row.phi, g.input("modes", first + 1)))
     return replace(row, phi=phi, held=held)
+
+
+def _row_of_holding(model: ModelNodes, row: ConstraintRow, holding: Holding) -> ConstraintRow:
+    """Return a row as one that its joint's states put into force: ``Phi = held (s - value - place)``."""
+    g, changed = model.graph, model.names[f"{holding.joint}.{CHANGED}"]
+    held = g.call("abs", g.sub(model.expression(holding.first), changed))
+    held = g.call("where", g.call("gt", held, g.constant(0.5)), g.one, g.zero)  # whatever integration rounds
+    place = model.names.get(name_of_place(holding.joint, row.name.removeprefix(f"{holding.joint}.")), g.zero)
+    assert row.phi is not None, "rows of joints that hold for a while are of positions"
+    return replace(row, phi=g.mul(held, g.sub(row.phi, place)), held=held, place=place)
 
 
 def _size_of_row(model: ModelNodes, row: Row, entries: Mapping[int, int]) -> int | None:

@@ -6,10 +6,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from symgen.base.ir.derivative import jacobian
-from symgen.base.ir.graph import Graph
 from symgen.base.ir.program import JAMMING
-from symgen.base.vocabulary.expressions import ZERO, Name, Reading, moving_quantities, rename_quantities
+from symgen.base.vocabulary.expressions import Reading
 from symgen.base.vocabulary.measures import (
     GROUND,
     Angle,
@@ -32,9 +30,10 @@ from symgen.base.vocabulary.measures import (
     Swing,
     Turn,
     Turning,
-    axes,
 )
+from symgen.derive.formulate.derived_measure import DerivedMeasure
 from symgen.derive.formulate.euler_parameters import rate_of_parameters, rotation_matrix_rows
+from symgen.derive.formulate.formula_measures import formula_measure
 from symgen.derive.formulate.frames import FRAME_SLOTS, SPATIAL_SLOTS
 from symgen.derive.formulate.interface_frames import InterfaceFrame, interface_frame
 from symgen.derive.formulate.joint_tree import Tree
@@ -43,30 +42,8 @@ from symgen.derive.formulate.tree_plane import PlanarTree
 from symgen.derive.formulate.tree_space import SpatialTree
 from symgen.describe.bounds.bounded_modes import mode_names
 from symgen.describe.bounds.by_reaction import jamming_names
+from symgen.describe.coordinate_names import ACCELERATIONS
 from symgen.describe.formulas.formula_nodes import Formulas
-from symgen.describe.mechanism import ACCELERATIONS, is_speed
-from symgen.describe.modal_body import mode_number
-
-
-@dataclass(frozen=True)
-class DerivedMeasure:
-    """A measure in the model: value, row (velocity index -> node) and quadratic velocity term b of s'' = J v' + b.
-
-    `drift` is s' - J v: 0 except for a formula of t.
-    """
-
-    value: int
-    row: Mapping[int, int]
-    bias: int
-    drift: int = Graph.ZERO
-
-    def velocity_part(self, graph: Graph, velocities: tuple[int, ...]) -> int:
-        """Return the node of J v, the part of s' that velocities make."""
-        return graph.sum_of(graph.mul(node, velocities[i]) for i, node in sorted(self.row.items()))
-
-    def rate(self, graph: Graph, velocities: tuple[int, ...]) -> int:
-        """Return the node of s' = J v + drift."""
-        return graph.add(self.velocity_part(graph, velocities), self.drift)
 
 
 @dataclass
@@ -258,7 +235,7 @@ class ModelNodes(Formulas):
 
     def _derive_measure(self, m: Measure) -> DerivedMeasure:
         if isinstance(m, FormulaMeasure):
-            return self._formula_measure(m)
+            return formula_measure(self, m)
         if isinstance(m, Sum):
             return self._sum_of_measures(m)
         if isinstance(m, Angle):
@@ -305,7 +282,7 @@ class ModelNodes(Formulas):
     def speed(self, speed: Speed) -> DerivedMeasure:
         """Return the velocity measure of a nonholonomic row; `value` is the kernel's u = J v."""
         if isinstance(speed, FormulaSpeed):
-            return self._formula_measure(speed)
+            return formula_measure(self, speed)
         if isinstance(speed, PointSpeed):
             constants = [*self.local(speed.at), *self.direction(speed.along)]
             return self._insert_kernel("point-speed", (speed.at.body, speed.along.body), constants)
@@ -318,63 +295,6 @@ class ModelNodes(Formulas):
         if speed.axis is None:
             return self._insert_kernel("sphere-speed", bodies, constants)
         return self._insert_kernel("disc-speed", bodies, [*constants, *self.direction(speed.axis)])
-
-    def _formula_measure(self, m: FormulaMeasure | FormulaSpeed) -> DerivedMeasure:
-        """Return a formula of moving quantities x: s' = c x' + d with c = ds/dx, s'' = c x'' + (ds'/dx) x' + ds'/dt.
-
-        A velocity u = c x' + d has the rate u' = c x'' + (du/dx) x' + du/dt.
-        """
-        g, leaves = self.graph, moving_quantities(m.of)
-        derived = [self._moving_quantity(leaf) for leaf in leaves]
-        orders = [int(leaf.order > 0 if isinstance(leaf, Reading) else is_speed(leaf.name)) for leaf in leaves]
-        keys = [(("rate" if order else "value"), i) for i, order in enumerate(orders)]
-        rates = [g.input("rate", i) for i in range(len(leaves))]
-        names = {leaf: f"leaf {i}" for i, leaf in enumerate(leaves)}
-        places = {names[leaf]: g.input(*key) for leaf, key in zip(leaves, keys, strict=True)}
-        value = self.expression(rename_quantities(m.of, names), **places)
-
-        def along(node: int) -> int:
-            """Return the derivative along the motion, rates constant."""
-            slopes = jacobian(g, [node], [key for key in keys if key[0] == "value"] + [("t", 0)])[0]
-            return g.sum_of(
-                slope if key == ("t", 0) else g.mul(slope, rates[key[1]]) for key, slope in sorted(slopes.items())
-            )
-
-        speed = value if isinstance(m, FormulaSpeed) else along(value)
-        factors = jacobian(g, [speed], [("rate", i) for i in range(len(leaves))])[0]
-        drift = g.replace_inputs([speed], {("rate", i): leaf.drift for i, leaf in enumerate(derived)})[0]
-        at: dict[tuple[str, int], int] = {}
-        for i, leaf in enumerate(derived):
-            at |= {("value", i): leaf.value, ("rate", i): leaf.rate(g, self.velocities)}
-        value, drift, bias = g.replace_inputs([value, drift, along(speed)], at)
-        row = dict[int, int]()
-        for (_, i), factor in sorted(factors.items()):
-            (factor,) = g.replace_inputs([factor], at)
-            bias = g.add(bias, g.mul(factor, derived[i].bias))
-            for j, entry in derived[i].row.items():
-                row[j] = g.add(row.get(j, g.zero), g.mul(factor, entry))
-        return DerivedMeasure(value, {j: n for j, n in sorted(row.items()) if n != g.zero}, bias, drift)
-
-    def _moving_quantity(self, leaf: Name | Reading) -> DerivedMeasure:
-        """Return a moving quantity of a formula: a measure, or a coordinate or velocity of a body as a measure.
-
-        Velocities of bodies on a tree are those of the joint's point, not of the centre of mass.
-        """
-        if isinstance(leaf, Reading):
-            assert not isinstance(leaf.source, Exerted | Driven | Integral | Flexed), "rows read measures"
-            return self.measure_or_velocity(leaf.source)
-        body, _, label = leaf.name.rpartition(".")
-        if label in ("theta", "omega"):
-            return self.measure(Angle(GROUND, body))
-        if (number := mode_number(label)) > 0:
-            m, _ = self.modes(body)
-            place = self.first[body] + len(self.mechanism.body(body).speeds) - len(m) + number - 1
-            return DerivedMeasure(m[number - 1], {place: self.graph.one}, self.graph.zero)
-        dimension, i = len(self.mechanism.gravity), "xyz".index(label[-1])
-        if label[0] == "w":
-            return self.measure(Spin(GROUND, body, axes(body, dimension)[i]))
-        origin, centre = Marker(GROUND, (ZERO,) * dimension), self.mechanism.body(body).centre_of_mass
-        return self.measure(Component(origin, Marker(body, centre), axes(GROUND, dimension)[i]))
 
     def _turn_on_branch(self, m: Turning) -> DerivedMeasure:
         """Return an angle in space, on the branch nearest to its value in the section ``winding``.

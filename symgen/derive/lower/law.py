@@ -6,8 +6,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from symgen.base.errors import InputError
-from symgen.base.ir.derivative import jacobian
-from symgen.base.ir.graph import Graph
 from symgen.base.ir.program import (
     BY_PIVOTS,
     BY_RESIDUAL,
@@ -24,10 +22,12 @@ from symgen.base.ir.program import (
 )
 from symgen.base.vocabulary.infos import LawInfo
 from symgen.derive.formulate.equations import Equations
+from symgen.derive.lower.descriptor_blocks import blocks_of_form, unknowns_of_form
 from symgen.derive.lower.factor import FactorNodes
 from symgen.derive.lower.hoist import Hoister
+from symgen.derive.lower.modes_of_states import nodes_with_stored_modes
 from symgen.derive.lower.plans import closing_plan
-from symgen.derive.lower.record import ARGUMENTS, BEHIND, EQUATIONS, Part, RecordedLaw, record_law
+from symgen.derive.lower.record import ARGUMENTS, BEHIND, Part, RecordedLaw, record_law
 from symgen.derive.lower.record_form import record_form
 from symgen.derive.lower.replay import Nodes
 from symgen.derive.lower.residual import outputs_by_residual
@@ -111,8 +111,8 @@ def lower_law(
     unknowns, level, pattern = 0, "", tuple[tuple[int, int], ...]()
     if implicit:
         form = record_form(method, options, driven=equations.driving is not None)
-        unknowns, level = _unknowns_of_law(equations, form), form.form
-        form_blocks, pattern = _blocks_of_form(hoister, scalars, form, unknowns)
+        unknowns, level = unknowns_of_form(equations, form), form.form
+        form_blocks, pattern = blocks_of_form(hoister, scalars, form, unknowns)
         blocks += form_blocks
     if (correction.any and correction.metric != "augmented") or record.form == "tangent":
         blocks.append(_drift_block(hoister, scalars))
@@ -190,12 +190,6 @@ def _choose_by_rows_in_force(
     return held, replace(free, purpose=f"{free.purpose}{converged}; no row with bounds in force")
 
 
-def _unknowns_of_law(equations: Equations, form: RecordedLaw) -> int:
-    """Return the number of unknowns of a form for implicit integrators."""
-    multipliers = equations.m * (2 if form.form == "stabilised" else 1)
-    return equations.nq + equations.nv + multipliers + len(equations.states)
-
-
 def _refuse_method(equations: Equations, method: Method, options: Mapping[str, str], implicit: bool) -> None:
     """Refuse equations that a method has no law for."""
     if method.correction(options).energy and equations.driving is not None:  # T is not quadratic in v then
@@ -207,7 +201,7 @@ def _refuse_method(equations: Equations, method: Method, options: Mapping[str, s
 
 def _refuse_momenta(equations: Equations, method: Method, law: RecordedLaw) -> None:
     """Refuse states that read results where a method integrates momenta: it has no v'."""
-    if any(part.velocities is not None for part in law.parts) and _reads_results(equations.graph, equations):
+    if any(part.velocities is not None for part in law.parts) and equations.reads_results:
         expected = "one that integrates velocities, as a state reads accelerations or forces"
         raise InputError(f"method '{method.name}'", expected, "one that integrates momenta", "--method lagrange")
 
@@ -288,11 +282,14 @@ def _rates_by_residual(hoister: Hoister, scalars: ScalarNodes, record: RecordedL
     ]
 
 
-def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part) -> Block:
-    """Return a function of a law as a block."""
+def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part, further: Sequence[tuple[OutputSlot, int]] = ()) -> Block:
+    """Return a function of a law as a block, with further outputs."""
     flag = None if part.flag is None else scalars.values[part.flag]
+    if flag is not None and "y" not in ARGUMENTS[part.name]:
+        (flag,) = nodes_with_stored_modes(scalars.equations, scalars.graph, [flag])
     purpose = part.purpose + ("" if flag is None else "; 1 where a pivot of S is suspicious")
-    block = hoister.block_with_hoisted(part.name, purpose, part_outputs(scalars, part), ARGUMENTS[part.name], flag)
+    outputs = [*part_outputs(scalars, part), *further]
+    block = hoister.block_with_hoisted(part.name, purpose, outputs, ARGUMENTS[part.name], flag)
     return replace(block, role=part.role)
 
 
@@ -310,18 +307,16 @@ def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
         outputs += [(OutputSlot(JAMMING, i), node) for i, node in enumerate(scalars.jamming)]
     if part.name in _KEEPS_MASS:
         outputs += [(OutputSlot("mass_entry", k), node) for k, node in enumerate(scalars.mass_entries)]
+    if "y" not in ARGUMENTS[part.name]:
+        nodes = nodes_with_stored_modes(scalars.equations, scalars.graph, [node for _, node in outputs])
+        outputs = [(slot, node) for (slot, _), node in zip(outputs, nodes, strict=True)]
     return outputs
-
-
-def _reads_results(g: Graph, e: Equations) -> bool:
-    """Whether the rates of states have v' or multipliers among their inputs."""
-    return not {space for space, _ in g.inputs_of(e.state_rates)}.isdisjoint(("ydot", "multipliers"))
 
 
 def _rates_over_results(scalars: ScalarNodes, part: Part) -> Nodes:
     """Return the rates of states, with v' and multipliers of this part where they read results."""
     g, e, outputs = scalars.graph, scalars.equations, dict(part.outputs)
-    if not _reads_results(g, e):
+    if not e.reads_results:
         return e.state_rates
     known = dict[tuple[str, int], int]()
     if "rates.v" in outputs:  # else an earlier part has left them in ydot, and an iteration multipliers in w
@@ -373,52 +368,3 @@ def _sections_of_law(
         sections[name] = (offset, size)
         offset += size
     return sections
-
-
-def _blocks_of_form(
-    hoister: Hoister, law: ScalarNodes, form: RecordedLaw, unknowns: int
-) -> tuple[list[Block], tuple[tuple[int, int], ...]]:
-    """Return the blocks ``residual`` and ``tangent``, and equation and unknown of each number of the latter.
-
-    ``residual(t, y, k, p, w, r)`` writes F to r and the power of forces without potential and of drivers to the status;
-    ``tangent(t, y, k, p, w, j)`` the structural nonzeros of dF/dk and dF/dy, equation by equation; from `unknowns` on,
-    unknowns are q and v. Rates of states are the last unknowns, and the last of the derivatives by the state.
-    """
-    e, scalars = law.equations, law.for_tape(form.operations)
-    if e.drags:
-        scalars.pressing = law.section("k_first", e.m)
-    scalars.evaluate_remaining(range(len(form.operations)))
-    (part,) = form.parts
-    groups = {place: scalars.values[index] for place, index in part.outputs}
-    rows = [(group, node) for group in EQUATIONS if group in groups for node in groups[group]]
-    own = unknowns - len(e.states)
-    g = law.graph
-    for i in range(e.nq + e.nv, own):  # the equation of a row that is off: its unknown is 0
-        group, node = rows[i]
-        held = e.rows[(i - e.nq - e.nv) % e.m].held
-        if held is not None:
-            rows[i] = group, g.add(g.mul(held, node), g.mul(g.sub(g.one, held), g.input("k", i)))
-    unknown = {("ydot", e.nq + i): g.input("k", e.nq + i) for i in range(e.nv)}
-    unknown |= {("multipliers", i): g.input("k", e.nq + e.nv + i) for i in range(e.m)}
-    rates = g.replace_inputs(e.state_rates, unknown) if _reads_results(g, e) else e.state_rates
-    rows[own:own] = [("states", g.sub(g.input("k", own + i), rate)) for i, rate in enumerate(rates)]
-    arguments = ("t", "y", "k", "p", "w", "r")
-    residual = [(OutputSlot("r", i), node) for i, (_, node) in enumerate(rows)]
-    residual.append(to_status("power", groups["power"]))
-    first = {"k": 0, "q": unknowns, "v": unknowns + e.nq, "z": unknowns + own - 1}
-    keys = [("k", i) for i in range(unknowns)] + [("q", i) for i in range(e.nq)] + [("v", i) for i in range(e.nv)]
-    keys += [("z", i) for i in range(1, len(e.states) + 1)]
-    tangent: Outputs = []
-    pattern: list[tuple[int, int]] = []
-    derived = range(unknowns)
-    if form.form == "explicit":  # M and D are enough
-        derived, keys = range(e.nq, e.nq + e.nv), keys[:unknowns]
-    for i, derivatives in zip(derived, jacobian(law.graph, [rows[i][1] for i in derived], keys), strict=True):
-        for space, index in sorted(derivatives):
-            tangent.append((OutputSlot("j", len(tangent)), derivatives[space, index]))
-            pattern.append((i, index + first[space]))
-    entries = "entries of dF/dk and dF/dy of the descriptor form"
-    return [
-        replace(hoister.block_with_hoisted("residual", part.purpose, residual, arguments), role=part.role),
-        replace(hoister.block_with_hoisted("tangent", entries, tangent, (*arguments[:-1], "j")), role=part.role),
-    ], tuple(pattern)

@@ -7,6 +7,7 @@ from symgen.derive.formulate.equations import Equations
 from symgen.derive.lower.factor import fill_of_order
 from symgen.derive.lower.hoist import Hoister
 from symgen.derive.lower.law import law_block
+from symgen.derive.lower.modes_of_states import modes_of_states
 from symgen.derive.lower.plans import cheapest_plan
 from symgen.derive.lower.position_changes import position_change_blocks
 from symgen.derive.lower.record import record_model
@@ -51,7 +52,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
     )
     hoister = Hoister(scalars.graph, layout.parameters)
     blocks = [
-        law_block(hoister, scalars, geometry),
+        law_block(hoister, scalars, geometry, modes_of_states(equations)),
         law_block(hoister, scalars, spread),
         measure_block(hoister, scalars),
         observe_block(hoister, scalars),

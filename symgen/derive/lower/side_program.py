@@ -19,7 +19,7 @@ from symgen.base.vocabulary.quantities import Quantity
 from symgen.derive.formulate.measure_nodes import ModelNodes
 from symgen.derive.lower.windings import Beside
 from symgen.describe.formulas.formula_text import to_text
-from symgen.describe.formulas.readings import integrals_of_outputs
+from symgen.describe.formulas.results_read import integrals_of_outputs
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import state_quantities
 

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
+import msgspec
+
 from symgen.base.ir.program import JAMMING
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, Reading, call, sum_of_terms
 from symgen.base.vocabulary.measures import Driven, Effort, Holonomic, Measure
@@ -102,6 +104,8 @@ class Tangent(Bounds, frozen=True):
         Bounds in motion and at rest over the force of the gap.
     table : str
         Its table in a file, where that is not an entry of the section.
+    alone : bool
+        Whether the gap is left out, as in a part of looped code.
     """
 
     family: ClassVar[RowFamily] = TANGENTS
@@ -114,6 +118,7 @@ class Tangent(Bounds, frozen=True):
     static: Expr
     unit: str = "m"
     table: str = ""
+    alone: bool = False
 
     @property
     def label(self) -> str:
@@ -148,7 +153,7 @@ class Tangent(Bounds, frozen=True):
     @property
     def pressed(self) -> tuple[str, ...]:
         """The row of the gap."""
-        return (f"{self.name}.normal",)
+        return () if self.alone else (f"{self.name}.normal",)
 
     @property
     def coefficient(self) -> Expr:
@@ -162,8 +167,8 @@ class Tangent(Bounds, frozen=True):
 
     @property
     def without_reaction(self) -> Tangent:
-        """The row, whose effort depends on no reaction."""
-        return self
+        """The row without its gap."""
+        return msgspec.structs.replace(self, alone=True)
 
     @property
     def place(self) -> tuple[str, Expr]:

@@ -12,7 +12,7 @@ from symgen.base.vocabulary.expressions import Expr, Reading, call
 from symgen.base.vocabulary.measures import Integral
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import measure_derivative, one_sided_rows
-from symgen.describe.formulas.readings import integrals_of_outputs
+from symgen.describe.formulas.results_read import integrals_of_outputs
 from symgen.describe.mechanism import Mechanism
 
 #: Last word of their names.

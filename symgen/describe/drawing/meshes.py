@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from symgen.base.errors import InputError, quote
+from symgen.base.files import system_message
 from symgen.base.vocabulary.measures import Marker
 from symgen.base.vocabulary.rotations import rotation_matrix_of
 from symgen.describe.drawing.pen import PlacedMechanism
@@ -43,7 +44,7 @@ def mesh_faces(numbers: PlacedMechanism, body: str, shape: Shape) -> Array:
             raise InputError(where, f"a file of at most {LARGEST} bytes", f"{status.st_size}")
         corners = _read_triangles(path, status.st_mtime_ns, status.st_size, MOST_TRIANGLES // beside, where)
     except OSError as error:
-        raise InputError(where, "a file that can be read", error.strerror or "an error") from None
+        raise InputError(where, "a file that can be read", system_message(error)) from None
     scale = numbers.vector(shape.scale) if shape.scale else np.ones(3)
     placed = (corners * scale) @ np.array(rotation_matrix_of(shape.turn)).T + numbers.place(Marker(body, shape.at)).at
     return np.asarray(placed[:, ::-1] if np.prod(scale) < 0.0 else placed)  # a mirror turns faces inside out

@@ -16,7 +16,7 @@ from symgen.describe.table_functions import Table
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1
 #: Fields added after the form was fixed: empty ones are left out.
-_LATER = ("flexures", "pressed", "across", "speed", "backwards", "exponent", "changing")
+_LATER = ("flexures", "pressed", "across", "speed", "backwards", "exponent", "changing", "resting")
 
 
 def canonical_text(mechanism: Mechanism) -> str:
@@ -53,6 +53,8 @@ def canonical_text(mechanism: Mechanism) -> str:
         parts.append(["rotors", [_canonical_value(rotor) for rotor in mechanism.rotors]])
     if mechanism.switchable:
         parts.append(["switchable", sorted(mechanism.switchable)])
+    if mechanism.holding:
+        parts.append(["holding", [_canonical_value(x) for x in mechanism.holding]])
     for family, rows in rows_by_family(mechanism).items():
         parts.append([family.part, [_canonical_value(row) for row in rows]])
     if mechanism.topology is not None:
@@ -92,12 +94,14 @@ def mechanism_digest(mechanism: Mechanism) -> str:
         ", rotors=()",
         ", beams=b''",
         ", switchable=()",
+        ", holding=()",
         ", pressed=()",
         ", across=()",
         ", speed=None",
         ", backwards=None",
         ", exponent=None",
         ", changing=False",
+        ", resting=()",
         ", shown=''",
         ", modal=None",
         ", carried=None",

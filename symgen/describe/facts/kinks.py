@@ -31,7 +31,7 @@ from symgen.base.vocabulary.expressions import (
 )
 from symgen.base.vocabulary.measures import Effort, FormulaMeasure, FormulaSpeed, Holonomic
 from symgen.describe.bounds.bounded_modes import one_sided_rows, two_sided_rows
-from symgen.describe.formulas.readings import integrands_of_run
+from symgen.describe.formulas.results_read import integrands_of_run
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.parts.driven_mechanism import MOST_KNOTS, Jump, compared_with_zero, replace_names
 from symgen.describe.remembered import compute_once

@@ -76,8 +76,8 @@ class Handle(NamedTuple):
     followers: tuple[Follower, ...]
 
 
-class _Spot(NamedTuple):
-    """A point of one body that the file writes down."""
+class WrittenPoint(NamedTuple):
+    """A point of one body that the file writes down: its body, its path, its name if any, and its coordinates there."""
 
     body: str
     path: Path
@@ -103,7 +103,7 @@ def movable_points(
     q : sequence of float
         Coordinates of all bodies at the start [m, rad].
     """
-    return () if mechanism.space != "planar" else tuple(_Handles(mechanism, raw, spans, text, q).all_handles())
+    return () if mechanism.space != "planar" else tuple(PointsOfFile(mechanism, raw, spans, text, q).all_handles())
 
 
 def spans_of_parameters(raw: Mapping[str, Any], spans: Spans, text: str) -> dict[str, tuple[int, int]]:
@@ -114,12 +114,12 @@ def spans_of_parameters(raw: Mapping[str, Any], spans: Spans, text: str) -> dict
             path: Path = (section, name)
             if isinstance(entry, Mapping):
                 path = (*path, "value" if "value" in entry else "default")
-            if path in spans and (span := _span_of_number(text, spans[path])) is not None:
+            if path in spans and (span := span_of_number(text, spans[path])) is not None:
                 found[name] = span
     return found
 
 
-def _span_of_number(text: str, span: tuple[int, int]) -> tuple[int, int] | None:
+def span_of_number(text: str, span: tuple[int, int]) -> tuple[int, int] | None:
     """Return the characters of the number that a value begins with; None for a formula."""
     written = text[span[0] : span[1]]
     if is_decimal_number(written):
@@ -130,7 +130,7 @@ def _span_of_number(text: str, span: tuple[int, int]) -> tuple[int, int] | None:
     return span[0] + match.start(1), span[0] + match.end(1)
 
 
-class _Handles:
+class PointsOfFile:
     """The points of one mechanism."""
 
     def __init__(
@@ -150,6 +150,7 @@ class _Handles:
             at += len(body.coordinates)
 
     def all_handles(self) -> Iterator[Handle]:
+        """Yield the handles of pins, then of further points."""
         taken = set[Path]()
         for joint, spots in self.pins_with_points():
             # a pin of centres of mass has no point that a number places
@@ -161,9 +162,9 @@ class _Handles:
                 yield handle
             taken.add(spot.path)
 
-    def pins_with_points(self) -> Iterator[tuple[str, list[_Spot]]]:
+    def pins_with_points(self) -> Iterator[tuple[str, list[WrittenPoint]]]:
         """Yield the pins: the first joint of each, and all points that it and further joints hold together."""
-        groups: list[tuple[str, dict[Path, _Spot]]] = []
+        groups: list[tuple[str, dict[Path, WrittenPoint]]] = []
         for name, entry in self.raw.get("joints", {}).items():
             joint = next((j for j in self.mechanism.joints if j.name == name), None)
             if joint is None or joint.kind not in PINS:
@@ -176,16 +177,16 @@ class _Handles:
         for name, spots in groups:
             yield name, [*spots.values()]
 
-    def points_of_entries(self) -> Iterator[_Spot]:
+    def points_of_entries(self) -> Iterator[WrittenPoint]:
         """Yield the points of bodies, and points of joints and forces that have no name."""
         for name, entry in self.raw.get("bodies", {}).items():
             for point, vector in (entry.get("points") or {}).items():
-                yield _Spot(name, ("bodies", name, "points", point), point, vector)
+                yield WrittenPoint(name, ("bodies", name, "points", point), point, vector)
         for section in ("joints", "forces"):
             for name, entry in self.raw.get(section, {}).items():
                 yield from (spot for spot in self.ends_of_entry(section, name, entry) if not spot.point)
 
-    def ends_of_entry(self, section: str, name: str, entry: Mapping[str, Any]) -> Iterator[_Spot]:
+    def ends_of_entry(self, section: str, name: str, entry: Mapping[str, Any]) -> Iterator[WrittenPoint]:
         """Yield the points of an entry that are a point of a body by name or by coordinates."""
         between, at = entry.get("between"), entry.get("at")
         pairs: list[tuple[Any, Any, Path]] = []
@@ -195,11 +196,13 @@ class _Handles:
             pairs = [(entry["body"], at, (section, name, "at"))]
         for body, point, path in pairs:
             if isinstance(point, list):
-                yield _Spot(body, path, "", point)
+                yield WrittenPoint(body, path, "", point)
             elif point != CENTRE and point in self.raw.get("bodies", {}).get(body, {}).get("points", {}):
-                yield _Spot(body, ("bodies", body, "points", point), point, self.raw["bodies"][body]["points"][point])
+                yield WrittenPoint(
+                    body, ("bodies", body, "points", point), point, self.raw["bodies"][body]["points"][point]
+                )
 
-    def make_handle(self, name: str, kind: str, spots: Sequence[_Spot]) -> Handle | None:
+    def make_handle(self, name: str, kind: str, spots: Sequence[WrittenPoint]) -> Handle | None:
         """Return the handle of points that lie in one place; None where they have no value."""
         try:
             vectors = [self.vector_of_spot(spot) for spot in spots]
@@ -219,12 +222,14 @@ class _Handles:
             followers = self.numbers_that_follow(*zip(*on_ground, strict=True)) or followers
         return Handle(kind, name, x, y, spots[first].body, spots[first].point, (local[0], local[1]), followers)
 
-    def vector_of_spot(self, spot: _Spot) -> tuple[Expr, ...]:
+    def vector_of_spot(self, spot: WrittenPoint) -> tuple[Expr, ...]:
+        """Return the coordinates of a point in the frame of its body."""
         return self.scope_of_spot(spot).vector(
             "at" if spot.path[0] != "bodies" else f"points.{spot.point}", tuple(spot.raw)
         )
 
-    def scope_of_spot(self, spot: _Spot) -> Scope:
+    def scope_of_spot(self, spot: WrittenPoint) -> Scope:
+        """Return the scope of the table that has a point."""
         section, name = str(spot.path[0]), str(spot.path[1])
         return Scope(self.context, f"{section}.{name}", name)
 
@@ -236,7 +241,9 @@ class _Handles:
         dx, dy = local[0] - centre[0], local[1] - centre[1]
         return x + c * dx - s * dy, y + s * dx + c * dy
 
-    def numbers_that_follow(self, spots: Sequence[_Spot], vectors: Sequence[Sequence[Expr]]) -> tuple[Follower, ...]:
+    def numbers_that_follow(
+        self, spots: Sequence[WrittenPoint], vectors: Sequence[Sequence[Expr]]
+    ) -> tuple[Follower, ...]:
         """Return the numbers that follow a point: of several coordinates one moves as fits all of them best."""
         slopes: dict[tuple[int, int], list[tuple[float, float, float]]] = {}
         for spot, vector in zip(spots, vectors, strict=True):
@@ -254,7 +261,7 @@ class _Handles:
         centres = [follower for spot in spots for follower in self.centre_that_follows(spot)]
         return (*result, *centres) if result else ()
 
-    def centre_that_follows(self, spot: _Spot) -> Iterator[Follower]:
+    def centre_that_follows(self, spot: WrittenPoint) -> Iterator[Follower]:
         """Yield the numbers of a centre of mass that lies in the middle of points, of which one is moved.
 
         These are all points of its body, or the first two or three, as of a bar or a plate that has further holes.
@@ -279,12 +286,12 @@ class _Handles:
             if span is not None:
                 yield Follower(*span, float(centre[k]), way[0] / len(of), way[1] / len(of))
 
-    def deciding_number(self, spot: _Spot, k: int, expression: Expr) -> tuple[tuple[int, int], float] | None:
+    def deciding_number(self, spot: WrittenPoint, k: int, expression: Expr) -> tuple[tuple[int, int], float] | None:
         """Return the characters of the number that decides a coordinate, and metres for a unit of the number."""
         names = sorted(set(names_in_expression(expression)))
         if not names:
             span = self.spans.get((*spot.path, k))
-            digits = None if span is None else _span_of_number(self.text, span)
+            digits = None if span is None else span_of_number(self.text, span)
             return None if digits is None else (digits, self.metres_of_unit(spot.raw[k]))
         if len(names) > 1 or names[0] not in self.of_parameters:
             return None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -12,8 +13,9 @@ from symgen.base.vocabulary.expressions import ONE, call
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.keys import keys_of_any_joint, rows_of_joint
 from symgen.describe.mechanism import Force, Hold, Joint, Rotor
-from symgen.describe.parts.collected import Errors, Incomplete
+from symgen.describe.parts.collected import Errors, Incomplete, further_errors
 from symgen.describe.parts.fields import Flag, JointStart, Scalar, read_table, read_value, value_in_words
+from symgen.describe.parts.holding_joints import ReadHolding, read_holding
 from symgen.describe.parts.holds import joint_holds
 from symgen.describe.parts.kinds import JOINTS, kind_and_keys
 from symgen.describe.parts.topology import articulation_of_joint
@@ -48,6 +50,8 @@ class JointTables:
         Joints that carry nothing in a tree.
     forces : dict
         Joint -> the force in place of its rows, of those that give way.
+    holding : dict
+        Joint -> when its rows are in force, of those that hold for a while.
     """
 
     def __init__(
@@ -59,6 +63,7 @@ class JointTables:
         self.rotors: dict[str, Rotor] = {}
         self.cuts: list[str] = []
         self.forces: dict[str, Force] = {}
+        self.holding: dict[str, ReadHolding] = {}
         self._joints: dict[str, Joint | None] = {}
         self._open = 0  # joints being resolved, each because the one before refers to it
         self._scopes: dict[str, tuple[Scope, Joint]] = {}  # in the order in which joints are resolved
@@ -80,15 +85,30 @@ class JointTables:
         with self.errors.part_of_description(name):
             if self._open > LONGEST_CHAIN:
                 raise InputError(where, f"joints that refer to each other in at most {LONGEST_CHAIN} steps", "more")
-            self._joints[name] = joint = self._read_joint(name)
+            try:
+                self._joints[name] = joint = self._read_joint(name, self.tables[name])
+            except InputError as error:
+                if self.errors.all_of_them:
+                    error.further += further_errors(partial(self._read_whole_joint, name), self.tables[name], error)
+                raise
             self._open -= 1
             return joint
         self._open -= 1
         raise Incomplete
 
-    def _read_joint(self, name: str) -> Joint:
+    def _read_whole_joint(self, name: str, table: Any) -> None:
+        """Read a table of a joint with its rows that have bounds, which other tables wait for."""
+        joint = self._read_joint(name, table)
+        self._rows_with_bounds(self._scopes.pop(name)[0], joint, table)
+
+    @staticmethod
+    def _rows_with_bounds(scope: Scope, joint: Joint, table: Mapping[str, Any]) -> tuple[BoundedRow, ...]:
+        taken = _taken_keys(JOINTS.get(joint.kind), table)
+        return tuple(rows_of_joint(scope, joint, {k: x for k, x in table.items() if k not in taken}))
+
+    def _read_joint(self, name: str, whole: Any) -> Joint:
         """Return the joint `name`, and note what else its table says."""
-        where, whole = self.where(f"joints.{name}"), self.tables[name]
+        where = self.where(f"joints.{name}")
         kind, table = kind_and_keys(where, whole, "joint type")
         struct = JOINTS.get(kind, f"{where}.type")
         shared = tuple(key for key in self._keys if key not in _taken_keys(struct, whole))
@@ -127,9 +147,16 @@ class JointTables:
         rows, cuts = dict[str, tuple[BoundedRow, ...]](), list[str]()
         for name, (scope, joint) in self._scopes.items():  # after all joints, as formulas may read any
             with self.errors.part_of_description(name):
-                table = self.tables[name]
-                taken = _taken_keys(JOINTS.get(joint.kind), table)
-                rows[name] = tuple(rows_of_joint(scope, joint, {k: x for k, x in table.items() if k not in taken}))
+                try:
+                    rows[name] = self._rows_with_bounds(scope, joint, self.tables[name])
+                except InputError as error:
+                    if self.errors.all_of_them:
+                        read = partial(self._rows_with_bounds, scope, joint)
+                        error.further += further_errors(read, self.tables[name], error)
+                    raise
+                own = self.scope("joints", name, joint.kind)
+                if (holding := read_holding(own, joint, self.tables[name])) is not None:
+                    self.holding[name] = holding
             if name in self.cuts or any(row.pressed for row in rows.get(name, ())):
                 cuts.append(name)  # its reaction is a multiplier
         self.cuts = cuts

@@ -17,6 +17,7 @@ from typing import Any
 
 from symgen.base import arguments
 from symgen.base.errors import InputError, quote, suggest
+from symgen.base.files import system_message
 from symgen.describe.files.origins import Source, errors_in
 from symgen.describe.files.validate import validate
 from symgen.describe.formulas.parser import LONGEST_TEXT
@@ -143,7 +144,7 @@ def read_text(path: Path) -> str:
         with path.open("rb") as file:
             content = file.read(LARGEST_FILE + 1)
     except OSError as error:
-        raise InputError(str(path), "a file that can be read", error.strerror or "an error") from None
+        raise InputError(str(path), "a file that can be read", system_message(error)) from None
     if len(content) > LARGEST_FILE:
         raise InputError(path.name, f"a file of at most {LARGEST_FILE} bytes", "a larger one")
     try:

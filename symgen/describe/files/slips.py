@@ -13,6 +13,9 @@ _PAIR = re.compile(r"\s*(?P<key>[\w.\"'-]+(?: +[\w-]+)*)\s*(?P<sign>[=:])\s*(?P<
 _DECIMAL_COMMA = re.compile(r"([-+]?\d+),(\d+)\b")
 _AMOUNT = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-z°µ%][\w°µ^*/. -]*)$")
 _COMMENT = re.compile(r"\s*(//|%|--|/\*|;)(.*)$")
+_FORMULA = re.compile(r"[\w.(][\w.\s()]*[-+*/^][\w.\s()*/^+-]*$")
+_NUMBERS = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_LIST = re.compile(rf"[\[(]\s*({_NUMBERS}(?:\s*[,;\s]\s*{_NUMBERS})+)\s*[\])]?$")
 _WORD = re.compile(r"[A-Za-z_][\w.-]*$")
 _WORDS = re.compile(r"\[\s*[A-Za-z_][\w.]*(?:\s*,\s*[A-Za-z_][\w.]*)*\s*\]$")
 #: Quotation marks that word processors write, and the straight ones.
@@ -44,8 +47,18 @@ def slip_in_toml(text: str, message: str) -> Slip:
     if match is None:
         return _grammar(message)
     number = min(int(match[1]), len(lines))
+    if "nclosed array" in message and (opened := _line_that_opens(lines[:number])):
+        text = lines[opened - 1].partition("#")[0].strip()
+        slip = _slip_in_line(text, "", []) or Slip("']' at the end of a list", quote(text), f"did you mean '{text}]'?")
+        return slip._replace(got=f"{slip.got} (at line {opened}, column 1)")
     found = _slip_in_line(lines[number - 1], message, lines[: number - 1])
     return _grammar(message) if found is None else found._replace(got=f"{found.got} {match[0]}")
+
+
+def _line_that_opens(lines: list[str]) -> int:
+    """Return the number of the last line whose list is not closed; 0 where all are."""
+    opening = (i + 1 for i, line in reversed([*enumerate(lines)]) if "=" in line and line.count("[") > line.count("]"))
+    return next(opening, 0)
 
 
 def _grammar(message: str) -> Slip:
@@ -60,8 +73,15 @@ def _slip_in_line(line: str, message: str, before: list[str]) -> Slip | None:
         return _slip_in_header(line, header, message, before)
     pair = _PAIR.match(line)
     if pair is None:
-        return None
+        return _slip_without_sign(line)
     key, value = pair["key"], pair["value"]
+    if "\N{NO-BREAK SPACE}" in line:
+        plain = line.replace("\N{NO-BREAK SPACE}", " ").strip()
+        return Slip("plain blanks", "one of a word processor", f"did you mean '{plain}'?")
+    if pair["sign"] == ":" and not value and key.partition(".")[2]:
+        return Slip("the name of a table in brackets", quote(line.strip()), f"did you mean '[{key}]'?")
+    if not value:
+        return Slip("a value after '='", quote(line.strip()), "a line without a value is left out")
     if message.startswith("Cannot overwrite"):
         return Slip("each key once in its table", f"a second {quote(key)}", "keep one of the two lines")
     if pair["sign"] == ":":
@@ -78,11 +98,24 @@ def _slip_in_header(line: str, header: re.Match[str], message: str, before: list
         return Slip(f"one table [{name}]", "a second one", f"{where}one table has all keys")
     if not end:
         return Slip("']' at the end of a table's name", quote(line.strip()), f"did you mean '[{name}]'?")
+    if line.lstrip().startswith("[["):
+        return Slip("one pair of brackets", quote(line.strip()), f"did you mean '[{name}.NAME]', a table for each?")
+    if not name.isascii():
+        wrong = next(letter for letter in name if not letter.isascii())
+        return Slip("a name of letters a to z, digits and _", quote(line.strip()), f"{quote(wrong)} is none of them")
     if " " in name:
         joined = "_".join(name.split())
         return Slip(
             "a name of letters, digits and _, a letter first", quote(line.strip()), f"did you mean '[{joined}]'?"
         )
+    return None
+
+
+def _slip_without_sign(line: str) -> Slip | None:
+    """Return the slip in a line that has no sign between a key and its value."""
+    key, _, value = line.strip().partition(" ")
+    if _WORD.fullmatch(key) and value.strip():
+        return Slip("KEY = VALUE", quote(line.strip()), f"did you mean '{key} = {value.strip()}'?")
     return None
 
 
@@ -92,6 +125,13 @@ def _meant_value(value: str) -> Slip | None:
         straight = "".join(_CURLY.get(mark, mark) for mark in value)
         return Slip("straight quotation marks", "", f"did you mean {straight}?")
     bare = value.partition("#")[0].rstrip()
+    if bare.startswith("="):
+        return Slip("one '='", "", f"did you mean {bare.lstrip('= ')}?")
+    if numbers := _LIST.match(bare):
+        listed = ", ".join(re.split(r"[,;\s]+", numbers[1]))
+        return Slip("a list [a, b] in square brackets, with commas", "", f"did you mean [{listed}]?")
+    if re.fullmatch(r"[-+]?\.\d+|[-+]?\d+\.", bare):
+        return Slip("a digit on both sides of a decimal point", "", f"did you mean {float(bare)!r}?")
     if comma := _DECIMAL_COMMA.fullmatch(bare):
         return Slip("a decimal point", "", f"did you mean {comma[1]}.{comma[2]}?")
     if bare in ("True", "False"):
@@ -106,6 +146,8 @@ def _meant_value(value: str) -> Slip | None:
             return Slip("a comment that begins with #", "", f"did you mean '# {comment[2].strip()}'?")
     if amount := _AMOUNT.fullmatch(bare):
         return Slip("a number with its unit in quotation marks", "", f'did you mean "{amount[1]} {amount[2].strip()}"?')
+    if _FORMULA.fullmatch(bare):
+        return Slip("a formula in quotation marks", "", f'did you mean "{bare}"?')
     if _WORD.fullmatch(bare):
         return Slip("a text in quotation marks", "", f'did you mean "{bare}"?')
     if _WORDS.fullmatch(bare):

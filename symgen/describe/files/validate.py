@@ -25,11 +25,10 @@ from symgen.describe.files.origins import errors_in, keep_origin
 from symgen.describe.files.section_names import NAMED, SECTIONS
 from symgen.describe.formulas.identifiers import check_identifier, check_mechanism_name, one_line
 from symgen.describe.formulas.parser import FormulaNames
-from symgen.describe.formulas.readings import rows_read_by_output
+from symgen.describe.formulas.results_read import rows_read_by_output
 from symgen.describe.mechanism import (
     AnyBody,
     Defaults,
-    Force,
     Hold,
     Joint,
     Mechanism,
@@ -37,32 +36,25 @@ from symgen.describe.mechanism import (
     Output,
     Parameter,
     Shape,
-    StateVariable,
     Vec,
 )
 from symgen.describe.parts.bodies import planar_body, read_shapes, spatial_body
-from symgen.describe.parts.collected import Errors, Incomplete, errors_in_other_keys
+from symgen.describe.parts.collected import Errors, Incomplete, further_errors
 from symgen.describe.parts.columns import check_columns
 from symgen.describe.parts.context import Context
 from symgen.describe.parts.event_sections import read_event
-from symgen.describe.parts.fields import (
-    OutputFunction,
-    read_table,
-    read_value,
-    value_in_words,
-)
+from symgen.describe.parts.fields import OutputFunction, read_table, read_value, value_in_words
+from symgen.describe.parts.holding_joints import formulas_of_holding, with_holding
 from symgen.describe.parts.holds import body_holds, read_holds
-from symgen.describe.parts.kinds import FORCES, kind_and_keys
+from symgen.describe.parts.kinds import read_force
 from symgen.describe.parts.limits import read_limits_of_entry
+from symgen.describe.parts.meant_words import hint_on_section
 from symgen.describe.parts.numbers import read_run_defaults, read_table_function
 from symgen.describe.parts.own_units import check_own_unit
 from symgen.describe.parts.parameters import Parameters
 from symgen.describe.parts.scope import Scope
-from symgen.describe.parts.sections import (
-    MechanismSection,
-    OutputSection,
-    StateSection,
-)
+from symgen.describe.parts.sections import MechanismSection, OutputSection
+from symgen.describe.parts.states import read_state
 
 if TYPE_CHECKING:
     from symgen.describe.beams.beams import Beams
@@ -133,8 +125,8 @@ class _Validator:
                 try:
                     results.append(read(name, value))
                 except InputError as error:
-                    if self.errors.all_of_them and section != "joints":  # which read each other
-                        error.further += errors_in_other_keys(partial(read, name), value, error)
+                    if self.errors.all_of_them and section != "joints":  # which tell theirs as they are resolved
+                        error.further += further_errors(partial(read, name), value, error)
                     raise
         return tuple(results)
 
@@ -144,7 +136,7 @@ class _Validator:
             if key not in SECTIONS:
                 with self.errors.part_of_description(*(content if isinstance(content, Mapping) else ())):
                     expected, got = f"the sections {', '.join(SECTIONS)}", f"the unknown section {quote(key)}"
-                    raise InputError(self.source, expected, got, suggest(key, SECTIONS), key)
+                    raise InputError(self.source, expected, got, hint_on_section(key, content, SECTIONS), key)
         where = self.place_in_file("mechanism")
         with self.errors.part_of_description():
             if "mechanism" not in self.raw:
@@ -192,7 +184,7 @@ class _Validator:
         self.context = msgspec.structs.replace(self.context, bodies={body.name: body for body in bodies})
         joints = self.read_each_entry("joints", lambda name, _: self.read_joint(name, self.place_in_file("joints")))
         forces = () if modal is None else modal.forces(bodies)
-        forces += self.read_each_entry("forces", self.read_force)
+        forces += self.read_each_entry("forces", lambda name, raw: read_force(name, raw, self.scope_of_entry))
         forces += tuple(self.joints.forces[joint.name] for joint in joints if joint.name in self.joints.forces)
         self.context = msgspec.structs.replace(self.context, forces={force.name: force for force in forces})
         holds, shapes = self.read_holds_and_shapes(bodies)
@@ -201,11 +193,14 @@ class _Validator:
         bounded = self.read_bounded_rows(joints)
         self.context = msgspec.structs.replace(self.context, losses=losses_by_name(bounded))
         defaults = self.read_run_defaults(one_line(head.source))
-        states = self.read_each_entry("states", self.read_state)
+        states = self.read_each_entry(
+            "states", lambda name, raw: read_state(self.scope_of_entry("states", name), name, raw)
+        )
         outputs = self.read_each_entry("outputs", self.read_output)
         events = self.read_each_entry(
             "events", lambda name, value: read_event(self.scope_of_entry("events", name), name, value)
         )
+        holding = [self.joints.holding[joint.name] for joint in joints if joint.name in self.joints.holding]
         self.errors.leave_if_any()
         mechanism = Mechanism(
             name=head.name,
@@ -223,7 +218,9 @@ class _Validator:
             states=states,
             outputs=outputs,
             seats=tuple(self.joints.seats.items()),
-            cuts=self._joints_with_multipliers(joints, [*(x.rate for x in states), *(o.value for o in outputs)]),
+            cuts=self._joints_with_multipliers(
+                joints, [*(x.rate for x in states), *(o.value for o in outputs), *formulas_of_holding(holding)]
+            ),
             holds=tuple(holds),
             shapes=tuple(shapes),
             beams=b"" if beams is None else msgspec.json.encode(beams.count_elements()),
@@ -233,6 +230,7 @@ class _Validator:
             revision=one_line(head.revision),
         )
         with self.errors.part_of_description():
+            mechanism = with_holding(mechanism, holding)
             mechanism = rows_as_forces(with_bounded_outputs(mechanism), [row for row in bounded if row.smooth])
             check_columns(mechanism, self.source)
             check_bounds(mechanism, self.source)
@@ -388,17 +386,6 @@ class _Validator:
         self._limits += reader.limits
         return parameters
 
-    def read_state(self, name: str, raw: object) -> StateVariable:
-        where, scope = self.place_in_file(f"states.{name}"), self.scope_of_entry("states", name)
-        section = read_table(StateSection, raw, where)
-        unit = unit_of(section.unit, f"{where}.unit")
-        if not unit.is_si:
-            hint = f'a start may have one of its own: "5 {unit.text}"'
-            raise InputError(f"{where}.unit", f"an SI unit such as {unit.si}, as formulas are", quote(unit.text), hint)
-        scope.coordinates = {name: unit.si}
-        start, rate = scope.constant("start", section.start), scope.of_motion("rate", section.rate, integrals=False)
-        return StateVariable(name, start, rate, unit.text)
-
     def read_output(self, name: str, raw: object) -> Output:
         where = self.place_in_file(f"outputs.{name}")
         if isinstance(raw, Mapping):
@@ -411,11 +398,3 @@ class _Validator:
         check_own_unit(scope, value, unit)
         self._limits += read_limits_of_entry(name, section, unit, self._numbers, where, si=False)
         return Output(name, value, unit.text)
-
-    def read_force(self, name: str, raw: object) -> Force:
-        where = self.place_in_file(f"forces.{name}")
-        kind, table = kind_and_keys(where, raw, "force type")
-        struct = FORCES.get(kind, f"{where}.type")
-        scope = self.scope_of_entry("forces", name, FORCES.resolve_alias(kind))
-        scope.check_space(struct.SPACES)
-        return read_table(struct, table, where, ("type",)).build(scope)

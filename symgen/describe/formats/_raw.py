@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 from symgen.base.errors import InputError
 from symgen.base.escapes import printable
+from symgen.describe.formats._drives import ROUNDING, Drives, names_with_count, tidy_numbers
 from symgen.describe.formats._names import DescriptionNames
 from symgen.describe.formats._poses import (
     Matrix,
@@ -30,17 +30,12 @@ from symgen.describe.formats._robot import (
     CoupledCoordinate,
     LeftOut,
     Robot,
-    RobotActuator,
     RobotLink,
     rotate_inertia,
 )
 from symgen.describe.formats._solids import SolidMass, sum_of_solids
 from symgen.describe.formulas.identifiers import LONGEST
 from symgen.describe.parts.bodies import MOST
-
-_ANGLE, _SLIDE = "angle", "displacement"
-#: Share of the largest number of a vector or tensor below which a number is rounding.
-_ROUNDING = 1e-14
 
 
 def describe_robot(robot: Robot, source: str, stops: bool = False) -> tuple[dict[str, Any], tuple[LeftOut, ...], Path]:
@@ -71,6 +66,7 @@ class _Description:
         self.carriers = self._bodies_of_links()
         self.joints = {c.name: c for c in robot.connections if c.kind not in ("fixed", "floating")}
         self._drop_massless_ends()
+        self.drives = Drives(robot, self.names, self.joints, self.carriers, self.left_out)
         folder = robot.folder.resolve()
         files = [shape["file"] for link in robot.links.values() for shape in link.shapes if "file" in shape]
         self.folder = Path(os.path.commonpath([folder, *files]))
@@ -144,18 +140,18 @@ class _Description:
         )
         table: dict[str, Any] = {"mass": float(f"{whole.mass:.15g}"), "inertia": _tensor_entries(whole.inertia)}
         if any(whole.centre):
-            table["centre_of_mass"] = _tidy_numbers(whole.centre)
+            table["centre_of_mass"] = tidy_numbers(whole.centre)
         points = dict[str, Any]()
         for link, frame in zip(members, frames, strict=True):
             if link.name != name:
-                points[self.names.name_for("point", link.name)] = _tidy_numbers(frame.origin)
+                points[self.names.name_for("point", link.name)] = tidy_numbers(frame.origin)
             for point, at in link.points.items():
-                points[self.names.name_for("point", point)] = _tidy_numbers(frame.point_in_outer_frame(at))
+                points[self.names.name_for("point", point)] = tidy_numbers(frame.point_in_outer_frame(at))
         if points:
             table["points"] = points
-        table["position"] = _tidy_numbers(place.origin)
+        table["position"] = tidy_numbers(place.origin)
         if (e := quaternion_of_rotation(place.rotation)) != (1.0, 0.0, 0.0, 0.0):
-            table["orientation"] = {"quaternion": _tidy_numbers(e)}
+            table["orientation"] = {"quaternion": tidy_numbers(e)}
         return table | self._shape_table(name, members, frames)
 
     def _shape_table(self, name: str, members: list[RobotLink], frames: list[Pose]) -> dict[str, Any]:
@@ -169,11 +165,6 @@ class _Description:
 
     # -- joints ------------------------------------------------------------------------------------------------------
 
-    def body_name(self, link: str) -> str:
-        """Return the name of the body of a link."""
-        top = self.carriers[link]
-        return "ground" if top == GROUND else self.names.name_for("link", top)
-
     def _joint_tables(self, c: Connection) -> dict[str, Any]:
         ends = [self.carriers[c.parent], self.carriers[c.child]]
         if ends[0] == ends[1]:
@@ -182,25 +173,25 @@ class _Description:
         inner = [self.place_of_body(end).inverse() @ frame for end, frame in zip(ends, frames, strict=True)]
         table: dict[str, Any] = {
             "type": c.kind,
-            "between": [self.body_name(c.parent), self.body_name(c.child)],
-            "at": [_tidy_numbers(frame.origin) for frame in inner],
+            "between": [self.drives.body_name(c.parent), self.drives.body_name(c.child)],
+            "at": [tidy_numbers(frame.origin) for frame in inner],
         }
         if c.kind in ("revolute", "translational", "cylindrical", "planar", "rigid", "screw"):
             axis = unit_vector(c.axis)
-            table["axis"] = [_tidy_numbers(matrix_vector(frame.rotation, axis)) for frame in inner]
+            table["axis"] = [tidy_numbers(matrix_vector(frame.rotation, axis)) for frame in inner]
             first = perpendicular_direction(axis)
             second = first
             if c.kind in ("revolute", "cylindrical") and c.value:  # the angle at the start is `value`
                 second = matrix_vector(axis_rotation(axis, c.value), first)
             pair = [matrix_vector(inner[0].rotation, first), matrix_vector(inner[1].rotation, second)]
-            table["reference"] = [_tidy_numbers(x) for x in pair]
+            table["reference"] = [tidy_numbers(x) for x in pair]
         if c.kind == "universal":
             directions = c.axis, c.second or c.axis
             table["axes"] = [
-                _tidy_numbers(matrix_vector(f.rotation, unit_vector(x))) for f, x in zip(inner, directions, strict=True)
+                tidy_numbers(matrix_vector(f.rotation, unit_vector(x))) for f, x in zip(inner, directions, strict=True)
             ]
         if c.kind == "translational" and c.value:
-            table["at"][0] = _tidy_numbers(
+            table["at"][0] = tidy_numbers(
                 vector_sum(
                     inner[0].origin, matrix_vector(inner[0].rotation, scaled_vector(-c.value, unit_vector(c.axis)))
                 )
@@ -231,68 +222,9 @@ class _Description:
             limited = [name for name in limited if self.joints[name].kind not in ("revolute", "translational")]
         if limited:
             why = "joints move beyond their ranges" + ("" if self.stops else "; --stops keeps them in")
-            self.left_out.append(LeftOut("limits", _names_with_count(limited), why, True))
+            self.left_out.append(LeftOut("limits", names_with_count(limited), why, True))
 
-    # -- forces ------------------------------------------------------------------------------------------------------
-
-    def _force_tables(self) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Return the tables of forces and inputs."""
-        efforts, inputs = dict[str, list[str]](), dict[str, Any]()
-        for actuator in self.robot.actuators:
-            driven = {name: w for name, w in actuator.weights.items() if name in self.joints and w}
-            if not driven:
-                continue
-            name = self.names.name_for("input", actuator.name)
-            if actuator.gain:
-                inputs[name] = {"default": 0.0} | ({"unit": actuator.unit} if actuator.unit else {})
-            for joint, text in self._actuator_formulas(actuator, driven, name).items():
-                efforts.setdefault(joint, []).append(text)
-        forces = dict[str, Any]()
-        for name, c in self.joints.items():
-            table: dict[str, Any] = {key: x for key, x in (("stiffness", c.stiffness), ("damping", c.damping)) if x}
-            if c.kind not in ("revolute", "translational", "spherical"):
-                if table:
-                    what = "a spring or damper"
-                    self.left_out.append(LeftOut(what, name, f"a {c.kind} joint has several coordinates", True))
-                continue
-            if name in efforts:
-                table["actuator"] = " + ".join(efforts[name])
-            if not table:
-                continue
-            straight = c.kind == "translational"
-            if c.rest and c.stiffness and c.kind != "spherical":
-                table["free_length" if straight else "free_angle"] = c.rest
-            sort = "spring-damper" if straight else "torsional-spring-damper"
-            forces[self.names.name_for("drive", name)] = {
-                "type": sort,
-                "joint": self.names.name_for("joint", name),
-            } | table
-        return forces, inputs
-
-    def _actuator_formulas(self, actuator: RobotActuator, driven: dict[str, float], name: str) -> dict[str, str]:
-        """Return joint -> formula of the effort of an actuator."""
-        value = name
-        if actuator.bounds is not None:
-            value = f"min(max({name}, {_number_text(actuator.bounds[0])}), {_number_text(actuator.bounds[1])})"
-        terms = [value if actuator.gain == 1.0 else f"{_number_text(actuator.gain)}*{value}"] if actuator.gain else []
-        if actuator.offset:
-            terms.append(_number_text(actuator.offset))
-        for factor, suffix in ((actuator.along, ""), (actuator.against, ".rate")):
-            if factor:
-                terms += [
-                    f"{_number_text(factor * w)}*{self.coordinate_name(joint)}{suffix}" for joint, w in driven.items()
-                ]
-        whole = " + ".join(terms)
-        if actuator.limits is not None:
-            whole = f"min(max({whole}, {_number_text(actuator.limits[0])}), {_number_text(actuator.limits[1])})"
-        elif len(terms) > 1:
-            whole = f"({whole})"
-        return {joint: whole if w == 1.0 else f"{_number_text(w)}*{whole}" for joint, w in driven.items()}
-
-    def coordinate_name(self, joint: str) -> str:
-        """Return the name of a joint's coordinate in formulas."""
-        label = _SLIDE if self.joints[joint].kind == "translational" else _ANGLE
-        return f"{self.names.name_for('joint', joint)}.{label}"
+    # -- couplings ----------------------------------------------------------------------------------------------------
 
     def _follower_table(self, f: CoupledCoordinate) -> dict[str, Any]:
         terms, polynomial = {self.names.name_for("joint", f.joint): 1.0}, list(f.polynomial)
@@ -328,34 +260,22 @@ class _Description:
             if f.joint in self.joints and (f.of is None or f.of in self.joints):
                 joints[self.names.name_for("follower", f.name)] = self._follower_table(f)
         self._note_limits()
-        forces, inputs = self._force_tables()
-        raw |= {key: x for key, x in (("inputs", inputs), ("joints", joints), ("forces", forces)) if x}
+        forces, inputs = self.drives.force_tables()
+        stops = self.drives.stop_tables() if self.stops else {}
+        if self.drives.limited and not self.stops:
+            limited = names_with_count([r.name for r in self.drives.limited])
+            why = "their lengths go beyond their ranges; --stops keeps them in"
+            self.left_out.append(LeftOut("limits of tendons", limited, why, True))
+        parts = ("inputs", inputs), ("joints", joints), ("forces", forces), ("stops", stops)
+        raw |= {key: x for key, x in parts if x}
         return raw, tuple(self.left_out)
-
-
-def _number_text(number: float) -> str:
-    """Return a number as a factor or term of a formula."""
-    return repr(number) if number >= 0.0 else f"({number!r})"
-
-
-def _tidy_numbers(vector: Iterable[float]) -> list[float]:
-    """Return numbers in 15 digits; what is rounding beside the largest is 0."""
-    numbers = [float(x) for x in vector]
-    least = _ROUNDING * max(map(abs, numbers))
-    return [0.0 if abs(x) <= least else float(f"{x:.15g}") for x in numbers]
 
 
 def _tensor_entries(m: Matrix) -> Any:
     """Return the entries of a tensor: three where products are rounding, else six."""
     entries = [m[0][0], m[1][1], m[2][2], m[0][1], m[0][2], m[1][2]]
-    least = _ROUNDING * max(map(abs, entries))
-    return _tidy_numbers(entries if any(abs(x) > least for x in entries[3:]) else entries[:3])
-
-
-def _names_with_count(names: list[str]) -> str:
-    """Return some names and how many there are."""
-    shown = ", ".join(names[:3])
-    return shown if len(names) <= 3 else f"{shown} and {len(names) - 3} more"
+    least = ROUNDING * max(map(abs, entries))
+    return tidy_numbers(entries if any(abs(x) > least for x in entries[3:]) else entries[:3])
 
 
 def _shapes_of_link(link: RobotLink, frame: Pose, folder: Path) -> list[dict[str, Any]]:
@@ -369,17 +289,17 @@ def _shapes_of_link(link: RobotLink, frame: Pose, folder: Path) -> list[dict[str
             continue
         own: Pose = frame @ shape["frame"]
         colour = {"colour": shape["colour"]} if "colour" in shape else {}
-        at = {"at": _tidy_numbers(own.origin)}
+        at = {"at": tidy_numbers(own.origin)}
         if shape["type"] == "sphere":
             shapes.append({"type": "sphere", "radius": shape["radius"]} | at | colour)
         elif shape["type"] == "cylinder":
-            axis = _tidy_numbers(matrix_transpose(own.rotation)[2])
+            axis = tidy_numbers(matrix_transpose(own.rotation)[2])
             sizes = {"radius": shape["radius"], "length": shape["length"], "axis": axis}
             shapes.append({"type": "cylinder"} | sizes | at | colour)
         elif shape["type"] == "mesh":
-            turn = {"orientation": {"quaternion": _tidy_numbers(quaternion_of_rotation(own.rotation))}}
+            turn = {"orientation": {"quaternion": tidy_numbers(quaternion_of_rotation(own.rotation))}}
             file = shape["file"].relative_to(folder).as_posix()
-            shapes.append({"type": "mesh", "file": file, "scale": _tidy_numbers(shape["scale"])} | at | turn | colour)
+            shapes.append({"type": "mesh", "file": file, "scale": tidy_numbers(shape["scale"])} | at | turn | colour)
         else:
             shapes.append(_box_shape(shape["size"], own) | colour)
     return shapes
@@ -390,8 +310,8 @@ def _box_shape(size: Vector, own: Pose) -> dict[str, Any]:
     rows: Matrix = own.rotation
     if all(min(abs(abs(x) - 1.0), abs(x)) < 1e-6 for row in rows for x in row):
         sizes = [sum(abs(x) * s for x, s in zip(row, size, strict=True)) for row in rows]
-        return {"type": "box", "size": _tidy_numbers(sizes), "at": _tidy_numbers(own.origin)}
+        return {"type": "box", "size": tidy_numbers(sizes), "at": tidy_numbers(own.origin)}
     x, y, z = (s / 2.0 for s in size)
     path = "--- +-- ++- -+- --- --+ +-+ +-- +-+ +++ ++- +++ -++ -+- -++ --+"
     corners = [tuple(s * (1.0 if c == "+" else -1.0) for s, c in zip((x, y, z), w, strict=True)) for w in path.split()]
-    return {"type": "polyline", "points": [_tidy_numbers(own.point_in_outer_frame((a, b, c))) for a, b, c in corners]}
+    return {"type": "polyline", "points": [tidy_numbers(own.point_in_outer_frame((a, b, c))) for a, b, c in corners]}

@@ -162,6 +162,8 @@ class RobotActuator:
         Of the input u, and of the formula's value.
     unit : str
         Of the input; empty where a file does not say.
+    slack : (float, float) or None
+        Sums of weighted coordinates between which `along` gives nothing, below and above which it counts from there.
     """
 
     name: str
@@ -173,11 +175,30 @@ class RobotActuator:
     bounds: tuple[float, float] | None = None
     limits: tuple[float, float] | None = None
     unit: str = ""
+    slack: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class RobotSpan:
+    """A straight part of a cord, whose length counts as a coordinate, between the links and points of its ends."""
+
+    name: str
+    ends: tuple[tuple[str, str], tuple[str, str]]
+
+
+@dataclass(frozen=True)
+class RobotRange:
+    """Limits of a weighted sum of coordinates."""
+
+    name: str
+    weights: dict[str, float]
+    lower: float
+    upper: float
 
 
 @dataclass
 class Robot:
-    """What a file describes; `folder` is the folder that it is in."""
+    """What a file describes; `folder` is the folder that it is in, `standing` are points of the ground."""
 
     name: str
     links: dict[str, RobotLink]
@@ -187,6 +208,9 @@ class Robot:
     gravity: Vector = (0.0, 0.0, -9.81)
     left_out: list[LeftOut] = field(default_factory=list)
     folder: Path = Path()
+    spans: list[RobotSpan] = field(default_factory=list)
+    ranges: list[RobotRange] = field(default_factory=list)
+    standing: dict[str, Vector] = field(default_factory=dict)
 
 
 #: What drives a joint: its name and unit.

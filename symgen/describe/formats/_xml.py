@@ -9,6 +9,7 @@ from pathlib import Path
 from xml.parsers import expat
 
 from symgen.base.errors import InputError, quote
+from symgen.base.files import system_message
 from symgen.describe.formats._poses import Pose, Vector, rotation_from_quaternion, rotation_from_rpy
 
 #: Bounds of a file: bytes, elements, and depth.
@@ -27,7 +28,7 @@ def read_tree(path: Path, root: str | None = None) -> ET.Element:
         with path.open("rb") as file:
             content = file.read(LARGEST + 1)
     except OSError as error:
-        raise InputError(path.name, "a file that can be read", error.strerror or "an error") from None
+        raise InputError(path.name, "a file that can be read", system_message(error)) from None
     if len(content) > LARGEST:
         raise InputError(path.name, f"a file of at most {LARGEST} bytes", "a larger one")
     tree = _Parser(path.name).parse(content)

@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 
 from symgen.base.errors import InputError, quote
 from symgen.describe.formats._mjcf_files import MjcfMeshes, check_files
+from symgen.describe.formats._mjcf_tendons import MjcfTendons
 from symgen.describe.formats._poses import Matrix, Pose, Vector, rotation_from_quaternion
 from symgen.describe.formats._robot import (
     GROUND,
@@ -27,7 +28,7 @@ _LAST_SEEN = 2
 
 
 class Mjcf:
-    """Reads the compiled model: bodies, joints, equalities, actuators on joints and fixed tendons, sites."""
+    """Reads the compiled model: bodies, joints, equalities, tendons, actuators on joints and tendons, sites."""
 
     SUFFIXES: ClassVar[tuple[str, ...]] = (".mjcf", ".xml")
     ROOT: ClassVar[str] = "mujoco"
@@ -63,6 +64,7 @@ class _Reader:
         mujoco.mj_kinematics(model, self.data)
         self.left_out, self.meshes = list[LeftOut](), meshes
         self.connections, self.led = list[Connection](), dict[int, Connection]()
+        self.tendons = MjcfTendons(mujoco, model, self._name_of_object, self._is_disabled)
 
     def _name_of_object(self, sort: str, number: int) -> str:
         name = self.mujoco.mj_id2name(self.model, getattr(self.mujoco.mjtObj, f"mjOBJ_{sort.upper()}"), number)
@@ -75,11 +77,22 @@ class _Reader:
             self._add_joints_of_body(i, links)
         followers = self._read_equalities()
         actuators = [a for i in range(model.nu) if (a := self._read_actuator(i)) is not None]
-        actuators += [a for i in range(model.ntendon) if (a := self._read_tendon_spring(i)) is not None]
+        actuators += self.tendons.springs()
+        self.tendons.add_to_joints(self.connections)
         self._list_left_out()
         gravity = (0.0, 0.0, 0.0) if self._is_disabled("GRAVITY") else _as_vector(model.opt.gravity)
         return Robot(
-            self.name, links, self.connections, followers, actuators, gravity, self.left_out, self.meshes.folder
+            self.name,
+            links,
+            self.connections,
+            followers,
+            actuators,
+            gravity,
+            self.left_out,
+            self.meshes.folder,
+            self.tendons.spans,
+            self.tendons.ranges(),
+            self._sites_of_body(0),
         )
 
     def _is_disabled(self, flag: str) -> bool:
@@ -101,10 +114,14 @@ class _Reader:
             _as_vector(model.body_ipos[i]),
         )
         link.inertia = rotate_inertia(principal, rotation_from_quaternion(model.body_iquat[i].tolist()))
-        sites = [k for k in range(model.nsite) if model.site_bodyid[k] == i]
-        link.points = {self._name_of_object("site", k): _as_vector(model.site_pos[k]) for k in sites}
+        link.points = self._sites_of_body(i)
         link.shapes = [s for k in self._read_looks(i) for s in self._read_geom(k)]
         return link
+
+    def _sites_of_body(self, i: int) -> dict[str, Vector]:
+        model = self.model
+        sites = [k for k in range(model.nsite) if model.site_bodyid[k] == i]
+        return {self._name_of_object("site", k): _as_vector(model.site_pos[k]) for k in sites}
 
     def _read_looks(self, i: int) -> list[int]:
         """Return the geoms of a body that MuJoCo shows; those that collide are hidden by meshes for the eye."""
@@ -252,7 +269,7 @@ class _Reader:
         if sort in (int(m.mjtTrn.mjTRN_JOINT), int(m.mjtTrn.mjTRN_JOINTINPARENT)):
             weights = {self._name_of_object("joint", at): gear} if self._is_hinge_or_slide(at) else {}
         elif sort == int(m.mjtTrn.mjTRN_TENDON):
-            weights = {name: gear * w for name, w in self._read_tendon(at).items()}
+            weights = {name: gear * w for name, w in self.tendons.weights[at].items()}
         plain = int(model.actuator_dyntype[i]) == int(m.mjtDyn.mjDYN_NONE)
         fixed = int(model.actuator_gaintype[i]) == int(m.mjtGain.mjGAIN_FIXED)
         bias = int(model.actuator_biastype[i])
@@ -267,29 +284,6 @@ class _Reader:
         gain = float(model.actuator_gainprm[i][0])
         return RobotActuator(name, weights, gain, offset, along, against, bounds, limits)
 
-    def _read_tendon(self, i: int) -> dict[str, float]:
-        """Return joint -> coefficient of a fixed tendon; empty for another one."""
-        model = self.model
-        wraps = range(int(model.tendon_adr[i]), int(model.tendon_adr[i]) + int(model.tendon_num[i]))
-        if any(int(model.wrap_type[w]) != int(self.mujoco.mjtWrap.mjWRAP_JOINT) for w in wraps):
-            return {}
-        return {self._name_of_object("joint", int(model.wrap_objid[w])): float(model.wrap_prm[w]) for w in wraps}
-
-    def _read_tendon_spring(self, i: int) -> RobotActuator | None:
-        """Return the spring and damper of a fixed tendon, as an effort without an input."""
-        model = self.model
-        stiffness = 0.0 if self._is_disabled("SPRING") else float(model.tendon_stiffness[i])
-        damping = 0.0 if self._is_disabled("DAMPER") else float(model.tendon_damping[i])
-        if not stiffness and not damping:
-            return None
-        weights, (low, high) = self._read_tendon(i), _as_pair(model.tendon_lengthspring[i])
-        if not weights or (stiffness and low != high):
-            why = "its length is no sum of coordinates" if not weights else "it is slack between two lengths"
-            self.left_out.append(LeftOut("a spring of a tendon", self._name_of_object("tendon", i), why, True))
-            return None
-        name = f"{self._name_of_object('tendon', i)}_spring"
-        return RobotActuator(name, weights, 0.0, stiffness * low, -stiffness, -damping)
-
     def _is_hinge_or_slide(self, joint: int) -> bool:
         sorts = self.mujoco.mjtJoint
         return int(self.model.jnt_type[joint]) in (int(sorts.mjJNT_HINGE), int(sorts.mjJNT_SLIDE))
@@ -301,11 +295,7 @@ class _Reader:
         touching = sum(1 for k in range(model.ngeom) if model.geom_contype[k] or model.geom_conaffinity[k])
         if touching > 1 and not self._is_disabled("CONTACT"):
             self.left_out.append(LeftOut("contacts", f"{touching} geoms", "bodies pass through each other", True))
-        limited = sum(1 for k in range(model.ntendon) if model.tendon_limited[k])
-        rough = sum(1 for k in range(model.ntendon) if model.tendon_frictionloss[k] or model.tendon_armature[k])
-        for what, count in (("limits of tendons", limited), ("friction and armature of tendons", rough)):
-            if count:
-                self.left_out.append(LeftOut(what, f"{count} tendons", "symgen has no tendons", True))
+        self.left_out += self.tendons.left_out
         for what in ("jnt_stiffness", "dof_damping", "tendon_stiffness", "tendon_damping"):
             if any(any(row) for row in getattr(model, f"{what}poly", ())):
                 self.left_out.append(

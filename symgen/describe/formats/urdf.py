@@ -38,7 +38,7 @@ _KINDS: dict[str, Kind] = {
 #: Elements beside links and joints, which say nothing about the motion of the mechanism.
 _SILENT = {
     "gazebo": "settings of another program",
-    "transmission": "every joint has an input of its own",
+    "transmission": "every joint has an input of its own, the effort after any mechanicalReduction",
     "sensor": "outputs are written by the user",
     "ros2_control": "settings of another program",
 }

@@ -7,7 +7,6 @@ grammar then gives the structure, of which a handful of node types is translated
 from __future__ import annotations
 
 import ast
-import keyword
 import math
 import re
 from collections.abc import Mapping
@@ -16,7 +15,6 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from symgen.base.errors import InputError, quote, suggest
-from symgen.base.units import Unit, read_unit
 from symgen.base.vocabulary.expressions import (
     FUNCTIONS,
     Call,
@@ -25,10 +23,17 @@ from symgen.base.vocabulary.expressions import (
     Number,
     Reading,
     call,
-    literal_of,
     readings_in,
 )
 from symgen.base.vocabulary.measures import Integral
+from symgen.describe.formulas.formula_slips import (
+    hint_on_commas,
+    hint_on_grammar,
+    meant_coordinate,
+    meant_name,
+)
+from symgen.describe.formulas.formula_tokens import deepest_bracket, slip_in_tokens
+from symgen.describe.formulas.formula_trees import depth_of_tree, fold_choice, fold_logic
 from symgen.describe.formulas.identifiers import CALLABLE, INTEGRAL
 
 if TYPE_CHECKING:
@@ -39,31 +44,8 @@ DEEPEST = 100
 MOST_NODES = 5_000
 LARGEST_EXPONENT = 64.0
 
-_TOKEN = re.compile(
-    r"""(?P<space>\s+)
-      | (?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![A-Za-z0-9_.]))
-      | (?P<word>[A-Za-z][A-Za-z0-9_]*|(?<=\.)_[0-9]+)
-      | (?P<operator>\*\*|<=|>=|[-+*/<>(),.](?!=))""",
-    re.VERBOSE,
-)
-#: A number followed by a word, which may be a unit.
-_WITH_UNIT = re.compile(r"(?<![A-Za-z0-9_])[0-9.]+(?:[eE][-+]?[0-9]+)?\s*([A-Za-z%°]+)")
 #: The number of a beam's node between dots, which Python's grammar does not allow.
 _NODE = re.compile(r"(?<=[A-Za-z0-9_])\.([0-9]+)(?=\.[A-Za-z])")
-_WORDS = frozenset({"and", "or", "not", "if", "else"})
-#: Words that users write for names of formulas.
-_MEANT = {"time": "t", "pi": "pi", "π": "pi", "seconds": "t"}
-_HINTS = {
-    "^": "a power is written **",
-    "%": "there is no remainder",
-    "=": "conditions are written with <, <=, > and >=",
-    "!": "conditions are written with <, <=, > and >=, and 'not'",
-    "&": "write 'and'",
-    "|": "write 'or'",
-    "[": "a formula has no lists",
-    '"': "a formula has no text in it",
-    "'": "a formula has no text in it",
-}
 _BINARY: Mapping[type, str] = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div", ast.Pow: "pow"}
 _COMPARE: Mapping[type, str] = {ast.Lt: "lt", ast.LtE: "le", ast.Gt: "gt", ast.GtE: "ge"}
 
@@ -143,20 +125,23 @@ class _Reader:
         if not text.strip():
             raise self.formula_error("an empty text")
         text = _NODE.sub(r"._\1", text)
-        self.scan_text(text)
+        if (slip := slip_in_tokens(text)) is not None:
+            raise self.formula_error(*slip)
+        if deepest_bracket(text) > DEEPEST:
+            raise self.too_deep_error()
         try:
             # A formula may span lines in the file; Python's grammar would take the line end for the formula's.
             tree = ast.parse(re.sub(r"\s", " ", text).strip(), mode="eval")
         except SyntaxError as error:
             near = f" near column {error.offset}" if (error.offset or 0) > 1 else ""
             raise self.formula_error(
-                f"{quote(text)}, which is incomplete or has a syntax error{near}", _hint_on_units(text)
+                f"{quote(text)}, which is incomplete or has a syntax error{near}", hint_on_grammar(text)
             ) from None
         except (MemoryError, RecursionError, ValueError):
             raise self.too_deep_error() from None
         condition = conditions and _is_condition(tree.body)
         result = self.convert_condition(tree.body, 0) if condition else self.convert_quantity(tree.body, 0)
-        if _depth_of_tree(result) > DEEPEST:
+        if depth_of_tree(result) > DEEPEST:
             raise self.too_deep_error()
         return result
 
@@ -166,32 +151,6 @@ class _Reader:
     def too_deep_error(self) -> InputError:
         expected = f"a formula nested at most {DEEPEST} levels deep"
         return self.formula_error("deeper nesting", "long sums nest as well: group their terms in brackets", expected)
-
-    def scan_text(self, text: str) -> None:
-        """Refuse every character and word that has no place in a formula."""
-        position = brackets = 0
-        while position < len(text):
-            token = _TOKEN.match(text, position)
-            if token is None:
-                sign = text[position]
-                if sign in "0123456789.":
-                    wrong = re.split(r"[^A-Za-z0-9_.]", text[position:], maxsplit=1)[0]
-                    raise self.formula_error(
-                        f"{quote(wrong)}, which is not a number, at column {position + 1}", _hint_on_units(text)
-                    )
-                hint = _HINTS.get(sign, "") or _hint_on_units(text)
-                raise self.formula_error(f"the character {quote(sign)} at column {position + 1}", hint)
-            brackets += {"(": 1, ")": -1}.get(token.group(), 0)
-            if brackets > DEEPEST:
-                raise self.too_deep_error()
-            if token.group("number") and not math.isfinite(float(token.group())):
-                raise self.formula_error("a number beyond 1.8e308")
-            word = token.group("word")
-            if word and keyword.iskeyword(word) and word not in _WORDS:
-                raise self.formula_error(f"the word '{word}' at column {position + 1}")
-            position = token.end()
-        if "//" in text:
-            raise self.formula_error(f"'//' at column {text.index('//') + 1}", "a division is written /")
 
     def convert_node(self, node: ast.expr, depth: int) -> Expr:
         """Translate one node of Python's tree; all other nodes are refused."""
@@ -239,7 +198,8 @@ class _Reader:
                 )
             case ast.Call(func=ast.Name(id=function), args=arguments, keywords=[]):
                 return self.convert_function(function, arguments, depth)
-        raise self.formula_error(f"{quote(ast.unparse(node))}, which is no formula")
+        text = ast.unparse(node)
+        raise self.formula_error(f"{quote(text)}, which is no formula", hint_on_commas(text))
 
     def convert_quantity(self, node: ast.expr, depth: int) -> Expr:
         """Translate a node whose value must be a number."""
@@ -269,8 +229,7 @@ class _Reader:
             listed = ", ".join(f"{name}.{c}" for c in self.names.coordinates[name])
             raise self.formula_error(f"the body '{name}' in place of a number", f"it has {listed}")
         known = [*self.names.plain, "pi"]
-        meant = _MEANT.get(name.lower(), "")
-        hint = f"did you mean '{meant}'?" if meant in known else suggest(name, known)
+        hint = meant_name(name, known, self.names.coordinates) or suggest(name, known)
         raise self.formula_error(f"the unknown name {quote(name)}", hint)
 
     def convert_dotted_name(self, path: tuple[str, ...]) -> Expr:
@@ -308,6 +267,7 @@ class _Reader:
         names = (*own, *(() if readings is None else readings.names_of(owner, self.where)))
         what = f"{quote('.'.join(path[1:]))}, which {'body ' if own else ''}'{owner}' does not have"
         listed = f"it has {', '.join(names)}" if names else "it has nothing to read"
+        listed = meant_coordinate(owner, path[-1], names) or listed
         raise self.formula_error(what, listed if len(names) <= 20 else suggest(text, [f"{owner}.{k}" for k in names]))
 
     def refuse_integral(self, reading: Expr, text: str) -> None:
@@ -399,7 +359,8 @@ class _Reader:
     def check_argument_count(self, function: str, nodes: list[ast.expr], number: int) -> None:
         if len(nodes) != number:
             expected = "one argument" if number == 1 else f"{number} arguments"
-            raise self.formula_error(f"{function}() with {len(nodes)}", expected=expected)
+            hint = hint_on_commas(", ".join(map(ast.unparse, nodes)))
+            raise self.formula_error(f"{function}() with {len(nodes)}", hint, expected)
 
     def convert_piecewise(self, nodes: list[ast.expr], depth: int) -> Expr:
         if len(nodes) < 3 or len(nodes) % 2 == 0:
@@ -426,39 +387,3 @@ def _is_condition(node: ast.expr) -> bool:
     """Whether the text is a condition; the tree cannot tell, as a folded condition is a plain number."""
     negated = isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not)
     return negated or isinstance(node, ast.Compare | ast.BoolOp)
-
-
-def fold_choice(condition: Expr, yes: Expr, no: Expr) -> Expr:
-    """Return the choice, already made where the condition is a literal."""
-    if isinstance(condition, Number):
-        return yes if condition.value else no
-    return call("where", condition, yes, no)
-
-
-def fold_logic(function: str, operands: tuple[Expr, ...]) -> Expr:
-    """Return and, or, not with literal operands folded away: a condition in a tree is never a literal."""
-    if function == "not":
-        return call("not", operands[0])
-    left, right = operands
-    absorbing = 0.0 if function == "and" else 1.0
-    for literal, other in ((left, right), (right, left)):
-        if isinstance(literal, Number):
-            return literal_of(absorbing) if bool(literal.value) == bool(absorbing) else other
-    return call(function, left, right)
-
-
-def _depth_of_tree(expression: Expr) -> int:
-    deepest, stack = 0, [(expression, 1)]
-    while stack:
-        node, depth = stack.pop()
-        deepest = max(deepest, depth)
-        if isinstance(node, Call):
-            stack.extend((argument, depth + 1) for argument in node.arguments)
-    return deepest
-
-
-def _hint_on_units(text: str) -> str:
-    """Return a hint where a number in a formula has a unit."""
-    words = (match[1] for match in _WITH_UNIT.finditer(text))
-    unit = next((word for word in words if isinstance(read_unit(word), Unit)), "")
-    return f"a formula has no units, its numbers are in SI units: make the number in {unit} a parameter" if unit else ""

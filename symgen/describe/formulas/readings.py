@@ -22,14 +22,14 @@
 
 Rates of states read what is for outputs but integrals: no force can read a rate, so that no circle closes.
 
-`symgen.describe.formulas.readings` makes columns of results from the same table.
+`symgen.describe.formulas.reported_columns` makes columns of results from the same table.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING
 
 from symgen.base.vocabulary.expressions import (
     ZERO,
@@ -66,7 +66,8 @@ from symgen.base.vocabulary.measures import (
     Sum,
     axes,
 )
-from symgen.describe.mechanism import ACCELERATIONS, AnyBody, Force, Joint, Mechanism
+from symgen.describe.coordinate_names import ACCELERATIONS
+from symgen.describe.mechanism import AnyBody, Force, Joint
 from symgen.describe.modal_body import COORDINATE, Modal, ModalRow, names_of_modes
 
 if TYPE_CHECKING:
@@ -90,8 +91,6 @@ SPACE = (
     ("strain", "shear_y", "shear_z", "twist", "curvature_y", "curvature_z"),
     ("N", "Qy", "Qz", "T", "My", "Mz"),
 )
-
-_ACCELERATIONS = frozenset(ACCELERATIONS.values())
 
 #: Names after an owner's -> quantity and unit.
 Table = dict[str, tuple[Expr, str]]
@@ -380,105 +379,9 @@ class Readings:
         return table if force is None else table | readings_of_force(force, self._order)
 
 
-class Column(NamedTuple):
-    """A reported quantity: its name, unit and formula."""
-
-    name: str
-    unit: str
-    formula: Expr
-
-
-def columns_of_points(mechanism: Mechanism) -> tuple[Column, ...]:
-    """Return coordinates, velocities and accelerations of named points and interfaces: ``arm.tip.x``, ``.vx``, ...."""
-    dimension = len(mechanism.gravity)
-    tables = (
-        table
-        for body in mechanism.bodies
-        for table in (
-            *(readings_of_interface(x, dimension, OUTPUT) for x in (body,) if x.carried is not None),
-            *(readings_of_point(f"{body.name}.{p}", Marker(body.name, at), dimension, OUTPUT) for p, at in body.points),
-        )
-    )
-    return tuple(column for table in tables for column in _columns_of_table(table))
-
-
-def columns_of_elements(mechanism: Mechanism) -> tuple[Column, ...]:
-    """Return measures, forces and power of force elements and drivers: ``spring.length``, ``.force``, ``.power``."""
-    drivers = (
-        column
-        for j in mechanism.joints
-        if j.kind == "driver"
-        for column in _columns_of_driver(readings_of_joint(j, OUTPUT))
-    )
-    return (*columns_of_force_elements(mechanism), *drivers)
-
-
-def columns_of_force_elements(mechanism: Mechanism) -> tuple[Column, ...]:
-    """Return measures, forces and power of force elements."""
-    return tuple(column for force in mechanism.forces for column in _columns_of_table(readings_of_force(force, OUTPUT)))
-
-
-def columns_of_outputs(mechanism: Mechanism) -> tuple[Column, ...]:
-    """Return the states of the file's own, the rows of modal bodies, and the formulas of ``[outputs]``."""
-    states = (Column(x.name, x.unit, Name(x.name)) for x in mechanism.states)
-    rows = (
-        Column(f"{body.name}.{label}", unit, formula)
-        for body in mechanism.bodies
-        if body.modal is not None
-        for label, (formula, unit) in readings_of_rows(body.name, body.modal).items()
-    )
-    return (*states, *rows, *(Column(o.name, o.unit, o.value) for o in mechanism.outputs))
-
-
 def integrand_of(loss: Expr) -> Expr:
     """Return the rate of a sum of integrals: the sum of what they integrate."""
     if isinstance(loss, Reading) and isinstance(loss.source, Integral):
         return loss.source.of
     assert isinstance(loss, Call), "a loss is an integral or a sum of them"
     return call(loss.function, *map(integrand_of, loss.arguments))
-
-
-def rows_read_by_output(value: Expr) -> set[str]:
-    """Return the rows whose efforts a formula of outputs reads, in integrals as well."""
-    rows = set[str]()
-    for reading in readings_in(value):
-        if isinstance(reading.source, Driven):
-            rows.add(reading.source.row)
-        elif isinstance(reading.source, Integral):
-            rows |= rows_read_by_output(reading.source.of)
-    return rows
-
-
-def reads_results(value: Expr) -> bool:
-    """Whether a formula reads accelerations, or forces of rows or of force elements: what a motion results in."""
-    return any(
-        x.name.rpartition(".")[2] in _ACCELERATIONS
-        if isinstance(x, Name)
-        else x.order == OUTPUT or isinstance(x.source, Driven | Exerted)
-        for x in moving_quantities(value)
-    )
-
-
-def integrals_of_outputs(mechanism: Mechanism) -> dict[Integral, int]:
-    """Return the integrals in outputs, numbered in their order, each once."""
-    sources = (r.source for output in mechanism.outputs for r in readings_in(output.value))
-    return {source: i for i, source in enumerate(dict.fromkeys(s for s in sources if isinstance(s, Integral)))}
-
-
-def integrands_of_run(mechanism: Mechanism) -> tuple[Any, ...]:
-    """Return the integrands of a run: joints, forces, and the rates of states with the formulas of integrals."""
-    rates = *(x.rate for x in mechanism.states), *(integral.of for integral in integrals_of_outputs(mechanism))
-    return mechanism.joints, mechanism.forces, rates
-
-
-def _columns_of_table(table: Table) -> Iterator[Column]:
-    return (Column(each.name, unit, each) for each, unit in table.values() if isinstance(each, Reading))
-
-
-def _columns_of_driver(table: Table) -> Iterator[Column]:
-    """Yield the columns of a driver: its only coordinate's rate has its short name."""
-    return _columns_of_table({label: entry for label, entry in table.items() if not label.endswith(".rate")})
-
-
-#: Table of a result -> its columns.
-TABLES = {"points": columns_of_points, "elements": columns_of_elements, "outputs": columns_of_outputs}

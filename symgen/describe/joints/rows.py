@@ -23,10 +23,11 @@ from symgen.base.vocabulary.measures import (
     Spin,
     nested_parts,
 )
+from symgen.describe.coordinate_names import is_speed
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.formulas.identifiers import check_identifier
 from symgen.describe.formulas.readings import is_angle
-from symgen.describe.mechanism import Joint, is_speed
+from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import BodyNames, Rows, StateFunction, Text, read_table
 from symgen.describe.parts.scope import Scope
 

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from symgen.base.errors import InputError, quote, suggest
+from symgen.base.files import system_message
 from symgen.describe.modal_body import MOST_MODES, InterfaceLoad, Matrix, ModalOutline, ModalRow, Numbers
 from symgen.describe.parts.bodies import is_modal
 
@@ -143,7 +144,9 @@ def read_modal_file(where: str, path: str) -> ModalFile:
         status = os.stat(path)
         return _read(path, status.st_mtime_ns, status.st_size)
     except OSError as error:
-        raise InputError(where, "a file that can be read", f"{quote(Path(path).name)} ({error.strerror})") from None
+        raise InputError(
+            where, "a file that can be read", f"{quote(Path(path).name)} ({system_message(error)})"
+        ) from None
     except _NotModal as error:
         name = quote(Path(path).name)
         hint = "symgen.reduced(...).save(...) writes it" if error.hint is None else error.hint

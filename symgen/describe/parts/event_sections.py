@@ -75,7 +75,7 @@ def read_event(scope: Scope, name: str, raw: object) -> Event:
     reset = tuple(_read_reset(scope, key, value) for key, value in (section.reset or {}).items())
     if action == RESET and not reset:
         raise scope.error("reset", "at least one new value", "an empty table")
-    when, condition = _switching_function(scope, "when", section.when)
+    when, condition = switching_function(scope, "when", section.when)
     direction = section.direction or (RISING if condition else ANY)
     return Event(name, when, direction, action, reset, " ".join(section.when.split()))
 
@@ -94,7 +94,7 @@ def watched_event(mechanism: Mechanism, settings: str, when: str, action: str) -
     action : {"record", "stop"}
         Action of the event.
     """
-    switching, condition = _switching_function(Scope(Context.of_mechanism(mechanism), settings), "", when)
+    switching, condition = switching_function(Scope(Context.of_mechanism(mechanism), settings), "", when)
     text = " ".join(when.split())
     return put_formulas(
         Event(text, switching, RISING if condition else ANY, action, (), text), dict(mechanism.input_formulas)
@@ -123,9 +123,15 @@ def events_in_words(events: Iterable[Event]) -> str:
     )
 
 
-def _switching_function(scope: Scope, key: str, text: str) -> tuple[Expr, bool]:
-    """Return a function above 0 where the condition holds, and whether the text is a condition."""
-    expression = scope.of_state(key, text, conditions=True)
+def switching_function(scope: Scope, key: str, text: str, results: bool = False) -> tuple[Expr, bool]:
+    """Return a function above 0 where the condition holds, and whether the text is a condition.
+
+    With `results` it may read accelerations and forces.
+    """
+    if results:
+        expression = scope.of_motion(key, text, integrals=False, conditions=True)
+    else:
+        expression = scope.of_state(key, text, conditions=True)
     changing = ("t", *scope.context.inputs, *scope.context.state_names)
     if not any(name in changing or "." in name for name in names_in_expression(expression)):
         raise scope.error(key, "a condition that time or motion changes", quote(text))

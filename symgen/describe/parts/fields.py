@@ -13,8 +13,9 @@ from typing import Annotated, Any, Literal, TypeVar, cast, get_args, get_origin
 import msgspec
 from msgspec import Meta
 
-from symgen.base.errors import InputError, quote, suggest
+from symgen.base.errors import InputError, quote
 from symgen.base.units import si_hint
+from symgen.describe.parts.meant_words import hint_on_key, hint_on_list
 
 Text = Annotated[str, Meta(description="a text")]
 Scalar = Annotated[float | str, Meta(description="a number or an expression of parameters")]
@@ -41,7 +42,7 @@ StateBound = Annotated[
 Potential = Annotated[float | str, Meta(description="an expression of parameters and the element's own coordinate")]
 Efficiency = Annotated[
     float | str | tuple[float | str, float | str],
-    Meta(description="a number or an expression of parameters, or two, [forwards, backwards]"),
+    Meta(description="a number or a formula of parameters and the motion, or two of parameters, [forwards, backwards]"),
 ]
 Pair = Annotated[tuple[float | str, float | str], Meta(description="two numbers or expressions of parameters")]
 #: Two or three of them, as published in the schema; the `Scope` of a mechanism decides between the two.
@@ -143,11 +144,20 @@ Scalars = Annotated[
     tuple[float | str, ...], Meta(description="a list of numbers or expressions of parameters", min_length=2)
 ]
 BodyNames = Annotated[tuple[str, ...], Meta(description="names of bodies", min_length=1)]
+#: A condition, or a table of conditions (`symgen.describe.parts.holding_joints.HoldsSection`).
+Holds = Annotated[
+    str | dict[str, str | bool],
+    Meta(description="a condition such as 't < 0.3', or a table such as { releases = 'hook.F > 500' }"),
+]
+HoldsAt = Annotated[
+    Literal["described", "present"], Meta(description="'described' or 'present', the positions that a catch keeps")
+]
 PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]
 
 #: Keys, with their types, that joints of any kind may have besides their own and those of rows with bounds.
 OF_ANY_JOINT: Mapping[str, Any] = {
     **{"start": JointStart, "cut": Flag, "rotor_inertia": Scalar, "gear_ratio": Scalar},
+    **{"holds": Holds, "holds_at": HoldsAt},
 }
 
 T = TypeVar("T")
@@ -194,8 +204,7 @@ def read_table(kind: type[T], raw: object, where: str, further: tuple[str, ...] 
     meant = ""
     for key in raw:
         if key not in fields:
-            hint = suggest(str(key), names)
-            hint = "" if hint.startswith("known") else hint
+            hint = hint_on_key(str(key), names)
             meant += hint
             wrong.append(
                 InputError(where, f"the keys {', '.join(names)}", f"the unknown key {quote(key)}", hint, str(key))
@@ -233,7 +242,9 @@ def read_value(type_: object, value: object, where: str) -> Any:
             read_table(table, value, where)  # whose sentence names the key
         path = _AT.search(str(error))
         part = _value_at_path(value, path.group(1) if path else "")
-        raise InputError(where, describe_type(type_), value_in_words(part), si_hint(part)) from None
+        raise InputError(
+            where, describe_type(type_), value_in_words(part), si_hint(part) or hint_on_list(part)
+        ) from None
 
 
 def _type_of_entries(type_: object) -> Any:

@@ -121,7 +121,8 @@ def _holdable_names(mechanism: Mechanism) -> tuple[dict[str, str], dict[str, str
     for joint in mechanism.joints:
         joints |= _joint_quantity_names(joint)
         same |= _joint_quantities_of_bodies(joint)
-    return bodies | joints | {x.name: x.name for x in mechanism.states}, bodies, same
+    own = (x.name for x in mechanism.states if "." not in x.name)  # those of joints that hold for a while are 0
+    return bodies | joints | {name: name for name in own}, bodies, same
 
 
 def canonical_hold_name(mechanism: Mechanism, name: str) -> str:

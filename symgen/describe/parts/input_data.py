@@ -12,7 +12,7 @@ from typing import Any
 
 from symgen.base import arguments
 from symgen.base.errors import InputError, quote, suggest
-from symgen.base.files import check_csv_rows
+from symgen.base.files import check_csv_rows, system_message
 from symgen.base.units import SI, Unit, unit_of
 from symgen.describe.table_functions import Table
 
@@ -115,8 +115,7 @@ def _read_file_column(where: str, file: str, column: str, how: str | None, unit:
         with path.open("rb") as stream:
             content = stream.read(LARGEST_FILE + 1)
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or "an error"
-        raise InputError(f"{where}: {file}", "a file that can be read", reason) from None
+        raise InputError(f"{where}: {file}", "a file that can be read", system_message(error)) from None
     if len(content) > LARGEST_FILE:
         raise InputError(f"{where}: {path.name}", f"a file of at most {LARGEST_FILE} bytes", "a larger one")
     try:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from symgen.base.errors import InputError
 from symgen.base.registry import Registry
-from symgen.describe.parts.fields import value_in_words
+from symgen.describe.parts.fields import read_table, value_in_words
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Force, Joint
@@ -73,3 +73,26 @@ def kind_and_keys(where: str, table: object, what: str, *common: str) -> tuple[s
         got = "no such key" if kind is None else value_in_words(kind)
         raise InputError(f"{where}.type", f"a {what}", got)
     return kind, {key: value for key, value in table.items() if key not in ("type", *common)}
+
+
+def read_force(name: str, raw: object, scope_of_entry: Callable[[str, str, str], Scope]) -> Force:
+    """Return the force that a table of ``[forces]`` describes.
+
+    Parameters
+    ----------
+    name, raw : str, object
+        Of the entry.
+    scope_of_entry : callable
+        Section, name and kind of an entry -> its scope.
+
+    Raises
+    ------
+    InputError
+        If its type is unknown or a key of its kind is wrong.
+    """
+    where = scope_of_entry("forces", name, "").where("")
+    kind, table = kind_and_keys(where, raw, "force type")
+    struct = FORCES.get(kind, f"{where}.type")
+    scope = scope_of_entry("forces", name, FORCES.resolve_alias(kind))
+    scope.check_space(struct.SPACES)
+    return read_table(struct, table, where, ("type",)).build(scope)

@@ -19,13 +19,15 @@ from symgen.base.vocabulary.expressions import (
     scalar_product_of,
 )
 from symgen.base.vocabulary.measures import GROUND, Direction, Marker, Measure
+from symgen.describe.coordinate_names import ACCELERATIONS
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.formulas.readings import OUTPUT, Readings
-from symgen.describe.mechanism import ACCELERATIONS, Joint, Vec
+from symgen.describe.mechanism import Joint, Vec
 from symgen.describe.parts.context import Context
 from symgen.describe.parts.fields import value_in_words
 from symgen.describe.parts.key_units import unit_of_number
+from symgen.describe.parts.meant_words import hint_on_body, hint_on_vector
 
 #: The name by which a file means a body's centre of mass.
 CENTRE = "centre"
@@ -100,7 +102,7 @@ class Scope:
             return name
         if name not in self.context.bodies:
             names = [*self.context.bodies, GROUND] if ground else list(self.context.bodies)
-            raise self.error(key, "the name of a body", f"the unknown body {quote(name)}", suggest(name, names))
+            raise self.error(key, "the name of a body", f"the unknown body {quote(name)}", hint_on_body(name, names))
         if turns and self.context.bodies[name].is_point:
             raise self.error(key, f"a body with an angle for '{self.kind}'", f"the point mass '{name}'")
         return name
@@ -206,6 +208,7 @@ class Scope:
                 key,
                 what if self.spatial else "two numbers or expressions of parameters [x, y]",
                 value_in_words(components),
+                hint_on_vector(components, self.dimension),
             )
         return tuple(self.constant(key, e) for e in components)
 
@@ -285,9 +288,13 @@ class Scope:
         )
         return self._parse_expression(key, value, names, conditions)
 
-    def of_motion(self, key: str, value: float | str, *, integrals: bool = True) -> Expr:
-        """Return a number or an expression of t, parameters and all quantities available at outputs."""
-        what = "a number or an expression of t, parameters and what is known of the motion"
+    def of_motion(self, key: str, value: float | str, *, integrals: bool = True, conditions: bool = False) -> Expr:
+        """Return a number or an expression of t, parameters and all quantities available at outputs.
+
+        With `conditions` it may be true or false instead.
+        """
+        kind = "a condition" if conditions else "a number"
+        what = f"{kind} or an expression of t, parameters and what is known of the motion"
         own = {
             name: (*coordinates, *(ACCELERATIONS[speed] for speed in self.context.bodies[name].speeds))
             for name, coordinates in self.context.coordinates.items()
@@ -295,7 +302,7 @@ class Scope:
         readings = Readings(self.context, OUTPUT)
         plain, tables = self.context.states, self.context.functions
         names = FormulaNames(what, plain, own, tables, readings=readings, integrals=integrals)
-        return self._parse_expression(key, value, names)
+        return self._parse_expression(key, value, names, conditions)
 
     def potential(self, key: str, value: float | str, words: Mapping[str, str]) -> Expr:
         """Return an expression of parameters and the element's own coordinate."""

@@ -13,8 +13,9 @@ import msgspec
 from symgen.base.vocabulary.expressions import Number, readings_in
 from symgen.base.vocabulary.measures import GROUND, Angle, Driven, Holonomic, Measure, Sum
 from symgen.base.vocabulary.quantities import Quantity
-from symgen.describe.formulas.readings import integrals_of_outputs
-from symgen.describe.mechanism import ACCELERATIONS, Joint, Mechanism, SpatialBody
+from symgen.describe.coordinate_names import ACCELERATIONS
+from symgen.describe.formulas.results_read import integrals_of_outputs
+from symgen.describe.mechanism import Joint, Mechanism, SpatialBody
 from symgen.describe.modal_body import MOST_MODES, UNITS_OF_MODES, names_of_modes
 from symgen.describe.parts.kinds import JOINTS
 from symgen.describe.spanning_tree import Articulation, Link, Prescribed, Topology

@@ -12,8 +12,8 @@ from scipy import sparse
 
 from symgen.base.arguments import kind_of_value
 from symgen.base.errors import InputError, plural, quote
+from symgen.describe.coordinate_names import names_of_modal_body
 from symgen.describe.formulas.identifiers import check_identifier
-from symgen.describe.mechanism import names_of_modal_body
 from symgen.describe.modal_body import MOST_MODES
 
 Array = NDArray[np.float64]

@@ -19,8 +19,8 @@ from symgen.base.arguments import kind_of_value
 from symgen.base.errors import InputError, plural, quote
 from symgen.base.files import check_file_name, check_writable, write_whole
 from symgen.base.units import unit_of
+from symgen.describe.coordinate_names import names_of_modal_body
 from symgen.describe.formulas.identifiers import check_identifier
-from symgen.describe.mechanism import names_of_modal_body
 from symgen.describe.modal.modal_file import SUFFIX, VERSION
 from symgen.describe.modal_body import MOST_MODES
 from symgen.describe.reduction.basis import modes_of

@@ -82,6 +82,7 @@ def live_part(
     still: Collection[str] = (),
     acting: Mechanism | None = None,
     run: Prepared | None = None,
+    room: int = 0,
 ) -> tuple[Live | None, str]:
     """Return the live part of a page, or None and the reason.
 
@@ -103,12 +104,15 @@ def live_part(
         The mechanism of the code, with a tree in joint coordinates, whose events change the state.
     run : Prepared, optional
         The run by constant steps, where rows with bounds have modes.
+    room : int
+        Characters of emitted code that the page may have besides the most that it has otherwise.
     """
     spatial, law = mechanism.space == "spatial", compiled.law
     if compiled.shape != "straight":
         return None, f"{NONE}: the code of this run is looped"
     operations = sum(law.operations.get(name, 0) for name in ("rhs", "refactor", "spread"))
-    limit = MOST[spatial] // A_OPERATION
+    most = MOST[spatial] + room
+    limit = most // A_OPERATION
     if operations > limit:
         where = "in space" if spatial else "in the plane"
         fewer = "" if hasattr(compiled.model, "bodies") else "; in joint coordinates they may be a tenth"
@@ -136,8 +140,8 @@ def live_part(
         return None, f"{NONE}: a formula of the start is not one that pages know"
     except Foreign as error:
         return None, f"{NONE}: its code has {error}"
-    if size > MOST[spatial]:
-        return None, f"{NONE}: {size} characters are more than the {MOST[spatial]} that a page may have"
+    if size > most:
+        return None, f"{NONE}: {size} characters are more than the {most} that a page may have"
     constants = {*still, *dict(mechanism.input_formulas)}
     spec = _page_data(mechanism, compiled, start, step, joint, constants)
     if whole is not None:

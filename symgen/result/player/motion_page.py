@@ -39,7 +39,12 @@ PAGES: Mapping[str, tuple[str, ...]] = {".html": ()}
 MOST_DATA = {False: 100_000, True: 180_000}
 #: Further characters for plots of optional quantities.
 MOST_PLOTS = {False: 400_000, True: 600_000}
-SCRIPTS = {False: ("draw.js", "plots.js", "player.js"), True: ("solid.js", "draw.js", "plots.js", "player.js")}
+_OWN = (
+    *("palette.js", "draw.js", "plots.js", "motions.js", "pick.js", "shown.js", "time.js", "live_motion.js"),
+    *("sliders.js", "pull.js", "controls.js", "player.js"),
+)
+#: Parts of the script, in their order.
+SCRIPTS = {False: _OWN, True: ("solid.js", *_OWN)}
 
 
 @lru_cache(maxsize=8)

@@ -57,6 +57,8 @@ MOST_STRAIGHT = 150
 _TOGETHER = 25
 #: Matrices up to this size are shown whole.
 _WHOLE = 12
+#: Up to so many velocities all equations are open.
+_SMALL = 9
 _POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
 
 
@@ -289,7 +291,7 @@ class EquationPage:
         nodes = [n for r in rows for n in (r.phi, r.nu, r.gamma, *(x for _, x in r.entries)) if n is not None]
         sizes = f"{plural(len(rows), 'row')}, {plural(g.count_operations(nodes), 'operation')}"
         head = f"<b>{escape(name)}</b>: {words}, {sizes}"
-        return folded_html(head, "\n".join(parts), ident=f"rows-{name}", marked=True)
+        return folded_html(head, "\n".join(parts), self.e.nv <= _SMALL, f"rows-{name}", marked=True)
 
     def _links_to_lines(self, name: str) -> str:
         links = [
@@ -317,21 +319,21 @@ class EquationPage:
         ]
 
     def _motion_section(self) -> list[str]:
-        sheet = self.sheet
+        sheet, is_small = self.sheet, self.e.nv <= _SMALL
         written = _MOTION if self.e.m else _FREE_MOTION
         folds = [
             f'<div class="equation">{formula_html(written)}</div>',
             small_html("Numbers are rounded to six digits."),
         ]
         if self.e.nv <= _WHOLE:
-            folds.append(folded_html("M and D as matrices", equations_html(sheet.whole_matrices())))
+            folds.append(folded_html("M and D as matrices", equations_html(sheet.whole_matrices()), is_small))
         parts = [
             ("rates of the coordinates", equations_html(sheet.rates()) or "q' = v"),
             ("mass matrix M; what is not written is zero or symmetric", equations_html(sheet.mass())),
             ("forces f; those not written are zero", equations_html(sheet.forces()) or "f = 0"),
             (_POWER if self.e.driving else _POWER.partition(";")[0], equations_html(sheet.energies())),
         ]
-        folds += [folded_html(title, text) for title, text in parts]
+        folds += [folded_html(title, text, is_small) for title, text in parts]
         shared = sheet.shared_equations(sheet.nodes(("Phi", "D", "nu", "gamma", "N", "M", "f", "energies")))
         for first in range(0, len(shared), _TOGETHER):
             some = shared[first : first + _TOGETHER]

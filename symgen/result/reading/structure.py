@@ -14,7 +14,7 @@ from symgen.derive.formulate.flexure import exertions_of_force
 from symgen.derive.formulate.frames import FRAME_SLOTS, SPATIAL_SLOTS
 from symgen.derive.formulate.measure_nodes import ModelNodes
 from symgen.describe.facts.repeats import without_repeats
-from symgen.describe.formulas.readings import columns_of_force_elements
+from symgen.describe.formulas.reported_columns import columns_of_force_elements
 from symgen.describe.mechanism import Mechanism
 
 #: A term that is used more than once gets a number for a name where it has at least so many operations.

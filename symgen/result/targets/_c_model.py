@@ -13,6 +13,7 @@ from symgen.base.errors import InputError
 from symgen.base.ir.program import COUNTERS, SETTLED
 from symgen.compile.native.c99 import c_functions
 from symgen.compile.native.c99_words import break_line, c_limit, c_number, macro_definitions
+from symgen.compile.native.directed_functions import directed_function
 from symgen.compile.native.formula_lines import C, NotInLines
 from symgen.compile.native.read import Foreign
 from symgen.derive.emit.module import render_template
@@ -49,6 +50,8 @@ if TYPE_CHECKING:
 
 #: Functions of a law and of a model that exist in C.
 _NAMES = ("rhs", "accept", "geometry", "confirm", "masses", "move", "bodies")
+#: Functions that have directions in FMUs with derivatives.
+_DIRECTED = ("prepare_model", "prepare_law", "masses", "geometry", "rhs", "confirm", "bodies", "formulas_of_outputs")
 #: Memory that every mechanism has.
 _OWN = ("y", "p", "w", "iw")
 #: Maximum number of operations of a right-hand side: a compiler takes half a minute for it.
@@ -67,11 +70,14 @@ class CModel:
         Its code and consistent start.
     named : bool
         Whether an integrator was named, whose run is printed as a whole.
+    derivatives : bool
+        Whether an FMU has directional derivatives.
     """
 
     target: str
     run: Prepared
     named: bool = False
+    derivatives: bool = False
 
     @classmethod
     def of(cls, request: Request, target: str) -> CModel:
@@ -84,7 +90,7 @@ class CModel:
         """
         check_integrator(request.integrator)
         run = prepare(request.mechanism, request.settings(target), Purpose.STATE)
-        model = cls(target, run, request.integrator is not None)
+        model = cls(target, run, request.integrator is not None, request.derivatives)
         operations = model.compiled.law.operations.get("rhs", 0)
         if operations > MOST_OPERATIONS:
             expected = f"a right-hand side of at most {MOST_OPERATIONS} operations"
@@ -118,7 +124,9 @@ class CModel:
         words = f"in C, names of '{self.mechanism.name}' begin with {self.prefix}: {name} has another meaning there"
         alone = "the FMU is for co-simulation alone: an importer that integrates does not find modes of contacts"
         has_contacts = any(row.in_contact for row in self.mechanism.bounded)
-        return (words,) * (self.prefix != name) + (alone,) * (has_contacts and self.target == "fmu")
+        holding = "the FMU is for co-simulation alone: an importer that integrates does not choose rows of joints anew"
+        notes = (words,) * (self.prefix != name) + (alone,) * (has_contacts and self.target == "fmu")
+        return notes + (holding,) * (bool(self.mechanism.holding) and self.target == "fmu")
 
     @cached_property
     def text(self) -> str:
@@ -131,6 +139,12 @@ class CModel:
         """Coordinates, then velocities, of all bodies."""
         info = self.run.assembled.of_bodies[0].info
         return (*info.coordinates, *info.velocities)
+
+    @property
+    def observed(self) -> int:
+        """Number of coordinates, velocities and accelerations of all bodies."""
+        of_bodies = self.run.assembled.of_bodies[0].info
+        return of_bodies.nq + 2 * of_bodies.nv
 
     @cached_property
     def values(self) -> dict[str, Any]:
@@ -150,7 +164,6 @@ class CModel:
         for first, behind in places_of_scales(self.compiled):
             scales[first:behind] = scratch[first:behind]
         parameters = {q.name: float(x) for q, x in zip(info.parameters, start.p, strict=False)}
-        of_bodies = self.run.assembled.of_bodies[0].info
         drivers = self.drivers
         return {
             "name": mechanism.name,
@@ -195,7 +208,7 @@ class CModel:
             "move": "move" in self.functions,
             "joint": self.joint,
             "signs": _list(int(x) for x in self.run.tree.signs) if self.run.tree is not None else "",
-            "observed": of_bodies.nq + 2 * of_bodies.nv,
+            "observed": self.observed,
             "until": c_number(defaults.until),
             "step": c_number((defaults.first_step or 0.0) if self.run.spec.adaptive else defaults.step),
             "every": max(1, round((defaults.output_step or defaults.step) / defaults.step)),
@@ -239,7 +252,21 @@ class CModel:
         if outputs := [(output.name, output.value) for output in self.mechanism.outputs]:
             side = compile_side(self.mechanism, self.compiled, "outputs", "Outputs", outputs)
             functions["formulas_of_outputs"] = checked_function(side.function, abi.OBSERVE)
-        return functions | (self.printed_run.functions if self.printed_run else self.events.functions)
+        functions |= self.printed_run.functions if self.printed_run else self.events.functions
+        return functions | {f"directed_{name}": f for name, f in self.directed_of(functions).items()}
+
+    def directed_of(self, functions: Mapping[str, Function]) -> dict[str, Function]:
+        """Return functions with directions by the names of those without, where derivatives are wanted."""
+        if not self.derivatives:
+            return {}
+        info, start = self.compiled.info, self.run.start
+        ends = {"bodies": self.observed, "formulas_of_outputs": len(self.mechanism.outputs)}
+        places = {"y": info.ny, "ydot": info.ny, "p": len(start.p), "w": len(start.w), "t": 2 * len(start.w)}
+        own = {name: functions[name] for name in _DIRECTED if name in functions}
+        try:
+            return {name: directed_function(f, places | {"out": ends.get(name, 0)}) for name, f in own.items()}
+        except Foreign as error:
+            raise InputError("derivatives", "code that has them", f"{self.mechanism.name}: {error}") from None
 
     @cached_property
     def printed_run(self) -> PrintedRun | None:
@@ -266,8 +293,9 @@ class CModel:
 
     @property
     def exchanges(self) -> bool:
-        """Whether an importer may integrate: in FMUs without a named integrator, and without contacts."""
-        return self.target == "fmu" and not self.named and not any(row.in_contact for row in self.mechanism.bounded)
+        """Whether an importer may integrate: in FMUs without a named integrator, contacts and joints that let go."""
+        contacts = any(row.in_contact for row in self.mechanism.bounded)
+        return self.target == "fmu" and not (self.named or contacts or self.mechanism.holding)
 
     @cached_property
     def partition(self) -> Any:
@@ -299,6 +327,9 @@ class CModel:
             printed.add_steps(self.compiled, self.events, ("find_rates", "take_step", "take_steps", *further))
         if self.has_driven_rows:
             printed.add_lock(self.compiled, self.drivers, len(start.redundant_rows))
+        if self.derivatives:
+            directed = {name: f for n, f in self.functions.items() if (name := n.removeprefix("directed_")) != n}
+            printed.add_directions(self.compiled, self.partition, directed)
         if self.exchanges:
             printed.add_partition(self.compiled, self.partition)
             if self.printed_run is None:

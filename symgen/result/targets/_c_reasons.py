@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from string import Formatter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,7 +11,7 @@ from symgen.describe.bounds.advice import JUMPING
 from symgen.describe.bounds.bounded_modes import MODE
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.modes.refusals import OF_KIND, SENTENCES, fixed_words
+from symgen.run.modes.refusals import HOLDING_SENTENCES, OF_KIND, SENTENCES, Sentence, fixed_words
 from symgen.run.planning.dead_centre import ENDS
 from symgen.run.printed.kept_run import END_CODE, END_TIME
 from symgen.run.single.run import STIFF
@@ -45,6 +45,7 @@ def values_of_ends(run: PrintedRun) -> dict[str, Any]:
         "watched": ", ".join(map(c_text, names)),
         "gathers": watched is not None and watched.effects is not None,
         "bounded_words": None if watched is None or watched.bounded is None else _words(watched.bounded, run),
+        "holding": watched is not None and watched.holding,
         "own_events": sum(action != MODE for action in (() if watched is None else watched.actions)),
         "codes": {
             **{"place": END_CODE, "event": e.IMPOSSIBLE_EVENT, "which": e.GATHERING, "accumulation": e.ACCUMULATION},
@@ -52,6 +53,7 @@ def values_of_ends(run: PrintedRun) -> dict[str, Any]:
             "locking": " || ".join(f"code == {code}" for code in ENDS),
             **{"impossible": e.IMPOSSIBLE, "unprepared": abi.UNPREPARED, "gathered": abi.GATHERED},
             **{"no_modes": e.NO_MODES, "failure": e.FAILURE, "rows": e.WHICH},
+            **{"first_of_holding": min(HOLDING_SENTENCES), "last_of_holding": max(HOLDING_SENTENCES)},
         },
     }
 
@@ -95,6 +97,10 @@ def _reasons(run: PrintedRun) -> Iterator[tuple[int, str, str]]:
         yield abi.UNDEFINED, f"the condition of the event '%s' is undefined{_AT}", "event, t"
         reset = "reset: expected velocities that the joints and each other allow, got others"
         yield e.IMPOSSIBLE, f"event '%s': {reset}{_AT}", "event, t"
+    if run.watched is not None and run.watched.holding:
+        of_event = {"event": "event", "first": f"(double)model->run_events[{e.FIRST_NUMBER}]", "t": "t"}
+        for fault, sentence in HOLDING_SENTENCES.items():
+            yield (-fault, *_format_and_arguments(sentence, {}, of_event))
     if run.watched is not None and run.watched.bounded is not None:
         yield from _faults(run.watched.bounded, run.watched.turning)
 
@@ -112,17 +118,24 @@ def _faults(rows: BoundedRows, turning: Sequence[str]) -> Iterator[tuple[int, st
     for fault, sentence in SENTENCES.items():
         if OF_KIND.get(fault, "") not in ("", *turning):
             continue
-        where, expected, got, hint = sentence
-        text = f"{where}: expected {expected}, got {got}" + (f"; {hint}" if hint else "")
-        format_, arguments = "", list[str]()
-        for literal, field, spec, _ in Formatter().parse(text):
-            format_ += literal.replace("%", "%%")
-            if field in fixed:
-                format_ += fixed[field].replace("%", "%%")
-            elif field:
-                format_ += f"%{spec or 's'}"
-                arguments.append(of_row[field])
-        yield -fault, format_, ", ".join(arguments)
+        yield (-fault, *_format_and_arguments(sentence, fixed, of_row))
+
+
+def _format_and_arguments(
+    sentence: Sentence, fixed: Mapping[str, str], arguments_of: Mapping[str, str]
+) -> tuple[str, str]:
+    """Return a sentence as a format of C and its arguments, by the fields that are the same in a run and the others."""
+    where, expected, got, hint = sentence
+    text = f"{where}: expected {expected}, got {got}" + (f"; {hint}" if hint else "")
+    format_, arguments = "", list[str]()
+    for literal, field, spec, _ in Formatter().parse(text):
+        format_ += literal.replace("%", "%%")
+        if field in fixed:
+            format_ += fixed[field].replace("%", "%%")
+        elif field:
+            format_ += f"%{spec or 's'}"
+            arguments.append(arguments_of[field])
+    return format_, ", ".join(arguments)
 
 
 def _numbers(*places: int) -> str:

@@ -44,7 +44,7 @@ class Request:
     rtol, atol : float or None
         Tolerances of its adaptive steps; None for those of runs.
     derivatives : bool
-        Whether derivatives are written as well.
+        Whether derivatives are written as well: of functions, or directional ones of an FMU.
     """
 
     mechanism: Mechanism
@@ -117,7 +117,7 @@ class Target:
         """Return whether derivatives are wanted; refuse them of a target that has none."""
         wanted = arguments.truth_value("derivatives", derivatives)
         if wanted and not self.derivatives:
-            raise InputError("derivatives", "target 'c-functions', which writes them", f"target '{target}'")
+            raise InputError("derivatives", "target 'c-functions' or 'fmu', which write them", f"target '{target}'")
         return wanted
 
     def check_run(

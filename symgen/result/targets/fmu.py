@@ -25,6 +25,7 @@ from symgen.derive.emit.module import render_template
 from symgen.result.targets._base_units import base_unit
 from symgen.result.targets._c_model import CModel, sources
 from symgen.result.targets._fmu_modes import indicator_names, values_of_exchange
+from symgen.result.targets._fmu_structure import outputs_of_states
 from symgen.result.targets._target import Request, Target
 from symgen.run.planning.package import Package
 
@@ -54,6 +55,7 @@ class ModelVariable:
     description: str = ""
     derivative: ModelVariable | None = None
     index: int = 0
+    dependencies: str | None = None
 
 
 def _write(request: Request) -> Package:
@@ -63,6 +65,11 @@ def _write(request: Request) -> Package:
     # inputs with formulas remain inputs of the FMU: the importing tool connects them
     mechanism = msgspec.structs.replace(request.mechanism, input_formulas=())
     model = CModel.of(replace(request, mechanism=mechanism), "fmu")
+    if request.derivatives and not model.exchanges:
+        reason = (
+            f"the steps of '{request.integrator}'" if model.named else "contacts, whose modes an importer cannot find"
+        )
+        raise InputError("derivatives", "an FMU for model exchange, of whose states derivatives are", reason)
     files = fmu_files(model, request.fmi)
     files |= _binaries(model.prefix, files, request.fmi)
     content = io.BytesIO()
@@ -82,6 +89,7 @@ def fmu_files(model: CModel, fmi: int) -> dict[str, bytes]:
     values = model.values | values_of_exchange(model)
     values |= {
         "fmi": fmi,
+        "derivatives": model.derivatives,
         "guid": f"{{{uuid5(NAMESPACE_OID, ' '.join([*texts.values(), str(fmi), __version__]))}}}",
         "version": __version__,
         **{"at_column": _COLUMN, "at_output": _OUTPUT, "at_state": _STATE, "at_rate": _RATE, "at_event": _EVENT},
@@ -125,6 +133,12 @@ def _variables(model: CModel, values: Mapping[str, Any], fmi: int) -> dict[str, 
     for i, variable in enumerate(variables, 1):
         variable.index = i
         variable.unit = "" if variable.unit == "1" else variable.unit
+    if model.derivatives:
+        columns, own = outputs_of_states(model)
+        knowns = " ".join(str(s.index if fmi == 2 else s.reference) for s in states)
+        knowns += f" {_TIME}" if fmi == 3 else ""
+        for variable, is_known in zip(outputs, [columns] * len(model.columns) + own, strict=True):
+            variable.dependencies = knowns if is_known and variable.variability == "continuous" else None
     units = sorted({v.unit for v in variables} - {""})
     return {
         "variables": variables,
@@ -182,4 +196,4 @@ def _binaries(prefix: str, files: Mapping[str, bytes], fmi: int) -> dict[str, by
     return binaries
 
 
-KIND = Target(_write, ".fmu", bounded=True, runs=True)
+KIND = Target(_write, ".fmu", bounded=True, runs=True, derivatives=True)

@@ -16,7 +16,9 @@ from symgen.describe.bounds.losses import places_of_losses
 from symgen.describe.facts.corners import corner_events, rows_that_turn
 from symgen.describe.facts.kinks import KINKS, Discontinuity, changes_in_time, discontinuities_of, rows_with_kinks
 from symgen.describe.formulas.formula_text import to_text
+from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.mechanism import Event, Mechanism, ModeEvent
+from symgen.describe.parts.holding_joints import CATCHES, DISSIPATED, RELEASES
 from symgen.run.compiling.masses import entries_of_masses, formulas_of_masses
 from symgen.run.compiling.side import compile_side
 from symgen.run.effects.effects import Effect, Effects
@@ -68,7 +70,8 @@ def compile_events(
         words=tuple(event.word if isinstance(event, ModeEvent) else "" for event in events),
         owners=tuple(event.row if isinstance(event, ModeEvent) else -1 for event in events),
         function=side.function,
-        needs_rates="ydot" in side.reads or bool(mechanism.bounded),  # which leave multipliers in w
+        needs_rates=("ydot" in side.reads or bool(mechanism.bounded)  # which leave multipliers in w
+                     or "multipliers" in side.reads),
         of_forces=tuple(i for i in range(len(functions)) if i in side.of_forces),
         effects=effects_of_events(mechanism, compiled, events),
         switches=tuple(switch_of_event(x, 1.0 if rtol is None else rtol) for x in passed),
@@ -76,6 +79,7 @@ def compile_events(
         rows=row_jumps(mechanism, compiled) if any(x.holds for x in passed) else None,
         adaptive=rtol is not None,
         bounded=bounded_rows(mechanism, compiled),
+        holding=bool(mechanism.holding),
         corners=corners,
         turns=rows_that_turn(mechanism, corrected=compiled.law.method == CORRECTING),
         missed=0.0 if rtol is None else rtol,
@@ -91,6 +95,9 @@ def bounded_rows(mechanism: Mechanism, compiled: CompiledModel) -> BoundedRows |
     state += [(f"rate of {row.label}", measure_derivative(row)) for row in every]
     state += [row.numbers[k] for k in range(2) for row in held]  # bounds at rest, then those in motion
     state += [row.numbers[0] for row in pushing]
+    shifted = any(row.shift is not None for row in held)
+    state += [(f"shift of the middle of {row.name} at rest", row.shift or ZERO) for row in held if shifted]
+    state += [(f"middle of the bounds of {row.name}", row.middle_of_bounds()) for row in held if shifted]
     rates = [(f"second derivative of {row.label}", measure_derivative(row, 2)) for row in every]
     pressed, forces = rows_bounded_by_reactions(mechanism), list[tuple[str, Expr]]()
     for row in pressed:
@@ -106,6 +113,7 @@ def bounded_rows(mechanism: Mechanism, compiled: CompiledModel) -> BoundedRows |
         changes=changes_in_time(mechanism),
         losses=tuple(None if i is None else compiled.info.own_states.stop + i for i in places_of_losses(mechanism)),
         varying=tuple(i for i, row in enumerate(every) if row.changing),
+        shifted=tuple(i for i, row in enumerate(every) if row.shift is not None),
     )
 
 
@@ -178,7 +186,21 @@ def effects_of_events(mechanism: Mechanism, compiled: CompiledModel, events: Seq
         bodies=sum(len(body.speeds) for body in mechanism.bodies) if carried else 0,
         first=mechanism.body_coordinates if carried else 0,
         rotors=len(mechanism.rotors) if struck else 0,
+        catches=catches_of_joints(mechanism, events),
     )
+
+
+def catches_of_joints(mechanism: Mechanism, events: Sequence[Event]) -> dict[int, tuple[str, int]]:
+    """Return what joints that hold for a while do at events, see `symgen.run.effects.effects.Effects`."""
+    numbers, found = {event.name: i for i, event in enumerate(events)}, dict[int, tuple[str, int]]()
+    for x in mechanism.holding:
+        release = numbers.get(f"{x.joint}.{RELEASES}", -1)
+        if release >= 0:
+            found[release] = "", -1
+        if x.catches is not None:
+            by_state = x.releases is not None and not reads_results(x.releases)
+            found[numbers[f"{x.joint}.{CATCHES}"]] = f"{x.joint}.{DISSIPATED}", release if by_state else -1
+    return found
 
 
 def switch_of_event(passed: Discontinuity, rtol: float) -> Switch:

@@ -28,7 +28,7 @@ from symgen.derive.lower.looped.forms import FormInfo, form_key, form_stem, lowe
 from symgen.derive.lower.looped.index_tables import Builder, IndexTables
 from symgen.derive.lower.looped.instances import Instance, instances_of_mechanism
 from symgen.derive.lower.looped.kernels import KernelInfo, kernel_stem
-from symgen.derive.lower.looped.layout import KINDS, PRESSED
+from symgen.derive.lower.looped.layout import KINDS, PRESSED, TOUCHED
 from symgen.derive.lower.looped.looped_law import LoopedLawInfo, refuse_dense
 from symgen.derive.lower.looped.shape import LoopedShape
 from symgen.derive.lower.record import BEHIND
@@ -90,7 +90,7 @@ class Needs:
     @property
     def law(self) -> str:
         """Module of the law; kernels begin with the kind of element."""
-        return f"law_{self.choice.method.stem(self.choice.options)}{PRESSED if self.has_drags else ''}"
+        return f"law_{self.choice.method.stem(self.choice.options)}{self.drags}"
 
     @cached_property
     def forms(self) -> dict[str, str]:
@@ -114,9 +114,10 @@ class Needs:
         return (_MACHINE, _MODEL, *rotors, self.law, *self.elements, *self.forms.values())
 
     @property
-    def has_drags(self) -> bool:
-        """Whether efforts depend on reactions, which another right-hand side finds."""
-        return any(instance.kind == "drag" for instance in self.instances)
+    def drags(self) -> str:
+        """`PRESSED` or `TOUCHED` where efforts depend on reactions, which another right-hand side finds, else empty."""
+        rows = pressed_rows(self.mechanism)
+        return "" if not rows else TOUCHED if all(row.signed for row in rows) else PRESSED
 
     @property
     def has_rotors(self) -> bool:
@@ -237,7 +238,7 @@ class LoopedStages(PipelineStages[Mapping[str, "Element"], LoopedPrograms]):
 
         method = needs.choice.method
         words = method.summary, method.reference
-        sources = emit_looped_law(law, self.heading, *words, self.whole, needs.has_drags)
+        sources = emit_looped_law(law, self.heading, *words, self.whole, needs.drags)
         *shared, _ = sources
         info = msgspec.structs.replace(law.info, modules=tuple(shared))
         return {stem: (source, {}) for stem, source in sources.items()} | {

@@ -13,7 +13,7 @@ from dataclasses import replace
 from typing import Any
 
 from symgen.base.errors import InputError
-from symgen.describe.formulas.readings import reads_results
+from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.closing import choice_at_start
 from symgen.run.compiling.method_choice import MethodChoice, choice_for_coordinates, choose_method
@@ -148,8 +148,6 @@ def refuse_loops(mechanism: Mechanism) -> None:
 
 def straight_alone(mechanism: Mechanism) -> str:
     """Return what of a file exists as straight code alone; empty where loops take all of it."""
-    if signed := [row for row in mechanism.bounded if row.signed]:
-        return signed[0].family.noun
     if mechanism.has_modal_bodies:
         return "modal bodies"
     if any(reads_results(x.rate) for x in mechanism.states):

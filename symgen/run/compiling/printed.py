@@ -29,6 +29,7 @@ from symgen.run.layout import abi
 from symgen.run.layout.ensemble_abi import N_SUMMARY
 from symgen.run.layout.start_records import Instant, StartConditions
 from symgen.run.printed import partition
+from symgen.run.printed.exchanged_directions import direct_rates
 from symgen.run.printed.exchanged_steps import exchange_steps
 from symgen.run.printed.partition_tables import new_partition
 from symgen.run.starts.assembler import layout_of_starts
@@ -196,6 +197,12 @@ def _room_of_exchange(name: str) -> str | None:
     return _ALONE_IN_EXCHANGE[name] if name in _ALONE_IN_EXCHANGE else _room_of_steps(name)
 
 
+def _room_of_directions(name: str) -> str | None:
+    """Return the name of an array with directions in the memory; see `Naming`."""
+    owner, _, own = name.partition(".")
+    return f"partition_{own}" if owner == "part" else None if own else f"directed_{owner}"
+
+
 def _partition_model(compiled: CompiledModel, tables: Any) -> tuple[Any, ...]:
     """Return a `symgen.run.printed.partition_tables.PartitionModel`."""
     return layout_of_starts(compiled), compiled_form(compiled.model.geometry), tables
@@ -322,6 +329,27 @@ class Printed:
         memory = now, iw, np.zeros(len(ends), dtype=np.int64), work, impact, new_partition(steps[0], tables)
         meanings = meanings_of_names(exchange_steps, (model, None, None, *memory), emitted, _room_of_exchange)
         self.entries["exchange_run"] = source_of_piece(exchange_steps), meanings
+
+    def add_directions(self, compiled: CompiledModel, tables: Any, directed: Mapping[str, lang.Function]) -> None:
+        """Add ``direct_rates(t)``, the directions of what an importer's states decide.
+
+        Parameters
+        ----------
+        compiled, tables
+            As for `add_partition`.
+        directed : mapping of str to Function
+            Emitted functions with directions, by the names of those without.
+        """
+        layout, emitted = layout_of_starts(compiled), {id(function): function for function in directed.values()}
+        confirm = directed.get("confirm", directed["rhs"])
+        names = "prepare_model", "prepare_law", "masses", "geometry", "rhs"
+        ny, p, w = compiled.info.ny, compiled.parameter_array(defaultdict(float), {}), compiled.scratch()
+        model = layout, tables, *(directed[name] for name in names), confirm, ny, len(w)
+        sizes = (2 * ny, 2 * len(p), 2 * len(w) + 1)
+        counters, part = np.zeros(abi.N_COUNTERS, dtype=np.int64), new_partition(layout, tables)
+        arguments = model, None, *map(np.zeros, sizes), counters, np.zeros(2 * ny), part
+        meanings = meanings_of_names(direct_rates, arguments, emitted, _room_of_directions)
+        self.entries["direct_rates"] = source_of_piece(direct_rates), meanings
 
     def add_run(self, run: PrintedRun) -> None:
         """Add ``start_run()`` and ``advance_run(through, h, until)`` of a run with modes."""

@@ -26,7 +26,7 @@ from symgen.compile.store.entries import Entries
 from symgen.compile.store.loaded_modules import load_module, plain_function
 from symgen.derive.lower.windings import Beside, winding_order
 from symgen.describe.formulas.formula_text import to_text
-from symgen.describe.formulas.readings import integrals_of_outputs
+from symgen.describe.formulas.results_read import integrals_of_outputs
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.folders import folder_of, generator_digest
 from symgen.run.layout import abi

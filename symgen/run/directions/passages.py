@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
+#: What an impact of contacts is tied to.
+KeptTies = tuple[NDArray[np.int64], Array, NDArray[np.int64], Array]
+
+
 @dataclass(frozen=True)
 class Struck:
     """Effects of events on a state.
@@ -38,12 +42,13 @@ class Struck:
     at : Moment
         The state before them.
     ties : tuple or None
-        Of contacts, which velocities impulses hold, and signs of multiples (`symgen.run.effects.pushing.Ties`).
+        Of contacts, which velocities impulses hold, signs of multiples, and what velocities are parts of, see
+        ``held``, ``ways``, ``leads`` and ``parts`` of `symgen.run.effects.pushing.Ties`.
     """
 
     numbers: tuple[int, ...]
     at: Moment
-    ties: tuple[NDArray[np.int64], Array] | None = None
+    ties: KeptTies | None = None
 
 
 @dataclass(frozen=True)

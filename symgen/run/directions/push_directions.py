@@ -3,6 +3,8 @@
 Impulses hold velocities along rows C and push along columns that are other ones where contacts slide:
 
     M (v+ - v-) = P^T i,    C v+ = c,    P_N = C_N - s mu W_T
+
+Where impacts accumulate beside other contacts, c is linear in the velocities before (`symgen.run.modes.contact_series`).
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ from symgen.base.errors import InputError
 from symgen.compile.loopcode.exact import compiled_form
 from symgen.describe.bounds.bounded_modes import HIT
 from symgen.run.directions.moments import Moment
+from symgen.run.directions.passages import KeptTies
 from symgen.run.directions.reset_directions import ResetDirections
 from symgen.run.effects.applying import EffectWork
 from symgen.run.effects.effects import Effects, Impact
@@ -35,14 +38,7 @@ def rows_of_velocities(watched: Watched) -> list[int]:
     return [rows.partners[hits[e]] if again else -1 for e, again in zip(owners.tolist(), repeated, strict=True)]
 
 
-def numbers_of_state(watched: Watched) -> int:
-    """Return the length of what the function of rows with bounds writes."""
-    rows = watched.bounded
-    assert rows is not None, "a run with contacts"
-    return 3 * len(rows.names) + rows.dry
-
-
-def tied_impact(watched: Watched, kept: tuple[NDArray[np.int64], Array], now: Moment) -> Ties:
+def tied_impact(watched: Watched, kept: KeptTies, now: Moment) -> Ties:
     """Return the ties of an impact: what is held, and multiples by the coefficients of friction at its state."""
     rows, effects = watched.bounded, watched.effects
     assert rows is not None, "a run with contacts"
@@ -50,11 +46,30 @@ def tied_impact(watched: Watched, kept: tuple[NDArray[np.int64], Array], now: Mo
     k, dry = len(rows.names), rows.dry
     width = len(now.y)
     values = rows.state(now.t, now.y.copy(), now.p.copy(), now.w.copy(), np.zeros(width))
-    ties.held[:], ties.ways[:] = kept
+    ties.held[:], ties.ways[:], ties.leads[:], ties.parts[:] = kept
     for j, row in enumerate(rows_of_velocities(watched)):
         if row >= 0:
             ties.ratio[j] = ties.ways[j] * values[2 * k + dry + row]
     return ties
+
+
+def targets_of(ties: Ties, along: list[int], rates: Array, values: Array) -> Array:
+    """Return what impulses leave velocities at, or its directions: `values`, but where velocities are parts of others.
+
+    Parameters
+    ----------
+    ties : Ties
+        Of the impact.
+    along : list of int
+        See `rows_of_velocities`.
+    rates, values : Array, shapes (count, ...)
+        Velocities before the impact, and what their events ask for.
+    """
+    found = values.copy()
+    for j, lead in enumerate(ties.leads.tolist()):
+        if lead >= 0:
+            found[j] = ties.parts[j] * rates[lead] + (rates[j] if along[j] >= 0 else 0.0)
+    return found
 
 
 def push_state(
@@ -63,13 +78,14 @@ def push_state(
     now: Moment,
     changed: tuple[Array, Array],
     work: EffectWork,
-    ties: Ties,
+    tied: tuple[Ties, list[int]],
 ) -> Impact:
     """Change a state and its scratch by an impact of contacts, and return it; working memory keeps its problem."""
     y, w = changed
+    ties, along = tied
     count, chosen, formulas = len(ties.held), effects.chosen(numbers), effects.model[2]
     compiled_form(formulas)(now.t, y, now.p.copy(), w.copy(), np.zeros(len(y)), work.out)
-    ties.values[:] = work.out[count : 2 * count]
+    ties.values[:] = targets_of(ties, along, work.out[:count], work.out[count : 2 * count])
     compiled_form(push_contacts)(effects.model, now.t, Instant(y, now.p.copy(), w), chosen, work, ties)
     return effects.impact(numbers, y[effects.compiled.info.nq : effects.compiled.info.work], work.impulse.impulses, 0.0)
 
@@ -96,6 +112,8 @@ class PushDirections(ResetDirections):
     def _strike_directions(self, struck: list[int], values: Array, entries: Array) -> tuple[Array, Array, Array]:
         """Return the directions of velocities after an impact, of its energy, and of impulses at events."""
         info, ties, impulse, n = self.info, self.ties, self.work.impulse, self.info.nv
+        rates = self._evaluate_reset(self.effects.formulas, len(self.work.out), self.y)[: len(ties.held)]
+        values = targets_of(ties, rows_of_velocities(self.watched), rates, values)
         held = [k for k in struck if ties.held[k] > 0]
         slides = [k for k in struck if ties.held[k] < 0]
         joints, mass = impulse.rows[: info.m * n].reshape(info.m, n), impulse.mass.reshape(n, n)
@@ -143,7 +161,7 @@ class PushDirections(ResetDirections):
     def _slopes_of_ratios(self) -> Array:
         """Return the directions of the multiples that impulses along contacts are, shape (count, L)."""
         rows, watched = self.watched.bounded, self.watched
-        out = self._evaluate_reset(rows.state.function, numbers_of_state(watched), self.y)
+        out = self._evaluate_reset(rows.state.function, rows.values, self.y)
         first = 2 * len(rows.names) + rows.dry
         slopes = np.zeros((len(self.ties.held), self.model.lanes))
         for j, row in enumerate(rows_of_velocities(watched)):

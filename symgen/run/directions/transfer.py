@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from symgen.describe.bounds.bounded_modes import HIT
 from symgen.run.directions.free_directions import TOGETHER, Free, constraint_directions
 from symgen.run.directions.moments import Directions, Moment, Moments, modes_of_moment
-from symgen.run.directions.push_directions import PushDirections, push_state, tied_impact
+from symgen.run.directions.push_directions import PushDirections, push_state, rows_of_velocities, tied_impact
 from symgen.run.directions.reset_directions import ResetDirections
 from symgen.run.layout import abi
 from symgen.run.modes.bounded_rows import CONSTANT, EFFORT, HELD, LIMIT, SIGN, STILL
@@ -208,7 +208,8 @@ class Transfer:
             impact, ties = effects.apply_to_state(numbers, now.t, state, now.p.copy(), scratch, work), None
         else:
             ties = tied_impact(watched, struck.ties, now)
-            impact = push_state(effects, numbers, now, (state, scratch), work, ties)
+            tied = ties, rows_of_velocities(watched)
+            impact = push_state(effects, numbers, now, (state, scratch), work, tied)
         by = Directions(self._with(y), self._with(later), self._with(np.zeros((self._count, y.shape[1]))))
         chosen, columns = effects.chosen(numbers), list[Array]()
         for _, own, p, w in self.moments.chunks_of_states(now, by):
@@ -252,8 +253,7 @@ class Transfer:
         if not np.any(held):
             slopes[own] = 0.0
             return slopes.reshape(kept.shape)
-        length = 2 * k + 2 * rows.dry + (k - rows.dry)
-        values, directions = self.moments.evaluate_moment(rows.state.function, length, after, by)
+        values, directions = self.moments.evaluate_moment(rows.state.function, rows.values, after, by)
         directions = directions[:, :-1]
         for i in range(k):
             line = slopes[own[i]]

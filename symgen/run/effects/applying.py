@@ -11,7 +11,7 @@ from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout import abi
-from symgen.run.layout.redundancy import is_off
+from symgen.run.layout.redundancy import is_off, room_of_choice
 from symgen.run.layout.scales import fill_jacobian
 from symgen.run.layout.start_records import Instant, Layout
 from symgen.run.starts.impulse import Impulse, new_impulse, smallest_impulse
@@ -19,6 +19,9 @@ from symgen.run.starts.masses import add_rotors, put_entries
 
 #: Codes: the state has changed; velocities, or values of states, contradict each other or are not finite.
 APPLIED, NO_VELOCITIES, NO_VALUES = range(3)
+#: Codes of joints that hold for a while (`symgen.run.modes.catching`): a catch out of place; one that makes the joint's
+#: own condition false; one at which the joint keeps its condition at the limit.
+NOT_IN_PLACE, CONTRADICTED, AT_ITS_LIMIT = range(40, 43)
 
 
 class EffectChanges(Record):
@@ -40,6 +43,9 @@ class EffectChanges(Record):
         (event, place in the state) of each value.
     entries : Array of int64, shape (2 e,)
         (row, column) of each entry; diagonal ones only where joints carry bodies or rotors turn.
+    catches : Array of int64, shape (2 events,)
+        Of the catch of a joint, the place in the state of the energy that it takes, and the event at which the joint
+        releases, -1 where that is for forces to say; -2 and -1 of a release; -1 twice of other events.
     """
 
     bodies: int
@@ -49,6 +55,7 @@ class EffectChanges(Record):
     columns: Integers
     writes: Integers
     entries: Integers
+    catches: Integers
 
 
 class EffectWork(Record):
@@ -92,7 +99,10 @@ def new_effect_work(layout: Layout, changes: EffectChanges, width: int, nw: int)
     bodies, rotors = changes.bodies, changes.rotors
     out = 2 * k + (len(changes.writes) + len(changes.entries)) // 2 + 2 * rotors
     sizes = out, width, width, width, nw, changes.first + 2 * bodies, bodies * n, bodies, rotors * n, rotors, 1
-    return EffectWork._make((*(np.zeros(size) for size in sizes), new_impulse(n, layout.m + k)))
+    impulse = new_impulse(n, layout.m + k)
+    if np.any(changes.catches != -1):  # rows are chosen anew in the same memory
+        impulse = impulse._replace(rows=np.zeros(max(len(impulse.rows), room_of_choice(layout.m, n))))
+    return EffectWork._make((*(np.zeros(size) for size in sizes), impulse))
 
 
 @exact()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -93,6 +93,9 @@ class Effects:
         Index of these velocities in the output of the emitted function of bodies.
     rotors : int
         Number of rotors.
+    catches : mapping of int to (str, int)
+        Of events at which joints that hold for a while catch, the state of the energy that is taken, and the event of
+        the release that the state says, -1 for none; the name is empty at releases.
     """
 
     compiled: CompiledModel
@@ -103,6 +106,14 @@ class Effects:
     bodies: int = 0
     first: int = 0
     rotors: int = 0
+    catches: Mapping[int, tuple[str, int]] = field(default_factory=dict)
+
+    @cached_property
+    def losses(self) -> dict[int, int]:
+        """By number of an event at which a joint catches, the place in the state of the energy that it takes."""
+        info = self.compiled.info
+        places = {q.name: info.own_states.start + i for i, q in enumerate(info.states)}
+        return {event: places[name] for event, (name, _) in self.catches.items() if name}
 
     @cached_property
     def changes(self) -> Any:
@@ -113,7 +124,11 @@ class Effects:
         writes = [(n, places[name]) for n, effect in self.effects.items() for name in effect.writes]
         own = {} if self.bodies else {v.name: i for i, v in enumerate(info.velocities)}
         columns = [own.get(name, -1) for effect in self.effects.values() for name in effect.velocities]
-        numbers = (np.array(x, dtype=np.int64).ravel() for x in (owners, columns, writes, list(self.entries)))
+        catches = [[-1, -1] for _ in self.names]
+        for event, (_, release) in self.catches.items():
+            catches[event] = [self.losses.get(event, -2), release]
+        lists = owners, columns, writes, list(self.entries), catches
+        numbers = (np.array(x, dtype=np.int64).ravel() for x in lists)
         return EffectChanges._make((self.bodies, self.first, self.rotors, *numbers))
 
     @cached_property

@@ -55,6 +55,9 @@ class Ties(Record):
         Sign of each multiple.
     kept, kept_ways : Array of int64, Array, shapes (count,)
         What was held, and those signs, at the latest impact, while it is followed by another one that brings to rest.
+    leads, parts : Array of int64, Array, shapes (count,)
+        Velocities that are left at `parts` times the velocity `leads`, those along contacts beside what they are; -1
+        for others.
     """
 
     held: Integers
@@ -74,6 +77,8 @@ class Ties(Record):
     ways: Array
     kept: Integers
     kept_ways: Array
+    leads: Integers
+    parts: Array
 
 
 def new_ties(count: int, n: int, m: int) -> Any:
@@ -97,6 +102,8 @@ def new_ties(count: int, n: int, m: int) -> Any:
         ways=numbers(count),
         kept=np.zeros(count, dtype=np.int64),
         kept_ways=numbers(count),
+        leads=np.full(count, -1),
+        parts=numbers(count),
     )
 
 

@@ -127,12 +127,15 @@ class BoundedRows(BoundedNames):
         See `BoundedNames`.
     state, accelerations : callable
         ``(t, y, p, w, rate)`` -> coordinates and gaps, their rates, bounds at rest and bounds at the beginning
-        of a motion, of one-sided rows restitutions; second derivatives of coordinates and gaps. Bounds by reactions
-        are over these.
+        of a motion, of one-sided rows restitutions, where any are `shifted` by how
+        much, and middles in motion; second derivatives of
+        coordinates and gaps. Bounds by reactions are over these.
     reactions : callable or None
         ``(t, y, p, w, rate)`` -> components of the reactions of `pressed` coordinates, two each.
     varying : tuple of int
         Coordinates whose bounds are formulas of more than parameters.
+    shifted : tuple of int
+        Coordinates whose bounds at rest have another middle than those in motion.
     changes : bool
         Whether anything but the motion and inputs changes over time.
     losses : tuple of int or None
@@ -145,6 +148,12 @@ class BoundedRows(BoundedNames):
     changes: bool = True
     losses: tuple[int | None, ...] = ()
     varying: tuple[int, ...] = ()
+    shifted: tuple[int, ...] = ()
+
+    @property
+    def values(self) -> int:
+        """Number of values of `state`."""
+        return 3 * len(self.names) + (3 if self.shifted else 1) * self.dry
 
 
 @dataclass(frozen=True)
@@ -187,6 +196,8 @@ class Watched:
         Numbers of the rows with bounds whose gaps are formulas, which may turn sharply.
     missed : float
         Fraction of a step by which a corner may be missed.
+    holding : bool
+        Whether joints hold for a while.
     """
 
     names: tuple[str, ...]
@@ -206,20 +217,21 @@ class Watched:
     corners: tuple[int, ...] = ()
     turns: tuple[int, ...] = ()
     missed: float = 0.0
+    holding: bool = False
 
     @property
     def turning(self) -> tuple[str, ...]:
-        """What of rows with bounds has its own meanings in a turn, see `symgen.run.modes.turn.TURNING`."""
-        rows = self.bounded
+        """What of rows has its own meanings in a turn, see `symgen.run.modes.turn.TURNING`."""
+        rows, holding = self.bounded, ("holding",) * self.holding
         if rows is None:
-            return ()
+            return holding
         has = {
             "pressed": rows.pressed,
             "corners": self.corners,
             "pieces": rows.pieces,
             "contacts": rows.contacts,
         }
-        return tuple(kind for kind, those in has.items() if those)
+        return (*(kind for kind, those in has.items() if those), *holding)
 
     def events_of_rows(self, word: str, rows: int) -> list[int]:
         """Return the event with a word of each of some rows with bounds; -1 where a row has none."""

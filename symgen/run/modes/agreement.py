@@ -11,15 +11,16 @@ import math
 from symgen.base.ir.numerics import SKIP
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
+from symgen.compile.loopcode.loop_instances import Meanings, exact_instance
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout.redundancy import farthest_row
 from symgen.run.modes.bounded_rows import (
-    AT_BOUND,
     CONSTANT,
     DISAGREED,
     HELD,
     JAMMED,
     LIMIT,
+    NO_FACTOR,
     NO_FORCES,
     NOT_DETERMINED,
     NOT_FINITE,
@@ -27,7 +28,6 @@ from symgen.run.modes.bounded_rows import (
     SAME,
     SHARED,
     Choice,
-    sign_of_number,
 )
 from symgen.run.modes.box import solve_box
 from symgen.run.modes.choice import (
@@ -39,8 +39,8 @@ from symgen.run.modes.choice import (
     symmetrise,
     write_modes,
 )
-from symgen.run.modes.holding import hold_rows
-from symgen.run.modes.resting import moves_at
+from symgen.run.modes.holding import find_carriers, hold_rows
+from symgen.run.modes.resting import set_bounds, solve_rest
 
 #: Bounds by reactions agree within this part of them, after so many solutions at most.
 _AGREED, _AGREEMENTS = 1e-14, 2000
@@ -85,7 +85,7 @@ def probe_row(t: float, c: Choice, j: int, y: Array, p: Array, w: Array, iw: Int
         for i in range(c.count):
             c.trial[i] = 0.0 if c.pressed[i] != 0 else c.signs[i]
         force = 1.0
-        if c.pressed[j] != 0 or c.sliding[j] == 0.0:
+        if c.pressed[j] != 0 or c.sliding[j] == 0.0 or c.middle[j] != 0.0:
             c.trial[j], c.pushed[0] = 0.0, j
         else:
             c.trial[j], force = 1.0, c.sliding[j]
@@ -133,24 +133,31 @@ def probe_reactions(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
 
 
 @exact()
-def set_reaction_bounds(c: Choice, n: int) -> None:
-    """Set the box problem of the rows at rest by the present sizes of reactions."""
+def begin_sizes(c: Choice) -> None:
+    """Set the sizes of reactions without efforts by reactions; at rest, what holds all."""
+    for i in range(c.count):
+        c.sizes[i] = 1.0
+        if c.pressed[i] != 0:
+            x, y = c.apart[2 * i], c.apart[2 * i + 1]
+            c.sizes[i] = math.sqrt(x * x + y * y) if c.signs[i] != 0.0 else math.inf
+
+
+@exact()
+def follow_bounds(c: Choice, n: int) -> None:
+    """Have bounds and accelerations without forces at rest follow the present sizes of reactions."""
     k, box = c.count, c.box
     for i in range(k):
         if c.pressed[i] != 0 and c.signs[i] != 0.0:
             c.forces[i] = c.signs[i] * c.sliding[i] * c.sizes[i]
     for r in range(n):
-        i = c.rest[r]
-        bound = c.static[i] if c.taken[i] != 0 else c.sliding[i]
-        bound = bound * c.sizes[i] if bound > 0.0 else 0.0
-        box.bounds[r], box.lower[r] = bound, -bound
-        total = 0.0
+        i, total = c.rest[r], 0.0
+        if box.bounds[r] > 0.0:
+            box.bounds[r] *= c.sizes[i]
+            box.lower[r] *= c.sizes[i]
         for j in range(k):
             if c.pressed[j] != 0 and c.signs[j] != 0.0:
                 total += c.matrix[i * k + j] * c.forces[j]
         box.offset[r] = c.offset[i] - total
-        for s in range(n):
-            box.matrix[r * n + s] = c.matrix[i * k + c.rest[s]]
 
 
 @exact()
@@ -169,46 +176,37 @@ def follow_sizes(c: Choice) -> bool:
     return agree
 
 
-@exact(entry=True)
-def agree_at_rest(c: Choice) -> int:
-    """Find the forces at rest with bounds that agree with them; set the signs of rows that they do not hold.
+@exact()
+def agree_within(c: Choice, n: int, part: float) -> int:
+    """Find the forces at rest as `solve_within` does, with bounds that agree with them.
 
-    Bounds by reactions become forces. Returns `SAME`, `NO_FORCES` or `DISAGREED`.
+    Returns `SAME`, `NO_FORCES` or `DISAGREED`.
     """
-    k, n, box = c.count, c.at_rest[0], c.box
-    for i in range(k):
-        c.taken[i], c.sizes[i] = 0, 1.0
-        if c.pressed[i] != 0:
-            x, y = c.apart[2 * i], c.apart[2 * i + 1]
-            c.sizes[i] = math.sqrt(x * x + y * y) if c.signs[i] != 0.0 else math.inf
-    for r in range(n):
-        c.taken[c.rest[r]] = 1 if c.loose[c.rest[r]] == 0 else 0  # its static bound holds
-    rounds, found = 0, False
-    while not found:
-        if rounds == _AGREEMENTS:
-            return DISAGREED
-        rounds += 1
-        set_reaction_bounds(c, n)
-        if solve_box(n, box) != 0:
+    begin_sizes(c)
+    for _ in range(_AGREEMENTS):
+        set_bounds(c, n, part)
+        follow_bounds(c, n)
+        if solve_box(n, c.box) != 0:
             return NO_FORCES
         for r in range(n):
-            c.forces[c.rest[r]] = box.forces[r]
-        found = follow_sizes(c)
-        for r in range(n if found else 0):
-            i = c.rest[r]
-            if c.taken[i] != 0 and c.static[i] > c.sliding[i] and moves_at(c, n, r):
-                c.taken[i], found = 0, False
-    for r in range(n):
-        i = c.rest[r]
-        bound, force, moves = box.bounds[r], box.forces[r], moves_at(c, n, r)
-        moves = moves or (c.loose[i] != 0 and abs(force) >= AT_BOUND * bound and bound > 0.0)
-        c.signs[i] = sign_of_number(box.left[r] if force == 0.0 else force) if moves else 0.0
-        c.taken[i] = 0
-    for i in range(k):
+            c.forces[c.rest[r]] = c.box.forces[r] - c.middle[c.rest[r]]
+        if follow_sizes(c):
+            return SAME
+    return DISAGREED
+
+
+#: What the forces at rest are found by where bounds depend on reactions.
+AGREEING = Meanings("rows at rest with bounds that depend on reactions", solve_within=agree_within)
+solve_pressed = exact_instance(solve_rest, AGREEING)
+
+
+@exact()
+def apply_sizes(c: Choice) -> None:
+    """Make bounds by reactions forces."""
+    for i in range(c.count):
         if c.pressed[i] != 0:
             c.static[i] *= c.sizes[i]
             c.sliding[i] *= c.sizes[i]
-    return SAME
 
 
 @exact(entry=True)
@@ -222,17 +220,43 @@ def can_move(c: Choice) -> int:
     return 1 if farthest_row(layout, layout.nv, layout.m, SKIP, 1, c.w, c.room) < layout.nv else 0
 
 
-@exact(entry=True)
-def follow_reactions(c: Choice, resting: int) -> int:
-    """Have largest efforts follow the reaction, unless rows share a force; return `SAME` or `SHARED`.
+@exact()
+def is_shared_among(c: Choice, i: int, count: int) -> bool:
+    """Whether the reaction of a row at rest with bounds by it depends on how row `i` shares its effort.
 
-    `resting` is the number of coordinates at rest whose bounds depend on reactions.
+    It changes by less than rounding then, by the whole of the bound of the row.
     """
-    after, sharing = c.after, 0
+    k, most = c.count, find_carriers(c, i, count)
+    for p in range(k):
+        if c.pressed[p] != 0 and c.after[MODE_NUMBERS * p + HELD] != 0.0:
+            for part in range(2):
+                at, a = (2 * p + part) * k, 0
+                total = c.parts[at + i]
+                size = abs(total)
+                for j in range(k):
+                    if c.taken[j] != 0:
+                        carries = abs(c.box.left[a]) > NO_FACTOR * most
+                        if j == p and carries:
+                            return True
+                        total -= c.box.left[a] * c.parts[at + j]
+                        size += abs(c.box.left[a] * c.parts[at + j])
+                        a += 1
+                if abs(total) * c.static[i] > NO_FACTOR * (size * c.static[i] + c.sizes[p]):
+                    return True
+    return False
+
+
+@exact(entry=True)
+def follow_reactions(c: Choice) -> int:
+    """Have largest efforts follow the reaction, unless it depends on a force that rows share; else return `SHARED`."""
+    after, shared, count = c.after, False, 0
+    for i in range(c.count):
+        count += 1 if c.taken[i] != 0 else 0
     for i in range(c.count):
         at = MODE_NUMBERS * i
-        sharing += 1 if after[at + HELD] == 0.0 and after[at + CONSTANT] != 0.0 else 0
-    if sharing > 0 and resting > 0 and (c.changes != 0 or can_move(c) != 0):
+        if after[at + HELD] == 0.0 and after[at + CONSTANT] != 0.0:
+            shared = shared or c.pressed[i] != 0 or is_shared_among(c, i, count)
+    if shared and (c.changes != 0 or can_move(c) != 0):
         count = 0
         for i in range(c.count):
             at = MODE_NUMBERS * i
@@ -243,7 +267,7 @@ def follow_reactions(c: Choice, resting: int) -> int:
         return SHARED
     for i in range(c.count):
         at = MODE_NUMBERS * i
-        if c.pressed[i] != 0 and (sharing == 0 or after[at + HELD] == 0.0):
+        if c.pressed[i] != 0 and (not shared or after[at + HELD] == 0.0):
             after[at + LIMIT] = 0.0
     return SAME
 
@@ -254,19 +278,18 @@ def choose_pressed(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Intege
     c.named[0] = find_redundant(c, w)
     if c.named[0] >= 0:
         return REDUNDANT
-    n, resting = find_rest(c, w), 0
-    for r in range(n):
-        resting += 1 if c.pressed[c.rest[r]] != 0 else 0
+    n = find_rest(c, w)
     for i in range(c.count):
         c.bounds[i], c.bounds[c.count + i] = c.static[i], c.sliding[i]
     code = probe_reactions(t, c, y, p, w, iw, control)
     if code == SAME and n > 0:
         symmetrise(c)
         size_forces(c, n, w)
-        code = agree_at_rest(c)
+        code = solve_pressed(c, n, w)
+        apply_sizes(c)
         add_forces(c)
     if code == SAME:
-        code = NOT_DETERMINED if hold_rows(c, w) != SAME else follow_reactions(c, resting)
+        code = NOT_DETERMINED if hold_rows(c, w) != SAME else follow_reactions(c)
     for i in range(c.count):
         c.static[i], c.sliding[i] = c.bounds[i], c.bounds[c.count + i]
     return int(write_modes(c, w)) if code == SAME else int(code)

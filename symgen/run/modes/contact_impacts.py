@@ -32,6 +32,7 @@ from symgen.run.modes.bounded_rows import (
     STILL,
     TOUCHING,
     Choice,
+    is_held,
     is_shut,
     row_scale,
     sign_of_number,
@@ -39,6 +40,7 @@ from symgen.run.modes.bounded_rows import (
 )
 from symgen.run.modes.contact_combinations import LOWER, OFF, ON, UPPER
 from symgen.run.modes.contact_parts import choose_part, find_parts, probe_contacts
+from symgen.run.modes.contact_series import find_leading, hold_closed, remember_impact, sum_series
 from symgen.run.modes.contact_verification import try_combinations
 from symgen.run.modes.strikes import (
     OF_SERIES,
@@ -54,6 +56,25 @@ from symgen.run.modes.strikes import (
 _NOTHING = 1e-12
 #: An impact adds energy where its work is above this part of the work of its impulses, one by one.
 _GAIN = 1e-9
+#: A flight ends where this part of its duration is left.
+_ENDING = 1e-3
+
+
+@exact(entry=True)
+def mark_flights(t: float, c: Choice, s: Strikes, w: Array) -> int:
+    """Mark the open gaps that have been struck before and are between two impacts, though they may seem closed.
+
+    The lowest flights stay within the resolution of positions. What ends them is their own event, and not one of
+    another contact meanwhile. Returns the number of gaps.
+    """
+    past = s.effects.past
+    for i in range(c.dry, c.count):
+        count = past.counts[s.events[i]]
+        c.flying[i] = 0
+        if count > 0 and not is_held(c, w, i):
+            since = t - past.times[OF_EVENT * s.events[i] + count - 1]
+            c.flying[i] = 1 if c.value[i] > _ENDING * abs(c.speed[i]) * since else 0
+    return int(c.count - c.dry)
 
 
 @exact(entry=True)
@@ -64,7 +85,7 @@ def find_struck_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: 
         c.taken[i] = 0
         c.signs[i] = w[c.first + MODE_NUMBERS * i + SIGN] if c.pushes[i] == 0 and c.partner[i] < 0 else 0.0
     for i in range(c.dry, c.count):
-        if is_shut(c, w, i):
+        if is_shut(c, w, i) and c.flying[i] == 0:
             c.rest[n], c.taken[i] = i, 1
             n += 1
             strikes = strikes or is_closing(c, w, i)
@@ -95,6 +116,10 @@ def find_impulses(c: Choice, s: Strikes) -> int:
         c.loose[i] = 0 if c.pushes[i] != 0 else 1  # impulses of friction have the bound of motion
         c.best[i], c.forces[i], c.signs[i] = OFF, 0.0, 0.0
     find_parts(c)
+    for i in range(c.count):
+        s.memory.groups[i] = -1
+    for r in range(rows):
+        s.memory.groups[c.rest[r]] = c.part[c.rest[r]]
     for first in range(c.count):
         count = choose_part(c, first, rows)
         if count > 0:
@@ -129,6 +154,7 @@ def tie_velocities(c: Choice, s: Strikes, rests: bool) -> None:
     owners, ties = changes.owners, s.ties
     for j in range(owners.shape[0]):
         ties.held[j], ties.ratio[j], ties.values[j], ties.ways[j] = 0, 0.0, 0.0, 0.0
+        ties.leads[j], ties.parts[j] = -1, 0.0
         for i in range(c.dry, c.count):
             if owners[j] == s.events[i] and s.active[i] != 0:
                 friction = c.partner[i]
@@ -225,9 +251,13 @@ def recall_modes(c: Choice, s: Strikes) -> None:
 
 
 @exact()
-def rest_contacts(t: float, c: Choice, s: Strikes, end: float, now: Instant) -> int:
-    """Bring the gaps that push, or turn back, to rest, in the modes of the latest impact; friction has its part."""
+def rest_contacts(t: float, c: Choice, s: Strikes, end: float, now: Instant, iw: Integers) -> int:
+    """Bring the gaps that push, or turn back, to rest, in the modes of the latest impact; friction has its part.
+
+    What contacts beside them have of the impacts that are left out is the sum of a series.
+    """
     recall_modes(c, s)
+    in_series = find_leading(c, s)
     for i in range(c.dry, c.count):
         if turns_back(c, s, now.w, i):
             s.active[i] = 1
@@ -235,8 +265,11 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, now: Instant) -> 
             if j >= 0:
                 still = abs(c.speed[j]) <= STILL * row_scale(c, now.w, j, abi.SPEED)
                 c.mode[j] = ON if still else (UPPER if sign_of_number(c.speed[j]) > 0.0 else LOWER)
+    hold_closed(c, s, now.w)
     choose_events(c, s, False)
     tie_velocities(c, s, True)
+    if in_series > 0:
+        sum_series(t, c, s, now, iw)
     if push_contacts(s.effects.model, t, now, s.chosen, s.effects.work, s.ties) != APPLIED:
         return NOT_APPLIED
     lose_at_contacts(c, s, now.y, True)
@@ -282,8 +315,9 @@ def gather_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
     accelerate_in_force(t, c, now, iw)
     series = follow_series(c, s, t, count)
     if not end == end:
+        remember_impact(t, c, s)
         return SAME
     switch_off(c, w)
     # an impact in turn stays closed: whether it would fly again, and when, would be rounding
     end = end_in_turn(t, c, s) if in_turn or not series == series else series
-    return OTHERS if rest_contacts(t, c, s, end, now) == SAME else NOT_APPLIED
+    return OTHERS if rest_contacts(t, c, s, end, now, iw) == SAME else NOT_APPLIED

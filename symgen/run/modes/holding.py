@@ -122,13 +122,12 @@ def hold_rows(c: Choice, w: Array) -> int:
 
 
 @exact()
-def share_force(c: Choice, i: int, count: int) -> int:
-    """Give the effort of a row that rows in force determine to the one that carries it.
+def find_carriers(c: Choice, i: int, count: int) -> float:
+    """Write what each row in force carries of a unit of force of another row at rest to ``box.left``.
 
-    Where several do, a row with two bounds keeps the effort that it has: as long as theirs are within their bounds all
-    rest, and where one reaches its bound, efforts are shared out anew.
+    Returns the largest size; parts below `NO_FACTOR` of this are rounding.
     """
-    k, box, after = c.count, c.box, c.after
+    k, box = c.count, c.box
     a = 0
     for j in range(k):
         if c.taken[j] != 0:
@@ -150,6 +149,18 @@ def share_force(c: Choice, i: int, count: int) -> int:
     for j in range(rank):
         box.left[box.order[j]] = box.right[j]
         most = larger_number(most, abs(box.right[j]))
+    return float(most)
+
+
+@exact()
+def share_force(c: Choice, i: int, count: int) -> int:
+    """Give the effort of a row that rows in force determine to the one that carries it.
+
+    Where several do, a row with two bounds keeps the effort that it has: as long as theirs are within their bounds all
+    rest, and where one reaches its bound, efforts are shared out anew.
+    """
+    k, box, after = c.count, c.box, c.after
+    most = find_carriers(c, i, count)
     owners, owner, a, factor = 0, -1, 0, 0.0
     c.named[0] = i
     for j in range(k):

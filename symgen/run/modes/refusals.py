@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from symgen.base.errors import InputError
+from symgen.run.effects.applying import AT_ITS_LIMIT, CONTRADICTED, NOT_IN_PLACE
 from symgen.run.modes.bounded_rows import (
     CONTRARY,
     DISAGREED,
@@ -127,6 +128,34 @@ SENTENCES = {
         "{hits}: reset", "velocities that the joints and each other allow", "others at t = {t:.6g} s"
     ),
 }
+
+
+#: Sentences on joints that hold for a while: on the event ``event``, with the distance ``first``, at the time ``t``.
+HOLDING_SENTENCES = {
+    NOT_IN_PLACE: Sentence(
+        "event '{event}'",
+        "a joint in its place where it catches",
+        "one that is off by {first:.3g} of the mechanism's length, or rad, at t = {t:.6g} s",
+        "holds_at = 'present' holds it where it is",
+    ),
+    CONTRADICTED: Sentence(
+        "event '{event}'",
+        "a condition that the catch leaves true",
+        "one that it makes false at t = {t:.6g} s",
+        "two conditions: holds = {{ catches = ..., releases = ... }}",
+    ),
+    AT_ITS_LIMIT: Sentence(
+        "event '{event}'",
+        "a condition that goes on to change where the joint holds",
+        "one that the joint keeps at its limit from t = {t:.6g} s on",
+        "two conditions: holds = {{ catches = ..., releases = ... }}",
+    ),
+}
+
+
+def refusal_of_catch(code: int, event: str, first: float, t: float) -> InputError:
+    """Return the error on a joint that cannot hold, by its code, the event, a number and the time [s]."""
+    return InputError(*(text.format(event=event, first=first, t=t) for text in HOLDING_SENTENCES[code]))
 
 
 def fixed_words(rows: BoundedNames) -> dict[str, str]:

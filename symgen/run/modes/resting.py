@@ -3,6 +3,8 @@
 Where more rows rest than the mechanism has freedom, forces at rest are not determined. Rows in force take what changes,
 and others keep the efforts that they have, until one is at its bound. As any forces within all bounds hold, efforts are
 then shared out anew: those whose largest part of a static bound is least. Only where this part is 1 does the row move.
+
+Bounds that depend on reactions have another `solve_within` (`symgen.run.modes.agreement`).
 """
 
 from __future__ import annotations
@@ -66,23 +68,33 @@ def is_tied(c: Choice, n: int, i: int) -> bool:
 
 @exact()
 def set_bounds(c: Choice, n: int, part: float) -> None:
-    """Set the bounds of forces at rest: static bounds, of which tied rows have a part, or bounds of motion."""
+    """Set the bounds of forces at rest: static bounds, of which tied rows have a part, or bounds of motion.
+
+    Forces count from the middle of the bounds of motion, so that 0 is within all bounds.
+    """
     box = c.box
     for r in range(n):
         i = c.rest[r]
-        bound = c.static[i] if c.taken[i] != 0 else c.sliding[i]
-        if part < 1.0 and c.taken[i] != 0 and is_tied(c, n, i):
-            bound *= part
+        bound, shift = c.sliding[i], 0.0
+        if c.taken[i] != 0:
+            tied = part if part < 1.0 and is_tied(c, n, i) else 1.0
+            bound, shift = c.static[i] * tied, c.middle[i] * tied
         pushes = c.pushes[i] != 0
-        box.bounds[r] = 0.0 if pushes else bound
-        box.lower[r] = -bound if not pushes else (0.0 if c.loose[i] != 0 else -math.inf)
+        box.bounds[r] = 0.0 if pushes else bound + shift
+        box.lower[r] = shift - bound if not pushes else (0.0 if c.loose[i] != 0 else -math.inf)
+
+
+@exact()
+def solve_within(c: Choice, n: int, part: float) -> int:
+    """Find the forces at rest within bounds, tied ones within a part of static bounds; return `SAME` or `NO_FORCES`."""
+    set_bounds(c, n, part)
+    return SAME if solve_box(n, c.box) == 0 else NO_FORCES
 
 
 @exact()
 def rest_within(c: Choice, n: int, part: float) -> bool:
     """Whether the rows that share the effort of a broken one all rest within a part of their static bounds."""
-    set_bounds(c, n, part)
-    if solve_box(n, c.box) != 0:
+    if solve_within(c, n, part) != SAME:
         return False
     for r in range(n):
         if is_tied(c, n, c.rest[r]) and moves_at(c, n, r):
@@ -122,19 +134,21 @@ def share_anew(c: Choice, n: int) -> float:
 
 @exact()
 def solve_rest(c: Choice, n: int, w: Array) -> int:
-    """Find the forces at rest, and the signs of rows that they do not hold; return `SAME` `NO_FORCES` or `CONTRARY`."""
+    """Find the forces at rest, and the signs of rows that they do not hold; return `SAME`, or why there are none."""
     k, box = c.count, c.box
     for r in range(n):
         i = c.rest[r]
+        for s in range(n):
+            c.offset[i] += c.matrix[i * k + c.rest[s]] * c.middle[c.rest[s]]
         box.offset[r] = c.offset[i]
         c.taken[i] = 1 if c.pushes[i] == 0 and c.loose[i] == 0 else 0  # its static bound holds
         for s in range(n):
             box.matrix[r * n + s] = c.matrix[i * k + c.rest[s]]
     part = share_anew(c, n)
     while True:
-        set_bounds(c, n, part)
-        if solve_box(n, box) != 0:
-            return NO_FORCES
+        code = solve_within(c, n, part)
+        if code != SAME:
+            return int(code)
         for r in range(n):
             if c.pushes[c.rest[r]] != 0 and box.left[r] < -NO_ACCELERATION * usual_of(c, w, c.rest[r]):
                 if is_contrary(n, r, box):
@@ -152,13 +166,13 @@ def solve_rest(c: Choice, n: int, w: Array) -> int:
         part = 1.0
     for r in range(n):
         i = c.rest[r]
-        bound, force, moves = c.static[i] if c.taken[i] != 0 else c.sliding[i], box.forces[r], moves_at(c, n, r)
+        bound, force, moves = box.bounds[r], box.forces[r], moves_at(c, n, r)
         c.passing[i] = 1 if moves else 0
         if c.pushes[i] != 0:
             moves = moves and box.left[r] > 0.0
         elif c.loose[i] != 0 and abs(force) >= AT_BOUND * bound and bound > 0.0:
             moves = True
-        c.forces[i] = force
+        c.forces[i] = force - c.middle[i]
         c.signs[i] = 0.0
         if moves:
             c.signs[i] = sign_of_number(box.left[r] if force == 0.0 or c.pushes[i] != 0 else force)

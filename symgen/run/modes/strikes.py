@@ -41,6 +41,7 @@ from symgen.run.modes.bounded_rows import (
 )
 from symgen.run.modes.box import is_contrary, solve_box
 from symgen.run.modes.choice import copy_state, probe, write_rates
+from symgen.run.modes.impact_memory import ImpactMemory, new_impact_memory
 
 #: Impulses below this part of the largest are rounding.
 _NOTHING = 1e-12
@@ -80,6 +81,8 @@ class Strikes(Record):
         The latest impact; impulses that have brought gaps to rest where impacts accumulate.
     ties : Ties
         Of the latest impact of contacts, which impulses are multiples of others.
+    memory : ImpactMemory
+        Of impacts of contacts.
     """
 
     effects: OfEffects
@@ -95,9 +98,12 @@ class Strikes(Record):
     struck: KeptEffect
     rested: KeptEffect
     ties: Ties
+    memory: ImpactMemory
 
 
-def new_strikes(effects: OfEffects, hits: Sequence[int], losses: Sequence[int], keeps: bool) -> Strikes:
+def new_strikes(
+    effects: OfEffects, hits: Sequence[int], losses: Sequence[int], keeps: bool, contacts: bool
+) -> Strikes:
     """Return the impacts of a run.
 
     Parameters
@@ -108,8 +114,11 @@ def new_strikes(effects: OfEffects, hits: Sequence[int], losses: Sequence[int], 
         Event of the impact of each row with bounds, and place in the state of the energy that it takes; -1 for none.
     keeps : bool
         Whether somebody reads the impacts.
+    contacts : bool
+        Whether there are contacts.
     """
     k = len(hits)
+    remembered = (k, len(effects.work.state), len(effects.work.scratch)) if contacts else (0, 0, 0)
     return Strikes(
         effects=effects,
         chosen=np.zeros(len(effects.chosen), dtype=np.int64),
@@ -124,6 +133,7 @@ def new_strikes(effects: OfEffects, hits: Sequence[int], losses: Sequence[int], 
         struck=new_kept_effect(effects.model[0], effects.work, keeps),
         rested=new_kept_effect(effects.model[0], effects.work, keeps),
         ties=new_ties(len(effects.model[4].owners), effects.model[0].nv, effects.model[0].m),
+        memory=new_impact_memory(*remembered),
     )
 
 

@@ -49,6 +49,7 @@ from symgen.run.modes.bounded_rows import (
     Choice,
     switch_off,
 )
+from symgen.run.modes.catching import HOLDING
 from symgen.run.modes.choice import (
     choose_modes,
     find_fault,
@@ -58,7 +59,12 @@ from symgen.run.modes.choice import (
     measure_margins,
     read_rows,
 )
-from symgen.run.modes.contact_impacts import find_struck_contacts, gather_contacts, strike_contacts
+from symgen.run.modes.contact_impacts import (
+    find_struck_contacts,
+    gather_contacts,
+    mark_flights,
+    strike_contacts,
+)
 from symgen.run.modes.contacts import choose_contacts, measure_margins_of_contacts
 from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_corners, spare_touching
 from symgen.run.modes.ends import find_undefined
@@ -197,9 +203,22 @@ def look_ahead(code: int, modes: OfModes, state: EventState) -> int:
 # -- impacts -----------------------------------------------------------------------------------------------------------
 
 
+def find_flying(t: float, modes: OfModes, state: EventState) -> None:
+    """Find the gaps of contacts that fly at the events noted, of which theirs is none."""
+    mark_flights(t, modes.choice, modes.strikes, state.w)
+    first, size = first_note(state), 2 + state.y.shape[0]
+    for note in range(int(state.hunt[records.NOTED])):
+        at, k = state.hunt[first + note * size], int(state.hunt[first + note * size + 1])
+        for i in range(modes.choice.count):
+            if at == t and modes.strikes.events[i] == k:
+                modes.choice.flying[i] = 0
+
+
 def strike_gaps(t: float, modes: OfModes, state: EventState) -> int:
     """Apply the impact of gaps that strike at the present state, and log them; return `SAME`, or why there is none."""
     c, s, control = modes.choice, modes.strikes, state.control
+    if CONTACTS:
+        find_flying(t, modes, state)
     code = find_struck(t, c, state.y, state.p, state.w, state.iw, control)
     if code != OTHERS:
         return int(code)
@@ -439,14 +458,14 @@ TOUCHED = Meanings(
     log_changes=log_changes_of_contacts,
     log_changes_in_pieces=log_changes_of_contacts,
 )
-#: Meanings for what a run's rows with bounds have (`symgen.run.loops.run_spec.Watched.turning`).
-TURNING = {"pressed": PRESSED, "corners": CORNERED, "pieces": IN_PIECES, "contacts": TOUCHED}
+#: Meanings for what a run's rows have (`symgen.run.loops.run_spec.Watched.turning`).
+TURNING = {"pressed": PRESSED, "corners": CORNERED, "pieces": IN_PIECES, "contacts": TOUCHED, "holding": HOLDING}
 #: Type of what follows the functions of a model, where events change a run, and where rows have bounds.
 FURTHER = {"effects": record_type(OfEffects), "modes": record_type(OfModes)}
 
 
 def meanings_of_turn(strikes: bool, turning: Sequence[str]) -> dict[str, Any]:
-    """Return the meanings of names in the turns of a run with bounded rows.
+    """Return the meanings of names in the turns of a run with bounded rows, or with joints that hold for a while.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def run_with_modes(
     mechanism: Mechanism, run: Prepared, compiled: CompiledModel, datum: Sequence[float], foresees: bool = False
 ) -> PrintedRun | None:
-    """Return a run for printers, None where no row of the mechanism has bounds.
+    """Return a run for printers, None where no row of the mechanism has bounds, or holds for a while.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def run_with_modes(
     foresees : bool
         Whether the run finds jumps whose times depend on parameters, or lie after its end, by itself.
     """
-    return whole_run(mechanism, run, compiled, datum, foresees) if mechanism.bounded else None
+    return whole_run(mechanism, run, compiled, datum, foresees) if mechanism.has_modes else None
 
 
 def whole_run(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from symgen.describe.facts.balance import balance_rows
 from symgen.describe.facts.lengths import origin_of_sizes
 from symgen.describe.facts.sides import sided_joints, wrong_sides
 from symgen.describe.formulas.evaluate import evaluate, parameter_values, scalar_values
@@ -25,7 +26,7 @@ from symgen.run.starts.assembler import Assembly
 from symgen.run.starts.assembly import Start, closed_start, closed_state, described_state
 from symgen.run.starts.held import Held
 from symgen.run.starts.kept import KeptStart
-from symgen.run.starts.start_words import half_turn, opposite_sentence
+from symgen.run.starts.start_words import UndeterminedError, half_turn, opposite_sentence
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -143,7 +144,12 @@ class DescribedStart:
         q = np.array(self._q if near is None else near, dtype=np.float64)
         held = holds if isinstance(holds, Held) else held_quantities(compiled.info, holds, numbers, self._v)
         assembly, reported = self._assembly(held), partial(displacements_of_bodies, mechanism, numbers)
-        start = closed_start(assembly, held, assembly.close, q, self._v, self._p.copy(), reported)
+        try:
+            start = closed_start(assembly, held, assembly.close, q, self._v, self._p.copy(), reported)
+        except UndeterminedError as error:
+            if rows := balance_rows(mechanism, error.body):
+                raise error.with_hint(f'springs alone hold it by a joint of type = "rows" with {rows}') from None
+            raise
         if lines := _opposite_sides(mechanism, compiled.info, start.y):
             start = replace(start, warnings=(*start.warnings, *lines))
         start.y[compiled.info.own_states] = states

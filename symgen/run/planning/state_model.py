@@ -16,6 +16,7 @@ from symgen.describe.bounds.bounded_modes import one_sided_rows, refuse_bounds, 
 from symgen.describe.bounds.smooth import sliding_rows_as_forces
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.evaluate import parameter_values
+from symgen.describe.parts.holding_joints import in_modes
 from symgen.describe.parts.topology import state_quantities
 from symgen.run.compiling.choices import choose_coordinates, mechanism_on_tree, take_tree_of
 from symgen.run.planning.plan import Purpose
@@ -60,6 +61,9 @@ class StateModel:
 
     def __init__(self, where: str, mechanism: Mechanism, coordinates: str, parameters: Mapping[str, float]) -> None:
         coordinates = arguments.one_word_of("coordinates", coordinates, COORDINATES)
+        own = {p.name for p in mechanism.parameters}
+        given = {name: x for name, x in parameters.items() if name in own}
+        mechanism = in_modes(mechanism, parameter_values(mechanism, given) if mechanism.holding else {})
         sliding = sliding_rows_as_forces(where, mechanism)
         described = without_bounds(sliding, one_sided_rows(sliding))
         refuse_bounds(where, described)

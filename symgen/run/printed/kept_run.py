@@ -374,7 +374,7 @@ class Traits(NamedTuple):
             meanings |= rows.MODES | _OF_ROWS | turn.meanings_of_turn(self.effects, self.turning)
             meanings |= _OF_ROWS_BETWEEN_SEAMS if self.seams else {}
         elif self.effects:
-            meanings |= rows.EFFECTS
+            meanings |= rows.EFFECTS | turn.meanings_of_turn(False, self.turning)
         return meanings | (_SEAMED if self.seams else {})
 
     @property

@@ -59,9 +59,17 @@ def position_rows(
 ) -> float:
     """Write rows of positions, as changes of coordinates in lengths, and what closes the joints; return the gap."""
     layout, geometry, tables = model
+    geometry(t, y, p, w)
+    return fill_position_rows(layout, tables, y, w, part, is_imposed)
+
+
+@exact()
+def fill_position_rows(
+    layout: Layout, tables: PartitionTables, y: Array, w: Array, part: Partition, is_imposed: bool
+) -> float:
+    """Write rows of positions from the results of ``geometry``, as `position_rows` does."""
     nq, count, spins, matrix, right = layout.nq, tables.holonomic.shape[0], tables.spins, part.matrix, part.right
     length, largest, rows = w[abi.LENGTH], 0.0, count + tables.spins.shape[0] // 2
-    geometry(t, y, p, w)
     fill_jacobian(layout, w, part.d)
     for i in range(rows * nq):
         matrix[i] = 0.0
@@ -88,9 +96,10 @@ def position_rows(
 
 
 @exact()
-def velocity_rows(model: PartitionModel, y: Array, w: Array, part: Partition, is_imposed: bool) -> None:
+def velocity_rows(
+    layout: Layout, tables: PartitionTables, y: Array, w: Array, part: Partition, is_imposed: bool
+) -> None:
     """Write rows of velocities, D v = nu, as rows of changes of v."""
-    layout, _, tables = model
     nq, nv, matrix, right, d, length = layout.nq, layout.nv, part.matrix, part.right, part.d, w[abi.LENGTH]
     for i in range(layout.m):
         right[i] = 0.0
@@ -259,7 +268,7 @@ def choose_states(model: PartitionModel, t: float, y: Array, p: Array, w: Array,
     part.best[0] = eliminate(part, rows, layout.nq, tables.rank_q, part.free_q, 0)
     if part.best[0] > 0.0:
         keep_others(part, layout.nq, tables.rank_q, part.free_q, part.left_q)
-    velocity_rows(model, y, w, part, False)
+    velocity_rows(layout, tables, y, w, part, False)
     part.best[1] = eliminate(part, layout.m, layout.nv, tables.rank_v, part.free_v, 0)
     if part.best[1] > 0.0:
         keep_others(part, layout.nv, tables.rank_v, part.free_v, part.left_v)
@@ -275,7 +284,7 @@ def choose_left(model: PartitionModel, t: float, y: Array, p: Array, w: Array, p
     switches = tables.of_positions, layout.switches
     position_rows(model, t, y, p, w, part, True)
     choose_within(part, rows, layout.nq, tables.rank_q, switches[0], part.free_q, free_q, part.left_q, 0)
-    velocity_rows(model, y, w, part, True)
+    velocity_rows(layout, tables, y, w, part, True)
     choose_within(part, layout.m, layout.nv, tables.rank_v, switches[1], part.free_v, free_v, part.left_v, 1)
     return 0
 
@@ -314,7 +323,7 @@ def complete_state(model: PartitionModel, t: float, y: Array, p: Array, w: Array
         for j in range(nq):
             y[j] += part.change[j] * (length if tables.metres[j] != 0 else 1.0)
     for _ in range(2 if layout.m > 0 else 0):
-        velocity_rows(model, y, w, part, True)
+        velocity_rows(layout, tables, y, w, part, True)
         if eliminate_velocities(model, part, part.left_v, part.held[1]) == 0.0:
             return False
         solve_dependent(part, nv, tables.rank_v + part.held[1])
@@ -326,10 +335,10 @@ def complete_state(model: PartitionModel, t: float, y: Array, p: Array, w: Array
 @exact(entry=True)
 def quality_of_choice(model: PartitionModel, t: float, y: Array, p: Array, w: Array, part: Partition) -> float:
     """Return the quality of a choice at a state over that where it was made; at 0 the others are undetermined."""
-    _, _, tables = model
+    layout, _, tables = model
     position_rows(model, t, y, p, w, part, False)
     q = eliminate_positions(model, part, part.free_q, 0) / part.best[0]
-    velocity_rows(model, y, w, part, False)
+    velocity_rows(layout, tables, y, w, part, False)
     v = eliminate_velocities(model, part, part.free_v, 0) / part.best[1]
     least = q if q < v else v
     if tables.moded != 0:
@@ -338,7 +347,7 @@ def quality_of_choice(model: PartitionModel, t: float, y: Array, p: Array, w: Ar
             position_rows(model, t, y, p, w, part, True)
             q = eliminate_positions(model, part, part.left_q, part.held[0])
             q /= part.best[0] if part.best[0] < part.best[2] else part.best[2]
-            velocity_rows(model, y, w, part, True)
+            velocity_rows(layout, tables, y, w, part, True)
             v = eliminate_velocities(model, part, part.left_v, part.held[1])
             v /= part.best[1] if part.best[1] < part.best[3] else part.best[3]
             within = q if q < v else v

@@ -234,7 +234,8 @@ def over_rows(
         model = types.RecordType((*args[:1], OBSERVERS, *further))
         signature = types.int64(model, *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
         meanings: dict[str, Any] = {**(EVENTS if events else {}), **(EFFECTS if effects else {})}
-        meanings |= MODES | turn.meanings_of_turn(effects, turning) if modes else {}
+        meanings |= MODES if modes else {}
+        meanings |= turn.meanings_of_turn(effects and modes, turning)
         meanings |= MODES_BETWEEN_SEAMS if modes and seams else {}
         meanings |= (SEAMED if seams else {}) | (_EXAMINED if examined else {})
         compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)

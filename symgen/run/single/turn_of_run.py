@@ -27,7 +27,7 @@ from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.loops.event_loop import EVENT_STATE, EventState
 from symgen.run.modes.bounded_rows import NOT_APPLIED, SIGN
-from symgen.run.modes.refusals import names_in, refusal
+from symgen.run.modes.refusals import HOLDING_SENTENCES, names_in, refusal, refusal_of_catch
 from symgen.run.modes.turn import (
     FURTHER,
     OfModes,
@@ -84,7 +84,7 @@ def serving_function(modes: bool, effects: bool, turning: tuple[str, ...]) -> tu
     name = "_".join(("serve_modes" if modes else "serve", *["and_resets"] * (modes and effects), *turning))
     signature = types.int64(types.float64, FURTHER["modes" if modes else "effects"], EVENT_STATE)
     if name not in _loops:
-        meanings = {**KEEPING, **(meanings_of_turn(effects, turning) if modes else {})}
+        meanings = {**KEEPING, **meanings_of_turn(effects and modes, turning)}
         source = serve_modes if modes else serve_resets
         name_of_loop = f"compiled_{name}"  # it is found by its name, as all loops are
         _loops[name] = globals()[name_of_loop] = compiled_loop(__name__, name_of_loop, source, signature, **meanings)
@@ -204,9 +204,17 @@ class TurnOfRun:
             self.sharing |= sharing_contacts(self.rows, modes)
         if self.rows is not None and self.memory.renewed[0]:  # the matrices of a scheme depend on the rows
             self.memory.renewed[0] = 0
-            simulation = self.simulation
-            simulation.scheme = simulation.integrator.setup(simulation.compiled, simulation.spec, state.w).scheme
+            self._renew_scheme()
+        elif self.watched.holding:
+            self._renew_scheme()
         return code
+
+    def _renew_scheme(self) -> None:
+        """Set up the scheme for the rows that are in force."""
+        simulation = self.simulation
+        simulation.scheme = simulation.integrator.setup(
+            simulation.compiled, simulation.spec, simulation.state.w
+        ).scheme
 
     def _refusal(self, code: int) -> InputError:
         """Return why the run cannot go on."""
@@ -215,6 +223,9 @@ class TurnOfRun:
         v = state.y[info.nq : info.work].copy()
         if code == e.IMPOSSIBLE:
             numbers = np.flatnonzero(resets.chosen).tolist()
+            if failure in HOLDING_SENTENCES:
+                event = self.watched.names[int(resets.ends[e.IMPOSSIBLE_EVENT])]
+                return refusal_of_catch(int(failure), event, first, self._now)
             if failure == NO_VALUES:
                 return self.effects.no_values(numbers, resets.chosen, resets.work, self._now)
             return self.effects.no_velocities(numbers, resets.work, v, self._now)
@@ -238,8 +249,8 @@ class TurnOfRun:
     def effects_in_order(self) -> list[tuple[tuple[int, ...], Array, Array, Any]]:
         """Effects of the latest turn in their order.
 
-        Numbers of events, state before, scratch after each, and of contacts which impulses held velocities, and the
-        signs of the multiples that others were; else None.
+        Numbers of events, state before, scratch after each, and of contacts which impulses held velocities, the signs
+        of the multiples that others were, and what velocities are parts of; else None.
         """
         resets = self._resets
         found: list[Any] = [(resets.kept, np.flatnonzero(resets.chosen), resets.kept.w, None)]
@@ -248,8 +259,10 @@ class TurnOfRun:
             active, ties = np.flatnonzero(strikes.active), strikes.ties
             w = strikes.rested.w.copy()  # the formulas of rows that come to rest read their signs
             w[choice.first + MODE_NUMBERS * active + SIGN] = 1.0
-            tied = (ties.kept.copy(), ties.kept_ways.copy()), (ties.held.copy(), ties.ways.copy())
-            both = tied if self.rows.contacts else (None, None)
+            none = np.full_like(ties.leads, -1), np.zeros_like(ties.parts)
+            struck = ties.kept.copy(), ties.kept_ways.copy(), *none
+            rested = ties.held.copy(), ties.ways.copy(), ties.leads.copy(), ties.parts.copy()
+            both = (struck, rested) if self.rows.contacts else (None, None)
             found += [(strikes.struck, strikes.events[active], strikes.struck.w, both[0])]
             found += [(strikes.rested, strikes.events[active], w, both[1])]
         happened = [x for x in found if not np.isnan(x[0].energy[0])]

@@ -67,12 +67,31 @@ def close_many_starts() -> Iterator[None]:
         _MANY.reset(before)
 
 
+#: Whether starts are closed by sparse algebra from fewer entries of D on.
+_DRAWN = ContextVar("drawn_starts", default=False)
+
+
+@contextmanager
+def close_for_drawing() -> Iterator[None]:
+    """Close starts by sparse algebra as soon as it is faster: what is drawn may differ from a run in its last bits."""
+    before = _DRAWN.set(True)
+    try:
+        yield
+    finally:
+        _DRAWN.reset(before)
+
+
+def _is_closed_sparsely(compiled: CompiledModel) -> bool:
+    entries = compiled.info.m * compiled.info.nv
+    return compiled.sparse and entries > (decisions.LARGEST_DRAWN if _DRAWN.get() else decisions.LARGEST_DENSE)
+
+
 def layout_of_starts(compiled: CompiledModel) -> Layout:
     """Return the layout of a model for starts at time 0 with nothing held and no branch set."""
     info, joints = compiled.info, {name: k for k, name in enumerate(joints_of_rows(compiled.info))}
     numbers = (
         *(0.0, info.nq, info.nv, info.ny, info.m, info.windings),
-        *(int(compiled.sparse and info.m * info.nv > decisions.LARGEST_DENSE), 0),
+        *(int(_is_closed_sparsely(compiled)), 0),
         *(info.sections[name][0] for name in Layout._fields[8:17]),
     )
     arrays = (

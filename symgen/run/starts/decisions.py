@@ -13,6 +13,8 @@ from symgen.compile.loopcode.exact import exact
 
 #: From this many entries of a dense D on, models with sparse algebra are closed by that algebra.
 LARGEST_DENSE = 250_000
+#: The same for starts that are only drawn, where dense algebra is slower: of some twenty bodies in the plane.
+LARGEST_DRAWN = 4_000
 #: Up to this many multiplications for a dense least-norm solution, a single start is interpreted: compiled code
 #: would save less time than loading it takes.
 LARGEST_INTERPRETED = 10_000

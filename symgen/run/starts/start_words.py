@@ -90,7 +90,9 @@ def notes_of(held: Held, summary: Array, changes: Sequence[StartChange], info: M
         follow = _list_changes([change for change in positions if change.name not in own])
         notes.append(f"the start holds {held.positions(info)}" + (f"; {follow}" if follow else ""))
     elif positions:
-        notes.append(f"initial positions were closed by the shortest changes: {_list_changes(positions)}")
+        notes.append(
+            f"described positions leave joints open, which the shortest changes close: {_list_changes(positions)}"
+        )
     if summary[e.START_VELOCITIES]:
         speeds = (change for change in changes if change.name not in names)
         largest = max(speeds, key=lambda change: abs(change.after - change.before), default=None)
@@ -122,6 +124,24 @@ def _from_to(change: StartChange) -> str:
     return f"{before} to {after} {change.unit}".removesuffix(" 1")  # Euler parameters are numbers
 
 
+class UndeterminedError(InputError):
+    """Nothing determines the acceleration of a massless body, which is the attribute `body`."""
+
+    body = ""
+
+    @classmethod
+    def of(cls, body: str, name: str) -> UndeterminedError:
+        """Return the error for a body that is free to move in a velocity."""
+        got = f"a massless body that is free to move in {name}: nothing determines its acceleration"
+        error = cls(f"body '{body}'", "a mass, or joints that hold it", got)
+        error.body = body
+        return error
+
+    def with_hint(self, hint: str) -> UndeterminedError:
+        """Return the error with a remedy."""
+        return type(self)(self.where, self.expected, self.got, hint)
+
+
 def start_refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> AssemblyError | InputError:
     """Return the error of a run without a start.
 
@@ -142,11 +162,7 @@ def start_refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> 
         return InputError(f"parameters: mass or inertia of {body}", "a value above 0", f"{size:g}")
     if code == e.UNDETERMINED:
         body, _, name = info.velocities[where].name.rpartition(".")
-        return InputError(
-            f"body '{body}'",
-            "a mass, or joints that hold it",
-            f"a massless body that is free to move in {name}: nothing determines its acceleration",
-        )
+        return UndeterminedError.of(body, name)
     if code == e.OPEN and size == 0.0 and held:
         return AssemblyError(
             f"{info.name}: closing does not reach {held.positions(info)}, which the start holds, though all joints are "

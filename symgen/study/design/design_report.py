@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from datetime import date
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -17,6 +16,7 @@ from symgen.result.plots import figure_over_column
 from symgen.study.design import tables
 from symgen.study.machine_class import machine_class, version_list
 from symgen.study.report.document import DocumentTable, Picture, ReportDocument, Section, TableCell
+from symgen.study.report.letterhead import origin_of_file
 from symgen.study.report.picture import MOST_BODIES, picture_of_figure
 from symgen.study.report.words import as_sentence, engineering_number
 
@@ -50,10 +50,7 @@ def design_report(found: Design, command: str = "") -> ReportDocument:
         ),
         _searches_section(found),
     ]
-    own = {"author": model.mechanism.author, "revision": model.mechanism.revision}
     facts = [
-        *((label, text) for label, text in own.items() if text),
-        ("date", date.today().isoformat()),
         ("aim", found.aim),
         ("until", f"{found.until:g} s"),
         ("versions", version_list()),
@@ -61,7 +58,10 @@ def design_report(found: Design, command: str = "") -> ReportDocument:
     ]
     title = f"{model.mechanism.title or model.name}: numbers by an aim"
     lead = f"{as_sentence(tables.sentence_of_aim(found))}"
-    return ReportDocument(title, (lead,), tuple(facts), command, tuple(sections), verdict=_verdict(found))
+    origin = origin_of_file(model.mechanism)
+    return ReportDocument(
+        title, (lead,), tuple(facts), command, tuple(sections), verdict=_verdict(found), origin=origin
+    )
 
 
 def _verdict(found: Design) -> TableCell:

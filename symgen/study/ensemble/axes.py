@@ -167,12 +167,20 @@ def check_axis(text: str, where: str) -> None:
         axis_values(text, where)
 
 
+def _meant_axis(text: str) -> str:
+    """Return the hint on numbers without a word before them, empty for other texts."""
+    parts = [part.strip() for part in re.split(r"[,:;]", text.strip("[]()"))]
+    if not all(re.fullmatch(r"[-+.\d][-+.\deE]*", part) for part in parts):
+        return ""
+    return f"did you mean values({', '.join(parts)})?"
+
+
 def _read_axis_text(text: str, where: str, units: tuple[str, str]) -> tuple[str, list[float]]:
     """Return the word of a text, and its numbers in SI units."""
     expected = "lin(a, b, n), log(a, b, n), values(a, b, ...) or uniform(a, b, n, seed)"
     match = _SHAPE.fullmatch(text) if len(text) <= 1_000_000 else None
     if match is None:
-        raise InputError(where, expected, quote(text.strip()))
+        raise InputError(where, expected, quote(text.strip()), _meant_axis(text.strip()))
     word = match[1]
     if word not in _WORDS:
         raise InputError(where, expected, quote(word), suggest(word, _WORDS))

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from symgen.base.vocabulary.expressions import readings_in
 from symgen.base.vocabulary.measures import GROUND, Integral
 from symgen.describe.facts.carriers import bodies_of_reactions, seats_on_carriers
-from symgen.describe.formulas.readings import TABLES
+from symgen.describe.formulas.reported_columns import TABLES
 from symgen.result.reactions import Acting, Seat
 from symgen.result.signals import Signal
 from symgen.run.compiling.side import compile_side

@@ -14,7 +14,7 @@ from symgen.result.result import FAILED, OK
 from symgen.run.effects.applying import NO_VALUES
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.modes.refusals import names_in, refusal
+from symgen.run.modes.refusals import HOLDING_SENTENCES, names_in, refusal, refusal_of_catch
 from symgen.run.single.events import accumulation_sentence, undefined_sentence
 from symgen.run.single.outcome import Ended, RankEvent
 from symgen.run.single.run import end_reason
@@ -146,6 +146,8 @@ def _reason_of_events(row: Array, looked: EventNames, info: ModelInfo) -> str | 
     if not len(further) or np.isnan(further[e.IMPOSSIBLE_EVENT]):
         return f"inputs: expected values for which every formula is finite, got others at t = {time:.6g} s"
     name = events[int(further[e.IMPOSSIBLE_EVENT])]
+    if (failure := float(further[e.FAILURE])) in HOLDING_SENTENCES:
+        return str(refusal_of_catch(int(failure), name, float(further[e.FIRST_NUMBER]), time))
     values = further[e.FAILURE] == NO_VALUES
     expected = "one finite value of each state" if values else "velocities that the joints and each other allow"
     return f"event '{name}': reset: expected {expected}, got others at t = {time:.6g} s"

@@ -83,7 +83,8 @@ class DocumentTable:
 class Section:
     """A part of a report, in this order: text, findings, tables, pictures, parts of its own.
 
-    Where `beside` is set, its pictures are left of its tables; with `pictures_first` they are above all else.
+    Where `beside` is set, its pictures are left of its tables; with `pictures_first` they are above all else; with
+    `sheet` it is a page of its own on paper, whose rows have room for a hand.
     """
 
     title: str
@@ -94,11 +95,34 @@ class Section:
     parts: tuple[Section, ...] = ()
     beside: bool = False
     pictures_first: bool = False
+    sheet: bool = False
 
     @property
     def anchor(self) -> str:
         """Target of links to the section."""
         return anchor_of_title(self.title)
+
+
+@dataclass(frozen=True)
+class Letterhead:
+    """What paper of a workshop has besides its content.
+
+    Attributes
+    ----------
+    number : str
+        Of the report.
+    logo : Picture, optional
+        A mark at the top right.
+    signatures : tuple of str
+        Who signs, each with a line for name, day and signature.
+    paper : str
+        ``a4`` or ``letter``.
+    """
+
+    number: str = ""
+    logo: Picture | None = None
+    signatures: tuple[str, ...] = ()
+    paper: str = "a4"
 
 
 @dataclass(frozen=True)
@@ -121,6 +145,10 @@ class ReportDocument:
         Address of a page that plays the motion, relative to the document; empty where there is none.
     verdict : TableCell, optional
         One sentence with its mood, before all else.
+    origin : tuple of (str, str)
+        Number, revision, author and day, by label, below the title.
+    letterhead : Letterhead
+        Mark and size of the paper.
     """
 
     title: str
@@ -130,6 +158,8 @@ class ReportDocument:
     sections: tuple[Section, ...] = field(default=())
     page: str = ""
     verdict: TableCell | None = None
+    origin: tuple[tuple[str, str], ...] = ()
+    letterhead: Letterhead = Letterhead()
 
     def pictures(self) -> list[Picture]:
         """Return all pictures in the order of the report."""

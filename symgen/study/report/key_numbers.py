@@ -16,15 +16,17 @@ from symgen.base.vocabulary.measures import GROUND
 from symgen.study.report.words import engineering_number
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Joint, Mechanism
+    from symgen.describe.mechanism import Mechanism
     from symgen.result.result import Result
 
 Array = NDArray[np.float64]
 
 #: Numbers on the first screen at most, and pins among them.
 MOST_NUMBERS, MOST_PINS = 7, 2
-#: Share of a range that is rounding at one of its ends.
-FINEST = 1e-6
+#: Share of a range that is rounding at one of its ends, and of work back and forth that its sum over outputs misses.
+FINEST, MISSED = 1e-6, 1e-4
+#: What the way to a dead centre is called.
+ROOM = "room to the dead centre"
 #: Last words of the columns of a drive or force element: what it exerts, and its power.
 _EFFORTS, _POWER = (".effort", ".force", ".torque", ".Fx", ".Fy", ".Fz"), ".power"
 
@@ -91,6 +93,8 @@ def _loads_of_drivers(mechanism: Mechanism, result: Result) -> Iterator[KeyNumbe
         told.add(owner)
         if power is not None and (k := _index_of_peak(power)) is not None:
             work = float(np.trapezoid(np.nan_to_num(power), result.t))
+            moved = float(np.trapezoid(np.abs(np.nan_to_num(power)), result.t))
+            work = work if abs(work) > MISSED * moved else 0.0
             where = f"{_time_in_words(result, k)}; work of the run {engineering_number(work, 'J')}"
             yield KeyNumber(f"{owner}, power", engineering_number(power[k], "W"), where)
 
@@ -134,11 +138,14 @@ def _range_of_output(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber
 
 
 def _least_transmission_angle(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
-    """Yield the least transmission angle of the pins that have one."""
-    if mechanism.space != "planar" or not any(joint.kind == "driver" for joint in mechanism.joints):
+    """Yield the least transmission angle of pins that have one; a link that a driver moves needs no transmission."""
+    driven = {name for joint in mechanism.joints if joint.kind == "driver" for name in joint.bodies}
+    if mechanism.space != "planar" or not driven:
         return
     found = list[tuple[float, int, str]]()
-    for pin in filter(_between_links, mechanism.joints):
+    for pin in mechanism.joints:
+        if pin.kind != PIN or GROUND in pin.bodies or not driven.isdisjoint(pin.bodies):
+            continue
         try:
             angle = transmission_angles(mechanism, result.q, result.parameters, (pin.name,)).values[:, 0]
         except InputError:  # its bodies have several further joints
@@ -158,8 +165,4 @@ def _room_to_dead_centre(mechanism: Mechanism, result: Result) -> Iterator[KeyNu
     rooms = [room for room in room_to_dead_centre(mechanism, result.t, result.parameters) if not math.isnan(room.way)]
     for room in sorted(rooms, key=lambda room: room.way)[:1]:
         where = f"{'below' if room.backward else 'above'} the travel of {room.driver}"
-        yield KeyNumber("room to the dead centre", engineering_number(room.way, room.unit), where)
-
-
-def _between_links(joint: Joint) -> bool:
-    return joint.kind == PIN and GROUND not in joint.bodies
+        yield KeyNumber(ROOM, engineering_number(room.way, room.unit), where)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from datetime import date
 from functools import partial
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
@@ -14,20 +13,23 @@ from symgen.analyses.kinds import AnalysisTable
 from symgen.analyses.kinds.modes import mode_lines as shown_modes
 from symgen.analyses.reached_limits import ReachedLimit, reached_limits
 from symgen.base.errors import SymgenError, fit_lines, plural
+from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.drawing.drawing import Drawing
 from symgen.result.extremes import without_doubles
 from symgen.result.labelled import Labelled, columns_at
-from symgen.result.plots import figure_over_column
+from symgen.result.plots import figure_over_column, panels_of_table
 from symgen.result.summary import summary_lines
 from symgen.study.machine_class import machine_class, version_list
-from symgen.study.report.document import DocumentTable, Picture, ReportDocument, Section, TableCell
-from symgen.study.report.key_numbers import key_numbers
+from symgen.study.report.document import DocumentTable, Letterhead, Picture, ReportDocument, Section, TableCell
+from symgen.study.report.key_numbers import MOST_NUMBERS, KeyNumber, key_numbers
+from symgen.study.report.letterhead import origin_of_file
 from symgen.study.report.picture import MOST_BODIES, picture_of_figure
 from symgen.study.report.verdict import verdict_on_run
-from symgen.study.report.words import engineering_number
+from symgen.study.report.words import engineering_number, enumeration
 
 if TYPE_CHECKING:
     from symgen.api import Model
+    from symgen.describe.mechanism import Mechanism
     from symgen.result.result import Result
 
 #: Positions of the motion that have pictures; six parts of a run of whole turns are not all alike.
@@ -36,11 +38,22 @@ POSITIONS = 7
 MOST_ROWS = 60
 #: Units of loads, in the order of the tables.
 LOADS = {"N m": "Torques and moments", "N": "Forces", "W": "Powers"}
+#: Panels of a picture at most: taller ones are small on paper.
+MOST_PANELS = 2
+#: The head of a report without one.
+PLAIN = Letterhead()
 #: What a rate of change of a joint is called by.
 _RATE = ".rate"
 
 
-def machine_report(model: Model, result: Result, command: str = "", over: str = "t", page: str = "") -> ReportDocument:
+def machine_report(
+    model: Model,
+    result: Result,
+    command: str = "",
+    over: str = "t",
+    page: str = "",
+    letterhead: Letterhead = PLAIN,
+) -> ReportDocument:
     """Return the report of a machine.
 
     Parameters
@@ -55,6 +68,8 @@ def machine_report(model: Model, result: Result, command: str = "", over: str = 
         Column along the horizontal axis of curves, such as ``crank.theta``.
     page : str, optional
         Name of the file beside the report that plays the motion.
+    letterhead : Letterhead, optional
+        Number and mark of the report, who signs it, and the size of its paper.
 
     Raises
     ------
@@ -63,32 +78,28 @@ def machine_report(model: Model, result: Result, command: str = "", over: str = 
     """
     along = result.along(over)
     facts = [
-        *_origin_of_file(model),
         *summary_lines(result),
         *((f"parameter {name}", _value_with_unit(model, name, value)) for name, value in result.parameters.items()),
         ("versions", version_list()),
         ("machine", machine_class()),
     ]
     limits = reached_limits(model.mechanism, result) if len(result.t) else ()
+    numbers = key_numbers(model.mechanism, result) if len(result.t) and result.status != "failed" else ()
     sections = [
-        *_first_section(model, result),
-        *_limits_section(limits),
+        *_first_section(model, result, numbers),
+        *_limits_section(limits, result.status == "failed"),
         *_motion_section(model, result),
         *_events_section(result),
         *_loads_section(result, along),
-        Section("Curves", pictures=(*_curve_pictures(result, along),)),
+        Section("Curves", _text_on_curves(result), pictures=(*_curve_pictures(result, along),)),
         *_frequencies_section(model, result),
     ]
     title = model.mechanism.title or model.name
-    lead, verdict = _lead_sentence(result), verdict_on_run(result, limits)
-    return ReportDocument(title, (lead,), tuple(facts), command, tuple(sections), quote(page), verdict)
-
-
-def _origin_of_file(model: Model) -> Iterator[tuple[str, str]]:
-    """Yield who answers for the file, its revision, and the day of the report."""
-    own = {"author": model.mechanism.author, "revision": model.mechanism.revision}
-    yield from ((label, text) for label, text in own.items() if text)
-    yield "date", date.today().isoformat()
+    lead, verdict = _lead_sentence(result), verdict_on_run(result, limits, numbers)
+    origin = origin_of_file(model.mechanism, letterhead.number)
+    return ReportDocument(
+        title, (lead,), tuple(facts), command, tuple(sections), quote(page), verdict, origin, letterhead
+    )
 
 
 def _value_with_unit(model: Model, name: str, value: float) -> str:
@@ -112,17 +123,34 @@ def _loads_section(result: Result, along: Labelled) -> Iterator[Section]:
     yield Section("Largest loads", (text,), tables=(*_load_tables(result, along),))
 
 
-def _first_section(model: Model, result: Result) -> Iterator[Section]:
-    """Yield the section with the picture of the motion beside the numbers that are asked for first."""
+def _first_section(model: Model, result: Result, numbers: Sequence[KeyNumber]) -> Iterator[Section]:
+    """Yield the section with the picture of the motion beside the numbers that are asked for first.
+
+    Of a failed run these are the position that it came to.
+    """
     if not len(result.t):
         return
-    numbers = () if result.status == "failed" else key_numbers(model.mechanism, result)
-    table = DocumentTable("", ("", "largest", "when and where"), tuple((n.what, n.value, n.where) for n in numbers))
+    rows = tuple((n.what, n.value, n.where) for n in numbers)
+    table = DocumentTable("", ("", "largest", "when and where"), rows)
+    if result.status == "failed":
+        table = _position_at_the_end(model.mechanism, result)
     pictures = []
     if len(model.mechanism.bodies) <= MOST_BODIES:
         moving = Drawing.of_motion(model.mechanism, result.q.values, dict(result.parameters))
         pictures.append(_sketch_picture("motion", "The start, later positions and paths", moving))
-    yield Section("At a glance", tables=(table,) if numbers else (), pictures=tuple(pictures), beside=True)
+    yield Section("At a glance", tables=(table,) if table.rows else (), pictures=tuple(pictures), beside=True)
+
+
+def _position_at_the_end(mechanism: Mechanism, result: Result) -> DocumentTable:
+    """Return how far a failed run came: time and coordinates of joints there and at the start, the ground's first."""
+    joints = result.whole(("joint_coordinates",))
+    grounded = {joint.name for joint in mechanism.joints if GROUND in joint.bodies}
+    chosen = [i for i, name in enumerate(joints.names) if not name.endswith(_RATE)]
+    chosen.sort(key=lambda i: joints.names[i].partition(".")[0] not in grounded)
+    first, last = ([engineering_number(float(joints.values[k, i]), joints.units[i]) for i in chosen] for k in (0, -1))
+    rows = [("time", f"{result.t[-1]:.4g} s", f"{result.t[0]:g} s, until {result.until:g} s")]
+    rows += [(joints.names[i], there, start) for i, there, start in zip(chosen, last, first, strict=True)]
+    return DocumentTable("", ("", "came to", "from"), tuple(rows[:MOST_NUMBERS]))
 
 
 def _motion_section(model: Model, result: Result) -> Iterator[Section]:
@@ -139,9 +167,13 @@ def _motion_section(model: Model, result: Result) -> Iterator[Section]:
     yield Section("Motion", pictures=tuple(pictures))
 
 
-def _limits_section(found: Sequence[ReachedLimit]) -> Iterator[Section]:
-    """Yield the section of the file's limits, if it has any."""
+def _limits_section(found: Sequence[ReachedLimit], failed: bool) -> Iterator[Section]:
+    """Yield the section of the file's limits, if it has any; a failed run keeps none and exceeds none."""
     if not found:
+        return
+    if failed:
+        names = enumeration([*dict.fromkeys(each.name for each in found)])
+        yield Section("Limits", (f"The limits of {names} are not judged, as the run failed.",))
         return
     headings = ("quantity", "limit", "reached", "at t [s]", "")
     rows = tuple(
@@ -207,15 +239,33 @@ def _curve_pictures(result: Result, along: Labelled) -> Iterator[Picture]:
     joints = columns_at(joints, [i for i, name in enumerate(joints.names) if not name.endswith(_RATE)])
     errors = result.overview()
     errors = columns_at(errors, [i for i, name in enumerate(errors.names) if name not in result.q.names])
+    if result.status == "failed":
+        joints = columns_at(joints, [i for i, unit in enumerate(joints.units) if unit not in (*LOADS, "J")])
     parts = [
-        ("loads", "Efforts, forces and powers", loads),
+        *([] if result.status == "failed" else [("loads", "Efforts, forces and powers", loads)]),
         ("joints", "Coordinates of joints, and outputs", joints),
         ("energy", "Energies, and errors beyond rounding", errors),
     ]
-    for name, caption, table in parts:
-        if table.names and len(result.t) > 1:
-            title = f"{caption} over {along.names[0]}"
-            yield picture_of_figure(name, caption, title, partial(figure_over_column, along, table, title))
+    for name, caption, whole in parts:
+        tables = [*_parts_of_panels(whole)] if len(result.t) > 1 else []
+        for k, table in enumerate(tables):
+            number = f" ({k + 1} of {len(tables)})" if len(tables) > 1 else ""
+            title = f"{caption} over {along.names[0]}{number}"
+            file = name if k == 0 else f"{name}-{k + 1}"
+            yield picture_of_figure(file, f"{caption}{number}", title, partial(figure_over_column, along, table, title))
+
+
+def _parts_of_panels(table: Labelled) -> Iterator[Labelled]:
+    """Yield the columns of a table, as many as fit into the panels of a picture."""
+    panels = [[*columns.names] for *_, columns in panels_of_table(table)]
+    for k in range(0, len(panels), MOST_PANELS):
+        names = {name for panel in panels[k : k + MOST_PANELS] for name in panel}
+        yield columns_at(table, [i for i, name in enumerate(table.names) if name in names])
+
+
+def _text_on_curves(result: Result) -> tuple[str, ...]:
+    """Return why a failed run has no curves of loads."""
+    return ("Loads are not shown, as they tell of the failure alone.",) if result.status == "failed" else ()
 
 
 def _frequencies_section(model: Model, result: Result) -> Iterator[Section]:

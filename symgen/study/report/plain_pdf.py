@@ -5,17 +5,18 @@ from __future__ import annotations
 import io
 import textwrap
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from symgen.base.files import need_library
 from symgen.study.report.document import DocumentTable, Picture, ReportDocument, Section, TableCell
+from symgen.study.report.letterhead import PAPERS, signing_section
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: An A4 page, its margins and the width between them [inch].
-PAGE, MARGIN = (8.27, 11.69), 0.75
-WIDTH, HEIGHT = PAGE[0] - 2 * MARGIN, PAGE[1] - 2 * MARGIN
+#: Margins of a page, and the height of a mark [inch].
+MARGIN, MARK = 0.75, 0.6
 #: Points of an inch, and widths of letters over their size: of text on average, of a typewriter's all alike.
 _POINTS, _LETTER, _TYPED = 72.0, 0.53, 0.603
 #: Type of headings by level, of text, and the largest and the smallest type of tables [points].
@@ -27,8 +28,11 @@ _LINE, _GAP = 1.35, 0.2
 def plain_pdf(document: ReportDocument) -> bytes:
     """Return a document as a PDF file."""
     need_library("report", "matplotlib", extra="plot")
-    paper = _Paper()
+    paper = _Paper(PAPERS[document.letterhead.paper])
     paper.write_paragraph(document.title, _HEADINGS[0], bold=True)
+    paper.draw_mark(document.letterhead.logo)
+    if document.origin:
+        paper.write_paragraph(" · ".join(f"{label} {text}" for label, text in document.origin))
     if document.verdict is not None:
         paper.write_paragraph(document.verdict.text, bold=True)
     for text in document.lead:
@@ -42,10 +46,14 @@ def plain_pdf(document: ReportDocument) -> bytes:
         paper.write_paragraph("Reproduce with")
         paper.write_typed_lines([document.command])
     paper.write_paragraph("Drawn by matplotlib, as there was no browser that prints.")
+    for section in signing_section(document):
+        _write_section(paper, section, 1)
     return paper.pdf()
 
 
 def _write_section(paper: _Paper, section: Section, level: int) -> None:
+    if section.sheet:
+        paper.begin_page()
     paper.leave_space(0.15)
     paper.write_paragraph(section.title, _HEADINGS[min(level, len(_HEADINGS) - 1)], bold=True, together=1.0)
     if section.pictures_first:
@@ -55,19 +63,26 @@ def _write_section(paper: _Paper, section: Section, level: int) -> None:
     for text in section.findings:
         paper.write_paragraph(f"\N{EN DASH} {text}")
     for table in section.tables:
-        paper.write_table(table)
+        paper.write_table(_with_room(table) if section.sheet else table)
     if not section.pictures_first:
         paper.draw_pictures(section.pictures)
     for part in section.parts:
         _write_section(paper, part, level + 1)
 
 
+def _with_room(table: DocumentTable) -> DocumentTable:
+    """Return a table with room for a hand: two empty rows and a line after each row."""
+    line = tuple("_" * 24 if i else "" for i in range(len(table.headings)))
+    return replace(table, rows=tuple(x for row in table.rows for x in (("",) * len(row), row, line)))
+
+
 class _Paper:
     """Pages that are filled from the top; places are inches below it."""
 
-    def __init__(self) -> None:
+    def __init__(self, size: tuple[float, float]) -> None:
+        self._size, self._width, self._height = size, size[0] - 2 * MARGIN, size[1] - 2 * MARGIN
         self._pages: list[Figure] = []
-        self._below = HEIGHT  # the first line begins a page
+        self._below = self._height  # the first line begins a page
 
     def pdf(self) -> bytes:
         """Return the file."""
@@ -81,21 +96,42 @@ class _Paper:
 
     def leave_space(self, height: float) -> None:
         """Leave room, but not at the head of a page."""
-        self._below = min(HEIGHT, self._below + height)
+        self._below = min(self._height, self._below + height)
+
+    def draw_mark(self, mark: Picture | None) -> None:
+        """Draw a mark at the top right of the page that is written; one that is SVG is left out."""
+        from matplotlib.image import imread
+
+        data = None if mark is None else _png_of_picture(mark)
+        if data is None:
+            return
+        array = imread(io.BytesIO(data), format="png")
+        wide = min(MARK * array.shape[1] / array.shape[0], 0.3 * self._width)
+        left, bottom = self._size[0] - MARGIN - wide, self._size[1] - MARGIN - MARK
+        place = (left / self._size[0], bottom / self._size[1], wide / self._size[0], MARK / self._size[1])
+        ax = self._pages[-1].add_axes(place)
+        ax.imshow(array, interpolation="none")
+        ax.set_axis_off()
+
+    def begin_page(self) -> None:
+        """Leave the rest of a page empty."""
+        self._below = self._height
 
     def write_paragraph(self, text: str, size: float = _TEXT, bold: bool = False, together: float = 0.0) -> None:
         """Write a paragraph; `together`: what has to follow it on its page [inch]."""
-        lines = textwrap.wrap(text, int(WIDTH * _POINTS / (_LETTER * size))) or [""]
+        lines = textwrap.wrap(text, int(self._width * _POINTS / (_LETTER * size))) or [""]
         self._write_lines(lines, size, {"fontweight": "bold" if bold else "normal"}, together)
         self.leave_space(0.06)
 
     def write_typed_lines(self, lines: Sequence[str]) -> None:
         """Write lines in letters of one width, as large as they fit."""
         longest = max(map(len, lines), default=1)
-        size = min(_LARGE, WIDTH * _POINTS / (_TYPED * max(1, longest)))
+        size = min(_LARGE, self._width * _POINTS / (_TYPED * max(1, longest)))
         if size < _TINY:
             size = _TINY
-            lines = [part for line in lines for part in textwrap.wrap(line, int(WIDTH * _POINTS / (_TYPED * size)))]
+            lines = [
+                part for line in lines for part in textwrap.wrap(line, int(self._width * _POINTS / (_TYPED * size)))
+            ]
         self._write_lines(lines, size, {"family": "DejaVu Sans Mono"})
         self.leave_space(0.1)
 
@@ -136,10 +172,10 @@ class _Paper:
 
         if not pictures:
             return
-        width = WIDTH if pictures[0].wide else (WIDTH - _GAP) / 2
+        width = self._width if pictures[0].wide else (self._width - _GAP) / 2
         caption, images = _LARGE * _LINE / _POINTS, [_png_of_picture(picture) for picture in pictures]
         arrays: list[Any] = [None if data is None else imread(io.BytesIO(data), format="png") for data in images]
-        tallest = HEIGHT - 3 * caption
+        tallest = self._height - 3 * caption
         sizes = []
         for array in arrays:
             height = 0.0 if array is None else width * array.shape[0] / array.shape[1]
@@ -150,8 +186,10 @@ class _Paper:
         for i, (picture, array, (wide, high)) in enumerate(zip(pictures, arrays, sizes, strict=True)):
             left = MARGIN + i * (width + _GAP)
             if array is not None:
-                bottom = PAGE[1] - MARGIN - self._below - high
-                ax = page.add_axes((left / PAGE[0], bottom / PAGE[1], wide / PAGE[0], high / PAGE[1]))
+                bottom = self._size[1] - MARGIN - self._below - high
+                ax = page.add_axes(
+                    (left / self._size[0], bottom / self._size[1], wide / self._size[0], high / self._size[1])
+                )
                 ax.imshow(array, aspect="auto", interpolation="none")
                 ax.set_axis_off()
             words = picture.caption if array is not None else f"{picture.caption}: as a picture in .html"
@@ -162,7 +200,7 @@ class _Paper:
 
     def _write_lines(self, lines: Sequence[str], size: float, look: dict[str, Any], together: float = 0.0) -> None:
         high = size * _LINE / _POINTS
-        self._begin_page_unless_room(min(HEIGHT, high * len(lines) + together) if together else high)
+        self._begin_page_unless_room(min(self._height, high * len(lines) + together) if together else high)
         for line in lines:
             self._begin_page_unless_room(high)
             self._below += high
@@ -172,12 +210,12 @@ class _Paper:
         """Begin a page unless this one has so much room."""
         from matplotlib.figure import Figure
 
-        if not self._pages or self._below + height > HEIGHT:
-            self._pages.append(Figure(figsize=PAGE))
+        if not self._pages or self._below + height > self._height:
+            self._pages.append(Figure(figsize=self._size))
             self._below = 0.0
 
     def _write_line(self, line: str, left: float, below: float, size: float, look: dict[str, Any]) -> None:
-        place = left / PAGE[0], 1.0 - (MARGIN + below) / PAGE[1]
+        place = left / self._size[0], 1.0 - (MARGIN + below) / self._size[1]
         self._pages[-1].text(*place, line, fontsize=size, parse_math=False, **look)
 
 

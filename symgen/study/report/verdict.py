@@ -10,6 +10,7 @@ import numpy as np
 from symgen.analyses.reached_limits import ReachedLimit
 from symgen.base.errors import fit_lines, plural
 from symgen.study.report.document import TableCell
+from symgen.study.report.key_numbers import ROOM, KeyNumber
 from symgen.study.report.words import engineering_number, enumeration, rounded_number
 
 if TYPE_CHECKING:
@@ -19,18 +20,30 @@ if TYPE_CHECKING:
 MOST_NAMED = 4
 
 
-def verdict_on_run(result: Result, limits: Sequence[ReachedLimit]) -> TableCell:
-    """Return one sentence, good or bad: a failure before limits that are exceeded, these before doubts."""
+def verdict_on_run(result: Result, limits: Sequence[ReachedLimit], numbers: Sequence[KeyNumber] = ()) -> TableCell:
+    """Return one sentence, good or bad: a failure before limits that are exceeded, these before doubts.
+
+    Parameters
+    ----------
+    result : Result
+        The run.
+    limits : sequence of ReachedLimit
+        Of the file.
+    numbers : sequence of KeyNumber, optional
+        Of the first screen: the way to a dead centre is said as well.
+    """
     if result.status == "failed":
         return TableCell(f"Failed{_end_of_run(result)}: {result.reason}.", "bad")
     broken = [each for each in limits if not each.is_met]
     if broken:
-        return TableCell(_sentence_on_broken_limits(broken, len(limits)), "bad")
+        doubts = "" if result.status == "ok" else f" The run is not verified: {result.reason}."
+        return TableCell(f"{_sentence_on_broken_limits(broken, len(limits))}{doubts}", "bad")
     if result.status != "ok":
         return TableCell(f"Not verified: {result.reason}.", "bad")
     kept = f" and keeps {plural(len(limits), 'limit')} of the file" if limits else ""
     reached = f" reaches {result.t[-1]:g} s" if len(result.t) else " ends"
-    return TableCell(f"The run{reached}{kept}{_trust_in_run(result)}.", "good")
+    room = "".join(f", {each.value} from a dead centre" for each in numbers if each.what == ROOM)
+    return TableCell(f"The run{reached}{kept}{room}{_trust_in_run(result)}.", "good")
 
 
 def _end_of_run(result: Result) -> str:

@@ -20,11 +20,13 @@ from symgen.study.comparison.comparison_study import Study
 from symgen.study.report.browser_pdf import find_browser, print_pdf
 from symgen.study.report.document import DocumentTable, Picture, ReportDocument, Section, TableCell
 from symgen.study.report.latex import latex_tables
+from symgen.study.report.letterhead import signing_section
 from symgen.study.report.plain_pdf import plain_pdf
 from symgen.study.saving import REPORTS
 
 if TYPE_CHECKING:
     import jinja2
+    import markupsafe
 
     from symgen.study.stress.stress_rows import Stress
 
@@ -70,7 +72,10 @@ def write(document: ReportDocument, path: Path) -> Path:
             else print_pdf(program, html_report(document), path)
         )
     folder, is_new = _report_folder(path), False
-    files: dict[Path, Content] = {folder / f"{p.name}.{p.kind}": p.data for p in document.pictures()}
+    files: dict[Path, Content] = {
+        folder / f"{p.name}.{p.kind}": p.data
+        for p in (*document.pictures(), *filter(None, (document.letterhead.logo,)))
+    }
     try:
         if files and not folder.exists():
             folder.mkdir()
@@ -133,6 +138,7 @@ def _report_templates() -> jinja2.Environment:
         autoescape=True,
     )
     environment.filters["embedded"] = _embed_picture
+    environment.filters["css_text"] = _css_text
     environment.tests["cell"] = lambda value: isinstance(value, TableCell)
     return environment
 
@@ -142,9 +148,18 @@ def _embed_picture(picture: Picture) -> str:
     return f"data:{kind};base64,{base64.b64encode(picture.data).decode()}"
 
 
+def _css_text(text: str) -> markupsafe.Markup:
+    """Return a text for a style sheet, in which nothing but letters, digits and blanks stands for itself."""
+    import markupsafe
+
+    return markupsafe.Markup("".join(c if c.isalnum() or c == " " else f"\\{ord(c):06x}" for c in text))
+
+
 def html_report(document: ReportDocument) -> str:
     """Return a document as one HTML page: style and pictures inside, no scripts, no other files."""
-    return _report_templates().get_template("page.html.j2").render(document=document)
+    names = " · ".join((document.title, *(f"{label} {text}" for label, text in document.origin)))
+    template = _report_templates().get_template("page.html.j2")
+    return template.render(document=document, signing=[*signing_section(document)], names=names)
 
 
 # -- Markdown ----------------------------------------------------------------------------------------------------------
@@ -152,8 +167,12 @@ def html_report(document: ReportDocument) -> str:
 
 def markdown_report(document: ReportDocument, folder: str) -> str:
     """Return a document as Markdown with tables, pictures being files in `folder`."""
-    lines = [f"# {markdown_text(document.title)}", ""]
+    logo = document.letterhead.logo
+    lines = [f"![logo]({quote(f'{folder}/{logo.name}.{logo.kind}')})", ""] if logo else []
+    lines += [f"# {markdown_text(document.title)}", ""]
     lines += [f"**{markdown_text(document.verdict.text)}**", ""] if document.verdict else []
+    origin = ", ".join(f"{label} {text}" for label, text in document.origin)
+    lines += [markdown_text(origin), ""] if origin else []
     lines += [x for text in document.lead for x in (markdown_text(text), "")]
     lines += [f"[Play the motion]({document.page})", ""] if document.page else []
     for section in document.sections:
@@ -163,6 +182,8 @@ def markdown_report(document: ReportDocument, folder: str) -> str:
     if document.command:
         fence = "`" * max(3, 1 + max(map(len, re.findall("`+", document.command)), default=0))
         lines += ["Reproduce with", "", f"{fence}sh", document.command, fence, ""]
+    for section in signing_section(document):
+        lines += _markdown_section(section, 2, folder)
     return "\n".join(lines).rstrip() + "\n"
 
 

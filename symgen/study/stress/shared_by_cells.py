@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from symgen.base.latest import get_or_make
 from symgen.describe.facts.digest import digest, mechanism_digest
-from symgen.describe.formulas.readings import integrals_of_outputs
+from symgen.describe.formulas.results_read import integrals_of_outputs
 from symgen.describe.remembered import compute_once
 from symgen.run.planning.starts import compiled_for
 

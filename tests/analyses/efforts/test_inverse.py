@@ -255,7 +255,7 @@ def test_a_motion_of_some_drivers_is_taken_from_a_run(linkage):
     raw = four_bar((4.0, 1.0, 3.0, 3.0), math.pi / 3.0, CRANK, (1.0, 3.0, 3.0))
     raw["joints"].pop("D")
     open_chain = model(raw)
-    with pytest.raises(InputError, match="2 degrees of freedom that are not driven"):
+    with pytest.raises(InputError, match=r"a driver for every freedom, got none for .*, "):
         open_chain.inverse(times=[0.0])
     run = open_chain.simulate(until=0.2, step=1e-4, output_step=0.02)
     found = open_chain.inverse(run)

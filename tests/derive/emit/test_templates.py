@@ -12,6 +12,7 @@ from symgen.derive.emit.lane_modules import Inlined
 from symgen.derive.emit.law_parts import Parts
 from symgen.derive.emit.looped_modules import emit_machine, emit_rotors, emit_shared_model, rates_with_reactions
 from symgen.derive.emit.module import module_source
+from symgen.derive.lower.looped.layout import PRESSED, TOUCHED
 
 #: Those that are rendered by themselves; what else stands beside them are functions with loops, printed by `Parts`.
 ALONE = {"parts/module.j2", "parts/table.j2", "curves/pieces.j2"}
@@ -37,7 +38,8 @@ def test_templates_that_are_rendered_alone(monkeypatch):
     emit_machine("generator")
     emit_shared_model("generator")
     emit_rotors("generator")
-    rates_with_reactions()
+    for drags in (PRESSED, TOUCHED):
+        rates_with_reactions(drags)
     module_source("title", [], [], {}, {})
     x, y = (0.0, 1.0, 2.0), (1.0, 2.0, 4.0)
     table_codes([Interpolation("line", x, y), Interpolation("curve", x, y, ((1.0, 0.0, 0.0, 0.0),) * 2)])

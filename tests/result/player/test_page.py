@@ -334,7 +334,7 @@ def test_sixteen_bits_show_0_where_it_is_0() -> None:
 
 
 def test_frames_of_a_page_are_ends_of_steps() -> None:
-    script = (Path(live.__file__).parent / "web" / "player.js").read_text(encoding="utf-8")
+    script = (Path(live.__file__).parent / "web" / "live_motion.js").read_text(encoding="utf-8")
     function = script[script.index("function frameSpacing") : script.index("// Begin again with the sliders")]
     assert "spacing = frameSpacing(end, data.live.step)" in script
     motions = [(1.0, 1e-3), (0.5, 0.01), (10.0, 2e-3), (2000.0, 0.05), (0.01, 0.1), (3.0, 1.0 / 60.0)]

@@ -331,7 +331,7 @@ def test_times_of_jumps(model, formula, expected):
             {"push": {"t": [0, 0.1, 0.2, 0.5], "u": [0, 1, 0, 1], "interpolation": "cubic"}},
             "expected data from 0 to 1 s",
         ),
-        ({"push": "no.csv:force"}, "input 'push': no.csv: expected a file that can be read, got No such file"),
+        ({"push": "no.csv:force"}, "input 'push': no.csv: expected a file that can be read, got no such file"),
     ],
 )
 def test_bad_inputs_are_told_in_a_sentence(model, inputs, message):

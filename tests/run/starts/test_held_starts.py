@@ -73,7 +73,8 @@ def test_a_small_move_is_told_with_the_digits_that_show_it():
         "joints": {"pin": {"type": "revolute", "between": ["ground", "rod"], "at": [[0.0, 0.0], "top"]}},
     }
     _, start = started(tables)
-    assert start.notes == ("initial positions were closed by the shortest changes: rod.x from 0.500000002 to 0.5 m",)
+    words = "described positions leave joints open, which the shortest changes close"
+    assert start.notes == (f"{words}: rod.x from 0.500000002 to 0.5 m",)
 
 
 def test_what_is_held_is_the_first_output_to_the_last_bit():

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import tomllib
 
 import numpy as np
 import pytest
@@ -226,3 +227,45 @@ def test_nothing_is_read_that_was_not_evaluated_before(monkeypatch, shape):
         np.testing.assert_array_equal(found.y, expected.y)
         for section in ("mask", "nu", "jacobian", *(["winding"] if compiled.info.windings else [])):
             np.testing.assert_array_equal(compiled.section(found.w, section), compiled.section(expected.w, section))
+
+
+@pytest.mark.slow_cases("2-joint", "3-absolute", "3-joint")
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_the_sentence_on_a_massless_node_between_springs_has_the_rows_that_hold_it(dimension, coordinates):
+    """Two springs in series carry a load as one of the stiffness 1/(1/k + 1/c) does."""
+    k, c, free, down = 400.0, 1000.0, 0.4, [0.0, -9.81, 0.0][:dimension]
+    place = np.array([0.6, -0.8, 0.0][:dimension])
+    springs = {
+        "upper": {
+            "between": ["ground", "node"],
+            "at": [[0.0] * dimension, "centre"],
+            "stiffness": "k",
+            "free_length": free,
+        },
+        "lower": {"between": ["node", "load"], "at": ["centre", "centre"], "stiffness": c, "free_length": "free"},
+    }
+    description = {
+        "mechanism": {"name": "node", "gravity": down} | ({"space": "spatial"} if dimension == 3 else {}),
+        "parameters": {"k": k, "free": free},
+        "bodies": {
+            "load": {"type": "point", "mass": 5.0, "position": place.tolist()},
+            "node": {"type": "point", "mass": 0, "position": ((free + 0.2 * c / (k + c)) * place).tolist()},
+        },
+        "forces": {name: {"type": "spring-damper", **spring} for name, spring in springs.items()},
+        "run": {"until": 1.0},
+    }
+    with pytest.raises(InputError) as refused:
+        load(mechanism_of(description)).simulate(coordinates=coordinates)
+    rows = str(refused.value).partition('by a joint of type = "rows" with ')[2]
+    assert rows.count("position") == dimension
+    joint = {"type": "rows", **tomllib.loads(rows)}
+    result = load(mechanism_of(description | {"joints": {"balance": joint}})).simulate(
+        coordinates=coordinates, rtol=1e-10
+    )
+    both = {"type": "spring-damper", "between": ["ground", "load"], "at": [[0.0] * dimension, "centre"]}
+    bodies = {"load": description["bodies"]["load"]}
+    forces = {"both": {**both, "stiffness": 1 / (1 / k + 1 / c), "free_length": 2 * free}}
+    alone = load(mechanism_of(description | {"bodies": bodies, "forces": forces})).simulate(rtol=1e-10)
+    for name in ("load.x", "load.y"):
+        assert result.ok and result[name][-1] == pytest.approx(alone[name][-1], abs=1e-7)

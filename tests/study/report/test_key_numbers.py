@@ -47,15 +47,16 @@ def test_numbers_of_a_driven_linkage_are_those_of_its_run(driven: tuple[symgen.M
     assert numbers["motor, torque"].where == f"at {result.t[k]:.3g} s"
     power = result["motor.power"]
     work = float(np.sum(0.5 * (power[1:] + power[:-1]) * np.diff(result.t)))
-    assert numbers["motor, power"].where.endswith(f"work of the run {engineering_number(work, 'J')}")
+    assert abs(work) < 1e-12  # over a whole turn: rounding, which is shown as zero
+    assert numbers["motor, power"].where.endswith("work of the run 0 J")
     pins = sorted("ABCD", key=lambda pin: -np.max(result[f"{pin}.F"]))
     assert next(what for what in numbers if what.endswith(", force")) == f"{pins[0]}, force"
     swing = result["D.angle"]
     assert numbers["travel of D.angle"].value == engineering_number(np.ptp(swing), "rad")
-    angles = model.kinematics(times=result.t, transmission=("B", "C")).transmission.values
+    angles = model.kinematics(times=result.t, transmission=("C",)).transmission.values
     least = np.minimum(angles, np.pi - angles)
     assert numbers["transmission angle"].value == engineering_number(float(least.min()), "rad")
-    assert numbers["transmission angle"].where.startswith(f"least, at {'BC'[int(np.argmin(least.min(axis=0)))]}, ")
+    assert numbers["transmission angle"].where.startswith("least, at C, ")  # at B the motor's own crank is at a pin
 
 
 @pytest.mark.slow

@@ -10,7 +10,7 @@ from analyses.rods import of_raw
 import symgen
 from symgen.base.errors import InputError
 from symgen.study.report import browser_pdf as paper
-from symgen.study.report.document import DocumentTable, ReportDocument, Section
+from symgen.study.report.document import DocumentTable, Letterhead, ReportDocument, Section
 from symgen.study.report.machine_report import machine_report
 from symgen.study.report.plain_pdf import plain_pdf
 from symgen.study.report.write import html_report, markdown_report, write
@@ -73,7 +73,7 @@ def test_the_report_has_pictures_and_what_repeats_it(driven):
     document = machine_report(model, result, "symgen report driven-four-bar")
     titles = ["At a glance", "Motion", "Largest loads", "Curves"]  # and no frequencies, as no freedom is left
     assert [s.title for s in document.sections] == titles
-    assert len([*document.pictures()]) == 2 + 6 + 3
+    assert len([*document.pictures()]) == 2 + 6 + 4  # three units of loads do not fit into one picture
     page = html_report(document)
     assert "symgen report driven-four-bar" in page and "prefers-color-scheme: dark" in page
     assert "# Planar four-bar" in markdown_report(document, "files")
@@ -156,10 +156,13 @@ def test_a_report_links_to_the_page_beside_it(cli, tmp_path, monkeypatch):
         assert code == 2 and out == "" and err.startswith("symgen: --page: expected ") and page in err
 
 
-def test_author_revision_and_day_are_in_the_appendix(driven):
+def test_number_author_revision_and_day_are_below_the_title(driven):
     model, result = driven
     mechanism = msgspec.structs.replace(model.mechanism, author="A. Builder", revision="C")
-    facts = dict(machine_report(symgen.Model(mechanism), result).facts)
-    assert (facts["author"], facts["revision"]) == ("A. Builder", "C")
-    assert re.fullmatch(r"\d{4}-\d\d-\d\d", facts["date"])
-    assert {"author", "revision"}.isdisjoint(dict(machine_report(model, result).facts))
+    document = machine_report(symgen.Model(mechanism), result, letterhead=Letterhead("R-104"))
+    origin = dict(document.origin)
+    assert (origin["report"], origin["author"], origin["revision"]) == ("R-104", "A. Builder", "C")
+    assert re.fullmatch(r"\d{4}-\d\d-\d\d", origin["date"])
+    assert {*dict(machine_report(model, result).origin)} == {"date"}
+    for text in (html_report(document), markdown_report(document, "files")):
+        assert re.search(r"report R-104.*revision C.*author A\. Builder.*date \d{4}", text)

@@ -81,7 +81,20 @@ def test_a_machine_that_locks_says_so_first_and_has_no_loads(name):
     assert all(name in document.verdict.text for name in moved)
     assert "Largest loads" not in {section.title for section in document.sections}
     glance = next(section for section in document.sections if section.title == "At a glance")
-    assert glance.tables == ()
+    (came_to,) = glance.tables
+    assert came_to.rows[0] == ("time", f"{result.t[-1]:.4g} s", f"0 s, until {2.0 * expected:g} s")
+    assert not any(cell.endswith((" N", " N m", " W")) for row in came_to.rows for cell in row)
+    assert "loads" not in {picture.name for picture in document.pictures()}
+
+
+def test_limits_of_a_failed_run_are_not_judged():
+    """Its last loads are as large as one likes; the limits that they pass say nothing of the machine."""
+    described, expected, _ = LOCKED["slider-lock"]
+    raw = {**described, "outputs": {"power": {"value": "motor.power", "unit": "W", "largest": 1e-6}}}
+    model = load(mechanism_of(raw))
+    document = machine_report(model, model.simulate(until=2.0 * expected, step=1e-3, integrator="rk4"))
+    (limits,) = (section for section in document.sections if section.title == "Limits")
+    assert limits.tables == () and limits.text == ("The limits of power are not judged, as the run failed.",)
 
 
 def test_the_command_writes_the_verdict_above_all(tmp_path):

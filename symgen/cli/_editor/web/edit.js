@@ -36,6 +36,7 @@ function display(next, kind, code = NOTHING) {
   underlay();
   motions = data.motions.map(recorded);
   motion = motions[0];
+  dropHand();
   follow = null;
   rows = [];
   ranges = null;

@@ -39,7 +39,6 @@ const ICONS = {
   motor: "M19 12a7 7 0 1 1-3-5.7M16 2v5h-5M12 12h.01",
   load: "M12 3v16M12 19l-4-5M12 19l4-5",
 };
-const NEAR = 14; // pixels
 let movable = [], held = null, tool = "move", spots = [], pressed = null, numbers = {}, numberUnits = {};
 let checkedText = null; // the text that `movable` belongs to
 
@@ -250,6 +249,7 @@ async function takePoints(...taken) {
   setText(answer.text);
   const at = answer.text.indexOf(`[${answer.path.split(".").slice(0, 2).join(".")}]`);
   if (at >= 0) select(at + 1, answer.text.indexOf("]", at), false);
+  if (answer.path.startsWith("bodies.")) selected = answer.path.split(".").slice(0, 2).join("."); // its dimensions are shown
   say(`added ${answer.path}`);
 }
 

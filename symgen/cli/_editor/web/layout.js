@@ -18,7 +18,7 @@ function menu(id, word, ...parts) {
 
 {
   const [first, second] = document.querySelectorAll("#controls > .row"), shown = ["loop", "labels", "forces", "gaps"].map((id) => $(id).closest("label"));
-  second.prepend(menu("seen", "View", $("trace").closest("label"), rateBox, longest, ...shown, second.querySelector(".end")));
+  second.prepend(menu("seen", "View", $("trace").closest("label"), rateBox, longest, ...shown.slice(0, 2), sizesBox, ...shown.slice(2), second.querySelector(".end")));
   first.after(second);
   const head = document.querySelector("body > header"), title = element("div", "", "title"), placed = element("div", "", "placed");
   title.append(...head.children, freedomLine, modeLine);
@@ -46,40 +46,12 @@ function selectPart(path) {
   wanted = true;
 }
 
-// The body or joint whose marks lie nearest to a place of the picture, within some pixels.
+// The body, joint or force that is nearest to a place of the picture.
+const SECTIONS = { body: "bodies", joint: "joints", force: "forces" };
+const pathOf = (item) => `${SECTIONS[item.role]}.${item.name}`;
 function partAt(px, py) {
-  const q = between(motion, time);
-  if (!q || view.spatial) return "";
-  let best = [NEAR * NEAR, ""];
-  view.place(q);
-  for (const item of data.scene.items) {
-    if (item.role !== "body" && item.role !== "joint" && item.role !== "force") continue;
-    for (const mark of item.marks) {
-      const ends = outlineOf(mark, q);
-      for (let i = 0; i + 1 < ends.length; i++) {
-        const far = fromStretch([px, py], ends[i], ends[i + 1]) * (item.role === "body" ? 1 : 0.8); // joints lie on bodies
-        if (far < best[0]) best = [far, `${{ body: "bodies", joint: "joints", force: "forces" }[item.role]}.${item.name}`];
-      }
-    }
-  }
-  return tableOf(best[1]) ? best[1] : "";
-}
-
-function outlineOf(mark, q) {
-  const put = (body, at) => onPicture(...worldOf(q, body, at));
-  if (mark[0] === "L") {
-    const [, , body, closed, points] = mark, all = [];
-    for (let i = 0; i < points.length; i += 2) all.push(put(body, points.slice(i, i + 2)));
-    return closed && all.length ? [...all, all[0]] : all;
-  }
-  if (mark[0] === "D") return [put(mark[2], mark[3]), put(mark[2], mark[3])];
-  if (mark[0] === "X") return [put(mark[3], mark[4]), put(mark[5], mark[6])];
-  return [];
-}
-
-function fromStretch([x, y], [ax, ay], [bx, by]) {
-  const dx = bx - ax, dy = by - ay, s = Math.min(Math.max(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1), 0), 1);
-  return (ax + s * dx - x) ** 2 + (ay + s * dy - y) ** 2;
+  const found = view.spatial ? null : itemAt(px, py, Object.keys(SECTIONS));
+  return found && tableOf(pathOf(found.item)) ? pathOf(found.item) : "";
 }
 
 // A press that does not move selects; one that moves turns the player's camera, as before.
@@ -90,24 +62,19 @@ $("view").addEventListener("pointerup", (e) => {
   const at = inPicture(e), still = Math.hypot(at[0] - pressedAt[0], at[1] - pressedAt[1]) < 4;
   pressedAt = null;
   if (!still) return;
-  selectPart(partAt(...at));
-  say(selected ? `${selected} is selected: Del takes it out, F2 renames it` : "");
+  choosePart(partAt(...at));
 });
+function choosePart(path) {
+  selectPart(path);
+  say(selected ? `${selected} is selected: Del takes it out, F2 renames it` : "");
+}
+// A body that is selected is the one that arrow keys pull while the motion plays.
+Object.assign(choice, { get: () => (selected.startsWith("bodies.") ? selected.slice(7) : ""), set: (name) => choosePart(`bodies.${name}`) });
 
 // What is selected is drawn again, with a glow.
 drawn.push((q) => {
-  const item = selected && data.scene.items.find((each) => selected === `${{ body: "bodies", joint: "joints", force: "forces" }[each.role]}.${each.name}`);
-  if (!item || view.spatial) return;
-  const context = $("view").getContext("2d");
-  context.save();
-  Object.assign(context, { strokeStyle: palette.accent, globalAlpha: 0.35, lineWidth: 9, lineCap: "round", lineJoin: "round" });
-  for (const mark of item.marks) {
-    const ends = outlineOf(mark, q);
-    context.beginPath();
-    ends.forEach((p, i) => (i ? context.lineTo(...p) : context.moveTo(...p)));
-    context.stroke();
-  }
-  context.restore();
+  const item = selected && !view.spatial && data.scene.items.find((each) => SECTIONS[each.role] && selected === pathOf(each));
+  if (item) glow(item, q);
 });
 document.addEventListener("selectionchange", () => {
   if (document.activeElement !== T) return;

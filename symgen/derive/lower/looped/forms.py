@@ -102,7 +102,8 @@ def _groups_of_drag(g: Graph, e: Equations) -> list[tuple[str, Any]]:
     """Return the groups of an effort that depends on a reaction: on the unknown multipliers of a joint."""
     (drag,) = e.drags
     parts = [g.sum_of(g.mul(n, g.input("k_first", row)) for row, n in line) for line in drag.pressed]
-    force = g.mul(drag.sign, g.mul(drag.coefficient, length_of_vector(g, parts)))
+    size = parts[0] if drag.signed else length_of_vector(g, parts)
+    force = g.mul(drag.sign, g.mul(drag.coefficient, size))
     entries = dict(e.rows[drag.row].entries)
     along = tuple(g.mul(force, entries[j]) if j in entries else g.zero for j in range(e.nv))
     return [("v", along), ("power", g.neg(g.mul(force, drag.rate)))]

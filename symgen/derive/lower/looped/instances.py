@@ -67,7 +67,7 @@ class Instance:
     states : tuple of str
         States of the file for ``z0``, ``z1``, ...; of a state it is the first.
     joint : str
-        Of a drag, the joint on whose reaction it depends.
+        Of a drag, the joint on whose reaction it depends, or the row of a gap.
     """
 
     kind: str
@@ -165,20 +165,27 @@ class _Rewriting:
         return replace(instance, angles=angles) if angles else instance
 
     def drag_instance(self, row: BoundedRow) -> Instance:
-        """Return what of a row with bounds depends on a reaction as an instance, with the rows of its joint."""
+        """Return what of a row with bounds depends on a reaction as an instance, with the rows that press."""
         self.begin_element()
-        joint = self.mechanism.joint_named(row.owner)
-        labels = {f"{joint.name}.{each.label}": f"r{i}" for i, each in enumerate(joint.rows)}
-        rows = zip((self.rewrite(each) for each in joint.rows), labels.values(), strict=True)
-        held = tuple(msgspec.structs.replace(each, label=label) for each, label in rows)
         whole: Any = row  # all kinds are structs
-        pressed = msgspec.structs.replace(whole, pressed=tuple(f"e.{labels[name]}" for name in row.pressed))
-        content = msgspec.structs.replace(self.rewrite(pressed), name="e", joint="e")
+        if row.signed:  # its own gap, by its name
+            gap = next(each for each in self.mechanism.bounded if each.row in row.pressed)
+            owner, rows = gap.row, (gap.held,)
+            held = tuple(msgspec.structs.replace(self.rewrite(each), label=each.label) for each in rows)
+            content = msgspec.structs.replace(self.rewrite(whole), name="e")
+        else:
+            joint = self.mechanism.joint_named(row.owner)
+            owner, rows = joint.name, joint.rows
+            labels = {f"{owner}.{each.label}": f"r{i}" for i, each in enumerate(rows)}
+            again = zip((self.rewrite(each) for each in rows), labels.values(), strict=True)
+            held = tuple(msgspec.structs.replace(each, label=label) for each, label in again)
+            pressed = msgspec.structs.replace(whole, pressed=tuple(f"e.{labels[name]}" for name in row.pressed))
+            content = msgspec.structs.replace(self.rewrite(pressed), name="e", joint="e")
         instance = self.massless_instance("drag", row.row, row.family.one, content)
         abstract = msgspec.structs.replace(instance.abstract, joints=(Joint("e", "", (), held),), bounded=(content,))
         key = instance.key + msgspec.json.encode([*held, content])
-        angles = counted_turns([*measures_of_element(Joint("e", "", (), joint.rows)), row.measure])
-        return replace(instance, abstract=abstract, key=key, angles=angles, joint=joint.name)
+        angles = counted_turns([*measures_of_element(Joint("e", "", (), rows)), row.measure])
+        return replace(instance, abstract=abstract, key=key, angles=angles, joint=owner)
 
     def rotor_instance(self, rotor: Rotor) -> Instance:
         """Return a rotor on a joint as an instance: its inertia, and the rate of its angle."""

@@ -72,5 +72,5 @@ BESIDE = (*ROTORS, *DRAGS)
 #: components of the reaction.
 DRAG_RECORD = 3
 
-#: End of the stems of laws that find efforts which depend on reactions.
-PRESSED = "_pressed"
+#: Ends of the stems of laws that find efforts which depend on reactions, and on forces of gaps, whose signs count.
+PRESSED, TOUCHED = "_pressed", "_touched"

@@ -123,13 +123,13 @@ class LoopedShape:
         self.idle: list[tuple[int, int]] = []  # rows with bounds, and slots whose squares are on the diagonal
         self.rotors: list[int] = []  # their rows R, which are numbered after those of D; R^T R is their part of M
         self.rotor_blocks: list[RowBlock] = []
-        rows_of: dict[str, int] = {}  # of joints, the first
+        rows_of: dict[str, int] = {}  # of joints, the first, and of rows with bounds
         for instance, stem in zip(self.instances, self.stems, strict=True):
             info = self.infos[stem]
             for constant in instance.constants:
                 self.constant_index.setdefault(constant, len(self.constant_index))
             self.row_of.append(rows_of[instance.joint] if instance.joint else len(self.holonomic))
-            if instance.kind == "joint":
+            if instance.kind in ("joint", "bound"):
                 rows_of[instance.name] = self.row_of[-1]
             self.entry_of.append(entry)
             self.coordinate_of.append(coordinate)

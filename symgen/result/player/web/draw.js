@@ -1,30 +1,5 @@
 // The scene: marks fixed to bodies, placed for coordinates q, seen from somewhere, drawn on a canvas.
 
-function rgba(colour, opacity) {
-  const [r, g, b] = [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16));
-  return `rgba(${r},${g},${b},${opacity})`;
-}
-
-// The colours of the page now, from its style sheet.
-const palette = {};
-function readPalette() {
-  const style = getComputedStyle(document.documentElement);
-  for (const name of ["paper", "ink", "soft", "line", "track", "passed", "bad", "failed", "doubtful", "reaction", "push", "accent"]) {
-    palette[name] = style.getPropertyValue(`--${name}`).trim();
-  }
-  palette.night = document.documentElement.dataset.theme === "dark";
-}
-
-const channels = (colour) => [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16));
-
-// A colour of the scene on this page: on dark paper greys change places with each other, and hues are a little lighter.
-function shade(colour) {
-  if (!palette.night) return colour;
-  const c = channels(colour), high = Math.max(...c), low = Math.min(...c), grey = high - low < 32;
-  const [ink, paper] = [palette.ink, palette.paper].map(channels), light = (high + low) / 510;
-  return `#${c.map((x, i) => Math.round(grey ? ink[i] + light * (paper[i] - ink[i]) : x + 0.15 * (255 - x)).toString(16).padStart(2, "0")).join("")}`;
-}
-
 // Numbers of frames: first bodies, then what they carry, the ground's is the last one.
 const groundOf = (scene) => scene.frames.length + (scene.carried || []).length;
 
@@ -156,6 +131,25 @@ function makeScene(canvas, scene, solid = null) {
 
   const px = (x) => (x - camera.x) * camera.scale + camera.width / 2;
   const py = (y) => camera.height / 2 - (y - camera.y) * camera.scale;
+
+  // Where a point of the ground frame is on the picture, and how near to the eye [pixel, pixel, m].
+  function onScreen(point) {
+    const s = look3(point);
+    return [px(s[0]), py(s[1]), spatial ? s[2] : 0];
+  }
+
+  // The point of the ground frame at a place of the picture, so near to the eye.
+  function fromScreen(x, y, near = 0) {
+    const s = [(x - camera.width / 2) / camera.scale + camera.x, (camera.height / 2 - y) / camera.scale + camera.y, near];
+    return spatial ? [0, 1, 2].map((k) => eye[k] * s[0] + eye[3 + k] * s[1] + eye[6 + k] * s[2]) : s.slice(0, 2);
+  }
+
+  // Coordinates in a body's frame of a point of the ground frame, for coordinates q.
+  function into(q, body, point) {
+    place(q);
+    const o = 12 * body, from = [0, 1, 2].map((k) => (point[k] || 0) - poses[o + 9 + k]);
+    return [0, 1, 2].slice(0, size).map((k) => poses[o + k] * from[0] + poses[o + 3 + k] * from[1] + poses[o + 6 + k] * from[2]);
+  }
 
   // -- marks ------------------------------------------------------------------------------------------------------------
 
@@ -409,5 +403,5 @@ function makeScene(canvas, scene, solid = null) {
   }
 
   const forget = () => solid && solid.forget();
-  return { camera, scene, spatial, dress, clear, draw, names, arrow, trace, forget, pan, where, gap, fit, see, place };
+  return { camera, scene, spatial, dress, clear, draw, names, arrow, trace, forget, pan, where, gap, fit, see, place, out, onScreen, fromScreen, into };
 }

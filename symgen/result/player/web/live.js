@@ -146,5 +146,39 @@ function makeLive(spec, code) {
     return Array.from(seen.subarray(0, spec.nb));
   }
 
-  return { spec, p, w, iw, rhs, rates, start, closes, open, step, end, transitions, bodies, setParameters, reset };
+  // -- a hand ---------------------------------------------------------------------------------------------------------
+
+  // A spring and a damper from the ground to a point of a body; without one, the body is let go.
+  let taken = null;
+  const springOf = (name) => spec.hand.bodies.find(([own]) => own === name).slice(1);
+  function pull(hand) {
+    const values = (taken || []).map((i) => [i, 0]);
+    taken = hand ? springOf(hand.name) : null;
+    if (hand) values.push(...spec.hand.at.map((i, k) => [i, hand.at[k]]), ...spec.hand.to.map((i, k) => [i, hand.to[k]]), [taken[0], hand.k], [taken[1], hand.c]);
+    if (values.length) setParameters(values);
+  }
+
+  // Coordinates of bodies now, and a little later if they were at rest and a force of 1 N along an axis worked on a
+  // point alone; and how long that is, by the acceleration of the point [s2].
+  function responded(t, y, name, at, axis) {
+    const back = keep(), before = taken, far = 1e6 * w[spec.status.length], z = y.slice(0, ny), ydot = new Float64Array(ny);
+    const to = spec.hand.to.map((_, k) => (k === axis ? far : 0)); // so far away that the force is the same everywhere
+    const accelerations = (k) => {
+      pull({ name, at, to, k, c: 0 });
+      rhs(t, z, ydot);
+      return ydot.slice(nq, nq + nv);
+    };
+    const without = accelerations(0), change = accelerations(1 / far).map((x, i) => x - without[i]), size = Math.max(...change.map(Math.abs));
+    z.set(change.map((x) => x / size), nq);
+    rhs(t, z, ydot);
+    const rates = ydot.slice(0, nq), little = 1e-6 / Math.max(...rates.map(Math.abs));
+    back();
+    taken = before;
+    z.set(y.subarray(0, ny));
+    const now = bodies(t, z);
+    for (let i = 0; i < nq; i++) z[i] += little * rates[i];
+    return [now, bodies(t, z), little / size];
+  }
+
+  return { spec, p, w, iw, rhs, rates, start, closes, open, step, end, transitions, bodies, setParameters, reset, pull, responded };
 }

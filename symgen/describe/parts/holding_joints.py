@@ -1,0 +1,344 @@
+"""Joints whose rows are in force for a while: the keys ``holds`` and ``holds_at``, and what a run makes of them.
+
+A joint that holds for a while has states of the file's own: ``NAME.changed``, which is 1 after an odd number of
+changes, ``NAME.dissipated``, the energy that its catches have taken [J], and for a joint that holds present positions
+``NAME.LABEL.at``, where each row holds. Its events change them: ``NAME.releases`` takes the rows out of force and lets
+velocities go on; ``NAME.holds`` brings them into force by the smallest impulse that gives their rates those of the
+joint. All else that runs have for states and events they have for these: targets, sweeps and derivatives.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import msgspec
+
+from symgen.base.errors import InputError
+from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, Reading, call, readings_in
+from symgen.base.vocabulary.measures import GROUND, Angle, FormulaMeasure, Holonomic, Measure
+from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.results_read import reads_results
+from symgen.describe.formulas.start import described_start
+from symgen.describe.mechanism import Holding, Joint, Mechanism, ModeEvent, Output, StateVariable
+from symgen.describe.parts.driven_mechanism import replace_names
+from symgen.describe.parts.event_sections import RESET, switching_function
+from symgen.describe.parts.fields import Condition, Flag, Holds, HoldsAt, read_table, read_value
+from symgen.describe.parts.scope import Scope
+
+#: Keys of joints, and what `holds_at` may be.
+HOLDS, HOLDS_AT, DESCRIBED, PRESENT = "holds", "holds_at", "described", "present"
+#: Last words of the names of events, states and the mode.
+CATCHES, RELEASES, CHANGED, DISSIPATED, AT, MODE = "holds", "releases", "changed", "dissipated", "at", "mode"
+
+
+class HoldsSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """When the rows of a joint are in force.
+
+    Parameters
+    ----------
+    during : str
+        A condition: the rows are in force while it is true. In place of the two others.
+    catches, releases : str
+        Conditions of t, parameters and the state, of forces too in `releases`: the joint catches, or releases, when one
+        becomes true. Without `catches` it never catches again, without `releases` it never lets go.
+    at_start : bool
+        Whether the rows are in force at the start; by default the value of the condition with positions as described.
+    """
+
+    during: Condition | None = None
+    catches: Condition | None = None
+    releases: Condition | None = None
+    at_start: Flag | None = None
+
+
+class ReadHolding(msgspec.Struct, frozen=True):
+    """What the keys of a joint say; `first` is a switching function at the start, which described positions decide."""
+
+    joint: str
+    where: str
+    first: Expr | bool
+    catches: Expr | None
+    releases: Expr | None
+    present: bool
+
+
+# -- reading -----------------------------------------------------------------------------------------------------------
+
+
+def read_holding(scope: Scope, joint: Joint, raw: dict[str, Any]) -> ReadHolding | None:
+    """Return when the rows of a joint are in force, from its table; None where they always are.
+
+    Raises
+    ------
+    InputError
+        With the key that is wrong.
+    """
+    if HOLDS not in raw:
+        if HOLDS_AT in raw:
+            raise scope.error(HOLDS_AT, "the key holds beside it", "no such key")
+        return None
+    if not joint.rows or not all(type(row) is Holonomic for row in joint.rows):
+        got = f"a {joint.kind} joint" + (", which has rows of velocities or none" if joint.kind != "driver" else "")
+        raise scope.error(HOLDS, "a joint that holds positions", got)
+    at = read_value(HoldsAt, raw.get(HOLDS_AT, DESCRIBED), scope.where(HOLDS_AT))
+    value = read_value(Holds, raw[HOLDS], scope.where(HOLDS))
+    table = {"during": value} if isinstance(value, str) else value
+    section = read_table(HoldsSection, table, scope.where(HOLDS))
+    key = HOLDS if isinstance(value, str) else f"{HOLDS}.during"
+    if section.during is not None:
+        if section.catches is not None or section.releases is not None:
+            raise scope.error(HOLDS, "the condition during, or catches and releases", "both")
+        during = _condition(scope, key, section.during, True)
+        catches = None if reads_results(during) else during
+        releases: Expr | None = call("neg", during)
+        first: Expr | bool = True if catches is None else during
+    else:
+        if section.catches is None and section.releases is None:
+            raise scope.error(HOLDS, "a condition: during, catches or releases", "none")
+        catches = None if section.catches is None else _condition(scope, f"{HOLDS}.catches", section.catches, False)
+        releases = None if section.releases is None else _condition(scope, f"{HOLDS}.releases", section.releases, True)
+        first = True if catches is None else catches
+    if section.at_start is not None:
+        first = section.at_start
+    return ReadHolding(joint.name, scope.where(HOLDS), first, catches, releases, at == PRESENT)
+
+
+def _condition(scope: Scope, key: str, text: str, results: bool) -> Expr:
+    """Return a function above 0 where a condition holds; with `results` it may read forces."""
+    function, is_condition = switching_function(scope, key, text, results)
+    if not is_condition:
+        raise scope.error(key, "a condition such as 't < 0.3'", repr(text))
+    return function
+
+
+class _Symbol:
+    """A formula with the operators of numbers, for the described start as formulas of parameters."""
+
+    def __init__(self, of: Expr) -> None:
+        self.of = of
+
+    def __add__(self, other: Any) -> _Symbol:
+        return _Symbol(call("add", self.of, _formula(other)))
+
+    def __sub__(self, other: Any) -> _Symbol:
+        return _Symbol(call("sub", self.of, _formula(other)))
+
+    def __mul__(self, other: Any) -> _Symbol:
+        return _Symbol(call("mul", self.of, _formula(other)))
+
+    def __truediv__(self, other: Any) -> _Symbol:
+        return _Symbol(call("div", self.of, _formula(other)))
+
+    def __neg__(self) -> _Symbol:
+        return _Symbol(call("neg", self.of))
+
+    def __radd__(self, other: Any) -> _Symbol:
+        return _Symbol(_formula(other)) + self
+
+    def __rsub__(self, other: Any) -> _Symbol:
+        return _Symbol(_formula(other)) - self
+
+    def __rmul__(self, other: Any) -> _Symbol:
+        return _Symbol(_formula(other)) * self
+
+
+def _formula(x: Any) -> Expr:
+    return x.of if isinstance(x, _Symbol) else Number(float(x))
+
+
+class _Symbols:
+    """Formulas as the numbers of a start (`symgen.describe.formulas.start.Numbers`)."""
+
+    def value(self, expression: Expr, where: str) -> _Symbol:
+        """Return a formula."""
+        return _Symbol(expression)
+
+    def apply_function(self, function: str, *arguments: Any) -> _Symbol:
+        """Return a function of formulas."""
+        return _Symbol(call(function, *map(_formula, arguments)))
+
+    def check_above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Any:
+        """Return `x`: a run checks its numbers."""
+        return x
+
+
+def _value_at_start(mechanism: Mechanism, read: ReadHolding) -> Expr:
+    """Return the formula that is 1 where the rows are in force at the start, 0 where they are not.
+
+    Raises
+    ------
+    InputError
+        If no formula of parameters says whether they are.
+    """
+    if isinstance(read.first, bool):
+        return ONE if read.first else ZERO
+    q, v = described_start(mechanism, _Symbols())
+    names = [f"{body.name}.{name}" for body in mechanism.bodies for name in body.coordinates]
+    speeds = [f"{body.name}.{name}" for body in mechanism.bodies for name in body.speeds]
+    known: dict[str, Expr] = {"t": ZERO, **{p.name: Name(p.name) for p in mechanism.parameters if not p.input}}
+    known |= {name: _formula(x) for name, x in zip(names, q, strict=True)}
+    known |= {name: _formula(x) for name, x in zip(speeds, v, strict=True) if x is not None}
+
+    def unknown(name: str) -> InputError:
+        hint = "holds = { during = ..., at_start = true }"
+        return InputError(read.where, "the key at_start beside a condition that is no formula of t and of bodies' "
+                          "described coordinates and velocities", f"'{name}'", hint)  # fmt: skip
+
+    def angle_of(body: str) -> Expr:
+        return ZERO if body == GROUND else known[f"{body}.theta"]
+
+    def at_start(e: Expr) -> Expr:
+        if isinstance(e, Reading):
+            source = e.source
+            if isinstance(source, Angle) and e.order == 0:
+                return call("sub", angle_of(source.b), angle_of(source.a))
+            raise unknown(e.name)
+        if isinstance(e, Call):
+            return Call(e.function, tuple(map(at_start, e.arguments)))
+        return e
+
+    def put(name: Name) -> Expr:
+        if name.name not in known:
+            raise unknown(name.name)
+        return known[name.name]
+
+    return call("where", call("gt", replace_names(at_start(read.first), put), ZERO), ONE, ZERO)
+
+
+# -- what a run has of them --------------------------------------------------------------------------------------------
+
+
+def mode_of(holding: Holding) -> Expr:
+    """Return the formula that is 1 where the rows of a joint are in force, else 0."""
+    return call("abs", call("sub", holding.first, Name(f"{holding.joint}.{CHANGED}")))
+
+
+def name_of_place(joint: str, label: str) -> str:
+    """Return the name of the state that says where a row holds."""
+    return f"{joint}.{label}.{AT}"
+
+
+def _measure_beyond_value(row: Holonomic, joint: str) -> Measure:
+    """Return what a row holds at 0, or at the value of a place: its measure, less its value where that moves."""
+    if isinstance(row.value, Number):
+        return row.measure
+    return FormulaMeasure(call("sub", Reading(f"{joint}.{row.label}", row.measure), row.value))
+
+
+def with_holding(mechanism: Mechanism, read: Sequence[ReadHolding]) -> Mechanism:
+    """Return a mechanism with the states, events and outputs of joints that hold for a while.
+
+    Raises
+    ------
+    InputError
+        If the start says of no joint whether it holds, or a name is taken.
+    """
+    if not read:
+        return mechanism
+    states, events, outputs, holding = list[StateVariable](), list[ModeEvent](), list[Output](), list[Holding]()
+    for each in read:
+        own = Holding(each.joint, _value_at_start(mechanism, each), each.catches, each.releases, each.present)
+        joint, holding = mechanism.joint_named(each.joint), [*holding, own]
+        states += [StateVariable(f"{own.joint}.{CHANGED}", ZERO, ZERO), StateVariable(f"{own.joint}.{DISSIPATED}", ZERO, ZERO, "J")]
+        places = [row for row in joint.rows if own.present and isinstance(row, Holonomic)]
+        states += [StateVariable(name_of_place(own.joint, row.label), ZERO, ZERO, row.unit) for row in places]
+        events += _events_of(own, joint)
+        outputs.append(Output(f"{own.joint}.{MODE}", mode_of(own)))
+    names = tuple(x.joint for x in holding)
+    return msgspec.structs.replace(
+        mechanism,
+        states=(*mechanism.states, *states),
+        events=(*mechanism.events, *events),
+        outputs=(*mechanism.outputs, *outputs),
+        switchable=names,
+        cuts=tuple(dict.fromkeys((*mechanism.cuts, *names))),
+        holding=tuple(holding),
+    )
+
+
+def in_modes(mechanism: Mechanism, values: Mapping[str, float], states: Mapping[str, float] | None = None) -> Mechanism:
+    """Return a mechanism whose joints hold for good, or not at all, as they do in one state.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    values : mapping of str to float
+        Values of all parameters.
+    states : mapping of str to float, optional
+        States of the file's own by name; those of the start by default.
+    """
+    if not mechanism.holding:
+        return mechanism
+    where, joints, own = mechanism.name, list[Joint](), set[str]()
+    off = {x.joint for x in mechanism.holding if evaluate(mode_of(x), {**_at_start(x), **values, **(states or {})}, where) < 0.5}
+    for x in mechanism.holding:
+        own |= {f"{x.joint}.{CHANGED}", f"{x.joint}.{DISSIPATED}", f"{x.joint}.{MODE}", *places_of(mechanism, x)}
+        own |= {f"{x.joint}.{CATCHES}", f"{x.joint}.{RELEASES}"}
+    for joint in mechanism.joints:
+        joints.append(msgspec.structs.replace(joint, kind="place", rows=()) if joint.name in off else joint)
+    changed: dict[str, Any] = {
+        part: tuple(x for x in getattr(mechanism, part) if x.name not in own) for part in ("states", "events", "outputs")
+    }
+    return msgspec.structs.replace(mechanism, **changed, joints=tuple(joints), switchable=(), holding=())
+
+
+def _at_start(holding: Holding) -> dict[str, float]:
+    return {f"{holding.joint}.{CHANGED}": 0.0}
+
+
+def places_of(mechanism: Mechanism, holding: Holding) -> tuple[str, ...]:
+    """Return the names of the states that say where the rows of a joint hold."""
+    rows = mechanism.joint_named(holding.joint).rows if holding.present else ()
+    return tuple(name_of_place(holding.joint, row.label) for row in rows)
+
+
+def refuse_holding(where: str, mechanism: Mechanism) -> None:
+    """Refuse joints that hold for a while where motions are taken in one mode.
+
+    Raises
+    ------
+    InputError
+        If there are any.
+    """
+    if names := ", ".join(x.joint for x in mechanism.holding):
+        raise InputError(where, "joints that hold for good", f"'holds' of {names}", "runs and sweeps have it")
+
+
+def _events_of(holding: Holding, joint: Joint) -> list[ModeEvent]:
+    """Return the events of a joint: that at which it catches comes before that at which it releases.
+
+    Where the joint cannot do what an event is for, its switching function is -1: it sleeps.
+    """
+    mode, changed, events = mode_of(holding), Name(f"{joint.name}.{CHANGED}"), list[ModeEvent]()
+    other, flip = call("sub", ONE, mode), (changed, call("sub", ONE, changed))
+    if holding.catches is not None:
+        reset, places = list[tuple[Expr, Expr]](), list[tuple[Expr, Expr]]()
+        for row in joint.rows:
+            assert isinstance(row, Holonomic), "rows of joints that hold for a while are of positions"
+            measure, name = _measure_beyond_value(row, joint.name), f"{joint.name}.{row.label}"
+            reset.append((Reading(f"{name}.rate", measure, 1), ZERO))
+            if holding.present:
+                value = call("sub", Reading(name, row.measure), row.value)
+                places.append((Name(name_of_place(joint.name, row.label)), value))
+        when = call("sub", call("mul", other, holding.catches), mode)
+        events.append(_event(joint, CATCHES, when, (*reset, flip, *places)))
+    if holding.releases is not None:
+        when = call("sub", call("mul", mode, holding.releases), other)
+        events.append(_event(joint, RELEASES, when, (flip,)))
+    return events
+
+
+def _event(joint: Joint, word: str, when: Expr, reset: tuple[tuple[Expr, Expr], ...]) -> ModeEvent:
+    return ModeEvent(f"{joint.name}.{word}", when, "rising", RESET, reset, f"{joint.name} {word}", word)
+
+
+def formulas_of_holding(read: Sequence[ReadHolding]) -> list[Expr]:
+    """Return the conditions of joints."""
+    return [e for x in read for e in (x.catches, x.releases) if e is not None]
+
+
+def reads_forces(when: Expr) -> bool:
+    """Whether a switching function reads accelerations or forces."""
+    return any(True for _ in readings_in(when)) and reads_results(when)

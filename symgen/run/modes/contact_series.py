@@ -1,0 +1,205 @@
+"""What impacts that accumulate change at contacts beside them, compiled: the sum of a geometric series.
+
+Flights between the impacts of a contact last ever shorter, and what one changes falls with the rate u that remains. A
+contact beside it may slip after each impact and stick before the next one, so that no modes have the sum of what is
+left out. But two impacts have it: between them the rates z of all rows that depend on the contact have changed by
+``dz``, and u by ``du``; those that are left out change them by ``-u dz / du``, in a time of ``-u dt / du``. The run
+goes on at the time of the latest impact in the modes at rest. Their accelerations a in that time are taken off before:
+
+    z+ = z - u (dz - a dt) / du
+"""
+
+from __future__ import annotations
+
+from symgen.compile.loopcode.exact import exact
+from symgen.compile.native.annotations import Array, Integers
+from symgen.run.effects.accumulation import OF_EVENT
+from symgen.run.effects.applying import APPLIED
+from symgen.run.effects.pushing import push_contacts
+from symgen.run.layout import abi
+from symgen.run.layout.start_records import Instant
+from symgen.run.modes.bounded_rows import SAME, STILL, Choice, row_scale, switch_off
+from symgen.run.modes.choice import find_starting, follow_modes, read_rows
+from symgen.run.modes.contacts import choose_contacts
+from symgen.run.modes.impact_memory import AT, HEAD, RATE, REMEMBERED
+from symgen.run.modes.strikes import Strikes, accelerate_in_force
+
+#: Rates below this part of what is left out of them end with the series.
+_ENDS = 0.02
+#: Sums by one flight and by two that differ by less than this part are of the same modes.
+_SAME_MODES = 0.02
+#: Rates that differ by less than this part of those that remain are the same sum.
+_SAME_SUM = 5e-3
+
+
+@exact()
+def remember_impact(t: float, c: Choice, s: Strikes) -> None:
+    """Remember the rates after the latest impact for the contacts that it has struck."""
+    impacts, size = s.memory.impacts, HEAD + c.count
+    for i in range(c.dry, c.count):
+        if s.active[i] != 0 and s.before[i] < 0.0:
+            at = REMEMBERED * size * i
+            for place in range(size):
+                impacts[at + size + place] = impacts[at + place]
+            impacts[at + AT], impacts[at + RATE] = t, s.asked[i]
+            for row in range(c.count):
+                impacts[at + HEAD + row] = c.speed[row]
+
+
+@exact()
+def remembers(c: Choice, s: Strikes, i: int, past: int) -> bool:
+    """Return whether an impact before the latest one of a gap is remembered: its rates are larger."""
+    at, event = (HEAD + c.count) * (REMEMBERED * i + past - 1), s.events[i]
+    count = s.effects.past.counts[event]
+    if count <= past:
+        return False
+    same = s.memory.impacts[at + AT] == s.effects.past.times[OF_EVENT * event + count - 1 - past]
+    return bool(same and s.memory.impacts[at + RATE] > s.asked[i])
+
+
+@exact()
+def find_leading(c: Choice, s: Strikes) -> int:
+    """Set ``leads`` where contacts touch beside one whose impacts accumulate; return the number of rows in series."""
+    leads, groups, count = s.memory.leads, s.memory.groups, 0
+    for i in range(c.count):
+        leads[i] = -1
+    for i in range(c.dry, c.count):
+        if s.active[i] != 0 and s.before[i] < 0.0 and groups[i] >= 0 and leads[i] < 0 and remembers(c, s, i, 1):
+            beside = 0
+            for j in range(c.count):
+                beside += 1 if groups[j] == groups[i] and j != i and c.partner[i] != j else 0
+            for j in range(c.count):
+                if beside > 0 and groups[j] == groups[i]:
+                    leads[j] = i
+                    count += 1
+    return count
+
+
+@exact()
+def hold_closed(c: Choice, s: Strikes, w: Array) -> None:
+    """Have the gaps of series that are at rest, though the latest impact has not pushed them, stay so."""
+    for i in range(c.dry, c.count):
+        if s.memory.leads[i] >= 0 and abs(c.speed[i]) <= STILL * row_scale(c, w, i, abi.SPEED):
+            s.active[i] = 1
+
+
+@exact()
+def left_over(c: Choice, s: Strikes, i: int, place: int, now: float) -> float:
+    """Return how a number changes until the end of the series of a contact, over the rate that remains.
+
+    It is the number of rows at `place` of an impact. The longer of two spans has less rounding.
+    """
+    size = HEAD + c.count
+    at, u = REMEMBERED * size * i, s.asked[i]
+    one = (now - s.memory.impacts[at + place]) / (s.memory.impacts[at + RATE] - u)
+    if remembers(c, s, i, 2):
+        two = (now - s.memory.impacts[at + size + place]) / (s.memory.impacts[at + size + RATE] - u)
+        return float(two if abs(two - one) <= _SAME_MODES * abs(one) else one)
+    return float(one)
+
+
+@exact()
+def set_target(t: float, c: Choice, s: Strikes, lead: int, row: int, j: int) -> None:
+    """Say at which rate a row of a series is left, the velocity j that its events set; as it stands, at 0.
+
+    A gap that opens at rest does so at the end of the series.
+    """
+    ties, rate, part, u = s.ties, s.memory.rates[row], 0.0, s.asked[lead]
+    if c.pushes[row] != 0:
+        rate = 0.0
+    else:
+        part = left_over(c, s, lead, HEAD + row, rate)
+        if abs(rate + part * u) <= _ENDS * abs(part * u):
+            return
+    ties.parts[j] = part - s.memory.rests[row] * left_over(c, s, lead, AT, t)
+    ties.values[j] = rate + ties.parts[j] * u
+    ties.leads[j] = first_velocity(s.effects.model[4].owners, s.events[lead])
+
+
+@exact()
+def set_targets(t: float, c: Choice, s: Strikes) -> None:
+    """Say at which rates the rows of series are left: gaps are at rest, and friction has its sum."""
+    _, _, _, _, changes = s.effects.model
+    owners, ties, gap_of = changes.owners, s.ties, -1
+    for j in range(owners.shape[0]):
+        gap_of = j if j == 0 or owners[j - 1] != owners[j] else gap_of
+        for gap in range(c.dry, c.count):
+            lead = s.memory.leads[gap]
+            if owners[j] == s.events[gap] and lead >= 0 and s.active[gap] != 0:
+                ties.held[j], ties.ratio[j], ties.values[j], ties.ways[j] = 1, 0.0, 0.0, 0.0
+                row = gap if j == gap_of else c.partner[gap]
+                set_target(t, c, s, lead, row, j)
+
+
+@exact()
+def first_velocity(owners: Integers, event: int) -> int:
+    """Return the number of the first velocity that an event sets."""
+    for j in range(owners.shape[0]):
+        if owners[j] == event:
+            return int(j)
+    return -1
+
+
+@exact()
+def try_rest(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers) -> bool:
+    """Find rates and accelerations in the modes at rest after the impulses of ``ties``; return whether there are any.
+
+    The state stays as it is.
+    """
+    memory, found = s.memory, False
+    for i in range(now.y.shape[0]):
+        memory.y[i] = now.y[i]
+    for i in range(now.w.shape[0]):
+        memory.w[i] = now.w[i]
+    for i in range(c.count):
+        memory.rests[i] = 0.0
+        c.broken[i] = c.stopped[i] = c.left[i] = 0
+    c.begins[0] = 0
+    if push_contacts(s.effects.model, t, now, s.chosen, s.effects.work, s.ties) == APPLIED:
+        if read_rows(t, c, now.y, now.p, now.w) == SAME:
+            find_starting(t, c, now.w)
+            if choose_contacts(t, c, now.y, now.p, now.w, iw, memory.control) <= 1:
+                follow_modes(t, c, now.y, now.p, now.w)
+                accelerate_in_force(t, c, now, iw)
+                for i in range(c.count):
+                    memory.rests[i], memory.rested[i] = c.out[i], c.speed[i]
+                found = True
+    switch_off(c, now.w)
+    for i in range(now.y.shape[0]):
+        now.y[i] = memory.y[i]
+    for i in range(now.w.shape[0]):
+        now.w[i] = memory.w[i]
+    for i in range(c.count):
+        c.speed[i] = memory.rates[i]
+    return found
+
+
+@exact()
+def is_sum(t: float, c: Choice, s: Strikes) -> bool:
+    """Return whether contacts beside have the sum of their series already: in modes that stay, without its rounding."""
+    for gap in range(c.dry, c.count):
+        lead, row = s.memory.leads[gap], c.partner[gap]
+        if lead >= 0 and s.active[gap] != 0:
+            lasts = left_over(c, s, lead, AT, t) * s.asked[lead]
+            if abs(s.memory.rested[gap] + s.memory.rests[gap] * lasts) > _SAME_SUM * s.asked[lead]:
+                return False
+            if row >= 0:
+                part = left_over(c, s, lead, HEAD + row, s.memory.rates[row]) * s.asked[lead]
+                other = s.memory.rested[row] + s.memory.rests[row] * lasts - s.memory.rates[row]
+                if abs(other - part) > _SAME_SUM * (s.asked[lead] + abs(part)):
+                    return False
+    return True
+
+
+@exact()
+def sum_series(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers) -> None:
+    """Say at which rates contacts are left beside those whose impacts accumulate, see `set_targets`."""
+    for i in range(c.count):
+        s.memory.rates[i] = c.speed[i]
+    if try_rest(t, c, s, now, iw) and is_sum(t, c, s):
+        return
+    for i in range(c.count):
+        s.memory.rests[i] = 0.0
+    set_targets(t, c, s)
+    try_rest(t, c, s, now, iw)
+    set_targets(t, c, s)

@@ -1,0 +1,49 @@
+"""Memory of impacts of contacts, from which follows what those change that are left out where impacts accumulate."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from symgen.compile.native.annotations import Array, Integers, Record
+from symgen.run.layout import abi
+
+#: Impacts that are remembered of each contact, and what precedes the rates of rows: time, and rate of the gap.
+REMEMBERED, AT, RATE, HEAD = 2, 0, 1, 2
+
+
+class ImpactMemory(Record):
+    """The latest impacts of each contact, and working memory; empty without contacts.
+
+    Attributes
+    ----------
+    impacts : Array, shape (REMEMBERED (HEAD + k) k,)
+        For each row its impacts, the latest one first: time [s], rate of the gap after it, rates of all k rows.
+    groups : Array of int64, shape (k,)
+        At the latest impact, the part of G that each row belongs to, -1 for rows that do not touch.
+    leads : Array of int64, shape (k,)
+        The contact of whose series each row takes part, else -1.
+    rates, rested, rests : Array, shapes (k,)
+        Rates of rows after the latest impact; where rest is tried, rates and accelerations.
+    y, w, control : Array, Array of int64
+        State and scratch, kept while rest is tried.
+    """
+
+    impacts: Array
+    groups: Integers
+    leads: Integers
+    rates: Array
+    rested: Array
+    rests: Array
+    y: Array
+    w: Array
+    control: Integers
+
+
+def new_impact_memory(k: int, width: int, nw: int) -> Any:
+    """Return an empty memory for k rows, and states and scratches of `width` and `nw` numbers."""
+    numbers, control = np.zeros, np.zeros(abi.N_CONTROL if k else 0, dtype=np.int64)
+    impacts, groups, leads = numbers(REMEMBERED * (HEAD + k) * k), np.full(k, -1), np.full(k, -1)
+    rates = numbers(k), numbers(k), numbers(k)
+    return ImpactMemory(impacts, groups, leads, *rates, numbers(width), numbers(nw), control)
