@@ -57,6 +57,8 @@ def test_a_skid_over_300_coefficients(tmp_path: Path) -> None:
     """A disc that skids rolls at the speed that its momentum about the floor leaves, after the time of its slip."""
     text = SKID.replace("0.15", '"mu"', 1).replace("[bodies.disc]", "[parameters]\nmu = 0.15\n[bodies.disc]")
     grid = {"mu": np.linspace(0.05, 0.5, 300)}
-    sweep = loaded(text, tmp_path).sweep(grid, until=4.0, method="lagrange", integrator="dop853", shape="looped", **TIGHT)
+    sweep = loaded(text, tmp_path).sweep(
+        grid, until=4.0, method="lagrange", integrator="dop853", shape="looped", **TIGHT
+    )
     slip, rolls = 2.0 - 0.2 * 4.0 * -1.0, None
     assert sweep.ok.all() and slip and rolls is None
