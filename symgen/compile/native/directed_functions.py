@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
-from typing import Any
 
 from symgen.base.ir.graph import CARRIED
 from symgen.compile.native import language as lang
@@ -49,7 +48,7 @@ def directed_function(function: lang.Function, places: Mapping[str, int]) -> lan
 
 
 class _Held:
-    """A function whose hash is not that of its statements."""
+    """A function that is told from others by its key, without its statements."""
 
     def __init__(self, function: lang.Function) -> None:
         self.function = function
@@ -368,7 +367,7 @@ class _Directed(DirectionRules[lang.Expression]):
     # -- rules
 
     @property
-    def numbers(self) -> Any:
+    def numbers(self) -> _Numbers:
         """Operations on numbers."""
         return _Numbers(self)
 
@@ -388,15 +387,15 @@ class _Directed(DirectionRules[lang.Expression]):
 
     def add_printed(self, a: lang.Expression, b: lang.Expression) -> lang.Expression:
         """Return the sum of directions."""
-        return lang.ScalarOperation("float", "add", (a, b))
+        return self.numbers.add(a, b)
 
     def subtract_printed(self, a: lang.Expression | None, b: lang.Expression) -> lang.Expression:
         """Return the difference of directions, or the opposite of one."""
-        return lang.ScalarOperation("float", *(("neg", (b,)) if a is None else ("sub", (a, b))))
+        return self.numbers.neg(b) if a is None else self.numbers.sub(a, b)
 
     def scale_printed(self, directions: lang.Expression, factor: lang.Expression) -> lang.Expression:
         """Return the product of a direction and a number."""
-        return lang.ScalarOperation("float", "mul", (directions, factor))
+        return self.numbers.mul(directions, factor)
 
     def differentiate_extreme(
         self, name: str, a: lang.Expression, b: lang.Expression,

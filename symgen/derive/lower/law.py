@@ -282,7 +282,9 @@ def _rates_by_residual(hoister: Hoister, scalars: ScalarNodes, record: RecordedL
     ]
 
 
-def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part, further: Sequence[tuple[OutputSlot, int]] = ()) -> Block:
+def law_block(
+    hoister: Hoister, scalars: ScalarNodes, part: Part, further: Sequence[tuple[OutputSlot, int]] = ()
+) -> Block:
     """Return a function of a law as a block, with further outputs."""
     flag = None if part.flag is None else scalars.values[part.flag]
     if flag is not None and "y" not in ARGUMENTS[part.name]:

@@ -1,7 +1,7 @@
-"""Directions of the states of model exchange: of all that follows from these, and of rates, for FMUs.
+"""Directions of the states of model exchange, of all that follows from states, and of rates, for FMUs.
 
 The arrays are longer: ``y``, the parameters ``p``, the scratch ``w`` and the rates are followed by a direction of each
-of their elements, and those of ``w`` by that of time. Emitted functions have a form with directions
+of their elements, and in ``w`` the direction of time comes last. Emitted functions have a form with directions
 (`symgen.compile.native.directed_functions`).
 """
 
@@ -27,7 +27,7 @@ DirectedExchange = tuple[
 def direct_positions(
     layout: Layout, tables: PartitionTables, y: Array, w: Array, part: Partition, ny: int, nw: int
 ) -> bool:
-    """Set the directions of dependent coordinates by those of rows; return whether they are determined."""
+    """Set the directions of dependent coordinates by rows with directions; return whether they are determined."""
     nq, count, spins, right = layout.nq, tables.holonomic.shape[0], tables.spins, part.right
     rows, rank = count + spins.shape[0] // 2, tables.rank_q + part.held[0]
     fill_position_rows(layout, tables, y, w, part, True)
@@ -51,7 +51,7 @@ def direct_positions(
 def direct_velocities(
     layout: Layout, tables: PartitionTables, y: Array, w: Array, part: Partition, ny: int, nw: int
 ) -> bool:
-    """Set the directions of dependent velocities by those of rows; return whether they are determined."""
+    """Set the directions of dependent velocities by rows with directions; return whether they are determined."""
     nq, nv, right, d, rank = layout.nq, layout.nv, part.right, part.d, tables.rank_v + part.held[1]
     fill_jacobian(layout, w, d)
     velocity_rows(layout, tables, y, w, part, True)
@@ -77,7 +77,7 @@ def direct_velocities(
 def direct_rates(
     model: DirectedExchange, t: float, y: Array, p: Array, w: Array, iw: Integers, rate: Array, part: Partition
 ) -> bool:
-    """Set the directions of the state and of its rates from those of independent numbers, parameters and time.
+    """Set the directions of a state and its rates from directions of independent numbers, parameters and time.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def direct_rates(
     Returns
     -------
     bool
-        False where the dependent ones are not determined.
+        False where dependent coordinates or velocities are not determined.
     """
     layout, tables, prepare, prepare_law, masses, geometry, rhs, confirm, ny, nw = model
     prepare(p)

@@ -51,7 +51,11 @@ def swing(t0: float) -> tuple[float, float]:
 def test_a_released_pendulum_is_a_projectile(method, integrator, most, coordinates, loaded) -> None:
     angle, rate = swing(0.3)
     run = loaded(PENDULUM).simulate(
-        method=method, integrator=integrator, coordinates=coordinates, times=[0.2, 0.3, 0.65, 1.0], **steps_of(integrator)
+        method=method,
+        integrator=integrator,
+        coordinates=coordinates,
+        times=[0.2, 0.3, 0.65, 1.0],
+        **steps_of(integrator),
     )
     assert run.ok and [(e.name, e.t) for e in run.events] == [("rod.releases", pytest.approx(0.3, abs=1e-12))]
     x, y = np.cos(angle), -np.sin(angle)
@@ -158,7 +162,11 @@ def test_sweeps_are_smooth_and_equal_runs(machine, name, values, until, loaded) 
 @pytest.mark.parametrize(
     ("machine", "change", "sentence"),
     [
-        ("clutch", ('holds_at = "present"\n', ""), "expected a joint in its place where it catches, got one that is off"),
+        (
+            "clutch",
+            ('holds_at = "present"\n', ""),
+            "expected a joint in its place where it catches, got one that is off",
+        ),
         ("clutch", ('"t > te and t < 0.3 or t > 0.5"', '"a.omega < 2.0 or t > te"'), "ok"),
         (
             "clutch",
