@@ -3,7 +3,9 @@
 _HEAD = '[mechanism]\nname = "{}"\ngravity = [0.0, {}]\n'
 
 #: A pendulum of 1 m that begins horizontally at rest, released at `t0`.
-PENDULUM = _HEAD.format("pendulum-released", -9.81) + """
+PENDULUM = (
+    _HEAD.format("pendulum-released", -9.81)
+    + """
 [parameters]
 t0 = 0.3
 
@@ -22,9 +24,12 @@ holds = "t < t0"
 [run]
 until = 1.0
 """
+)
 
 #: Two rotors, which a clutch of teeth connects twice, at angles as they are; a motor drives one between.
-CLUTCH = _HEAD.format("teeth-of-a-clutch", 0.0) + """
+CLUTCH = (
+    _HEAD.format("teeth-of-a-clutch", 0.0)
+    + """
 [parameters]
 te = 0.1
 
@@ -64,9 +69,12 @@ torque = "4.0 if t > 0.3 and t < 0.5 else 0.0"
 [run]
 until = 1.0
 """
+)
 
 #: A carriage on a rail, from which a body swings until the carriage is at `place`.
-CARRIAGE = _HEAD.format("carriage-drops-body", -9.81) + """
+CARRIAGE = (
+    _HEAD.format("carriage-drops-body", -9.81)
+    + """
 [parameters]
 place = 0.5
 
@@ -97,9 +105,12 @@ holds = "carriage.x < place"
 [run]
 until = 0.6
 """
+)
 
 #: A jumper leaves a platform at `t0` and falls; an elastic cord of 20 m slows the fall.
-JUMPER = _HEAD.format("bungee-jumper", -9.81) + """
+JUMPER = (
+    _HEAD.format("bungee-jumper", -9.81)
+    + """
 [parameters]
 t0 = 0.5
 
@@ -122,9 +133,12 @@ force = [0.0, "120.0*max(0.0, -jumper.y - 20.0)"]
 [run]
 until = 6.0
 """
+)
 
 #: A pin holds a block against a force that grows, and breaks by what it carries.
-LINK = _HEAD.format("breaking-link", 0.0) + """
+LINK = (
+    _HEAD.format("breaking-link", 0.0)
+    + """
 [parameters]
 strength = 50.0
 
@@ -146,9 +160,12 @@ force = ["200.0*t", 0.0]
 [run]
 until = 0.6
 """
+)
 
 #: A ball that falls past a hook until its rope is taut, which takes the speed along the rope.
-ROPE = _HEAD.format("rope-becomes-taut", -9.81) + """
+ROPE = (
+    _HEAD.format("rope-becomes-taut", -9.81)
+    + """
 [parameters]
 length = 1.0
 
@@ -168,4 +185,5 @@ holds = { catches = "t < 0.9 and sqrt(ball.x**2 + ball.y**2) > length", releases
 [run]
 until = 1.2
 """
+)
 MACHINES = {"pendulum": PENDULUM, "clutch": CLUTCH, "carriage": CARRIAGE, "jumper": JUMPER, "link": LINK, "rope": ROPE}

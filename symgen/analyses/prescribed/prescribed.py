@@ -15,10 +15,10 @@ from symgen.base.errors import AssemblyError, InputError, suggest
 from symgen.base.vocabulary.expressions import readings_in
 from symgen.base.vocabulary.measures import GROUND, Integral
 from symgen.describe.bounds.bounded_modes import without_bounds
-from symgen.describe.parts.holding_joints import in_modes
 from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
+from symgen.describe.parts.holding_joints import in_modes
 from symgen.run.breaks.seams import seams_of_motion
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready

@@ -26,8 +26,8 @@ from symgen.base.vocabulary.infos import LawInfo
 from symgen.derive.formulate.equations import Equations
 from symgen.derive.lower.factor import FactorNodes
 from symgen.derive.lower.hoist import Hoister
-from symgen.derive.lower.plans import closing_plan
 from symgen.derive.lower.modes_of_states import nodes_with_stored_modes
+from symgen.derive.lower.plans import closing_plan
 from symgen.derive.lower.record import ARGUMENTS, BEHIND, EQUATIONS, Part, RecordedLaw, record_law
 from symgen.derive.lower.record_form import record_form
 from symgen.derive.lower.replay import Nodes
@@ -289,7 +289,9 @@ def _rates_by_residual(hoister: Hoister, scalars: ScalarNodes, record: RecordedL
     ]
 
 
-def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part, further: Sequence[tuple[OutputSlot, int]] = ()) -> Block:
+def law_block(
+    hoister: Hoister, scalars: ScalarNodes, part: Part, further: Sequence[tuple[OutputSlot, int]] = ()
+) -> Block:
     """Return a function of a law as a block, with further outputs."""
     flag = None if part.flag is None else scalars.values[part.flag]
     if flag is not None and "y" not in ARGUMENTS[part.name]:

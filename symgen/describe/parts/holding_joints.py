@@ -240,7 +240,10 @@ def with_holding(mechanism: Mechanism, read: Sequence[ReadHolding]) -> Mechanism
     for each in read:
         own = Holding(each.joint, _value_at_start(mechanism, each), each.catches, each.releases, each.present)
         joint, holding = mechanism.joint_named(each.joint), [*holding, own]
-        states += [StateVariable(f"{own.joint}.{CHANGED}", ZERO, ZERO), StateVariable(f"{own.joint}.{DISSIPATED}", ZERO, ZERO, "J")]
+        states += [
+            StateVariable(f"{own.joint}.{CHANGED}", ZERO, ZERO),
+            StateVariable(f"{own.joint}.{DISSIPATED}", ZERO, ZERO, "J"),
+        ]
         places = [row for row in joint.rows if own.present and isinstance(row, Holonomic)]
         states += [StateVariable(name_of_place(own.joint, row.label), ZERO, ZERO, row.unit) for row in places]
         events += _events_of(own, joint)
@@ -272,14 +275,19 @@ def in_modes(mechanism: Mechanism, values: Mapping[str, float], states: Mapping[
     if not mechanism.holding:
         return mechanism
     where, joints, own = mechanism.name, list[Joint](), set[str]()
-    off = {x.joint for x in mechanism.holding if evaluate(mode_of(x), {**_at_start(x), **values, **(states or {})}, where) < 0.5}
+    off = {
+        x.joint
+        for x in mechanism.holding
+        if evaluate(mode_of(x), {**_at_start(x), **values, **(states or {})}, where) < 0.5
+    }
     for x in mechanism.holding:
         own |= {f"{x.joint}.{CHANGED}", f"{x.joint}.{DISSIPATED}", f"{x.joint}.{MODE}", *places_of(mechanism, x)}
         own |= {f"{x.joint}.{CATCHES}", f"{x.joint}.{RELEASES}"}
     for joint in mechanism.joints:
         joints.append(msgspec.structs.replace(joint, kind="place", rows=()) if joint.name in off else joint)
     changed: dict[str, Any] = {
-        part: tuple(x for x in getattr(mechanism, part) if x.name not in own) for part in ("states", "events", "outputs")
+        part: tuple(x for x in getattr(mechanism, part) if x.name not in own)
+        for part in ("states", "events", "outputs")
     }
     return msgspec.structs.replace(mechanism, **changed, joints=tuple(joints), switchable=(), holding=())
 

@@ -285,9 +285,7 @@ class Scope:
         )
         return self._parse_expression(key, value, names, conditions)
 
-    def of_motion(
-        self, key: str, value: float | str, *, integrals: bool = True, conditions: bool = False
-    ) -> Expr:
+    def of_motion(self, key: str, value: float | str, *, integrals: bool = True, conditions: bool = False) -> Expr:
         """Return a number or an expression of t, parameters and all quantities available at outputs.
 
         With `conditions` it may be true or false instead.

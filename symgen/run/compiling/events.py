@@ -70,8 +70,11 @@ def compile_events(
         words=tuple(event.word if isinstance(event, ModeEvent) else "" for event in events),
         owners=tuple(event.row if isinstance(event, ModeEvent) else -1 for event in events),
         function=side.function,
-        needs_rates=("ydot" in side.reads or bool(mechanism.bounded)  # which leave multipliers in w
-                     or "multipliers" in side.reads),
+        needs_rates=(
+            "ydot" in side.reads
+            or bool(mechanism.bounded)  # which leave multipliers in w
+            or "multipliers" in side.reads
+        ),
         of_forces=tuple(i for i in range(len(functions)) if i in side.of_forces),
         effects=effects_of_events(mechanism, compiled, events),
         switches=tuple(switch_of_event(x, 1.0 if rtol is None else rtol) for x in passed),

@@ -212,9 +212,7 @@ class TurnOfRun:
     def _renew_scheme(self) -> None:
         """Set up the scheme for the rows that are in force."""
         simulation = self.simulation
-        simulation.scheme = simulation.integrator.setup(
-            simulation.compiled, simulation.spec, simulation.state.w
-        ).scheme
+        simulation.scheme = simulation.integrator.setup(simulation.compiled, simulation.spec, simulation.state.w).scheme
 
     def _refusal(self, code: int) -> InputError:
         """Return why the run cannot go on."""
