@@ -233,7 +233,7 @@ def test_derivatives_pass_through_releases_and_catches(machine, name, columns, c
         difference = (ends[0][column][-1] - ends[1][column][-1]) / (2.0 * h)
         assert by == pytest.approx(difference, rel=1e-6, abs=1e-7), column
         back = model.gradient(column, by=(name,), way="adjoint", **keys)
-        assert float(back[name]) == pytest.approx(by, rel=1e-8, abs=1e-9), column
+        assert back.by[name] == pytest.approx(by, rel=1e-8, abs=1e-9), column
 
 
 def number_of(stepped, column: str) -> float:
