@@ -220,7 +220,7 @@ FEATURES: Mapping[str, str] = {
     "clearance of a slide": lowered(0.002, cart())
     .replace(_RAIL, f"{_RAIL}\n{_GUIDE}")
     .replace("[0.1, 0.0]", "[0.1, -0.002]\nvelocity = [0.3, 0.0]"),
-    "joint that lets go": cart(pin='holds = "t < 0.25"'),
+    "joint that lets go": cart(pin='holds = "t < 0.2503"'),
     "joint that catches": cart(more=_LATCH),
     "joint that catches, friction and stop": cart(pin=f"friction = {{ sliding = 0.3 }}\n{_STOP}", more=_LATCH),
     "rope over a sheave": cart(

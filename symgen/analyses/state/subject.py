@@ -386,7 +386,7 @@ def _in_modes_at_start(mechanism: Mechanism, settings: Settings) -> tuple[Mechan
     if not mechanism.holding:
         return mechanism, settings
     last = None if isinstance(settings.start, Mapping) else settings.start.last_state
-    states = {} if last is None else dict(last.states or {})
+    states = dict[str, float]() if last is None else dict(last.states or {})
     values = parameter_values(mechanism, {k: x for k, x in settings.parameters.items() if not isinstance(x, str)})
     held = in_modes(mechanism, values, states)
     if last is not None:

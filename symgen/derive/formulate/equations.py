@@ -19,8 +19,8 @@ class ConstraintRow:
     `size`, the square of the row over the velocities of bodies; None for a row that cannot vanish.
     `stiffness` is the node of a stiffness specified in the file [N/m]. `held` is the node of 1 where a row that may be
     off is in force, and of 0 where it is off; None for a row that is always in force. Where states of the file say so,
-    `place` is the node of what the row holds beyond its value: ``geometry`` writes both to the modes. `axes` marks the two rows of a
-    joint that keep an axis of one body parallel to one of another, over the velocities of bodies.
+    `place` is the node of what the row holds beyond its value: ``geometry`` writes both to the modes. `axes` marks the
+    two rows of a joint that keep an axis of one body parallel to one of another, over the velocities of bodies.
     The forces of `bounded` rows have bounds.
     """
 

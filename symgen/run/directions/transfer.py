@@ -220,13 +220,14 @@ class Transfer:
 
     @property
     def _losses(self) -> dict[int, int]:
-        """By number of the event, the place in the state of the energy that its impacts take."""
+        """By number of the event, the place in the state of the energy that its impacts, or its catch, take."""
         watched = self.watched
+        caught = {} if watched is None or watched.effects is None else watched.effects.losses
         if watched is None or watched.bounded is None:
-            return {}
+            return caught
         rows = watched.bounded
         hits = watched.events_of_rows(HIT, len(rows.names))[rows.dry :]
-        return {hit: place for hit, place in zip(hits, rows.losses, strict=True) if place is not None}
+        return caught | {hit: place for hit, place in zip(hits, rows.losses, strict=True) if place is not None}
 
     @property
     def _count(self) -> int:

@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.describe.bounds.bounded_modes import rows_by_family
-from symgen.describe.parts.holding_joints import refuse_holding
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.mechanism import Body, Mechanism
+from symgen.describe.parts.holding_joints import refuse_holding
 from symgen.study.references.differences import difference_jacobian
 from symgen.study.references.sympy_formulas import TENSOR, ReferenceFormulas
 

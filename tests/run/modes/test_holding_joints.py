@@ -206,3 +206,65 @@ def test_wrong_keys_are_refused(old, new, sentence, loaded) -> None:
     with pytest.raises(InputError) as error:
         loaded(PENDULUM.replace(old, new))
     assert sentence in str(error.value)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize(
+    ("machine", "name", "columns"),
+    [
+        ("pendulum", "t0", ("bob.x", "bob.vy")),
+        ("clutch", "te", ("b.theta", "a.omega", "teeth.dissipated")),
+        ("carriage", "place", ("load.x", "load.omega")),
+        ("link", "strength", ("block.x",)),
+        ("rope", "length", ("ball.x", "ball.vy", "rope.dissipated")),
+    ],
+)
+def test_derivatives_pass_through_releases_and_catches(machine, name, columns, coordinates, loaded) -> None:
+    """Forward directions and the adjoint beside central differences."""
+    model = loaded(MACHINES[machine])
+    keys = {"coordinates": coordinates, **TIGHT}
+    run = model.simulate(sensitivities=(name,), **keys)
+    assert run.ok, run.reason
+    value, h = model.parameters()[name], 1e-5
+    ends = [model.simulate(parameters={name: value + way * h}, **keys) for way in (1.0, -1.0)]
+    for column in columns:
+        by = float(run.gradient(column).values[-1, 0])
+        difference = (ends[0][column][-1] - ends[1][column][-1]) / (2.0 * h)
+        assert by == pytest.approx(difference, rel=1e-6, abs=1e-7), column
+        back = model.gradient(column, by=(name,), way="adjoint", **keys)
+        assert back.by[name] == pytest.approx(by, rel=1e-8, abs=1e-9), column
+
+
+def number_of(stepped, column: str) -> float:
+    """Return a coordinate or velocity of a run that is stepped."""
+    return float(stepped.bodies[column])
+
+
+@pytest.mark.parametrize("machine", ["pendulum", "clutch", "rope"])
+def test_steps_equal_a_run(machine, loaded) -> None:
+    """Pieces of a run, saved and gone back to between, and a run that goes on from another one."""
+    model = loaded(MACHINES[machine])
+    whole, stepped = model.simulate(integrator="rk4", step=1e-3), model.start(integrator="rk4", step=1e-3)
+    until = model.mechanism.defaults.until
+    stepped.step(0.35)
+    saved = stepped.save()
+    stepped.step(0.25)
+    stepped.restore(saved)
+    stepped.step(until - 0.35)
+    body = {"pendulum": "bob", "clutch": "b", "rope": "ball"}[machine]
+    for column in (f"{body}.x", f"{body}.vy"):
+        assert number_of(stepped, column) == pytest.approx(whole[column][-1], rel=0, abs=1e-13)
+    first = model.simulate(integrator="rk4", step=1e-3, until=0.6)
+    second = model.simulate(integrator="rk4", step=1e-3, start=first, until=until)
+    assert second[f"{body}.x"][-1] == pytest.approx(whole[f"{body}.x"][-1], rel=0, abs=1e-13)
+
+
+def test_functions_and_modes_take_a_joint_as_it_is_at_the_start(loaded) -> None:
+    """A load that hangs has two coordinates with the carriage, one that has been dropped four, and no frequency."""
+    held, free = loaded(CARRIAGE), loaded(CARRIAGE.replace('"carriage.x < place"', '"carriage.x > place"'))
+    assert [len(x.functions("absolute").rows) for x in (held, free)] == [4, 2]
+    hanging = held.modes()
+    assert hanging.frequencies.max() * 2.0 * np.pi == pytest.approx(
+        np.sqrt(1.0 * G * 0.5 / (0.05 + 0.25 - 0.25 / 4.0)), rel=1e-9
+    )
