@@ -3,19 +3,25 @@
     python -m benchmarks.editor 6 30 100 [--browser]
 
 A scissor lift of so many bodies is checked and run as the page asks for it, first as it was opened, then after each of
-three changes of a number. Processor time is that of this process [s]; with `--browser` Chromium drags a pin for two
-seconds, and the pictures that were drawn meanwhile are counted.
+three changes of a number, with what was loaded before out of the collector's sight, as in the server. Processor time is
+that of this process [s]. With `--browser` Chromium drags a pin until there are twelve pictures: how many come in a
+second, the server's processor time for each [s], and that of the page's thread for each of its frames [ms].
 """
 
 from __future__ import annotations
 
 import argparse
+import gc
 import itertools
 import math
 import time
 from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
 
 from symgen.cli._editor.drafts import Drafts
+
+if TYPE_CHECKING:
+    from tests.browser.chromium import Chromium
 
 #: Half of a bar [m] and its angle at the start [rad].
 HALF, ANGLE = 0.25, 0.6
@@ -54,6 +60,8 @@ def scissor_lift(bodies: int) -> str:
 def measure(bodies: int) -> list[tuple[str, float, float, float]]:
     """Return for each change of a number: what it is, and processor time of the drawing, the motion, the live part."""
     drafts, text, rows = Drafts(Path("scissors.toml")), scissor_lift(bodies), list[tuple[str, float, float, float]]()
+    gc.collect()
+    gc.freeze()
     for k, value in enumerate((1.0, *VALUES)):
         now, times = text.replace("mass = 1.0", f"mass = {value}", 1), [time.process_time()]
         drafts.check_text(now)
@@ -63,11 +71,53 @@ def measure(bodies: int) -> list[tuple[str, float, float, float]]:
         drafts.live_page_data(now, "a", k)
         drawing, motion, live = (b - a for a, b in itertools.pairwise([*times, time.process_time()]))
         rows.append((f"mass {value}" if k else "opened", drawing, motion, live))
+    gc.unfreeze()
     return rows
 
 
-def frames_of_drag(bodies: int, seconds: float = 2.0) -> float:
-    """Return pictures a second while a pin of the top is dragged in Chromium."""
+class Drag(NamedTuple):
+    """What a drag was like.
+
+    Attributes
+    ----------
+    pictures : float
+        Pictures of the mechanism with its loops closed, each second.
+    served : float
+        Processor time of this process for each of them, the browser's protocol included [s].
+    mean : float
+        Processor time of the page's thread for a frame [ms].
+    worst : float
+        The longest frame by the clock [ms].
+    """
+
+    pictures: float
+    served: float
+    mean: float
+    worst: float
+
+
+#: Notes how long frames take: from the beginning of one until the page has time for something else.
+_WATCH = """(() => {
+  const found = (window.worked = []), channel = new MessageChannel();
+  let began = 0;
+  channel.port1.onmessage = () => found.push(performance.now() - began);
+  const frame = () => {
+    began = performance.now();
+    channel.port2.postMessage(0);
+    requestAnimationFrame(frame);
+  };
+  requestAnimationFrame(frame);
+})()"""
+
+
+def _thread_time(chromium: Chromium) -> float:
+    """Return the processor time of the page's tasks [s]."""
+    metrics = {entry["name"]: entry["value"] for entry in chromium.call("Performance.getMetrics")["metrics"]}
+    return float(metrics["TaskDuration"])
+
+
+def frames_of_drag(bodies: int, pictures: int = 12, patience: float = 60.0) -> Drag:
+    """Return what it is like to drag a pin of the top in Chromium until there are so many pictures."""
     import tempfile
 
     from tests.browser.chromium import Chromium
@@ -77,22 +127,29 @@ def frames_of_drag(bodies: int, seconds: float = 2.0) -> float:
         file = Path(folder) / "scissors.toml"
         file.write_text(scissor_lift(bodies))
         with Page.of(chromium, file) as page:
+            page.editor.prepare()
             page.open()
             page.rested()
             name = f"bodies.a{bodies // 2 - 1}.points.B"
             x, y = page.where(name)
             page.press("#snap")
             page.mouse("mousePressed", x, y)
-            began, frames, k = time.monotonic(), page.run("window.symgen.editor.times().frames"), 0
-            while time.monotonic() - began < seconds:
+            page.run(_WATCH)
+            chromium.call("Performance.enable", timeDomain="threadTicks")
+            page_time, own_time = _thread_time(chromium), time.process_time()
+            count = "window.symgen.editor.times().frames"
+            began, before, frames, k = time.monotonic(), page.run(count), 0, 0
+            while frames < pictures and time.monotonic() - began < patience:
                 k += 1
                 page.mouse("mouseMoved", x + 10 * math.sin(0.3 * k), y + 5 + 5 * math.cos(0.3 * k))
                 time.sleep(0.03)
-            frames = page.run("window.symgen.editor.times().frames") - frames
+                frames = page.run(count) - before
             spent = time.monotonic() - began
+            worked = page.run("window.worked.splice(0)")
+            page_time, own_time = _thread_time(chromium) - page_time, time.process_time() - own_time
             page.mouse("mouseReleased", x, y)
             page.rested()
-    return float(frames / spent)
+    return Drag(frames / spent, own_time / max(frames, 1), 1e3 * page_time / len(worked), max(worked))
 
 
 def main() -> None:
@@ -107,7 +164,11 @@ def main() -> None:
                 f"{bodies:4d} bodies  {what:9s}", *(f"{name} {x:.3f} s" for name, x in zip(NAMES, spent, strict=True))
             )
         if given.browser:
-            print(f"{bodies:4d} bodies  {frames_of_drag(bodies):.1f} pictures a second while a pin is dragged")
+            drag = frames_of_drag(bodies)
+            print(
+                f"{bodies:4d} bodies  a pin is dragged: {drag.pictures:.1f} pictures a second,"
+                f" {drag.served:.3f} s for each; frames of {drag.mean:.1f} ms, at most {drag.worst:.1f} ms by the clock"
+            )
 
 
 NAMES = ("drawing", "motion", "live part")

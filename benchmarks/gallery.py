@@ -34,6 +34,8 @@ from symgen.study.yardstick import YARDSTICK
 
 FOLDER = DOCS / "gallery"
 DATA = FOLDER / "data"
+#: What run times are of; data without it have the wall clock.
+CLOCK = "processor"
 
 
 @dataclass(frozen=True)
@@ -135,6 +137,7 @@ def measure(entry: CatalogueEntry) -> None:
         reference={"how": study.how, "estimated_error": study.estimated_error, "note": study.note},
         versions=library_versions(),
         machine=machine_class(),
+        clock=CLOCK,
         rows=[_fields(row) for row in study.rows],
     )
 
@@ -289,7 +292,7 @@ def index() -> str:
         "# Gallery",
         "",
         "All studied mechanisms of the catalogue, with measurements. Written by `python -m benchmarks.gallery`.",
-        "Times are of the loop alone. Those measured before 2026-11-29 are of the wall clock, beside other work.",
+        " ".join(["Times are processor time of the loop alone.", *_other_clock()]),
         "",
         "| | mechanism | most accurate row |",
         "| --- | --- | --- |",
@@ -310,6 +313,13 @@ def index() -> str:
     ]
     lines += [f"| ![{e.name}]({e.name}.svg) | [`{e.name}`]({e.name}.md): {e.title} |" for e in entries(MACHINES)]
     return "\n".join([*lines, ""])
+
+
+def _other_clock() -> list[str]:
+    """Return a sentence that names the entries whose times are of the wall clock, none where there are none."""
+    measured = [entry.name for entry in entries() if "rows" in (data(entry.name) or {})]
+    names = [f"`{name}`" for name in measured if (data(name) or {}).get("clock") != CLOCK]
+    return [f"Those of {', '.join(names)} are of the wall clock, beside other work."] if names else []
 
 
 def _across() -> list[str]:

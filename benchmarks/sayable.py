@@ -33,6 +33,7 @@ FEATURES = {
     "states": "states that read results",
     "poses": "orientations of time",
     "ropes": "ropes over sheaves",
+    "holds": "joints that hold for a while",
 }
 _PAGE = """# Examples of other systems
 

@@ -26,6 +26,8 @@ from symgen.cli._shared_options import (
 )
 
 if TYPE_CHECKING:
+    from symgen.api import Model
+    from symgen.study.comparison.combinations import Combinations
     from symgen.study.comparison.compare_models import Study
 
 
@@ -163,7 +165,7 @@ def command(
     rows = [row for study in studies for row in study.rows]
     used = {"--steps": any(r.step is not None for r in rows), "--rtols": any(r.rtol is not None for r in rows)}
     unused = [o for o, asked in (("--steps", step_list), ("--rtols", rtol_list)) if asked and rows and not used[o]]
-    _note_left_out(unused, runs.left_out)
+    _note_left_out(unused, runs, loaded)
     if as_json:
         tables = [study.to_json() for study in studies]
         across = [asdict(line) for line in across_mechanisms(studies)]
@@ -193,12 +195,18 @@ def command(
     return write_files(_exit_code_of_studies(studies, files.journal is not None), written)
 
 
-def _note_left_out(unused: Sequence[str], methods: Sequence[str]) -> None:
-    """Say which options counted for nothing, and which methods no integrator solves."""
+def _note_left_out(unused: Sequence[str], runs: Combinations, models: Sequence[Model]) -> None:
+    """Say which options counted for nothing, and which methods no integrator solves, or rows with bounds rule out."""
     for option in unused:
         click.echo(f"symgen: {option} counted for nothing: no run of these integrators has such steps", err=True)
-    if methods:
-        click.echo(f"symgen: left out, as these integrators solve no form of them: {', '.join(methods)}", err=True)
+    if runs.left_out:
+        names = ", ".join(runs.left_out)
+        click.echo(f"symgen: left out, as these integrators solve no form of them: {names}", err=True)
+    for model in models:
+        if methods := runs.without_modes(model.mechanism):
+            rows = next((row.family.noun for row in model.mechanism.bounded), "joints that hold for a while")
+            names = ", ".join(methods)
+            click.echo(f"symgen: left out, as {model.name} has {rows}, which they cannot take: {names}", err=True)
 
 
 def _label_ranges(steps: tuple[float, ...], rtols: tuple[float, ...], at: bool) -> dict[str, tuple[str, str]]:

@@ -181,6 +181,15 @@ class BoundedRow(Protocol):
         ...
 
     @property
+    def shift(self) -> Expr | None:
+        """Middle of the bounds at rest less that of bounds in motion; None where it is 0."""
+        ...
+
+    def middle_of_bounds(self) -> Expr:
+        """Return the force in the middle between the bounds of two directions as a motion begins."""
+        ...
+
+    @property
     def taking(self) -> Expr:
         """The effort that takes energy, a formula of outputs."""
         ...

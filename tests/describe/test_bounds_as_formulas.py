@@ -91,8 +91,12 @@ def test_margins_of_carriers_read_bounds_that_vary() -> None:
         ('friction = { sliding = "most", static = "most/2" }', "friction.static: expected a bound of at least that"),
         ("friction = { sliding = { forwards = 1.0 } }", "friction.sliding"),
         (
-            "friction = { sliding = { forwards = 1.0, backwards = 0.0 }, static = 2.0 }",
-            "friction.static: expected no such key beside bounds of two directions, which may be formulas of rate, got",
+            "friction = { sliding = { forwards = 1.0, backwards = 0.0 }, static = 0.5 }",
+            "friction.static: expected a bound of at least that in motion (1.0), got 0.5",
+        ),
+        (
+            "friction = { sliding = { forwards = 0.0, backwards = 0.0 }, static = 0.5 }",
+            "friction.sliding: expected a value above 0, as that at rest is above 0, got 0.0",
         ),
         (
             "friction = { sliding = { forwards = 1.0, backwards = 0.0 }, stribeck_speed = 2.0 }",

@@ -1,6 +1,7 @@
 """What is wrong in a mechanism file: everything, each with its place, without what only follows."""
 
 import pickle
+import re
 import tomllib
 
 import pytest
@@ -145,6 +146,71 @@ def test_mistakes_in_all_kinds_of_tables_are_found_at_once():
         (65, "stops.floor.gap"),
         (67, "events.low.when"),
     ]
+
+
+FORMULAS = """\
+[mechanism]
+name = "wrong"
+
+[parameters]
+a = 1.0
+
+[bodies.rod]
+mass = 1.0
+inertia = 1.0
+
+[joints.pin]   # joints tell all of theirs, and friction and stops in them
+type = "revolute"
+between = ["ground", "rod"]
+at = [["ux", "a"], ["vx", "vy"]]
+friction = { sliding = "fr" }
+
+[joints.slide]
+type = "translational"
+between = ["ground", "rod"]
+at = [["wx", 0.0], ["a", 0.0]]
+axis = ["q1", "q2"]
+angle = "q3"
+
+[joints.turn]
+type = "driver"
+joint = "pin"
+value = "w1*t"
+
+[forces.spring]
+type = "spring-damper"
+between = ["ground", "rod"]
+at = [["s1", 0.0], ["s2", "s3"]]
+stiffness = "k1"
+damping = "c1"
+
+[forces.push]
+type = "force"
+body = "rod"
+at = ["f1", "a"]
+force = ["f2", "f3*t"]
+"""
+
+
+def test_all_wrong_formulas_of_a_table_are_told_at_once():
+    problems = problems_of_text(FORMULAS, "wrong.toml")
+    told = [(p.line, p.where, re.findall(r"unknown name '(\w+)'", p.got)) for p in problems]
+    assert told == [
+        *((14, "joints.pin.at", [name]) for name in ("ux", "vx", "vy")),
+        (15, "joints.pin.friction.sliding", ["fr"]),
+        (20, "joints.slide.at", ["wx"]),
+        *((21, "joints.slide.axis", [name]) for name in ("q1", "q2")),
+        (22, "joints.slide.angle", ["q3"]),
+        *((32, "forces.spring.at", [name]) for name in ("s1", "s2", "s3")),
+        (33, "forces.spring.stiffness", ["k1"]),
+        (34, "forces.spring.damping", ["c1"]),
+        (39, "forces.push.at", ["f1"]),
+        *((40, "forces.push.force", [name]) for name in ("f2", "f3")),
+    ]
+    # the driver's own is told when the pin that it turns is right
+    mended = FORMULAS.replace('"ux"', "0.0").replace('"vx", "vy"', "0.0, 0.0")
+    lines = [p.line for p in problems_of_text(mended, "wrong.toml")]
+    assert lines[:2] == [15, 20] and 27 in lines
 
 
 def test_problems_say_what_errors_say():

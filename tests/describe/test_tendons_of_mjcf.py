@@ -26,7 +26,7 @@ FINGER = """<mujoco model="finger"><compiler angle="radian"/><option timestep="1
     <spatial name="tackle" range="0 3"><site site="end"/><site site="eye"/><pulley divisor="2"/>
       <site site="eye"/><site site="post"/><pulley divisor="2"/><site site="eye"/><site site="anchor"/></spatial>
     <spatial name="loose" stiffness="60" springlength="0.2 0.75"><site site="post"/><site site="eye"/></spatial>
-    <fixed name="ties" stiffness="3" springlength="-0.1 0.1" armature="0" damping="0.02"><joint joint="knee" coef="0.5"/>
+    <fixed name="ties" stiffness="3" springlength="-0.1 0.1" damping="0.02"><joint joint="knee" coef="0.5"/>
       <joint joint="bend" coef="-1.5"/></fixed>
     <fixed name="heavy" armature="0.01"><joint joint="rail" coef="2"/></fixed>
   </tendon>

@@ -17,9 +17,9 @@ from symgen.base.errors import InputError, suggest
 from symgen.base.settings import Settings
 from symgen.derive.lower.windings import winding_order
 from symgen.describe.bounds.bounded_modes import one_sided_rows, without_bounds
+from symgen.describe.facts.digest import digest
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.holding_joints import in_modes
-from symgen.describe.facts.digest import digest
 from symgen.run.compiling.linearised import DescriptorForm, LinearisedState, compile_linearised
 from symgen.run.compiling.pipeline import straight_alone
 from symgen.run.compiling.side import compile_side

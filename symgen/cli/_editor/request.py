@@ -38,7 +38,8 @@ class EditorRequest(msgspec.Struct, frozen=True):
     tab, asked : str, int
         Which page asks, and the number of its question.
     path, name : str, str
-        What is renamed, taken out or has dimensions, such as ``bodies.rod``; a new name, or that of a joint or dimension.
+        What is renamed, taken out or has dimensions, such as ``bodies.rod``; a new name, or that of a joint or of a
+        dimension.
     value : str
         What was typed for a dimension.
     kind, part, spots : str, str, list of RequestedPlace

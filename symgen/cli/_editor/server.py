@@ -6,6 +6,7 @@ page has another `Origin`, or a `Host` that is not this address, and is refused 
 
 from __future__ import annotations
 
+import gc
 import json
 import secrets
 import sys
@@ -109,6 +110,8 @@ class Editor(ThreadingHTTPServer):
         def read() -> None:
             with suppress(SymgenError):
                 self.jobs["check"](EditorRequest(self.document.read()["text"]))
+            gc.collect()
+            gc.freeze()  # what is loaded now stays: looking through it again and again took a fifth of each answer
 
         threading.Thread(target=read, name="symgen-edit", daemon=True).start()
 

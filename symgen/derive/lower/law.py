@@ -25,8 +25,8 @@ from symgen.derive.formulate.equations import Equations
 from symgen.derive.lower.descriptor_blocks import blocks_of_form, unknowns_of_form
 from symgen.derive.lower.factor import FactorNodes
 from symgen.derive.lower.hoist import Hoister
-from symgen.derive.lower.plans import closing_plan
 from symgen.derive.lower.modes_of_states import nodes_with_stored_modes
+from symgen.derive.lower.plans import closing_plan
 from symgen.derive.lower.record import ARGUMENTS, BEHIND, Part, RecordedLaw, record_law
 from symgen.derive.lower.record_form import record_form
 from symgen.derive.lower.replay import Nodes

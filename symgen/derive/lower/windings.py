@@ -84,14 +84,13 @@ def winding_order(mechanism: Mechanism, shape: str) -> tuple[Measure, ...]:
         return ()
     coordinates = {} if mechanism.topology is None else state_measures(mechanism, mechanism.topology)
     distinct, _ = without_repeats(mechanism)
+    bounds = [bounded.measure for bounded in distinct.bounded]
     efforts = [m for force in distinct.forces for m in measures_of_element(force)]
     efforts += [rotor.angle for rotor in distinct.rotors]
     if shape == "looped":
-        return counted_turns(
-            [m for joint in distinct.joints for m in counted_turns(measures_of_element(joint))] + efforts
-        )
-    rows = [m for joint in distinct.joints for m in _held_measures(joint)]
-    rows += [bounded.measure for bounded in distinct.bounded]
+        of_joints = [m for joint in distinct.joints for m in counted_turns(measures_of_element(joint))]
+        return counted_turns(of_joints + bounds + efforts)
+    rows = [m for joint in distinct.joints for m in _held_measures(joint)] + bounds
     angles = counted_turns(
         m
         for m in (*rows, *efforts, *(m for joint in distinct.joints for _, m in joint.coordinates))

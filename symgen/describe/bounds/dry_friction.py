@@ -39,7 +39,7 @@ def _inspection_line(facts: Mapping[str, Any]) -> str:
     viscous = "" if x["viscous"] == "0.0" else f", {x['viscous']} times the rate beside"
     stribeck = "" if x["stribeck_speed"] is None else f", falling over a rate of {x['stribeck_speed']}"
     unit = f"times the force of {' and '.join(x['reaction'])}" if x["reaction"] else x["unit"]
-    at_most = x["static"] if "backwards" not in x else f"{x['sliding']} and {x['backwards']}"
+    at_most = x["static"] if "backwards" not in x else " and ".join(x.get("resting", (x["sliding"], x["backwards"])))
     at_rest = f"row {x['row']} in force at rest up to {at_most} {unit}"
     jam = "" if x["jamming_number"] is None else f"; jamming number {x['jamming_number']:.3g} at the start"
     motion = f"{x['sliding']} in motion" + (f" forwards, {x['backwards']} backwards" if "backwards" in x else "")
@@ -69,7 +69,7 @@ class Friction(Bounds, frozen=True):
     `stribeck_speed` is set, the bound falls from `static` to `sliding` as exp(-(rate / stribeck_speed)^exponent).
 
     Bounds of two directions are a force of half their difference, and the mean bound to both sides of it: 0 and B hold
-    what a force of B/2 and a bound of B/2 hold.
+    what a force of B/2 and a bound of B/2 hold. At rest that force is another one where bounds at rest are given.
 
     Parameters
     ----------
@@ -99,6 +99,8 @@ class Friction(Bounds, frozen=True):
         Bound of motions with a negative rate [N or N m], where it is not `sliding`.
     exponent : Expr or None
         Of the fall over `stribeck_speed`; 2 by default.
+    resting : tuple of Expr
+        Bounds at rest forwards and backwards [N or N m], where they are not those of motions that begin.
     changing : bool
         Whether bounds depend on more than parameters: they are read whenever they matter.
     """
@@ -119,6 +121,7 @@ class Friction(Bounds, frozen=True):
     backwards: Expr | None = None
     exponent: Expr | None = None
     changing: bool = False
+    resting: tuple[Expr, ...] = ()
 
     @property
     def label(self) -> str:
@@ -169,8 +172,12 @@ class Friction(Bounds, frozen=True):
         """
         rate = Name("rate")
         against: Expr = sum_of_terms(name_of_number(self, "effort"), self.middle_of_bounds(rate))
+        sign = name_of_number(self, "sign")
         if not self.pressed:
-            against = call("add", against, call("mul", name_of_number(self, "sign"), self.bound_in_motion(rate)))
+            against = call("add", against, call("mul", sign, self.bound_in_motion(rate)))
+        if self.shift is not None:
+            rests = call("sub", ONE, call("mul", sign, sign))
+            against = call("add", against, call("mul", rests, self.shift))
         return Effort("friction", self.measure, call("neg", call("add", against, call("mul", self.viscous, rate))))
 
     @property
@@ -201,7 +208,7 @@ class Friction(Bounds, frozen=True):
         """Return the bound at a rate, by default at the beginning of a motion; of two bounds the mean."""
         sliding = bound_at_rate(self.sliding, rate)
         if self.backwards is not None:
-            return call("mul", _HALF, call("add", sliding, bound_at_rate(self.backwards, rate)))
+            return mean_of(sliding, bound_at_rate(self.backwards, rate))
         if self.stribeck_speed is None:
             return sliding
         if rate == ZERO:  # rounding of the sum would put it above that at rest
@@ -217,7 +224,14 @@ class Friction(Bounds, frozen=True):
         """Return the force in the middle between the bounds of two directions, against a positive rate."""
         if self.backwards is None:
             return ZERO
-        return call("mul", _HALF, call("sub", bound_at_rate(self.sliding, rate), bound_at_rate(self.backwards, rate)))
+        return _middle_of(bound_at_rate(self.sliding, rate), bound_at_rate(self.backwards, rate))
+
+    @property
+    def shift(self) -> Expr | None:
+        """Middle of the bounds at rest less that of bounds in motion; None where it is 0."""
+        if not self.resting:
+            return None
+        return call("sub", _middle_of(*self.resting), self.middle_of_bounds())
 
     @property
     def coefficient(self) -> Expr:
@@ -299,8 +313,19 @@ class Friction(Bounds, frozen=True):
             **{key: to_text(getattr(self, key)) for key in ("static", "sliding", "viscous")},
             "stribeck_speed": None if self.stribeck_speed is None else to_text(self.stribeck_speed),
             **({} if self.backwards is None else {"backwards": to_text(self.backwards)}),
+            **({"resting": [to_text(bound) for bound in self.resting]} if self.resting else {}),
             **({} if self.exponent is None else {"stribeck_exponent": to_text(self.exponent)}),
         }
+
+
+def mean_of(forwards: Expr, backwards: Expr) -> Expr:
+    """Return the mean of the bounds of two directions."""
+    return call("mul", _HALF, call("add", forwards, backwards))
+
+
+def _middle_of(forwards: Expr, backwards: Expr) -> Expr:
+    """Return the force in the middle between the bounds of two directions, against a positive rate."""
+    return call("mul", _HALF, call("sub", forwards, backwards))
 
 
 def bound_at_rate(bound: Expr, rate: Expr) -> Expr:

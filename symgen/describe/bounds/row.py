@@ -43,6 +43,15 @@ class Bounds(msgspec.Struct, frozen=True):
         return False
 
     @property
+    def shift(self) -> Expr | None:
+        """Middle of the bounds at rest less that of bounds in motion; None where it is 0."""
+        return None
+
+    def middle_of_bounds(self) -> Expr:
+        """Return the force in the middle between the bounds of two directions as a motion begins."""
+        return ZERO
+
+    @property
     def across(self) -> tuple[tuple[Measure, ...], ...]:
         """Cosines of the axes of `pressed` with directions across the joint."""
         return ()

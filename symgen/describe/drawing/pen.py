@@ -57,6 +57,8 @@ class PlacedMechanism:
 
     def __init__(self, mechanism: Mechanism, values: Mapping[str, float], q: Array) -> None:
         self.mechanism, self.values, self.spatial = mechanism, values, mechanism.space == "spatial"
+        self._places = dict[Marker, BodyPoint]()  # the same points belong to bodies, joints and forces
+        self._markers = dict[object, list[BodyPoint]]()
         self.outlines: dict[str, int] = {}  # modal body -> number of the frame of the first point of its outline
         bodies: tuple[AnyBody, ...] = mechanism.bodies
         self.frames = tuple(self._frames_of_bodies(bodies))
@@ -117,8 +119,10 @@ class PlacedMechanism:
 
     def place(self, marker: Marker) -> BodyPoint:
         """Return a marker as a point from the centre of mass of its body."""
-        x, y, z = self.vector(marker.point) - self.centres[marker.body]
-        return BodyPoint(self.index[marker.body], (float(x), float(y), float(z)))
+        if (found := self._places.get(marker)) is None:
+            x, y, z = self.vector(marker.point) - self.centres[marker.body]
+            found = self._places[marker] = BodyPoint(self.index[marker.body], (float(x), float(y), float(z)))
+        return found
 
     def in_ground_frame(self, place: BodyPoint) -> Array:
         """Return a point in the ground frame, shape (3,)."""
@@ -132,7 +136,10 @@ class PlacedMechanism:
 
     def markers(self, value: object) -> list[BodyPoint]:
         """Return the different points that a value names, in order."""
-        return list(dict.fromkeys(self.place(m) for m in nested_parts(value) if isinstance(m, Marker)))
+        if (found := self._markers.get(value)) is None:
+            found = list(dict.fromkeys(self.place(m) for m in nested_parts(value) if isinstance(m, Marker)))
+            self._markers[value] = found
+        return found
 
     def directions(self, value: object) -> list[Direction]:
         """Return the different directions that a value names, in order."""

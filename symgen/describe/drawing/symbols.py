@@ -377,7 +377,7 @@ def joint_symbol(pen: Pen, joint: Joint) -> Item:
     """Return the symbol of a joint; kinds without one show the points that they tie."""
     numbers = pen.numbers
     draw = (SPATIAL if numbers.spatial else PLANAR).get(joint.kind, joint_points)
-    measures = [m for row in joint.rows for m in nested_parts(row) if isinstance(m, Component | LinkStretch)]
+    measures = tuple(m for row in joint.rows for m in nested_parts(row) if isinstance(m, Component | LinkStretch))
     ends: tuple[BodyPoint, ...] = tuple(numbers.markers(measures)) if len(joint.bodies) == 2 else ()
     articulation = articulation_of_joint(joint)
     if articulation is not None:

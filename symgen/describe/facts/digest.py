@@ -16,7 +16,7 @@ from symgen.describe.table_functions import Table
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1
 #: Fields added after the form was fixed: empty ones are left out.
-_LATER = ("flexures", "pressed", "across", "speed", "backwards", "exponent", "changing")
+_LATER = ("flexures", "pressed", "across", "speed", "backwards", "exponent", "changing", "resting")
 
 
 def canonical_text(mechanism: Mechanism) -> str:
@@ -101,6 +101,7 @@ def mechanism_digest(mechanism: Mechanism) -> str:
         ", backwards=None",
         ", exponent=None",
         ", changing=False",
+        ", resting=()",
         ", shown=''",
         ", modal=None",
         ", carried=None",

@@ -7,6 +7,7 @@ efforts along coordinates of a point, as those of a file are: joints keep what t
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import msgspec
 
@@ -87,7 +88,8 @@ def _efforts_of_spring(
 
 def _free_beginning(mechanism: Mechanism) -> str:
     """Return a word with which no name of the mechanism begins."""
-    parts = (mechanism.parameters, mechanism.bodies, mechanism.joints, mechanism.forces, mechanism.states)
-    taken = [part.name for group in parts for part in group]
+    groups: tuple[tuple[Any, ...], ...] = (mechanism.parameters, mechanism.bodies, mechanism.joints)
+    groups += (mechanism.forces, mechanism.states)
+    taken = [str(part.name) for group in groups for part in group]
     heads = (f"pull{k or ''}" for k in range(len(taken) + 1))
     return next(head for head in heads if not any(name.startswith(head) for name in taken))

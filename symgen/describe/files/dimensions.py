@@ -15,7 +15,7 @@ from symgen.describe.files.handles import PointsOfFile, Spans, WrittenPoint, spa
 from symgen.describe.files.snippet_tables import exact_number
 from symgen.describe.files.text_changes import Change
 from symgen.describe.formulas.evaluate import evaluate, parameter_values
-from symgen.describe.mechanism import Mechanism
+from symgen.describe.mechanism import Body, Mechanism
 
 LENGTH, ANGLE = "length", "angle"
 #: Sides of a body that are dimensions at most.
@@ -182,8 +182,7 @@ class _Line(NamedTuple):
         """Turn the body: the number of its angle, or the parameter that decides it."""
         name = self.first.body
         raw, path = points.raw["bodies"][name]["angle"], ("bodies", name, "angle")
-        body = next(b for b in points.mechanism.bodies if b.name == name)
-        angle: Expr = body.angle
+        angle = next(b.angle for b in points.mechanism.bodies if isinstance(b, Body) and b.name == name)
         now = evaluate(angle, points.values)
         if any(names_in_expression(angle)):
             change = _solved_parameter(points, self.name, lambda values: evaluate(angle, values), now + turn)
@@ -200,7 +199,7 @@ class _Line(NamedTuple):
         x0, y0 = _local(points, self.first)
         c, s = math.cos(turn), math.sin(turn)
         changes = list[Change]()
-        written = {("points", key): vector for key, vector in entry["points"].items()}
+        written: dict[tuple[str, ...], Any] = {("points", key): vector for key, vector in entry["points"].items()}
         if "centre_of_mass" in entry:
             written["centre_of_mass",] = entry["centre_of_mass"]
         for keys, vector in written.items():

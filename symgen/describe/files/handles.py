@@ -150,6 +150,7 @@ class PointsOfFile:
             at += len(body.coordinates)
 
     def all_handles(self) -> Iterator[Handle]:
+        """Yield the handles of pins, then of further points."""
         taken = set[Path]()
         for joint, spots in self.pins_with_points():
             # a pin of centres of mass has no point that a number places
@@ -222,11 +223,13 @@ class PointsOfFile:
         return Handle(kind, name, x, y, spots[first].body, spots[first].point, (local[0], local[1]), followers)
 
     def vector_of_spot(self, spot: WrittenPoint) -> tuple[Expr, ...]:
+        """Return the coordinates of a point in the frame of its body."""
         return self.scope_of_spot(spot).vector(
             "at" if spot.path[0] != "bodies" else f"points.{spot.point}", tuple(spot.raw)
         )
 
     def scope_of_spot(self, spot: WrittenPoint) -> Scope:
+        """Return the scope of the table that has a point."""
         section, name = str(spot.path[0]), str(spot.path[1])
         return Scope(self.context, f"{section}.{name}", name)
 

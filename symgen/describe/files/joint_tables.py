@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -12,7 +13,7 @@ from symgen.base.vocabulary.expressions import ONE, call
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.keys import keys_of_any_joint, rows_of_joint
 from symgen.describe.mechanism import Force, Hold, Joint, Rotor
-from symgen.describe.parts.collected import Errors, Incomplete
+from symgen.describe.parts.collected import Errors, Incomplete, further_errors
 from symgen.describe.parts.fields import Flag, JointStart, Scalar, read_table, read_value, value_in_words
 from symgen.describe.parts.holding_joints import ReadHolding, read_holding
 from symgen.describe.parts.holds import joint_holds
@@ -84,15 +85,30 @@ class JointTables:
         with self.errors.part_of_description(name):
             if self._open > LONGEST_CHAIN:
                 raise InputError(where, f"joints that refer to each other in at most {LONGEST_CHAIN} steps", "more")
-            self._joints[name] = joint = self._read_joint(name)
+            try:
+                self._joints[name] = joint = self._read_joint(name, self.tables[name])
+            except InputError as error:
+                if self.errors.all_of_them:
+                    error.further += further_errors(partial(self._read_whole_joint, name), self.tables[name], error)
+                raise
             self._open -= 1
             return joint
         self._open -= 1
         raise Incomplete
 
-    def _read_joint(self, name: str) -> Joint:
+    def _read_whole_joint(self, name: str, table: Any) -> None:
+        """Read a table of a joint with its rows that have bounds, which other tables wait for."""
+        joint = self._read_joint(name, table)
+        self._rows_with_bounds(self._scopes.pop(name)[0], joint, table)
+
+    @staticmethod
+    def _rows_with_bounds(scope: Scope, joint: Joint, table: Mapping[str, Any]) -> tuple[BoundedRow, ...]:
+        taken = _taken_keys(JOINTS.get(joint.kind), table)
+        return tuple(rows_of_joint(scope, joint, {k: x for k, x in table.items() if k not in taken}))
+
+    def _read_joint(self, name: str, whole: Any) -> Joint:
         """Return the joint `name`, and note what else its table says."""
-        where, whole = self.where(f"joints.{name}"), self.tables[name]
+        where = self.where(f"joints.{name}")
         kind, table = kind_and_keys(where, whole, "joint type")
         struct = JOINTS.get(kind, f"{where}.type")
         shared = tuple(key for key in self._keys if key not in _taken_keys(struct, whole))
@@ -131,10 +147,15 @@ class JointTables:
         rows, cuts = dict[str, tuple[BoundedRow, ...]](), list[str]()
         for name, (scope, joint) in self._scopes.items():  # after all joints, as formulas may read any
             with self.errors.part_of_description(name):
-                table = self.tables[name]
-                taken = _taken_keys(JOINTS.get(joint.kind), table)
-                rows[name] = tuple(rows_of_joint(scope, joint, {k: x for k, x in table.items() if k not in taken}))
-                if (holding := read_holding(self.scope("joints", name, joint.kind), joint, table)) is not None:
+                try:
+                    rows[name] = self._rows_with_bounds(scope, joint, self.tables[name])
+                except InputError as error:
+                    if self.errors.all_of_them:
+                        read = partial(self._rows_with_bounds, scope, joint)
+                        error.further += further_errors(read, self.tables[name], error)
+                    raise
+                own = self.scope("joints", name, joint.kind)
+                if (holding := read_holding(own, joint, self.tables[name])) is not None:
                     self.holding[name] = holding
             if name in self.cuts or any(row.pressed for row in rows.get(name, ())):
                 cuts.append(name)  # its reaction is a multiplier

@@ -39,7 +39,7 @@ from symgen.describe.mechanism import (
     Vec,
 )
 from symgen.describe.parts.bodies import planar_body, read_shapes, spatial_body
-from symgen.describe.parts.collected import Errors, Incomplete, errors_in_other_keys
+from symgen.describe.parts.collected import Errors, Incomplete, further_errors
 from symgen.describe.parts.columns import check_columns
 from symgen.describe.parts.context import Context
 from symgen.describe.parts.event_sections import read_event
@@ -125,8 +125,8 @@ class _Validator:
                 try:
                     results.append(read(name, value))
                 except InputError as error:
-                    if self.errors.all_of_them and section != "joints":  # which read each other
-                        error.further += errors_in_other_keys(partial(read, name), value, error)
+                    if self.errors.all_of_them and section != "joints":  # which tell theirs as they are resolved
+                        error.further += further_errors(partial(read, name), value, error)
                     raise
         return tuple(results)
 

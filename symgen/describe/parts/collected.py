@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager
 from types import TracebackType
 from typing import Any
@@ -19,10 +19,12 @@ class Incomplete(Exception):
 
 
 #: How the sentence of a wrong formula begins, in place of which a number may stand.
-FORMULA = "a number or an expression"
+FORMULAS = ("a number or an expression", "an expression of")
+#: How often a table with wrong formulas is read at most.
+MOST_READS = 60
 
 
-def errors_in_other_keys(read: Callable[[Any], object], table: object, error: InputError) -> tuple[InputError, ...]:
+def further_errors(read: Callable[[Any], object], table: object, error: InputError) -> tuple[InputError, ...]:
     """Return what else is wrong in a table: it is read again with a number in place of each formula that is wrong.
 
     Parameters
@@ -34,24 +36,38 @@ def errors_in_other_keys(read: Callable[[Any], object], table: object, error: In
     error : InputError
         What is wrong first.
     """
-    found, mended = list[InputError](), set[str]()
-    while isinstance(table, Mapping) and error.expected.startswith(FORMULA):
-        key = next((key for key in table if f".{key}." in f"{error.where}.".replace("[", ".[")), None)
-        if key is None or key in mended:
-            break
-        mended.add(key)
-        table = {**table, key: _with_numbers(table[key])}
+    found, filled, reads = list[InputError](), set[str](), 0
+
+    def error_of(changed: Any) -> InputError | None:
+        nonlocal reads
+        reads += 1
         try:
-            read(table)
+            read(changed)
         except InputError as other:
-            if any(f".{key}." in f"{other.where}.".replace("[", ".[") for key in mended):
-                break
-            error = other
-            found += [error, *error.further]
+            return other
         except Incomplete:
+            return None
+        return None
+
+    while isinstance(table, Mapping) and error.expected.startswith(FORMULAS) and reads < MOST_READS:
+        key = next((key for key in table if f".{key}." in f"{error.where}.".replace("[", ".[")), None)
+        if key is None or key in filled:  # a number is not what it takes
             break
+        whole = _with_numbers(table[key])
+        for part in _with_one_number(table[key]):  # the one whose number changes what is wrong
+            if reads >= MOST_READS or part == whole:  # then no text is left that could be wrong as well
+                continue
+            other = error_of(mended := {**table, key: part})
+            alike = other is not None and (other.where, other.expected) == (error.where, error.expected)
+            if alike and str(other) != str(error):
+                break
         else:
+            filled.add(key)
+            other = error_of(mended := {**table, key: whole})
+        if other is None or any(f".{name}." in f"{other.where}.".replace("[", ".[") for name in filled):
             break
+        table, error = mended, other
+        found += [error, *error.further]
     return tuple(found)
 
 
@@ -62,6 +78,18 @@ def _with_numbers(value: object) -> object:
     if isinstance(value, list):
         return [_with_numbers(item) for item in value]
     return {key: _with_numbers(item) for key, item in value.items()} if isinstance(value, Mapping) else value
+
+
+def _with_one_number(value: object) -> Iterator[object]:
+    """Yield a value with a number in place of one of its texts, each in turn."""
+    if isinstance(value, str):
+        yield 1.0
+    elif isinstance(value, list):
+        for i, item in enumerate(value):
+            yield from ([*value[:i], other, *value[i + 1 :]] for other in _with_one_number(item))
+    elif isinstance(value, Mapping):
+        for key, item in value.items():
+            yield from ({**value, key: other} for other in _with_one_number(item))
 
 
 class Errors:

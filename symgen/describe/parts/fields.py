@@ -42,7 +42,7 @@ StateBound = Annotated[
 Potential = Annotated[float | str, Meta(description="an expression of parameters and the element's own coordinate")]
 Efficiency = Annotated[
     float | str | tuple[float | str, float | str],
-    Meta(description="a number or an expression of parameters, or two, [forwards, backwards]"),
+    Meta(description="a number or a formula of parameters and the motion, or two of parameters, [forwards, backwards]"),
 ]
 Pair = Annotated[tuple[float | str, float | str], Meta(description="two numbers or expressions of parameters")]
 #: Two or three of them, as published in the schema; the `Scope` of a mechanism decides between the two.

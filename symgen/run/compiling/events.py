@@ -95,6 +95,9 @@ def bounded_rows(mechanism: Mechanism, compiled: CompiledModel) -> BoundedRows |
     state += [(f"rate of {row.label}", measure_derivative(row)) for row in every]
     state += [row.numbers[k] for k in range(2) for row in held]  # bounds at rest, then those in motion
     state += [row.numbers[0] for row in pushing]
+    shifted = any(row.shift is not None for row in held)
+    state += [(f"shift of the middle of {row.name} at rest", row.shift or ZERO) for row in held if shifted]
+    state += [(f"middle of the bounds of {row.name}", row.middle_of_bounds()) for row in held if shifted]
     rates = [(f"second derivative of {row.label}", measure_derivative(row, 2)) for row in every]
     pressed, forces = rows_bounded_by_reactions(mechanism), list[tuple[str, Expr]]()
     for row in pressed:
@@ -110,6 +113,7 @@ def bounded_rows(mechanism: Mechanism, compiled: CompiledModel) -> BoundedRows |
         changes=changes_in_time(mechanism),
         losses=tuple(None if i is None else compiled.info.own_states.stop + i for i in places_of_losses(mechanism)),
         varying=tuple(i for i, row in enumerate(every) if row.changing),
+        shifted=tuple(i for i, row in enumerate(every) if row.shift is not None),
     )
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from symgen.base.errors import InputError
 from symgen.compile.store.identity import combined_digest
+from symgen.derive.lower.law import refuse_bounded_rows
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS, Method
 from symgen.describe.bounds.by_reaction import pressed_rows
@@ -62,6 +63,18 @@ def choose_method(name: str, options: Mapping[str, str] | None = None, implicit:
     method = METHODS.get(name, "method")
     implicit = implicit or not EXPLICIT_FORMS & set(method.forms)  # some methods have no other form
     return MethodChoice(method, method.complete_options(options or {}), implicit)
+
+
+def takes_bounded_rows(choice: MethodChoice, mechanism: Mechanism) -> bool:
+    """Return whether a method takes rows that may be off, whose bounds, if they have any, may depend on reactions."""
+    if not mechanism.has_modes:
+        return True
+    pressed = next((row.family.one for row in pressed_rows(mechanism)), "")
+    try:
+        refuse_bounded_rows(choice.method, choice.options, choice.implicit, pressed)
+    except InputError:
+        return False
+    return True
 
 
 def choice_for_coordinates(mechanism: Mechanism, choice: MethodChoice) -> MethodChoice:

@@ -38,13 +38,6 @@ def rows_of_velocities(watched: Watched) -> list[int]:
     return [rows.partners[hits[e]] if again else -1 for e, again in zip(owners.tolist(), repeated, strict=True)]
 
 
-def numbers_of_state(watched: Watched) -> int:
-    """Return the length of what the function of rows with bounds writes."""
-    rows = watched.bounded
-    assert rows is not None, "a run with contacts"
-    return 3 * len(rows.names) + rows.dry
-
-
 def tied_impact(watched: Watched, kept: KeptTies, now: Moment) -> Ties:
     """Return the ties of an impact: what is held, and multiples by the coefficients of friction at its state."""
     rows, effects = watched.bounded, watched.effects
@@ -168,7 +161,7 @@ class PushDirections(ResetDirections):
     def _slopes_of_ratios(self) -> Array:
         """Return the directions of the multiples that impulses along contacts are, shape (count, L)."""
         rows, watched = self.watched.bounded, self.watched
-        out = self._evaluate_reset(rows.state.function, numbers_of_state(watched), self.y)
+        out = self._evaluate_reset(rows.state.function, rows.values, self.y)
         first = 2 * len(rows.names) + rows.dry
         slopes = np.zeros((len(self.ties.held), self.model.lanes))
         for j, row in enumerate(rows_of_velocities(watched)):

@@ -253,8 +253,7 @@ class Transfer:
         if not np.any(held):
             slopes[own] = 0.0
             return slopes.reshape(kept.shape)
-        length = 2 * k + 2 * rows.dry + (k - rows.dry)
-        values, directions = self.moments.evaluate_moment(rows.state.function, length, after, by)
+        values, directions = self.moments.evaluate_moment(rows.state.function, rows.values, after, by)
         directions = directions[:, :-1]
         for i in range(k):
             line = slopes[own[i]]

@@ -10,7 +10,8 @@ import numpy as np
 from symgen.compile.loopcode.loop_instances import Meanings
 from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.effects.accumulation import Past, accumulation, add_resets, latest_events
-from symgen.run.effects.applying import APPLIED, EffectModel, EffectWork, apply_effects
+from symgen.run.effects.applying import APPLIED, EffectModel, EffectWork
+from symgen.run.effects.applying import apply_effects as apply_chosen
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.start_records import Instant, Layout
@@ -191,7 +192,7 @@ def apply_resets(last: int, effects: OfEffects, state: EventState) -> int:
         now, t, chosen = Instant(state.y, state.p, state.w), state.clock[abi.TIME], effects.chosen
         nq = effects.model[0].nq
         keep_before(effects.kept, state.y)
-        code = apply_effects(effects.model, t, now, chosen, effects.work)
+        code = apply_chosen(effects.model, t, now, chosen, effects.work)
         if code != APPLIED:
             effects.ends[e.IMPOSSIBLE_EVENT], effects.ends[e.FAILURE] = float(last), float(code)
             return int(e.IMPOSSIBLE)

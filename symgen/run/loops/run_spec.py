@@ -127,12 +127,15 @@ class BoundedRows(BoundedNames):
         See `BoundedNames`.
     state, accelerations : callable
         ``(t, y, p, w, rate)`` -> coordinates and gaps, their rates, bounds at rest and bounds at the beginning
-        of a motion, of one-sided rows restitutions; second derivatives of coordinates and gaps. Bounds by reactions
-        are over these.
+        of a motion, of one-sided rows restitutions, where any are `shifted` by how
+        much, and middles in motion; second derivatives of
+        coordinates and gaps. Bounds by reactions are over these.
     reactions : callable or None
         ``(t, y, p, w, rate)`` -> components of the reactions of `pressed` coordinates, two each.
     varying : tuple of int
         Coordinates whose bounds are formulas of more than parameters.
+    shifted : tuple of int
+        Coordinates whose bounds at rest have another middle than those in motion.
     changes : bool
         Whether anything but the motion and inputs changes over time.
     losses : tuple of int or None
@@ -145,6 +148,12 @@ class BoundedRows(BoundedNames):
     changes: bool = True
     losses: tuple[int | None, ...] = ()
     varying: tuple[int, ...] = ()
+    shifted: tuple[int, ...] = ()
+
+    @property
+    def values(self) -> int:
+        """Number of values of `state`."""
+        return 3 * len(self.names) + (3 if self.shifted else 1) * self.dry
 
 
 @dataclass(frozen=True)

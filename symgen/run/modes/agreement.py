@@ -85,7 +85,7 @@ def probe_row(t: float, c: Choice, j: int, y: Array, p: Array, w: Array, iw: Int
         for i in range(c.count):
             c.trial[i] = 0.0 if c.pressed[i] != 0 else c.signs[i]
         force = 1.0
-        if c.pressed[j] != 0 or c.sliding[j] == 0.0:
+        if c.pressed[j] != 0 or c.sliding[j] == 0.0 or c.middle[j] != 0.0:
             c.trial[j], c.pushed[0] = 0.0, j
         else:
             c.trial[j], force = 1.0, c.sliding[j]
@@ -153,7 +153,7 @@ def follow_bounds(c: Choice, n: int) -> None:
         i, total = c.rest[r], 0.0
         if box.bounds[r] > 0.0:
             box.bounds[r] *= c.sizes[i]
-            box.lower[r] = -box.bounds[r]
+            box.lower[r] *= c.sizes[i]
         for j in range(k):
             if c.pressed[j] != 0 and c.signs[j] != 0.0:
                 total += c.matrix[i * k + j] * c.forces[j]
@@ -189,7 +189,7 @@ def agree_within(c: Choice, n: int, part: float) -> int:
         if solve_box(n, c.box) != 0:
             return NO_FORCES
         for r in range(n):
-            c.forces[c.rest[r]] = c.box.forces[r]
+            c.forces[c.rest[r]] = c.box.forces[r] - c.middle[c.rest[r]]
         if follow_sizes(c):
             return SAME
     return DISAGREED

@@ -119,10 +119,13 @@ class Choice(Record):
     pressed, varying : Array of int64, shapes (k,)
         1 for coordinates whose bounds depend on reactions; 1 for coordinates whose bounds are formulas of more than
         parameters.
+    shifted : int
+        1 where coordinates have bounds at rest with another middle than those in motion.
     step : Array, shape (1,)
         Step that laws assume before the first one [s].
-    value, speed, static, sliding, restitution : Array, shapes (k,)
-        Coordinates and gaps, their rates, bounds at rest and in motion, restitutions.
+    value, speed, static, sliding, restitution, middle : Array, shapes (k,)
+        Coordinates and gaps, their rates, bounds at rest and in motion, restitutions, and the middles of bounds at
+        rest less those of bounds in motion.
     before, after : Array, shapes (MODE_NUMBERS k,)
         Modes.
     signs, trial : Array, shapes (k,)
@@ -190,12 +193,14 @@ class Choice(Record):
     named: Integers
     pressed: Integers
     varying: Integers
+    shifted: int
     step: Array
     value: Array
     speed: Array
     static: Array
     sliding: Array
     restitution: Array
+    middle: Array
     before: Array
     after: Array
     signs: Array
@@ -253,7 +258,6 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
     first = info.sections["modes"][0] + MODE_NUMBERS * info.switchable.index(info.bounded[0])
     places = np.full(info.m, -1, dtype=np.int64)
     places[list(info.bounded)] = np.arange(k)
-    states = 2 * k + 2 * rows.dry + (k - rows.dry)
 
     def flags(size: int = k) -> Integers:
         return np.zeros(size, dtype=np.int64)
@@ -297,12 +301,14 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         named=flags(k + 1),
         pressed=marks(rows.pressed),
         varying=marks(rows.varying),
+        shifted=int(len(rows.shifted) > 0),
         step=numbers(1),
         value=numbers(k),
         speed=numbers(k),
         static=numbers(k),
         sliding=numbers(k),
         restitution=numbers(k),
+        middle=numbers(k),
         before=numbers(MODE_NUMBERS * k),
         after=numbers(MODE_NUMBERS * k),
         signs=numbers(k),
@@ -322,7 +328,7 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         y=numbers(width),
         w=numbers(nw),
         rate=numbers(width),
-        out=numbers(max(states, 1)),
+        out=numbers(max(rows.values, 1)),
         room=numbers(room_of_choice(info.m, info.nv)),
         iw=flags(abi.N_COUNTERS),
         partner=np.array(rows.partners, dtype=np.int64) if rows.partners else np.full(k, -1),

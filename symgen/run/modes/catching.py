@@ -202,7 +202,7 @@ def apply_with_holding(last: int, effects: OfEffects, state: EventState) -> int:
 
 HOLDING = Meanings(
     "runs with joints that hold for a while",
-    apply_effects=catch_and_apply,
+    apply_chosen=catch_and_apply,
     apply_resets=apply_with_holding,
     change_state=apply_with_holding,
 )

@@ -84,6 +84,9 @@ def read_rows(t: float, c: Choice, y: Array, p: Array, w: Array) -> int:
             c.static[i], c.sliding[i] = static, sliding
             valid = valid and math.isfinite(static) and sliding >= 0.0 and static >= sliding
             valid = valid and not (sliding == 0.0 and static > 0.0)
+            if c.shifted != 0:
+                c.middle[i] = out[3 * k + dry + i]
+                valid = valid and abs(c.middle[i]) <= (static - sliding) + ROUNDED * static
         else:
             restitution = out[2 * k + dry + i]
             c.restitution[i] = restitution
@@ -95,7 +98,10 @@ def read_rows(t: float, c: Choice, y: Array, p: Array, w: Array) -> int:
 
 @exact(entry=True)
 def find_fault(c: Choice, w: Array) -> int:
-    """Return the kind of number that is out of range at rows that have been read, and name the first such row."""
+    """Return the kind of number that is out of range at rows that have been read, and name the first such row.
+
+    Of bounds of two directions those of one remain.
+    """
     for i in range(c.count):
         if not math.isfinite(c.value[i] + c.speed[i] + c.static[i] + c.sliding[i] + c.restitution[i]):
             c.named[0] = i
@@ -115,8 +121,12 @@ def find_fault(c: Choice, w: Array) -> int:
     c.named[0] = 0
     for i in range(c.dry):
         static, sliding = c.static[i], c.sliding[i]
-        if not (sliding >= 0.0 and static >= sliding):
+        shifted = abs(c.middle[i]) > (static - sliding) + ROUNDED * static
+        if not (sliding >= 0.0 and static >= sliding) or shifted:
             c.named[0] = i
+            if shifted:  # the bounds of the way in which they are wrong
+                way, middle = -sign_of_number(c.middle[i]), c.out[3 * c.count + 2 * c.dry + i]
+                c.static[i], c.sliding[i] = static + way * (middle + c.middle[i]), sliding + way * middle
             break
     return NO_BOUNDS
 
@@ -223,7 +233,7 @@ def probe(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, contr
             for i in range(k):
                 c.trial[i] = c.signs[i]
             c.trial[j] = sign
-            if force == 0.0:  # a bound that is 0 now holds what it holds at rest as soon as it rises
+            if force == 0.0 or c.middle[j] != 0.0:  # a bound of 0 holds what it holds at rest as soon as it rises
                 force, c.trial[j], c.pushed[0] = 1.0, 0.0, j
             code = accelerate(t, c, y, p, w, iw, control)
             c.pushed[0] = -1

@@ -68,16 +68,20 @@ def is_tied(c: Choice, n: int, i: int) -> bool:
 
 @exact()
 def set_bounds(c: Choice, n: int, part: float) -> None:
-    """Set the bounds of forces at rest: static bounds, of which tied rows have a part, or bounds of motion."""
+    """Set the bounds of forces at rest: static bounds, of which tied rows have a part, or bounds of motion.
+
+    Forces count from the middle of the bounds of motion, so that 0 is within all bounds.
+    """
     box = c.box
     for r in range(n):
         i = c.rest[r]
-        bound = c.static[i] if c.taken[i] != 0 else c.sliding[i]
-        if part < 1.0 and c.taken[i] != 0 and is_tied(c, n, i):
-            bound *= part
+        bound, shift = c.sliding[i], 0.0
+        if c.taken[i] != 0:
+            tied = part if part < 1.0 and is_tied(c, n, i) else 1.0
+            bound, shift = c.static[i] * tied, c.middle[i] * tied
         pushes = c.pushes[i] != 0
-        box.bounds[r] = 0.0 if pushes else bound
-        box.lower[r] = -bound if not pushes else (0.0 if c.loose[i] != 0 else -math.inf)
+        box.bounds[r] = 0.0 if pushes else bound + shift
+        box.lower[r] = shift - bound if not pushes else (0.0 if c.loose[i] != 0 else -math.inf)
 
 
 @exact()
@@ -134,6 +138,8 @@ def solve_rest(c: Choice, n: int, w: Array) -> int:
     k, box = c.count, c.box
     for r in range(n):
         i = c.rest[r]
+        for s in range(n):
+            c.offset[i] += c.matrix[i * k + c.rest[s]] * c.middle[c.rest[s]]
         box.offset[r] = c.offset[i]
         c.taken[i] = 1 if c.pushes[i] == 0 and c.loose[i] == 0 else 0  # its static bound holds
         for s in range(n):
@@ -166,7 +172,7 @@ def solve_rest(c: Choice, n: int, w: Array) -> int:
             moves = moves and box.left[r] > 0.0
         elif c.loose[i] != 0 and abs(force) >= AT_BOUND * bound and bound > 0.0:
             moves = True
-        c.forces[i] = force
+        c.forces[i] = force - c.middle[i]
         c.signs[i] = 0.0
         if moves:
             c.signs[i] = sign_of_number(box.left[r] if force == 0.0 or c.pushes[i] != 0 else force)

@@ -20,17 +20,20 @@ from symgen.base.files import Content, check_file_name, system_message, template
 from symgen.base.ir.program import COUNTERS, SETTLED, STATUS, SUFFIXES
 from symgen.base.settings import Settings
 from symgen.derive.emit.module import render_template
-from symgen.derive.lower.law import refuse_bounded_rows
 from symgen.derive.lower.looped.looped_law import is_loopable
 from symgen.derive.methods import METHODS
-from symgen.describe.bounds.by_reaction import pressed_rows
 from symgen.describe.bounds.keys import nouns_of_families
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.event_sections import DOES
 from symgen.run.breaks.motions import refuse_jumps
 from symgen.run.compiling.choices import choose_coordinates, mechanism_on_tree
 from symgen.run.compiling.closing import choice_at_start
-from symgen.run.compiling.method_choice import MethodChoice, choice_for_coordinates, choose_method
+from symgen.run.compiling.method_choice import (
+    MethodChoice,
+    choice_for_coordinates,
+    choose_method,
+    takes_bounded_rows,
+)
 from symgen.run.compiling.pipeline import generate
 from symgen.run.planning.plan import Plan, Purpose
 from symgen.run.planning.prepare import code_and_start, make_plan, prepared_run
@@ -172,12 +175,8 @@ def _stem(choice: MethodChoice) -> str:
 
 def _suits_target(choice: MethodChoice, mechanism: Mechanism, shape: str, target: str) -> bool:
     """Whether a method can be emitted for a mechanism in a shape and for a target."""
-    if mechanism.has_modes:
-        try:
-            pressed = next((row.family.one for row in pressed_rows(mechanism)), "")
-            refuse_bounded_rows(choice.method, choice.options, choice.implicit, pressed)
-        except InputError:
-            return False
+    if not takes_bounded_rows(choice, mechanism):
+        return False
     if shape == "looped":
         return is_loopable(choice.method, choice.options, choice.implicit)
     return target != "cuda" or not choice.implicit

@@ -13,10 +13,10 @@ from symgen.base import arguments
 from symgen.base.errors import InputError, suggest
 from symgen.base.settings import COORDINATES, Settings
 from symgen.describe.bounds.bounded_modes import one_sided_rows, refuse_bounds, without_bounds
-from symgen.describe.parts.holding_joints import in_modes
 from symgen.describe.bounds.smooth import sliding_rows_as_forces
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.evaluate import parameter_values
+from symgen.describe.parts.holding_joints import in_modes
 from symgen.describe.parts.topology import state_quantities
 from symgen.run.compiling.choices import choose_coordinates, mechanism_on_tree, take_tree_of
 from symgen.run.planning.plan import Purpose

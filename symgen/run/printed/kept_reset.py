@@ -11,7 +11,8 @@ from symgen.compile.loopcode.loop_instances import Meanings, compiled_loop, view
 from symgen.compile.native import types
 from symgen.compile.native.annotations import Array
 from symgen.compile.store.jit import RuntimeFunction
-from symgen.run.effects.applying import APPLIED, apply_effects
+from symgen.run.effects.applying import APPLIED
+from symgen.run.effects.applying import apply_effects as apply_chosen
 from symgen.run.effects.resets import OfEffects
 from symgen.run.layout.records import State
 from symgen.run.layout.start_records import Instant
@@ -56,7 +57,7 @@ def reset_run(event: int, t: float, y: Array, model: ModelWithEffects, state: St
     for k in range(effects.chosen.shape[0]):
         effects.chosen[k] = 1 if k == event else 0
     leave_alone(further, state.w)
-    code = apply_effects(effects.model, t, Instant(y, state.p, state.w), effects.chosen, effects.work)
+    code = apply_chosen(effects.model, t, Instant(y, state.p, state.w), effects.chosen, effects.work)
     return 0 if code == APPLIED else 1
 
 

@@ -9,6 +9,9 @@ from symgen.base import arguments
 from symgen.base.errors import InputError
 from symgen.base.settings import COORDINATES, Settings
 from symgen.derive.methods import METHODS
+from symgen.derive.methods._base import EXPLICIT_FORMS
+from symgen.describe.mechanism import Mechanism
+from symgen.run.compiling.method_choice import choose_method, takes_bounded_rows
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.loops.integrator import chooses_steps
 
@@ -26,7 +29,7 @@ DEFAULT_METHODS = (
     *("lagrange", "baumgarte", "augmented-lagrangian", "index1-augmented-lagrangian"),
     *("coordinate-partitioning", "direct-correction"),
 )
-#: Those of them for mechanisms with bounded rows.
+#: Those of them for mechanisms with bounded rows, if they take these.
 MODE_METHODS = tuple(name for name in DEFAULT_METHODS if name != "coordinate-partitioning")
 #: Default integrators; a method that none of them suits gets its own.
 DEFAULT_INTEGRATORS = ("rk4", "dopri5", "dop853")
@@ -71,7 +74,7 @@ class Combinations:
         for name, value in (words | numbers).items():
             object.__setattr__(self, name, value)
 
-    def settings(self, base: Settings, own: float, modes: bool = False) -> Iterator[Settings]:
+    def settings(self, base: Settings, own: float, mechanism: Mechanism) -> Iterator[Settings]:
         """Return the settings of all runs.
 
         Parameters
@@ -80,17 +83,17 @@ class Combinations:
             Common settings, with the end time.
         own : float
             The mechanism's own step [s].
-        modes : bool
-            Whether rows may be off, which methods that read D of all rows do not take.
+        mechanism : Mechanism
+            What is compared; methods that cannot take its rows with bounds are left out, unless they are named.
 
         Raises
         ------
         InputError
             If a method or integrator does not exist, or no selected integrator solves a form of a selected method.
         """
-        left_out = self.left_out
+        left_out = {*self.left_out, *self.without_modes(mechanism)}
         for state in tuple(dict.fromkeys(self.coordinates)) or COORDINATES[:1]:
-            for words in _select_names(self.methods, MODE_METHODS if modes else DEFAULT_METHODS, METHODS.names):
+            for words in _select_names(self.methods, _methods_by_default(mechanism), METHODS.names):
                 method, variant = split_variant(words)
                 methods = [split_variant(other)[0] for other in self.methods]
                 if method in left_out:
@@ -111,6 +114,13 @@ class Combinations:
             return ()
         unfit = tuple(n for n in METHODS.names if n not in named and not _fitting_integrators(n, self.integrators))
         return unfit if len(unfit) < len(METHODS.names) else ()
+
+    def without_modes(self, mechanism: Mechanism) -> tuple[str, ...]:
+        """Return the methods that cannot take the rows with bounds of a mechanism, but those that are named."""
+        named = {split_variant(words)[0] for words in self.methods}
+        every = _select_names(self.methods, _methods_by_default(mechanism), METHODS.names)
+        free = [name for name in every if split_variant(name)[0] not in named and name not in self.left_out]
+        return tuple(name for name in free if not _takes_bounds(name, self.integrators, mechanism))
 
     def _settings_by_step(self, common: Settings, own: float) -> Iterator[Settings]:
         name = str(common.integrator)
@@ -167,6 +177,17 @@ def _suitable_integrators(method: str, integrators: Sequence[str]) -> tuple[str,
         return fit or (chosen.default_integrator,)
     forms = ", ".join(chosen.forms)
     raise InputError("integrators", f"one that solves a form of {method} ({forms})", f"'{', '.join(integrators)}'")
+
+
+def _methods_by_default(mechanism: Mechanism) -> tuple[str, ...]:
+    return MODE_METHODS if mechanism.bounded else DEFAULT_METHODS
+
+
+def _takes_bounds(method: str, integrators: Sequence[str], mechanism: Mechanism) -> bool:
+    """Return whether a method takes the rows with bounds of a mechanism, in all forms that its integrators solve."""
+    fit = _suitable_integrators(method, integrators)
+    implicit = {not EXPLICIT_FORMS & set(INTEGRATORS.get(name, "integrators").forms) for name in fit}
+    return all(takes_bounded_rows(choose_method(method, None, each), mechanism) for each in sorted(implicit))
 
 
 def _fitting_integrators(method: str, integrators: Sequence[str]) -> tuple[str, ...]:

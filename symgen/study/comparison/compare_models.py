@@ -206,8 +206,8 @@ def compare_all(
         if reference_by != AUTO and (lacking := parts_without_derivation(chosen.mechanism)):
             raise InputError("reference", f"auto, as there is no second derivation of {lacking}", f"'{reference_by}'")
         check_parameters(chosen.mechanism, runs.gradient)
-        step, modes = chosen.mechanism.defaults.step, bool(chosen.mechanism.bounded)
-        cases = [(law, s) for law in mechanisms for s in runs.settings(base, step, modes)]
+        step = chosen.mechanism.defaults.step
+        cases = [(law, s) for law in mechanisms for s in runs.settings(base, step, chosen.mechanism)]
         runs_of_model = [find_preparation(mechanisms[law], s) for law, s in cases]  # raises errors before the first run
         measures = (reference_by, records, tuple(runs.error_at), tuple(law for law, _ in cases), tuple(runs.gradient))
         works.append(ModelComparison(chosen, common, end, times, [s for _, s in cases], runs_of_model, *measures))

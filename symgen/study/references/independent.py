@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.describe.bounds.bounded_modes import rows_by_family
+from symgen.describe.parts.holding_joints import refuse_holding
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.mechanism import Body, Mechanism
@@ -54,6 +55,7 @@ class IndependentEquations:
             raise InputError(
                 mechanism.name, expected, f"one with {family.noun}", "symgen run --verify estimates errors"
             )
+        refuse_holding(f"{mechanism.name}: a second derivation", mechanism)
         if any(reads_results(x.rate) for x in mechanism.states):
             expected = "a mechanism that is derived a second time, for references"
             got = "one whose states read accelerations or forces"

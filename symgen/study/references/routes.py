@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import SimulationError
 from symgen.base.settings import Settings
 from symgen.describe.bounds.bounded_modes import rows_by_family, without_bounds
-from symgen.describe.bounds.by_reaction import rows_bounded_by_reactions
+from symgen.describe.bounds.by_reaction import pressed_rows
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.event_sections import RESET
@@ -81,6 +81,8 @@ def parts_without_derivation(mechanism: Mechanism) -> str:
         return "modal bodies"
     for family in rows_by_family(mechanism):
         return family.noun
+    if mechanism.holding:
+        return "joints that hold for a while"
     return "events that change the state" if any(event.action == RESET for event in mechanism.events) else ""
 
 
@@ -97,7 +99,7 @@ def _fitting_routes(mechanism: Mechanism, routes: tuple[Route, ...]) -> tuple[Ro
     first, second = routes
     if mechanism.has_massless:
         first = first._replace(options={})
-    if rows_bounded_by_reactions(mechanism):
+    if pressed_rows(mechanism):
         second = Route("lagrange", second.integrator, {}, second.rtol, "joint")
     return first, second
 

@@ -19,6 +19,7 @@ from symgen.describe.facts.digest import digest
 from symgen.describe.files.load import load_mechanism
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
+from symgen.describe.parts.holding_joints import refuse_holding
 from symgen.result.points import Points
 from symgen.run.breaks.motions import refuse_jumps
 from symgen.run.compiling.pipeline import straight_alone
@@ -47,6 +48,7 @@ def reference_of_cell(level: Level, quick: bool = False) -> Fields:
     """Return the motion at the outputs, or the reason why there is none; a quick study looks for a shorter time."""
     try:
         refuse_jumps(level.mechanism, level.parameters, level.until)
+        refuse_holding("stress", level.mechanism)  # starts are judged with all joints
         return _moved_start(level, quick)
     except (AssemblyError, InputError, SimulationError) as error:
         return {"unusable": str(error)}

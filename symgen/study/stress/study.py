@@ -35,9 +35,9 @@ from symgen.study.stress.study_progress import Progress, Whole
 #: Integrators of each method besides its own default: an explicit adaptive one and an implicit one.
 FURTHER = ("dop853", "picard", "radau5")
 #: Families that a quick study runs with an implicit integrator as well, as explicit ones say nothing of methods there;
-#: and methods that it has these runs of.
+#: and methods that it has these runs of: they share the equations that are compiled for it.
 STIFF, SUITED = ("stiffness", "damping"), "radau5"
-INDEX_ONE = ("lagrange", "baumgarte", "velocity-projection", "post-stabilization", "direct-correction")
+INDEX_ONE = ("lagrange", "velocity-projection", "post-stabilization", "direct-correction")
 #: Default base model.
 DEFAULT_MODEL = "four-bar"
 #: Work of a reference in steps of a run, its compilation included; runs that a search for the largest step takes.

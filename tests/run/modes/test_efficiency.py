@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from support.emitted import mechanism_of
 
 import symgen
@@ -67,6 +68,22 @@ def test_all_power_is_motion_or_heat(efficiency):
     np.testing.assert_allclose(kinetic + result["heat"], result["supplied"], atol=1e-9)
     assert np.diff(result["heat"]).min() > -1e-12
     assert result["heat"][-1] > 0.1
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_an_efficiency_may_depend_on_the_speed(coordinates):
+    """As a table of losses over speed has it: beside the one equation of motion, integrated by SciPy."""
+    model = wheels("0.9 - 0.4*exp(-rate/0.2)", "1 + 0.5*sin(9*t)", 0.3, 1.0)
+    result = model.simulate(until=2.0, rtol=1e-11, coordinates=coordinates)
+
+    def rise(t, rate):
+        part = 0.9 - 0.4 * math.exp(-RADII[0] * rate[0] / 0.2)  # of the power that the first wheel has on its teeth
+        driving, load = (1.0 + 0.5 * math.sin(9.0 * t)) / RADII[0], 0.3 / RADII[1]
+        ratio = RADII[0] / RADII[1]
+        return [(part * driving - load) / (INERTIAS[1] * ratio / RADII[1] + part * INERTIAS[0] / RADII[0])]
+
+    expected = solve_ivp(rise, (0.0, 2.0), [1.0], method="DOP853", rtol=1e-12, atol=1e-13)
+    assert result.ok and result["a.omega"][-1] == pytest.approx(expected.y[0, -1], abs=1e-9)
 
 
 def test_heat_and_motion_balance_to_rounding():
@@ -274,12 +291,13 @@ def test_derivatives_by_an_efficiency(tmp_path):
         (
             "mesh",
             [0.5],
-            "an expression of parameters, or two, [forwards, backwards], got [0.5]",
+            "a formula of parameters and the motion, or two of parameters, [forwards, backwards], got [0.5]",
         ),
         (
             "mesh",
             "high",
-            "mesh.efficiency: expected a number or an expression of parameters, got the unknown name 'high'",
+            "mesh.efficiency: expected a number or an expression of t, rate, parameters and body coordinates, got the "
+            "unknown name 'high'",
         ),
     ],
 )

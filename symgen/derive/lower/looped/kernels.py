@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from symgen.base.ir.graph import Graph
+from symgen.base.ir.numerics import TINY
 from symgen.base.ir.program import Block, ElementProgram, OutputSlot
 from symgen.derive.lower.hoist import Hoister
 from symgen.derive.lower.model import diagonal_at_origin
@@ -278,7 +279,8 @@ class _Kernel:
         common: Outputs = [] if nu == g.zero else [(OutputSlot("nu", 0), g.mul(held, nu))]
         common += [(OutputSlot("jacobian", slot), g.mul(held, n)) for slot, n in zip(slots, entries, strict=True)]
         common += [(OutputSlot("jacobian", first + i), n) for i, n in enumerate(entries)]
-        size = g.call("sqrt", g.sum_of(g.mul(n, n) for n in entries))
+        # a pin in the middle of its hole has no direction, and no entries
+        size = g.call("sqrt", g.call("max", g.sum_of(g.mul(n, n) for n in entries), g.constant(TINY)))
         idle = g.mul(g.sub(g.one, held), size)
         common += [(OutputSlot(section, first + len(entries)), idle) for section in ("jacobian", "left")]
         quadratic: Outputs = [] if gamma == g.zero else [(OutputSlot("gamma", 0), g.mul(held, gamma))]

@@ -12,9 +12,12 @@ that by a reaction, along the travel w x_a + (1 - w) x_b. Its jamming number is 
 
 from __future__ import annotations
 
+import msgspec
+
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, call, difference, literal_of, product
 from symgen.base.vocabulary.measures import Holonomic, Sum
-from symgen.describe.bounds.dry_friction import FRICTION, Friction
+from symgen.describe.bounds.changing import is_constant
+from symgen.describe.bounds.dry_friction import FRICTION, Friction, bound_at_rate
 from symgen.describe.bounds.keys import KeyOfJoints
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import Efficiency, read_value
@@ -23,6 +26,8 @@ from symgen.describe.parts.scope import Scope
 #: Kinds of joints with teeth or threads: label of the row, and which of its two terms is the side that drives forwards.
 GEARED = {"gear": ("mesh", 0), "rack-and-pinion": ("mesh", 1), "screw": ("screw", 1)}
 _TWO, _MINUS = literal_of(2.0), literal_of(-1.0)
+#: Least efficiency that a formula of the motion gives: what is below it counts as this.
+_LEAST = literal_of(1e-3)
 
 
 class ToothFriction(Friction, frozen=True):
@@ -54,14 +59,19 @@ def read_efficiency(scope: Scope, joint: Joint, raw: object) -> tuple[ToothFrict
     terms = zip(shares, signs, row.measure.terms, strict=True)
     travel = Sum(tuple((product(part, sign, k), measure) for part, sign, (k, measure) in terms if part != ZERO))
     name = f"{joint.name}.{row.label}"
-    unit = "rad" if row.unit == "rad" else "m"
-    return (ToothFriction(joint.name, joint.name, travel, unit, coefficient, coefficient, pressed=(name,)),)
+    unit, static = "rad" if row.unit == "rad" else "m", bound_at_rate(coefficient, ZERO)
+    changing = not is_constant(scope, static)
+    friction = ToothFriction(joint.name, joint.name, travel, unit, coefficient, static, pressed=(name,))
+    return (msgspec.structs.replace(friction, changing=changing),)
 
 
 def _friction_and_share(scope: Scope, efficiency: float | str | tuple[float | str, float | str]) -> tuple[Expr, Expr]:
     """Return the coefficient of friction, and the part of it on the side that drives forwards."""
     if not isinstance(efficiency, tuple):
-        one = scope.constant("efficiency", efficiency)
+        one = scope.of_state("efficiency", efficiency, {"rate": "rate"})
+        if not is_constant(scope, one):
+            within = call("min", call("max", one, _LEAST), ONE)
+            return call("sub", call("div", ONE, within), ONE), ONE
         if not 0.0 < (size := scope.value(one, "efficiency")) <= 1.0:
             raise scope.error("efficiency", "a value above 0 and at most 1", repr(size))
         return call("sub", call("div", ONE, one), ONE), ONE

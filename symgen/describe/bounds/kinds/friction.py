@@ -8,11 +8,11 @@ from typing import Annotated, Literal
 import msgspec
 from msgspec import Meta
 
-from symgen.base.vocabulary.expressions import ZERO, Expr, Number, call
+from symgen.base.vocabulary.expressions import ZERO, Expr, call
 from symgen.base.vocabulary.measures import Measure
 from symgen.describe.bounds.by_reaction import directions_across, reacting_rows
 from symgen.describe.bounds.changing import is_constant, read_bound
-from symgen.describe.bounds.dry_friction import FRICTION, Friction, bound_at_rate
+from symgen.describe.bounds.dry_friction import FRICTION, Friction, bound_at_rate, mean_of
 from symgen.describe.bounds.keys import KeyOfJoints, tables_by_coordinate
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import Scalar, StateBound, StateFunction, read_table, value_in_words
@@ -40,8 +40,9 @@ class FrictionSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_
         The same at rest; `coefficient` by default.
     radius : scalar
         Of a pin, the arm of this force [m].
-    static : scalar
-        Largest force or torque at rest; by default `sliding` where `rate` is 0.
+    static : scalar or table
+        Largest force or torque at rest; by default `sliding` where `rate` is 0. Beside a table in `sliding` one number
+        holds both ways, or a table has one for each.
     viscous : scalar
         Force over rate [N s/m or N m s]; 0 by default.
     stribeck_speed : scalar
@@ -56,7 +57,7 @@ class FrictionSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_
     """
 
     sliding: StateBound | None = None
-    static: StateFunction | None = None
+    static: StateBound | None = None
     coefficient: StateFunction | None = None
     static_coefficient: StateFunction | None = None
     radius: Scalar | None = None
@@ -114,7 +115,7 @@ def _friction_along_coordinate(
     bounds = _read_bounds(
         scope, key, section, ("coefficient", "static_coefficient") if pressed else ("sliding", "static")
     )
-    sliding, static, backwards, changing = bounds
+    sliding, static, backwards, resting, changing = bounds
     if section.radius is not None:
         radius = scope.constant(f"{key}.radius", section.radius, positive=True)
         sliding, static = call("mul", sliding, radius), call("mul", static, radius)
@@ -138,6 +139,7 @@ def _friction_along_coordinate(
         stribeck_speed=None if speed is None else scope.constant(f"{key}.stribeck_speed", speed, positive=True),
         exponent=_stribeck_exponent(scope, key, section),
         backwards=backwards,
+        resting=resting,
         changing=changing,
         pressed=pressed,
         across=directions_across(measure, pressed),
@@ -147,41 +149,85 @@ def _friction_along_coordinate(
 
 def _read_bounds(
     scope: Scope, key: str, section: FrictionSection, names: tuple[str, str]
-) -> tuple[Expr, Expr, Expr | None, bool]:
-    """Return the bounds in motion, at rest and of motions backwards, and whether any is more than a number."""
-    (least, most), backwards = (getattr(section, name) for name in names), None
+) -> tuple[Expr, Expr, Expr | None, tuple[Expr, ...], bool]:
+    """Return the bounds of friction.
+
+    Returns
+    -------
+    sliding, static : Expr
+        In motion and at rest; of bounds of two directions forwards, and the mean.
+    backwards : Expr or None
+        In motion backwards, where that differs.
+    resting : tuple of Expr
+        At rest forwards and backwards, where a file has these.
+    changing : bool
+        Whether any is more than a number.
+    """
+    least, most = (getattr(section, name) for name in names)
     if isinstance(least, dict):
-        sliding, backwards = _bounds_by_direction(scope, f"{key}.{names[0]}", section, least)
-    else:
-        sliding = read_bound(scope, f"{key}.{names[0]}", least, ("rate",))
+        return _read_bounds_of_both_ways(scope, key, section, least, most)
+    if isinstance(most, dict):
+        raise scope.error(f"{key}.{names[1]}", f"one bound, as {names[0]} has one", value_in_words(most))
+    sliding = read_bound(scope, f"{key}.{names[0]}", least, ("rate",))
     static = bound_at_rate(sliding, ZERO) if most is None else read_bound(scope, f"{key}.{names[1]}", most)
-    if backwards is not None:
-        static = call("mul", Number(0.5), call("add", static, bound_at_rate(backwards, ZERO)))
-    at_rest = (bound_at_rate(x, ZERO) for x in (sliding, static, backwards) if x is not None)
-    changing = not all(is_constant(scope, x) for x in at_rest)
-    if not changing and backwards is None:
-        pairs = zip((bound_at_rate(sliding, ZERO), static), names, strict=True)
-        low, high = (scope.value(x, f"{key}.{name}") for x, name in pairs)
-        if high < low:
-            raise scope.error(f"{key}.{names[1]}", f"a bound of at least that in motion ({low!r})", repr(high))
-        if low == 0.0 < high:
-            raise scope.error(f"{key}.{names[0]}", "a value above 0, as that at rest is above 0", "0.0")
-    return sliding, static, backwards, changing
+    changing = _is_changing(scope, sliding, static)
+    if not changing:
+        _refuse_less_at_rest(scope, (f"{key}.{names[0]}", sliding), (f"{key}.{names[1]}", static))
+        _refuse_rest_alone(scope, f"{key}.{names[0]}", sliding, static)
+    return sliding, static, None, (), changing
+
+
+def _read_bounds_of_both_ways(
+    scope: Scope, key: str, section: FrictionSection, least: Mapping[str, object], most: object
+) -> tuple[Expr, Expr, Expr | None, tuple[Expr, ...], bool]:
+    """Return what `_read_bounds` does, of bounds that differ in the two directions."""
+    if section.stribeck_speed is not None:
+        expected = "no such key beside bounds of two directions, which may be formulas of rate"
+        raise scope.error(f"{key}.stribeck_speed", expected, value_in_words(section.stribeck_speed))
+    moving = _bounds_by_direction(scope, f"{key}.sliding", least, ("rate",))
+    if isinstance(most, dict):
+        resting = _bounds_by_direction(scope, f"{key}.static", most)
+    elif most is not None:
+        resting = [(f"{key}.static", read_bound(scope, f"{key}.static", most))] * 2
+    else:
+        resting = [(at, bound_at_rate(bound, ZERO)) for at, bound in moving]
+    begins, held = (tuple(bound_at_rate(bound, ZERO) for _, bound in each) for each in (moving, resting))
+    changing = _is_changing(scope, *begins, *held)
+    if not changing:
+        for slides, holds in zip(moving, resting, strict=True):
+            _refuse_less_at_rest(scope, slides, holds)
+        _refuse_rest_alone(scope, f"{key}.sliding", mean_of(*begins), mean_of(*held))
+    own = () if most is None else held
+    return moving[0][1], mean_of(*held), moving[1][1], own, changing
+
+
+def _is_changing(scope: Scope, *bounds: Expr) -> bool:
+    """Return whether any of some bounds is more than a number where the rate is 0."""
+    return not all(is_constant(scope, bound_at_rate(bound, ZERO)) for bound in bounds)
+
+
+def _refuse_less_at_rest(scope: Scope, moving: tuple[str, Expr], resting: tuple[str, Expr]) -> None:
+    """Refuse a constant bound at rest below that in motion, each with its key."""
+    low, high = (scope.value(bound_at_rate(bound, ZERO), key) for key, bound in (moving, resting))
+    if high < low:
+        raise scope.error(resting[0], f"a bound of at least that in motion ({low!r})", repr(high))
+
+
+def _refuse_rest_alone(scope: Scope, key: str, moving: Expr, resting: Expr) -> None:
+    """Refuse a constant bound in motion of 0 beside one at rest above 0."""
+    if scope.value(bound_at_rate(moving, ZERO), key) == 0.0 < scope.value(resting, key):
+        raise scope.error(key, "a value above 0, as that at rest is above 0", "0.0")
 
 
 def _bounds_by_direction(
-    scope: Scope, key: str, section: FrictionSection, raw: Mapping[str, object]
-) -> tuple[Expr, Expr]:
-    """Return the bounds of motions forwards and backwards."""
+    scope: Scope, key: str, raw: Mapping[str, object], names: tuple[str, ...] = ()
+) -> list[tuple[str, Expr]]:
+    """Return the bounds of motions forwards and backwards, each with its key."""
     ways = read_table(BothWays, raw, scope.where(key))
-    for name in ("static", "stribeck_speed"):
-        if (value := getattr(section, name)) is not None:
-            expected = "no such key beside bounds of two directions, which may be formulas of rate"
-            raise scope.error(f"{key.rpartition('.')[0]}.{name}", expected, value_in_words(value))
-    forwards, backwards = (
-        read_bound(scope, f"{key}.{name}", getattr(ways, name), ("rate",)) for name in ("forwards", "backwards")
-    )
-    return forwards, backwards
+    return [
+        (f"{key}.{way}", read_bound(scope, f"{key}.{way}", getattr(ways, way), names))
+        for way in ("forwards", "backwards")
+    ]
 
 
 def _stribeck_exponent(scope: Scope, key: str, section: FrictionSection) -> Expr | None:
