@@ -26,7 +26,6 @@ from symgen.study.saving import REPORTS
 
 if TYPE_CHECKING:
     import jinja2
-    import markupsafe
 
     from symgen.study.stress.stress_rows import Stress
 
@@ -148,11 +147,9 @@ def _embed_picture(picture: Picture) -> str:
     return f"data:{kind};base64,{base64.b64encode(picture.data).decode()}"
 
 
-def _css_text(text: str) -> markupsafe.Markup:
+def _css_text(text: str) -> str:
     """Return a text for a style sheet, in which nothing but letters, digits and blanks stands for itself."""
-    import markupsafe
-
-    return markupsafe.Markup("".join(c if c.isalnum() or c == " " else f"\\{ord(c):06x}" for c in text))
+    return "".join(c if c.isalnum() or c == " " else f"\\{ord(c):06x}" for c in text)
 
 
 def html_report(document: ReportDocument) -> str:
