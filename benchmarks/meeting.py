@@ -199,7 +199,7 @@ FEATURES: Mapping[str, str] = {
         "efficiency = [0.9, 0.8]"
     ),
     "friction, two directions": cart(
-        pin="friction = { sliding = { forwards = 0.3, backwards = 0.2 }, static = { forwards = 0.5, backwards = 0.25 } }"
+        pin="friction = { sliding = { forwards = 0.3, backwards = 0.2 }, static = { forwards = 0.5, backwards = 0.3 } }"
     ),
     "friction, smooth": cart(pin='friction = { sliding = 0.3, law = "tanh", speed = 1e-3 }'),
     "friction, light body": cart(inertia="0.0", pin="friction = { sliding = 0.3 }"),

@@ -54,5 +54,5 @@ def tables_of_functions() -> Iterator[str]:
 def test_dictionaries_of_meanings_say_when_they_hold() -> None:
     found = set(tables_of_functions())
     assert {name for name in found - set(late_names.dictionaries()) if not name.startswith("loops/schemes/")} == set()
-    assert {"modes/turn.py STRIKING", "rows/rows.py EVENTS"} <= found
+    assert {"modes/turn_meanings.py STRIKING", "rows/rows.py EVENTS"} <= found
     assert all(isinstance(names, Meanings) and names.when for names in late_names.dictionaries().values())

@@ -221,7 +221,7 @@ class Watched:
 
     @property
     def turning(self) -> tuple[str, ...]:
-        """What of rows has its own meanings in a turn, see `symgen.run.modes.turn.TURNING`."""
+        """What of rows has its own meanings in a turn, see `symgen.run.modes.turn_meanings.TURNING`."""
         rows, holding = self.bounded, ("holding",) * self.holding
         if rows is None:
             return holding

@@ -23,7 +23,6 @@ from symgen.run.layout.scales import larger_number
 from symgen.run.layout.start_records import Instant
 from symgen.run.modes.bounded_rows import (
     GAINED,
-    IMMOVABLE,
     NOT_APPLIED,
     NOT_FINITE,
     OTHERS,
@@ -33,7 +32,6 @@ from symgen.run.modes.bounded_rows import (
     TOUCHING,
     Choice,
     is_held,
-    is_shut,
     row_scale,
     sign_of_number,
     switch_off,
@@ -48,8 +46,9 @@ from symgen.run.modes.strikes import (
     accelerate_in_force,
     ask_rates,
     choose_events,
+    find_immovable,
+    find_touching,
     follow_series,
-    is_closing,
 )
 
 #: Impulses below this part of the largest are rounding.
@@ -80,17 +79,11 @@ def mark_flights(t: float, c: Choice, s: Strikes, w: Array) -> int:
 @exact(entry=True)
 def find_struck_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
     """Set the gaps that touch with the friction along them, and G; returns what `strikes.find_struck` does."""
-    n, strikes = 0, False
-    for i in range(c.count):
-        c.taken[i] = 0
-        c.signs[i] = w[c.first + MODE_NUMBERS * i + SIGN] if c.pushes[i] == 0 and c.partner[i] < 0 else 0.0
-    for i in range(c.dry, c.count):
-        if is_shut(c, w, i) and c.flying[i] == 0:
-            c.rest[n], c.taken[i] = i, 1
-            n += 1
-            strikes = strikes or is_closing(c, w, i)
-    if not strikes:
+    gaps = n = find_touching(c, w)
+    if gaps == 0:
         return SAME
+    for i in range(c.count):
+        c.signs[i] = w[c.first + MODE_NUMBERS * i + SIGN] if c.pushes[i] == 0 and c.partner[i] < 0 else 0.0
     for i in range(c.dry):
         j = c.partner[i]
         if j >= 0 and c.taken[j] != 0:
@@ -99,11 +92,7 @@ def find_struck_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: 
     c.at_rest[0] = n
     if probe_contacts(t, c, y, p, w, iw, control) != SAME:
         return NOT_FINITE
-    for i in range(c.dry, c.count):
-        if c.taken[i] != 0 and is_closing(c, w, i) and c.matrix[i * c.count + i] == 0.0:
-            c.named[0] = i
-            return IMMOVABLE
-    return OTHERS
+    return int(find_immovable(c, w, gaps))
 
 
 @exact()

@@ -144,19 +144,39 @@ def is_closing(c: Choice, w: Array, i: int) -> bool:
     return bool(not is_held(c, w, i) and c.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED))
 
 
+@exact()
+def find_touching(c: Choice, w: Array) -> int:
+    """Set the gaps that touch; return their number, 0 where none strikes."""
+    n, strikes = 0, False
+    for i in range(c.count):
+        c.taken[i] = 0
+    for i in range(c.dry, c.count):
+        if is_shut(c, w, i) and c.flying[i] == 0:
+            c.rest[n], c.taken[i] = i, 1
+            n += 1
+            strikes = strikes or is_closing(c, w, i)
+    return n if strikes else 0
+
+
+@exact()
+def find_immovable(c: Choice, w: Array, n: int) -> int:
+    """Return `IMMOVABLE` and name a gap that strikes where nothing changes the rate of one, else `OTHERS`."""
+    for r in range(n):
+        i = c.rest[r]
+        if is_closing(c, w, i) and c.matrix[i * c.count + i] == 0.0:
+            c.named[0] = i
+            return IMMOVABLE
+    return OTHERS
+
+
 @exact(entry=True)
 def find_struck(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
     """Set the gaps that touch, and G among them, where one strikes: `OTHERS`; else `SAME`, or why there is no impact.
 
     That is `NOT_FINITE`, or `IMMOVABLE` with the gap named: its rate is what joints and drivers make of it.
     """
-    n, strikes = 0, False
-    for i in range(c.dry, c.count):
-        if is_shut(c, w, i):
-            c.rest[n] = i
-            n += 1
-            strikes = strikes or is_closing(c, w, i)
-    if not strikes:
+    n = find_touching(c, w)
+    if n == 0:
         return SAME
     c.at_rest[0] = n
     for i in range(c.count):
@@ -164,12 +184,7 @@ def find_struck(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers,
         c.sliding[i] = 0.0
     if probe(t, c, y, p, w, iw, control) != SAME:
         return NOT_FINITE
-    for r in range(n):
-        i = c.rest[r]
-        if is_closing(c, w, i) and c.matrix[i * c.count + i] == 0.0:
-            c.named[0] = i
-            return IMMOVABLE
-    return OTHERS
+    return int(find_immovable(c, w, n))
 
 
 @exact()

@@ -8,11 +8,9 @@ sweeps, C, FMUs and pages call these functions; single runs make sentences of th
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any
 
 from symgen.base.ir.program import MODE_NUMBERS
-from symgen.compile.loopcode.loop_instances import Meanings, called
+from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.native.annotations import Array, Integers, Record, record_type
 from symgen.run.effects.resets import OfEffects, apply_resets, change_nothing, choose_resets, first_note, forget_resets
 from symgen.run.layout import abi
@@ -24,7 +22,6 @@ from symgen.run.loops.afresh import begin_afresh
 from symgen.run.loops.event_loop import EventState
 from symgen.run.loops.unbound import gather_impacts, keep_after, keep_before, lay_gaps, meet_impacts
 from symgen.run.loops.watch import remember_rank
-from symgen.run.modes.agreement import choose_pressed
 from symgen.run.modes.bounded_rows import (
     CONTRARY,
     DEEP,
@@ -49,7 +46,6 @@ from symgen.run.modes.bounded_rows import (
     Choice,
     switch_off,
 )
-from symgen.run.modes.catching import HOLDING
 from symgen.run.modes.choice import (
     choose_modes,
     find_fault,
@@ -60,12 +56,8 @@ from symgen.run.modes.choice import (
     read_rows,
 )
 from symgen.run.modes.contact_impacts import (
-    find_struck_contacts,
-    gather_contacts,
     mark_flights,
-    strike_contacts,
 )
-from symgen.run.modes.contacts import choose_contacts, measure_margins_of_contacts
 from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_corners, spare_touching
 from symgen.run.modes.ends import find_undefined
 from symgen.run.modes.placing import put_gaps
@@ -76,7 +68,6 @@ from symgen.run.modes.transition_log import (
     is_struck_before,
     log_changes,
     log_changes_in_pieces,
-    log_changes_of_contacts,
     log_transition,
     remember_modes,
 )
@@ -437,44 +428,5 @@ def change_state(last: int, effects: OfEffects, state: EventState) -> int:
     return int(change_nothing(last, effects, state))
 
 
-STRIKING = Meanings(
-    "runs with bounded rows, of which gaps strike or events change the state",
-    meet_impacts=strike_gaps,
-    lay_gaps=put_gaps_to_zero,
-    gather_impacts=rest_gaps,
-    change_state=apply_resets,
-)
-CORNERED = Meanings("runs with corners of gaps", meet_impacts=strike_past_corners)
-PRESSED = Meanings("runs with bounds that depend on reactions", choose_modes=choose_pressed)
-IN_PIECES = Meanings("runs with gaps of several pieces", PIECES=True)
-TOUCHED = Meanings(
-    "runs with contacts",
-    CONTACTS=True,
-    choose_modes=choose_contacts,
-    measure_margins=measure_margins_of_contacts,
-    find_struck=find_struck_contacts,
-    strike=strike_contacts,
-    gather=gather_contacts,
-    log_changes=log_changes_of_contacts,
-    log_changes_in_pieces=log_changes_of_contacts,
-)
-#: Meanings for what a run's rows have (`symgen.run.loops.run_spec.Watched.turning`).
-TURNING = {"pressed": PRESSED, "corners": CORNERED, "pieces": IN_PIECES, "contacts": TOUCHED, "holding": HOLDING}
 #: Type of what follows the functions of a model, where events change a run, and where rows have bounds.
 FURTHER = {"effects": record_type(OfEffects), "modes": record_type(OfModes)}
-
-
-def meanings_of_turn(strikes: bool, turning: Sequence[str]) -> dict[str, Any]:
-    """Return the meanings of names in the turns of a run with bounded rows, or with joints that hold for a while.
-
-    Parameters
-    ----------
-    strikes : bool
-        Whether events change the run, or gaps strike.
-    turning : sequence of str
-        Keys of `TURNING`.
-    """
-    meanings: dict[str, Any] = dict(STRIKING) if strikes else {}
-    for kind in turning:
-        meanings |= TURNING[kind]
-    return meanings

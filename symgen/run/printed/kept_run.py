@@ -40,6 +40,7 @@ from symgen.run.loops.unbound import (
 from symgen.run.modes import turn
 from symgen.run.modes.bounded_rows import first_step
 from symgen.run.modes.turn import open_rows_of
+from symgen.run.modes.turn_meanings import meanings_of_turn
 from symgen.run.rows import row_events, rows
 from symgen.run.rows.row_results import follow_rows
 from symgen.run.rows.rows import OBSERVERS, begin_run
@@ -371,10 +372,10 @@ class Traits(NamedTuple):
         if self.events:
             meanings |= MEANINGS | rows.EVENTS | ({} if self.modes else _UNBOUNDED)
         if self.modes:
-            meanings |= rows.MODES | _OF_ROWS | turn.meanings_of_turn(self.effects, self.turning)
+            meanings |= rows.MODES | _OF_ROWS | meanings_of_turn(self.effects, self.turning)
             meanings |= _OF_ROWS_BETWEEN_SEAMS if self.seams else {}
         elif self.effects:
-            meanings |= rows.EFFECTS | turn.meanings_of_turn(False, self.turning)
+            meanings |= rows.EFFECTS | meanings_of_turn(False, self.turning)
         return meanings | (_SEAMED if self.seams else {})
 
     @property

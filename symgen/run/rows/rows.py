@@ -40,6 +40,7 @@ from symgen.run.loops.unbound import (
     waits_for_caller,
 )
 from symgen.run.modes import turn
+from symgen.run.modes.turn_meanings import meanings_of_turn
 from symgen.run.rows import row_events
 from symgen.run.rows.row_results import end_run, follow_rows
 
@@ -235,7 +236,7 @@ def over_rows(
         signature = types.int64(model, *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
         meanings: dict[str, Any] = {**(EVENTS if events else {}), **(EFFECTS if effects else {})}
         meanings |= MODES if modes else {}
-        meanings |= turn.meanings_of_turn(effects and modes, turning)
+        meanings |= meanings_of_turn(effects and modes, turning)
         meanings |= MODES_BETWEEN_SEAMS if modes and seams else {}
         meanings |= (SEAMED if seams else {}) | (_EXAMINED if examined else {})
         compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)

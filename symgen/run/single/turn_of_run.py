@@ -32,11 +32,11 @@ from symgen.run.modes.turn import (
     FURTHER,
     OfModes,
     begin_modes,
-    meanings_of_turn,
     open_rows_of,
     take_resets,
     take_turn,
 )
+from symgen.run.modes.turn_meanings import meanings_of_turn
 from symgen.run.single.contact_notes import sharing_contacts
 from symgen.run.single.events import Happening
 from symgen.run.single.turn_memory import WORDS, effects_of_runs, modes_of_runs, what_changes

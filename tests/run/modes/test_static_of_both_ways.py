@@ -99,7 +99,9 @@ def pulled_block(size: float) -> tuple[float, list[float]]:
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
-@pytest.mark.parametrize(("static", "holds"), [("{ forwards = 5.0, backwards = 1.5 }", (5.0, 1.5)), ("6.0", (6.0, 6.0))])
+@pytest.mark.parametrize(
+    ("static", "holds"), [("{ forwards = 5.0, backwards = 1.5 }", (5.0, 1.5)), ("6.0", (6.0, 6.0))]
+)
 def test_a_wheel_breaks_loose_by_the_bound_of_its_way(
     static: str, holds: tuple[float, float], coordinates: str, tmp_path: Path
 ) -> None:
@@ -190,7 +192,9 @@ def test_pins_share_bounds_of_both_ways(coordinates: str, tmp_path: Path) -> Non
         slides, holds = generator.uniform(0.2, 1.0, (2, 5)).round(3), generator.uniform(1.0, 3.0, (2, 5)).round(3)
         text = five_bar(np.arange(1.0, 6.0), 1.0)
         for i in range(5):
-            bounds = [f"{{ forwards = {b[0][i]!r}, backwards = {b[1][i]!r} }}" for b in (slides.tolist(), holds.tolist())]
+            bounds = [
+                f"{{ forwards = {b[0][i]!r}, backwards = {b[1][i]!r} }}" for b in (slides.tolist(), holds.tolist())
+            ]
             old = f"friction = {{ sliding = {float(i + 1)!r}, static = {float(i + 1)!r} }}"
             assert old in text
             text = text.replace(old, f"friction = {{ sliding = {bounds[0]}, static = {bounds[1]} }}")

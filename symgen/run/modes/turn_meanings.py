@@ -1,0 +1,59 @@
+"""What names mean in the turns of runs, by what their rows with bounds have.
+
+`symgen.run.modes.turn` is one source; a run whose gaps strike, or with contacts, has other functions at some of its
+names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from symgen.compile.loopcode.loop_instances import Meanings
+from symgen.run.effects.resets import apply_resets
+from symgen.run.modes.agreement import choose_pressed
+from symgen.run.modes.catching import HOLDING
+from symgen.run.modes.contact_impacts import find_struck_contacts, gather_contacts, strike_contacts
+from symgen.run.modes.contacts import choose_contacts, measure_margins_of_contacts
+from symgen.run.modes.transition_log import log_changes_of_contacts
+from symgen.run.modes.turn import put_gaps_to_zero, rest_gaps, strike_gaps, strike_past_corners
+
+STRIKING = Meanings(
+    "runs with bounded rows, of which gaps strike or events change the state",
+    meet_impacts=strike_gaps,
+    lay_gaps=put_gaps_to_zero,
+    gather_impacts=rest_gaps,
+    change_state=apply_resets,
+)
+CORNERED = Meanings("runs with corners of gaps", meet_impacts=strike_past_corners)
+PRESSED = Meanings("runs with bounds that depend on reactions", choose_modes=choose_pressed)
+IN_PIECES = Meanings("runs with gaps of several pieces", PIECES=True)
+TOUCHED = Meanings(
+    "runs with contacts",
+    CONTACTS=True,
+    choose_modes=choose_contacts,
+    measure_margins=measure_margins_of_contacts,
+    find_struck=find_struck_contacts,
+    strike=strike_contacts,
+    gather=gather_contacts,
+    log_changes=log_changes_of_contacts,
+    log_changes_in_pieces=log_changes_of_contacts,
+)
+#: Meanings for what a run's rows have (`symgen.run.loops.run_spec.Watched.turning`).
+TURNING = {"pressed": PRESSED, "corners": CORNERED, "pieces": IN_PIECES, "contacts": TOUCHED, "holding": HOLDING}
+
+
+def meanings_of_turn(strikes: bool, turning: Sequence[str]) -> dict[str, Any]:
+    """Return the meanings of names in the turns of a run with bounded rows, or with joints that hold for a while.
+
+    Parameters
+    ----------
+    strikes : bool
+        Whether events change the run, or gaps strike.
+    turning : sequence of str
+        Keys of `TURNING`.
+    """
+    meanings: dict[str, Any] = dict(STRIKING) if strikes else {}
+    for kind in turning:
+        meanings |= TURNING[kind]
+    return meanings
