@@ -26,6 +26,8 @@ from symgen.cli._shared_options import (
 )
 
 if TYPE_CHECKING:
+    from symgen.api import Model
+    from symgen.study.comparison.combinations import Combinations
     from symgen.study.comparison.compare_models import Study
 
 

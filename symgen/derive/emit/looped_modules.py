@@ -78,7 +78,11 @@ def emit_shared_model(generator: str) -> str:
 def rates_with_reactions(drags: str) -> ModulePiece:
     """Return the right-hand side around one at given efforts that depend on reactions, `PRESSED`, or `TOUCHED`."""
     places = {"effort": MODES.index("effort"), **{name: i for i, name in enumerate(BESIDE)}}
-    body = render_template("looped/pressed.j2", {"drag": places, "number": NUMBERS, "signed": drags == TOUCHED}).strip("\n").split("\n")
+    body = (
+        render_template("looped/pressed.j2", {"drag": places, "number": NUMBERS, "signed": drags == TOUCHED})
+        .strip("\n")
+        .split("\n")
+    )
     purpose = "Rates of the state with efforts that depend on reactions; 1 where a pivot of S is suspicious."
     calls = {"GRAM_FACTOR", PUSHED, "run", "tables", "numpy", "math"}
     return function_source("rhs", ", ".join(ARGUMENTS["rhs"]), purpose, body, calls=calls)

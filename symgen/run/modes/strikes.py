@@ -101,9 +101,7 @@ class Strikes(Record):
     memory: ImpactMemory
 
 
-def new_strikes(
-    effects: OfEffects, hits: Sequence[int], losses: Sequence[int], keeps: bool, contacts: bool
-) -> Strikes:
+def new_strikes(effects: OfEffects, hits: Sequence[int], losses: Sequence[int], keeps: bool, contacts: bool) -> Strikes:
     """Return the impacts of a run.
 
     Parameters
