@@ -61,7 +61,9 @@ def test_a_skid_over_300_coefficients(tmp_path: Path) -> None:
     text = SKID.replace("0.15", '"mu"', 1).replace("[bodies.disc]", "[parameters]\nmu = 0.15\n[bodies.disc]")
     values = np.linspace(0.1, 0.7, 300)
     mechanism = loaded(text, tmp_path).mechanism
-    settings = Settings("lagrange", "dop853", until=2.0, shape="looped", coordinates="absolute", verify=False, rtol=1e-12)
+    settings = Settings(
+        "lagrange", "dop853", until=2.0, shape="looped", coordinates="absolute", verify=False, rtol=1e-12
+    )
     outcomes = [prepare(mechanism, replace(settings, parameters={"mu": float(mu)})).integrate() for mu in values]
     slip = 2.0 + 0.2 * 4.0
     times = slip / (3.0 * 9.81 * values)

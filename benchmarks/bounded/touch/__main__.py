@@ -27,6 +27,7 @@ def main() -> int:
     parser.add_argument("--kinds", default=",".join(KINDS))
     parser.add_argument("--runs", default=",".join(RUNS))
     parser.add_argument("--until", type=float, default=UNTIL)
+    parser.add_argument("--fine", action="store_true", help="follow impacts below 2e-6 m/s, down to 1e-7 m/s")
     parser.add_argument("--one", metavar="KIND/SEED", help="a single scene")
     parser.add_argument("--write", metavar="KIND/SEED", help="print the file of a scene")
     options = parser.parse_args()
@@ -42,6 +43,8 @@ def main() -> int:
     total = Counter[str]()
     for kind, number in jobs:
         scene, against, why = drawn(kind, number), None, ""
+        if options.fine:
+            scene.scene.near, scene.scene.slow = 1e-13, 1e-7
         try:
             against = reference(scene, options.until)
         except (Unsolved, Ended) as reason:

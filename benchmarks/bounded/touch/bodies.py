@@ -153,13 +153,18 @@ class Spring:
 
 @dataclass
 class Scene:
-    """Bodies, joints, springs and contacts."""
+    """Bodies, joints, springs and contacts.
+
+    `near` and `slow`: gaps that count as zero [m], and rates of impacts that do not spring back [m/s].
+    """
 
     masses: Array
     gravity: tuple[float, float]
     joints: list[Pin | Rail] = field(default_factory=list)
     springs: list[Spring] = field(default_factory=list)
     contacts: list[Contact] = field(default_factory=list)
+    near: float = 1e-11
+    slow: float = 2e-6
 
     def forces(self, q: Array, v: Array) -> Array:
         """Return applied forces."""

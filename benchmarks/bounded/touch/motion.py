@@ -25,8 +25,8 @@ from benchmarks.bounded.touch.modes import (
     impact,
 )
 
-#: Gaps that count as zero [m], rates of impacts that do not spring back [m/s], parts of a step that are looked at.
-TOUCHING, SLOW, PARTS = 1e-13, 1e-7, 6
+#: Parts of a step that are looked at.
+PARTS = 6
 #: Longest step [s], most events, and energy that an impact may add, over that before.
 LONGEST, MOST, _GAIN = 4e-3, 4000, 1e-9
 
@@ -112,7 +112,7 @@ def run(scene: Scene, q: Array, v: Array, times: list[float], rtol: float = 1e-1
 
 
 def _touching(scene: Scene, q: Array) -> list[int]:
-    return [i for i, gap in enumerate(scene.gaps(q)) if gap < TOUCHING]
+    return [i for i, gap in enumerate(scene.gaps(q)) if gap < scene.near]
 
 
 def _staying(scene: Scene, q: Array, v: Array, closed: list[int]) -> list[int]:
@@ -125,8 +125,8 @@ def _struck(scene: Scene, q: Array, v: Array, touching: list[int]) -> Array:
     problem = Problem(scene, q, v)
     if not touching or min((problem.gap @ v)[touching]) >= -1e-12:
         return v
-    after = impact(scene, q, v, touching, SLOW).value
-    if len(touching) > 1 and (problem.gap @ after)[touching].max() < 3.0 * SLOW:
+    after = impact(scene, q, v, touching, scene.slow).value
+    if len(touching) > 1 and (problem.gap @ after)[touching].max() < 3.0 * scene.slow:
         after = brought_to_rest(scene, q, after, touching)
     before = float(v @ (scene.masses * v))
     if float(after @ (scene.masses * after)) > before * (1.0 + _GAIN):

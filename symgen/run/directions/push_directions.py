@@ -4,7 +4,7 @@ Impulses hold velocities along rows C and push along columns that are other ones
 
     M (v+ - v-) = P^T i,    C v+ = c,    P_N = C_N - s mu W_T
 
-Where impacts accumulate beside other contacts, c is linear in the velocities before (`symgen.run.modes.contact_series`).
+Where impacts accumulate beside other contacts, c is linear in v- (`symgen.run.modes.contact_series`).
 """
 
 from __future__ import annotations
