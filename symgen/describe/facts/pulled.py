@@ -56,7 +56,8 @@ def pull_bodies(mechanism: Mechanism) -> Pulled | None:
         return None
     letters, head = "xyz"[: 3 if mechanism.space == "spatial" else 2], _free_beginning(mechanism)
     at, to = (tuple(f"{head}_{word}_{letter}" for letter in letters) for word in ("at", "to"))
-    springs = {body.name: (f"{head}_k{i}", f"{head}_c{i}") for i, body in enumerate(mechanism.bodies)}
+    names = [body.name for body in mechanism.bodies]
+    springs = {name: (f"{head}_k{i}", f"{head}_c{i}") for i, name in enumerate(names)}
     units = {**dict.fromkeys((*at, *to), "m")}
     for k, c in springs.values():
         units |= {k: "N/m", c: "N s/m"}

@@ -27,7 +27,7 @@ from symgen.base.vocabulary.expressions import (
     readings_in,
     table_of,
 )
-from symgen.base.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Sum
+from symgen.base.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Row, Sum
 from symgen.derive.lower.windings import counted_turns, measures_of_element
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.by_reaction import pressed_rows, refuse_shared_reactions
@@ -168,10 +168,11 @@ class _Rewriting:
         """Return what of a row with bounds depends on a reaction as an instance, with the rows that press."""
         self.begin_element()
         whole: Any = row  # all kinds are structs
+        rows: tuple[Row, ...]
         if row.signed:  # its own gap, by its name
             gap = next(each for each in self.mechanism.bounded if each.row in row.pressed)
             owner, rows = gap.row, (gap.held,)
-            held = tuple(msgspec.structs.replace(self.rewrite(each), label=each.label) for each in rows)
+            held = (msgspec.structs.replace(self.rewrite(gap.held), label=gap.held.label),)
             content = msgspec.structs.replace(self.rewrite(whole), name="e")
         else:
             joint = self.mechanism.joint_named(row.owner)
