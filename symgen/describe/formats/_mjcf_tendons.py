@@ -83,7 +83,7 @@ class MjcfTendons:
         ]
 
     def add_to_joints(self, connections: list[Connection]) -> None:
-        """Give friction and armature of tendons along one coordinate to its joint; list the tendons where that fails."""
+        """Give friction and armature of tendons along one coordinate to its joint; list the other tendons."""
         by_name, others = {c.name: c for c in connections}, list[str]()
         for i, weights in enumerate(self.weights):
             friction, armature = float(self.model.tendon_frictionloss[i]), float(self.model.tendon_armature[i])
