@@ -118,32 +118,32 @@ class _Symbol:
     def __init__(self, of: Expr) -> None:
         self.of = of
 
-    def __add__(self, other: Any) -> _Symbol:
+    def __add__(self, other: _Symbol | float) -> _Symbol:
         return _Symbol(call("add", self.of, _formula(other)))
 
-    def __sub__(self, other: Any) -> _Symbol:
+    def __sub__(self, other: _Symbol | float) -> _Symbol:
         return _Symbol(call("sub", self.of, _formula(other)))
 
-    def __mul__(self, other: Any) -> _Symbol:
+    def __mul__(self, other: _Symbol | float) -> _Symbol:
         return _Symbol(call("mul", self.of, _formula(other)))
 
-    def __truediv__(self, other: Any) -> _Symbol:
+    def __truediv__(self, other: _Symbol | float) -> _Symbol:
         return _Symbol(call("div", self.of, _formula(other)))
 
     def __neg__(self) -> _Symbol:
         return _Symbol(call("neg", self.of))
 
-    def __radd__(self, other: Any) -> _Symbol:
+    def __radd__(self, other: _Symbol | float) -> _Symbol:
         return _Symbol(_formula(other)) + self
 
-    def __rsub__(self, other: Any) -> _Symbol:
+    def __rsub__(self, other: _Symbol | float) -> _Symbol:
         return _Symbol(_formula(other)) - self
 
-    def __rmul__(self, other: Any) -> _Symbol:
+    def __rmul__(self, other: _Symbol | float) -> _Symbol:
         return _Symbol(_formula(other)) * self
 
 
-def _formula(x: Any) -> Expr:
+def _formula(x: _Symbol | float) -> Expr:
     return x.of if isinstance(x, _Symbol) else Number(float(x))
 
 
@@ -154,11 +154,11 @@ class _Symbols:
         """Return a formula."""
         return _Symbol(expression)
 
-    def apply_function(self, function: str, *arguments: Any) -> _Symbol:
+    def apply_function(self, function: str, *arguments: _Symbol | float) -> _Symbol:
         """Return a function of formulas."""
         return _Symbol(call(function, *map(_formula, arguments)))
 
-    def check_above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Any:
+    def check_above(self, limit: object, x: _Symbol, where: str, expected: str, got: str) -> _Symbol:
         """Return `x`: a run checks its numbers."""
         return x
 

@@ -130,7 +130,7 @@ def _format_and_arguments(
     format_, arguments = "", list[str]()
     for literal, field, spec, _ in Formatter().parse(text):
         format_ += literal.replace("%", "%%")
-        if field is not None and field in fixed:
+        if field and field in fixed:
             format_ += fixed[field].replace("%", "%%")
         elif field:
             format_ += f"%{spec or 's'}"
