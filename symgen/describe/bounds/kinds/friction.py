@@ -178,7 +178,7 @@ def _read_bounds(
 
 
 def _read_bounds_of_both_ways(
-    scope: Scope, key: str, section: FrictionSection, least: Mapping[str, object], most: object
+    scope: Scope, key: str, section: FrictionSection, least: Mapping[str, object], most: StateBound | None
 ) -> tuple[Expr, Expr, Expr | None, tuple[Expr, ...], bool]:
     """Return what `_read_bounds` does, of bounds that differ in the two directions."""
     if section.stribeck_speed is not None:
