@@ -198,9 +198,6 @@ FEATURES: Mapping[str, str] = {
         '[joints.mesh]\ntype = "gear"\nbetween = ["pole", "wheel"]\ncarrier = "cart"\nratio = 0.5\n'
         "efficiency = [0.9, 0.8]"
     ),
-    "friction, two directions": cart(
-        pin="friction = { sliding = { forwards = 0.3, backwards = 0.2 }, static = { forwards = 0.5, backwards = 0.3 } }"
-    ),
     "friction, smooth": cart(pin='friction = { sliding = 0.3, law = "tanh", speed = 1e-3 }'),
     "friction, light body": cart(inertia="0.0", pin="friction = { sliding = 0.3 }"),
     "stop": cart(pin=_STOP),

@@ -30,8 +30,9 @@ def sledded(kind: str, seed: int) -> Drawn:
             row = known[full]
             if not row.rubs:  # a joint that had a stop alone rubs
                 sliding = float(f"{rng.uniform(0.2, 6.0):.4g}")
-                numbers = {"sliding": sliding, "static": float(f"{sliding * rng.uniform(1.0, 1.4):.6g}")}
-                row, label = replace(row, sliding=numbers["sliding"], static=numbers["static"]), full.partition(".")[2]
+                static = float(f"{sliding * rng.uniform(1.0, 1.4):.6g}")
+                numbers = {"sliding": sliding, "static": static}
+                row, label = replace(row, sliding=sliding, static=static), full.partition(".")[2]
                 if label:
                     joints[name]["friction"] = {**joints[name].get("friction", {}), label: numbers}
                 else:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import msgspec
 from msgspec import Meta
@@ -178,7 +178,7 @@ def _read_bounds(
 
 
 def _read_bounds_of_both_ways(
-    scope: Scope, key: str, section: FrictionSection, least: Mapping[str, object], most: Any
+    scope: Scope, key: str, section: FrictionSection, least: Mapping[str, object], most: StateBound | None
 ) -> tuple[Expr, Expr, Expr | None, tuple[Expr, ...], bool]:
     """Return what `_read_bounds` does, of bounds that differ in the two directions."""
     if section.stribeck_speed is not None:
