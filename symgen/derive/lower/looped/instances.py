@@ -168,6 +168,7 @@ class _Rewriting:
         """Return what of a row with bounds depends on a reaction as an instance, with the rows that press."""
         self.begin_element()
         whole: Any = row  # all kinds are structs
+        rows: tuple[Any, ...]
         if row.signed:  # its own gap, by its name
             gap = next(each for each in self.mechanism.bounded if each.row in row.pressed)
             owner, rows = gap.row, (gap.held,)
