@@ -246,7 +246,7 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, now: Instant, iw:
     What contacts beside them have of the impacts that are left out is the sum of a series.
     """
     recall_modes(c, s)
-    in_series = find_leading(c, s)
+    in_series = find_leading(t, c, s)
     for i in range(c.dry, c.count):
         if turns_back(c, s, now.w, i):
             s.active[i] = 1
@@ -257,8 +257,8 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, now: Instant, iw:
     hold_closed(c, s, now.w)
     choose_events(c, s, False)
     tie_velocities(c, s, True)
-    if in_series > 0:
-        sum_series(t, c, s, now, iw)
+    if in_series > 0 and not sum_series(t, c, s, now, iw):
+        tie_velocities(c, s, True)
     if push_contacts(s.effects.model, t, now, s.chosen, s.effects.work, s.ties) != APPLIED:
         return NOT_APPLIED
     lose_at_contacts(c, s, now.y, True)

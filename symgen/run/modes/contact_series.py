@@ -58,13 +58,25 @@ def remembers(c: Choice, s: Strikes, i: int, past: int) -> bool:
 
 
 @exact()
-def find_leading(c: Choice, s: Strikes) -> int:
+def is_geometric(t: float, c: Choice, s: Strikes, i: int) -> bool:
+    """Return whether the last two flights of a gap are of one geometric series, as those of several series are not."""
+    if not (remembers(c, s, i, 1) and remembers(c, s, i, 2)):
+        return False
+    impacts, at, u = s.memory.impacts, REMEMBERED * (HEAD + c.count) * i, s.asked[i]
+    before = at + HEAD + c.count
+    one = (t - impacts[at + AT]) / (impacts[at + RATE] - u)
+    two = (t - impacts[before + AT]) / (impacts[before + RATE] - u)
+    return bool(abs(two - one) <= _SAME_MODES * one)
+
+
+@exact()
+def find_leading(t: float, c: Choice, s: Strikes) -> int:
     """Set ``leads`` where contacts touch beside one whose impacts accumulate; return the number of rows in series."""
     leads, groups, count = s.memory.leads, s.memory.groups, 0
     for i in range(c.count):
         leads[i] = -1
     for i in range(c.dry, c.count):
-        if s.active[i] != 0 and s.before[i] < 0.0 and groups[i] >= 0 and leads[i] < 0 and remembers(c, s, i, 1):
+        if s.active[i] != 0 and s.before[i] < 0.0 and groups[i] >= 0 and leads[i] < 0 and is_geometric(t, c, s, i):
             beside = 0
             for j in range(c.count):
                 beside += 1 if groups[j] == groups[i] and j != i and c.partner[i] != j else 0
@@ -92,10 +104,8 @@ def left_over(c: Choice, s: Strikes, i: int, place: int, now: float) -> float:
     size = HEAD + c.count
     at, u = REMEMBERED * size * i, s.asked[i]
     one = (now - s.memory.impacts[at + place]) / (s.memory.impacts[at + RATE] - u)
-    if remembers(c, s, i, 2):
-        two = (now - s.memory.impacts[at + size + place]) / (s.memory.impacts[at + size + RATE] - u)
-        return float(two if abs(two - one) <= _SAME_MODES * abs(one) else one)
-    return float(one)
+    two = (now - s.memory.impacts[at + size + place]) / (s.memory.impacts[at + size + RATE] - u)
+    return float(two if abs(two - one) <= _SAME_MODES * abs(one) else one)
 
 
 @exact()
@@ -192,14 +202,21 @@ def is_sum(t: float, c: Choice, s: Strikes) -> bool:
 
 
 @exact()
-def sum_series(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers) -> None:
-    """Say at which rates contacts are left beside those whose impacts accumulate, see `set_targets`."""
+def sum_series(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers) -> bool:
+    """Say at which rates contacts are left beside those whose impacts accumulate, see `set_targets`.
+
+    Returns whether there are such rates: those of more rows than velocities may contradict each other.
+    """
     for i in range(c.count):
-        s.memory.rates[i] = c.speed[i]
-    if try_rest(t, c, s, now, iw) and is_sum(t, c, s):
-        return
+        s.memory.rates[i], s.memory.modes[i] = c.speed[i], c.mode[i]
+    found = try_rest(t, c, s, now, iw)
+    if not (found and is_sum(t, c, s)):
+        for i in range(c.count):
+            s.memory.rests[i] = 0.0
+        set_targets(t, c, s)
+        found = try_rest(t, c, s, now, iw)
+        set_targets(t, c, s)
+        found = found and try_rest(t, c, s, now, iw)
     for i in range(c.count):
-        s.memory.rests[i] = 0.0
-    set_targets(t, c, s)
-    try_rest(t, c, s, now, iw)
-    set_targets(t, c, s)
+        c.mode[i] = s.memory.modes[i]
+    return found

@@ -20,6 +20,8 @@ class ImpactMemory(Record):
     ----------
     impacts : Array, shape (REMEMBERED (HEAD + k) k,)
         For each row its impacts, the latest one first: time [s], rate of the gap after it, rates of all k rows.
+    modes : Array of int64, shape (k,)
+        Modes of the latest impact, kept while rest is tried.
     groups : Array of int64, shape (k,)
         At the latest impact, the part of G that each row belongs to, -1 for rows that do not touch.
     leads : Array of int64, shape (k,)
@@ -31,6 +33,7 @@ class ImpactMemory(Record):
     """
 
     impacts: Array
+    modes: Integers
     groups: Integers
     leads: Integers
     rates: Array
@@ -45,5 +48,6 @@ def new_impact_memory(k: int, width: int, nw: int) -> Any:
     """Return an empty memory for k rows, and states and scratches of `width` and `nw` numbers."""
     numbers, control = np.zeros, np.zeros(abi.N_CONTROL if k else 0, dtype=np.int64)
     impacts, groups, leads = numbers(REMEMBERED * (HEAD + k) * k), np.full(k, -1), np.full(k, -1)
+    modes = np.zeros(k, dtype=np.int64)
     rates = numbers(k), numbers(k), numbers(k)
-    return ImpactMemory(impacts, groups, leads, *rates, numbers(width), numbers(nw), control)
+    return ImpactMemory(impacts, modes, groups, leads, *rates, numbers(width), numbers(nw), control)
