@@ -14,7 +14,7 @@ import msgspec
 from symgen.base.vocabulary.expressions import ZERO, Name, call, sum_of_terms
 from symgen.base.vocabulary.measures import GROUND, Component, Effort, Marker, axes
 from symgen.describe.forces._parts import damper_force
-from symgen.describe.mechanism import Force, Mechanism, Parameter
+from symgen.describe.mechanism import AnyBody, Force, Mechanism, Parameter
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,8 @@ def pull_bodies(mechanism: Mechanism) -> Pulled | None:
         return None
     letters, head = "xyz"[: 3 if mechanism.space == "spatial" else 2], _free_beginning(mechanism)
     at, to = (tuple(f"{head}_{word}_{letter}" for letter in letters) for word in ("at", "to"))
-    springs = {body.name: (f"{head}_k{i}", f"{head}_c{i}") for i, body in enumerate(mechanism.bodies)}
+    bodies: tuple[AnyBody, ...] = mechanism.bodies
+    springs = {body.name: (f"{head}_k{i}", f"{head}_c{i}") for i, body in enumerate(bodies)}
     units = {**dict.fromkeys((*at, *to), "m")}
     for k, c in springs.values():
         units |= {k: "N/m", c: "N s/m"}
@@ -88,8 +89,8 @@ def _efforts_of_spring(
 
 def _free_beginning(mechanism: Mechanism) -> str:
     """Return a word with which no name of the mechanism begins."""
-    groups: tuple[tuple[Any, ...], ...] = (mechanism.parameters, mechanism.bodies, mechanism.joints)
-    groups += (mechanism.forces, mechanism.states)
+    m = mechanism
+    groups: tuple[tuple[Any, ...], ...] = (m.parameters, m.bodies, m.joints, m.forces, m.states)
     taken = [str(part.name) for group in groups for part in group]
     heads = (f"pull{k or ''}" for k in range(len(taken) + 1))
     return next(head for head in heads if not any(name.startswith(head) for name in taken))
