@@ -96,7 +96,7 @@ class JointTables:
         self._open -= 1
         raise Incomplete
 
-    def _read_whole_joint(self, name: str, table: Any) -> None:
+    def _read_whole_joint(self, name: str, table: Mapping[str, Any]) -> None:
         """Read a table of a joint with its rows that have bounds, which other tables wait for."""
         joint = self._read_joint(name, table)
         self._rows_with_bounds(self._scopes.pop(name)[0], joint, table)
@@ -106,7 +106,7 @@ class JointTables:
         taken = _taken_keys(JOINTS.get(joint.kind), table)
         return tuple(rows_of_joint(scope, joint, {k: x for k, x in table.items() if k not in taken}))
 
-    def _read_joint(self, name: str, whole: Any) -> Joint:
+    def _read_joint(self, name: str, whole: Mapping[str, Any]) -> Joint:
         """Return the joint `name`, and note what else its table says."""
         where = self.where(f"joints.{name}")
         kind, table = kind_and_keys(where, whole, "joint type")

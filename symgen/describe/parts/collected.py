@@ -38,7 +38,7 @@ def further_errors(read: Callable[[Any], object], table: object, error: InputErr
     """
     found, filled, reads = list[InputError](), set[str](), 0
 
-    def error_of(changed: Any) -> InputError | None:
+    def error_of(changed: Mapping[str, Any]) -> InputError | None:
         nonlocal reads
         reads += 1
         try:
@@ -80,7 +80,7 @@ def _with_numbers(value: object) -> object:
     return {key: _with_numbers(item) for key, item in value.items()} if isinstance(value, Mapping) else value
 
 
-def _with_one_number(value: object) -> Iterator[object]:
+def _with_one_number(value: str | float | list[Any] | Mapping[str, Any]) -> Iterator[object]:
     """Yield a value with a number in place of one of its texts, each in turn."""
     if isinstance(value, str):
         yield 1.0

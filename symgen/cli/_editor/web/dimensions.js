@@ -7,7 +7,7 @@ Object.assign(allSizes, { type: "checkbox", id: "sizes" });
 sizesBox.append(allSizes, element("span", "dimensions"));
 sizesBox.title = "Lengths and angles of all bodies; of what is selected they are there anyway";
 allSizes.addEventListener("change", () => askDimensions());
-$("picture").append(sizes);
+$("picture").insertBefore(sizes, layer); // handles lie above
 
 // Those of the text that is drawn; nothing is asked while a hand moves something.
 async function askDimensions() {
