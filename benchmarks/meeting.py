@@ -190,6 +190,9 @@ FEATURES: Mapping[str, str] = {
     ),
     "rotor": cart(pin="rotor_inertia = 1e-3\ngear_ratio = 10.0"),
     "friction": cart(pin="friction = { sliding = 0.3, static = 0.4 }"),
+    "friction, two directions": cart(
+        pin="friction = { sliding = { forwards = 0.3, backwards = 0.2 }, static = { forwards = 0.5, backwards = 0.3 } }"
+    ),
     "friction by a reaction": cart(pin="friction = { coefficient = 0.2, radius = 0.05 }"),
     "friction of the state": cart(pin='friction = { sliding = "0.2 + cart.x**2" }'),
     "efficiency of a gear": cart(
