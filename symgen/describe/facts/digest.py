@@ -16,7 +16,7 @@ from symgen.describe.table_functions import Table
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1
 #: Fields added after the form was fixed: empty ones are left out.
-_LATER = ("flexures", "pressed", "across", "speed", "backwards", "exponent", "changing", "resting")
+_LATER = ("flexures", "pressed", "across", "speed", "backwards", "exponent", "changing", "resting", "alone")
 
 
 def canonical_text(mechanism: Mechanism) -> str:
@@ -102,6 +102,7 @@ def mechanism_digest(mechanism: Mechanism) -> str:
         ", exponent=None",
         ", changing=False",
         ", resting=()",
+        ", alone=False",
         ", shown=''",
         ", modal=None",
         ", carried=None",
