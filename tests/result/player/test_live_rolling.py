@@ -34,7 +34,8 @@ def state_of_page(html: str, changed: dict[str, float], count: int) -> list[floa
     node = shutil.which("node")
     assert node, "this test needs Node: apt-get install nodejs"
     numbers = f"const data = {json.dumps(data_of(html))}, changed = {json.dumps(changed)}, count = {count};"
-    done = subprocess.run([node, "-e", f"{numbers}\n{own}\n{STEPS}"], capture_output=True, text=True, check=True)
+    source = f"{numbers}\n{own}\n{STEPS}"
+    done = subprocess.run([node, "-"], input=source, capture_output=True, text=True, check=True)
     return list(json.loads(done.stdout))
 
 
