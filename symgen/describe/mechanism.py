@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TypeVar
+from typing import Literal, TypeVar
 
 import msgspec
 
@@ -311,7 +311,8 @@ class Holding(msgspec.Struct, frozen=True):
 
     Where a run begins they are in force if `first`, a formula of parameters, is 1, and off if it is 0. They come into
     force where `catches` becomes larger than 0, and are off again where `releases` does; None where they never do. A
-    joint that holds `present` positions keeps those of the catch.
+    joint that holds `present` positions keeps those of the catch. Where `first` is the value of a condition on the
+    described positions, `described` is "positions", and "velocities" where it reads these too.
     """
 
     joint: str
@@ -319,6 +320,7 @@ class Holding(msgspec.Struct, frozen=True):
     catches: Expr | None = None
     releases: Expr | None = None
     present: bool = False
+    described: Literal["", "positions", "velocities"] = ""
 
 
 class Mechanism(msgspec.Struct, frozen=True, weakref=True):

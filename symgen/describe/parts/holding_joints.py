@@ -10,17 +10,29 @@ joint. All else that runs have for states and events they have for these: target
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 
 import msgspec
 
 from symgen.base.errors import InputError
-from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, Reading, call, readings_in
+from symgen.base.vocabulary.expressions import (
+    ONE,
+    ZERO,
+    Call,
+    Expr,
+    Name,
+    Number,
+    Reading,
+    call,
+    names_in_expression,
+    readings_in,
+)
 from symgen.base.vocabulary.measures import GROUND, Angle, FormulaMeasure, Holonomic, Measure
+from symgen.describe.coordinate_names import is_speed
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.formulas.start import described_start
-from symgen.describe.mechanism import Holding, Joint, Mechanism, ModeEvent, Output, StateVariable
+from symgen.describe.mechanism import Hold, Holding, Joint, Mechanism, ModeEvent, Output, StateVariable
 from symgen.describe.parts.driven_mechanism import replace_names
 from symgen.describe.parts.event_sections import RESET, switching_function
 from symgen.describe.parts.fields import Condition, Flag, Holds, HoldsAt, read_table, read_value
@@ -206,6 +218,44 @@ def _value_at_start(mechanism: Mechanism, read: ReadHolding) -> Expr:
     return call("where", call("gt", replace_names(at_start(read.first), put), ZERO), ONE, ZERO)
 
 
+def _described_of(mechanism: Mechanism, first: Expr | bool) -> Literal["", "positions", "velocities"]:
+    """Return what a condition at the start reads of the described motion."""
+    if isinstance(first, bool):
+        return ""
+    moving = set(names_in_expression(first)).difference(("t",), (p.name for p in mechanism.parameters))
+    return "velocities" if any(map(_is_rate, moving)) else "positions" if moving else ""
+
+
+def _is_rate(name: str) -> bool:
+    """Whether a name is that of a velocity or of a rate."""
+    return name.endswith(".rate") or is_speed(name)
+
+
+def refuse_other_start(mechanism: Mechanism, holds: Sequence[Hold]) -> None:
+    """Refuse a start that is not the described one where that decides which rows are in force.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The mechanism.
+    holds : sequence of Hold
+        What the start holds; a state of a joint that says whether it holds decides instead.
+
+    Raises
+    ------
+    InputError
+        With the joint.
+    """
+    names = {hold.name for hold in holds if hold.value is not None}
+    others = sorted(names.difference(state.name for state in mechanism.states))
+    for each in mechanism.holding:
+        moved = others if each.described == "velocities" else [name for name in others if not _is_rate(name)]
+        if each.described and moved and f"{each.joint}.{CHANGED}" not in names:
+            expected = "the key at_start, as the start is not that of the bodies' tables"
+            hint = "holds = { during = ..., at_start = true }"
+            raise InputError(f"{mechanism.name}: joints.{each.joint}.{HOLDS}", expected, f"start of {moved[0]}", hint)
+
+
 # -- what a run has of them --------------------------------------------------------------------------------------------
 
 
@@ -238,7 +288,8 @@ def with_holding(mechanism: Mechanism, read: Sequence[ReadHolding]) -> Mechanism
         return mechanism
     states, events, outputs, holding = list[StateVariable](), list[ModeEvent](), list[Output](), list[Holding]()
     for each in read:
-        own = Holding(each.joint, _value_at_start(mechanism, each), each.catches, each.releases, each.present)
+        first, described = _value_at_start(mechanism, each), _described_of(mechanism, each.first)
+        own = Holding(each.joint, first, each.catches, each.releases, each.present, described)
         joint, holding = mechanism.joint_named(each.joint), [*holding, own]
         states += [
             StateVariable(f"{own.joint}.{CHANGED}", ZERO, ZERO),

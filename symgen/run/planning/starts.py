@@ -14,6 +14,7 @@ from symgen.describe.facts.lengths import origin_of_sizes
 from symgen.describe.facts.sides import sided_joints, wrong_sides
 from symgen.describe.formulas.evaluate import evaluate, parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start, displacements_of_bodies
+from symgen.describe.parts.holding_joints import refuse_other_start
 from symgen.describe.parts.holds import ORIENTATION, read_holds
 from symgen.run.compiling.masses import masses_of_starts
 from symgen.run.compiling.pipeline import compile_model
@@ -237,6 +238,7 @@ class DescribedStart:
 
 def states_at_start(mechanism: Mechanism, numbers: Scalars, holds: Sequence[Hold]) -> list[float]:
     """Return the values of the states of a file where a run begins: from `holds`, else as described."""
+    refuse_other_start(mechanism, holds)
     held = {hold.name: hold.value for hold in holds}
     starts = [(x.name, held.get(x.name) or x.start) for x in mechanism.states]
     return [numbers.value(start, f"{mechanism.name}: states.{name}.start") for name, start in starts]

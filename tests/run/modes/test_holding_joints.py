@@ -268,3 +268,16 @@ def test_functions_and_modes_take_a_joint_as_it_is_at_the_start(loaded) -> None:
     assert hanging.frequencies.max() * 2.0 * np.pi == pytest.approx(
         np.sqrt(1.0 * G * 0.5 / (0.05 + 0.25 - 0.25 / 4.0)), rel=1e-9
     )
+
+
+def test_a_start_that_is_not_the_described_one_says_what_holds(loaded) -> None:
+    """A condition on positions is that of the bodies' tables; a run that goes on from another one knows what holds."""
+    model = loaded(CARRIAGE)
+    with pytest.raises(
+        InputError, match=r"joints\.hook\.holds: expected the key at_start, .* got start of carriage\.x;"
+    ):
+        model.simulate(start={"carriage.x": 1.0})
+    assert model.simulate(until=0.1, start={"carriage.vx": 0.5}).ok
+    assert model.simulate(until=0.6, start=model.simulate(until=0.5)).ok
+    told = loaded(CARRIAGE.replace('"carriage.x < place"', '{ during = "carriage.x < place", at_start = false }'))
+    assert told.simulate(until=0.1, start={"carriage.x": 1.0})["hook.mode"][-1] == 0.0
