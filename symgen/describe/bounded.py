@@ -182,7 +182,7 @@ class BoundedRow(Protocol):
 
     @property
     def shift(self) -> Expr | None:
-        """Middle of the bounds at rest less that of bounds in motion; None where it is 0."""
+        """Middle of the bounds at rest less the middle of those in motion; None where it is 0."""
         ...
 
     def middle_of_bounds(self) -> Expr:

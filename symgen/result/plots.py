@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from symgen.base.errors import fit_lines
 from symgen.result.labelled import Labelled, columns_at
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
 
 #: Okabe and Ito's colours, told apart with every kind of colour vision.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000", "#B8A900")
@@ -166,7 +170,7 @@ def _most_moving(table: Labelled) -> tuple[Labelled, int]:
     return columns_at(table, chosen), left
 
 
-def _draw_lines(ax: Any, along: Any, table: Labelled, logarithmic: bool) -> None:
+def _draw_lines(ax: Axes, along: Any, table: Labelled, logarithmic: bool) -> None:
     table, left = _most_moving(table)
     if left:
         count = len(table.names)
@@ -181,7 +185,7 @@ def _draw_lines(ax: Any, along: Any, table: Labelled, logarithmic: bool) -> None
         _name_lines(ax)
 
 
-def place_legend(ax: Any) -> None:
+def place_legend(ax: Axes) -> None:
     """Put the legend of a panel to the right of it, where it hides nothing."""
     ax.legend(fontsize=7, ncols=1, loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
 
@@ -209,7 +213,7 @@ def _name_lines(ax: Any) -> None:
         ax.text(1.083, place, line.get_label(), transform=ax.transAxes, va="center", fontsize=7, gid=NAMED)
 
 
-def _height_of_end(ax: Any, line: Any) -> float:
+def _height_of_end(ax: Axes, line: Line2D) -> float:
     """Return how high the last finite value of a line is, from 0 to 1 of its panel."""
     values = np.asarray(line.get_ydata(), dtype=float)
     finite = values[np.isfinite(values)]

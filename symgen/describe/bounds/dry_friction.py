@@ -228,7 +228,7 @@ class Friction(Bounds, frozen=True):
 
     @property
     def shift(self) -> Expr | None:
-        """Middle of the bounds at rest less that of bounds in motion; None where it is 0."""
+        """Middle of the bounds at rest less the middle of those in motion; None where it is 0."""
         if not self.resting:
             return None
         return call("sub", _middle_of(*self.resting), self.middle_of_bounds())

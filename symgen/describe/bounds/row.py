@@ -44,7 +44,7 @@ class Bounds(msgspec.Struct, frozen=True):
 
     @property
     def shift(self) -> Expr | None:
-        """Middle of the bounds at rest less that of bounds in motion; None where it is 0."""
+        """Middle of the bounds at rest less the middle of those in motion; None where it is 0."""
         return None
 
     def middle_of_bounds(self) -> Expr:

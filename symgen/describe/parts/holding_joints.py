@@ -227,7 +227,7 @@ def _described_of(mechanism: Mechanism, first: Expr | bool) -> Literal["", "posi
 
 
 def _is_rate(name: str) -> bool:
-    """Whether a name is that of a velocity or of a rate."""
+    """Whether a name means a velocity or a rate."""
     return name.endswith(".rate") or is_speed(name)
 
 

@@ -37,7 +37,7 @@ from symgen.run.planning.start_lines import (
     is_described,
     written_start,
 )
-from symgen.run.printed.partition_tables import tables_of
+from symgen.run.printed.partition_tables import PartitionTables, tables_of
 
 if TYPE_CHECKING:
     from symgen.base.vocabulary.quantities import Quantity
@@ -298,7 +298,7 @@ class CModel:
         return self.target == "fmu" and not (self.named or contacts or self.mechanism.holding)
 
     @cached_property
-    def partition(self) -> Any:
+    def partition(self) -> PartitionTables:
         """What is partitioned for model exchange, see `symgen.run.printed.partition`."""
         return tables_of(self.compiled, self.run.start.w, bool(self.mechanism.bounded))
 

@@ -31,7 +31,7 @@ from symgen.run.layout.start_records import Instant, StartConditions
 from symgen.run.printed import partition
 from symgen.run.printed.exchanged_directions import direct_rates
 from symgen.run.printed.exchanged_steps import exchange_steps
-from symgen.run.printed.partition_tables import new_partition
+from symgen.run.printed.partition_tables import PartitionTables, new_partition
 from symgen.run.starts.assembler import layout_of_starts
 from symgen.run.starts.starting import begin_row, close_row, observe_nothing
 
@@ -203,7 +203,7 @@ def _room_of_directions(name: str) -> str | None:
     return f"partition_{own}" if owner == "part" else None if own else f"directed_{owner}"
 
 
-def _partition_model(compiled: CompiledModel, tables: Any) -> tuple[Any, ...]:
+def _partition_model(compiled: CompiledModel, tables: PartitionTables) -> tuple[Any, ...]:
     """Return a `symgen.run.printed.partition_tables.PartitionModel`."""
     return layout_of_starts(compiled), compiled_form(compiled.model.geometry), tables
 
@@ -287,7 +287,7 @@ class Printed:
             emitted[id(compiled_form(compiled.model.bodies))] = self.emitted["bodies"]
         return emitted
 
-    def add_partition(self, compiled: CompiledModel, tables: Any) -> None:
+    def add_partition(self, compiled: CompiledModel, tables: PartitionTables) -> None:
         """Add functions of `symgen.run.printed.partition`: the states of model exchange.
 
         They are ``choose_states(t, y)``, ``choose_left(t, y)`` where rows have bounds, ``complete_state(t, y)``,
@@ -313,7 +313,7 @@ class Printed:
             entry = source_of_piece(function), meanings_of_names(function, values, emitted, _room_of_exchange)
             self.entries[compiled_form(function).py_func.__name__] = entry
 
-    def add_exchanged_steps(self, compiled: CompiledModel, events: PrintedEvents, tables: Any) -> None:
+    def add_exchanged_steps(self, compiled: CompiledModel, events: PrintedEvents, tables: PartitionTables) -> None:
         """Add ``exchange_run(doing, t)`` of a mechanism without modes; see `symgen.run.printed.exchanged_steps`.
 
         Parameters
@@ -330,7 +330,9 @@ class Printed:
         meanings = meanings_of_names(exchange_steps, (model, None, None, *memory), emitted, _room_of_exchange)
         self.entries["exchange_run"] = source_of_piece(exchange_steps), meanings
 
-    def add_directions(self, compiled: CompiledModel, tables: Any, directed: Mapping[str, lang.Function]) -> None:
+    def add_directions(
+        self, compiled: CompiledModel, tables: PartitionTables, directed: Mapping[str, lang.Function]
+    ) -> None:
         """Add ``direct_rates(t)``, the directions of what an importer's states decide.
 
         Parameters

@@ -59,7 +59,7 @@ def remembers(c: Choice, s: Strikes, i: int, past: int) -> bool:
 
 @exact()
 def is_geometric(t: float, c: Choice, s: Strikes, i: int) -> bool:
-    """Return whether the last two flights of a gap are of one geometric series, as those of several series are not."""
+    """Return whether the last two flights of a gap are of one geometric series, and not of several."""
     if not (remembers(c, s, i, 1) and remembers(c, s, i, 2)):
         return False
     impacts, at, u = s.memory.impacts, REMEMBERED * (HEAD + c.count) * i, s.asked[i]

@@ -61,9 +61,11 @@ class StateModel:
 
     def __init__(self, where: str, mechanism: Mechanism, coordinates: str, parameters: Mapping[str, float]) -> None:
         coordinates = arguments.one_word_of("coordinates", coordinates, COORDINATES)
-        own = {p.name for p in mechanism.parameters}
-        given = {name: x for name, x in parameters.items() if name in own}
-        mechanism = in_modes(mechanism, parameter_values(mechanism, given) if mechanism.holding else {})
+        if mechanism.holding:
+            given = arguments.mapping("set", parameters, "numbers by the names of parameters")
+            own = {p.name for p in mechanism.parameters}
+            values = {name: x for name, x in given.items() if name in own}
+            mechanism = in_modes(mechanism, parameter_values(mechanism, values))
         sliding = sliding_rows_as_forces(where, mechanism)
         described = without_bounds(sliding, one_sided_rows(sliding))
         refuse_bounds(where, described)

@@ -21,7 +21,7 @@ OF_TASK = frozenset(
 
 
 def _stored(row: type) -> type[msgspec.Struct]:
-    """Return the type of an entry: the fields of a row without those of its task."""
+    """Return the type of an entry: the fields of a row that its task does not have."""
     return msgspec.defstruct(row.__name__, [(n, kind) for n, kind in get_type_hints(row).items() if n not in OF_TASK])
 
 
