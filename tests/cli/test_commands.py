@@ -189,14 +189,15 @@ def test_run_shows_a_table(cli):
     assert code == 0
     assert re.search(r"^status +ok$", out.replace(" \n", "\n"), re.MULTILINE) or "status" in out
     lines = {line.split()[0]: line.split() for line in out.splitlines() if line.strip()}
-    assert lines["quantity"] == "quantity smallest at t [s] largest at t [s] unit".split()
+    assert lines["quantity"] == "quantity smallest at t [s] largest at t [s] at the end unit".split()
     table = symgen.load("four-bar").simulate(until=0.1)
     force, angle = table["D.F"], table["A.angle"]
     for name, column, unit in (("D.F", force, "N"), ("A.angle", angle, "rad")):
         low, high = int(np.argmin(column)), int(np.argmax(column))
-        shown = [float(x) for x in lines[name][1:5]]
-        assert shown == pytest.approx([column[low], table.t[low], column[high], table.t[high]], rel=1e-4, abs=1e-6)
-        assert lines[name][5] == unit
+        shown = [float(x) for x in lines[name][1:6]]
+        expected = [column[low], table.t[low], column[high], table.t[high], column[-1]]
+        assert shown == pytest.approx(expected, rel=1e-4, abs=1e-6)
+        assert lines[name][6] == unit
 
 
 def test_a_driver_shows_its_effort_and_not_the_size_of_it_again(cli):

@@ -145,7 +145,7 @@ CASES = [
         "joints.pin.att",
         1,
         "joints.pin: got the unknown key 'att'; did you mean 'at'? (expected the keys type, start, cut, "
-        "rotor_inertia, gear_ratio, clearance, friction, stop, between, at, axis, reference)",
+        "rotor_inertia, gear_ratio, holds, holds_at, clearance, friction, stop, between, at, axis, reference)",
     ),
     ("joints.string.length", 0.0, "joints.string.length: expected a value above 0, got 0.0"),
     ("joints.string.at", ["centre", [0.1, 0.0]], "expected 'centre' or [0, 0], the one point of the point mass 'bob'"),

@@ -162,7 +162,7 @@ def test_the_energy_at_the_start_needs_no_output_there(four_bar):
 
 def test_a_start_that_was_changed_is_noted(model):
     result = model.simulate(until=0.01)
-    assert any("closed by the shortest changes" in note for note in result.notes)
+    assert any("the shortest changes close" in note for note in result.notes)
     with pytest.raises(InputError, match="`strict`"):
         model.simulate(until=0.01, strict=True)
 

@@ -161,6 +161,6 @@ def test_derivatives_in_single_precision_compile_without_a_warning(tmp_path):
 
 def test_other_targets_have_no_derivatives(tmp_path):
     with pytest.raises(
-        InputError, match=r"derivatives: expected target 'c-functions', which writes them, got target 'c'"
+        InputError, match=r"derivatives: expected target 'c-functions' or 'fmu', which write them, got target 'c'"
     ):
         load("four-bar").generate(tmp_path, target="c", derivatives=True)

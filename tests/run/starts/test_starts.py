@@ -53,7 +53,7 @@ def test_positions_are_closed_with_the_smallest_change_and_noted():
     description = changed("four-bar", "bodies", "crank", "angle", 1.2)
     start = start_of(description)
     assert max(residuals(description, start)) <= 1e-13
-    assert len(start.notes) == 1 and "closed by the shortest changes" in start.notes[0]
+    assert len(start.notes) == 1 and "the shortest changes close" in start.notes[0]
     with pytest.raises(InputError, match=r"initial state: expected a consistent start \(`strict`\)"):
         start_of(description, strict=True)
 
