@@ -77,8 +77,9 @@ def set_bounds(c: Choice, n: int, part: float) -> None:
         i = c.rest[r]
         bound, shift = c.sliding[i], 0.0
         if c.taken[i] != 0:
-            tied = part if part < 1.0 and is_tied(c, n, i) else 1.0
-            bound, shift = c.static[i] * tied, c.middle[i] * tied
+            bound, shift = c.static[i], c.middle[i]
+            if part < 1.0 and is_tied(c, n, i):
+                bound, shift = bound * part, shift * part
         pushes = c.pushes[i] != 0
         box.bounds[r] = 0.0 if pushes else bound + shift
         box.lower[r] = shift - bound if not pushes else (0.0 if c.loose[i] != 0 else -math.inf)
