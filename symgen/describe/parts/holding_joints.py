@@ -246,6 +246,8 @@ def refuse_other_start(mechanism: Mechanism, holds: Sequence[Hold]) -> None:
     InputError
         With the joint.
     """
+    if not mechanism.holding:  # asked for each row of a sweep
+        return
     names = {hold.name for hold in holds if hold.value is not None}
     others = sorted(names.difference(state.name for state in mechanism.states))
     for each in mechanism.holding:
