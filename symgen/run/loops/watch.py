@@ -6,7 +6,7 @@ import math
 
 from symgen.base.ir.numerics import SKIP
 from symgen.compile.loopcode.vectors import finite, largest
-from symgen.compile.native.annotations import Array
+from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout.records import Run, Sizes, Span, State
 from symgen.run.layout.scales import LEAST_SPEED
@@ -28,15 +28,20 @@ PASSAGE = 0.2
 NO_WAY = 1e-4
 
 
+def store_rank(m: int, mask: int, pivots: int, w: Array, control: Integers) -> None:
+    """Take the rank of D D^T as that before the next state, by the indices of mask and pivots in ``w``."""
+    rank = masked = 0
+    for i in range(m):
+        if w[mask + i] > 0.0:
+            masked += 1
+        elif w[pivots + i] >= SKIP:
+            rank += 1
+    control[abi.LAST_RANK], control[abi.MASKED] = rank, masked
+
+
 def remember_rank(sizes: Sizes, run: Run | State) -> None:
     """Take the rank of D D^T at the start as that before the first state."""
-    rank = masked = 0
-    for i in range(sizes.m):
-        if run.w[sizes.mask + i] > 0.0:
-            masked += 1
-        elif run.w[sizes.pivots + i] >= SKIP:
-            rank += 1
-    run.control[abi.LAST_RANK], run.control[abi.MASKED] = rank, masked
+    store_rank(sizes.m, sizes.mask, sizes.pivots, run.w, run.control)
 
 
 def iterations_in(state: State) -> int:

@@ -32,6 +32,7 @@ from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.redundancy import choose_rows, farthest_row, is_off
 from symgen.run.layout.start_records import Instant, Layout
 from symgen.run.loops.event_loop import EventState
+from symgen.run.loops.watch import store_rank
 from symgen.run.modes.choice import look_anew
 
 #: A joint is in its place up to this part of the mechanism's length, or of 1 rad.
@@ -156,17 +157,6 @@ def find_contradiction(effects: OfEffects, value: float, slope: float) -> int:
     return -1
 
 
-def remember_rows(layout: Layout, state: EventState) -> None:
-    """Take the rank of D D^T in new modes as that before the next step."""
-    rank = masked = 0
-    for i in range(layout.m):
-        if state.w[layout.mask + i] > 0.0:
-            masked += 1
-        elif state.w[layout.pivot + i] >= SKIP:
-            rank += 1
-    state.control[abi.LAST_RANK], state.control[abi.MASKED] = rank, masked
-
-
 def apply_with_holding(last: int, effects: OfEffects, state: EventState) -> int:
     """Apply the chosen resets as `symgen.run.effects.resets.apply_resets` does, where joints hold for a while.
 
@@ -189,7 +179,7 @@ def apply_with_holding(last: int, effects: OfEffects, state: EventState) -> int:
         effects.ends[e.FIRST_NUMBER] = effects.work.energy[0]
         return code
     if moded:
-        remember_rows(layout, state)
+        store_rank(layout.m, layout.mask, layout.pivot, state.w, state.control)
         look_anew(state)
     if caught:
         look_at_conditions(functions, state.clock[abi.TIME], now, state.iw, past)
