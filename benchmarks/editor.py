@@ -117,7 +117,7 @@ def _thread_time(chromium: Chromium) -> float:
 
 
 def frames_of_drag(bodies: int, pictures: int = 12, patience: float = 60.0) -> Drag:
-    """Return what it is like to drag a pin of the top in Chromium until there are so many pictures."""
+    """Return the times of a drag: a pin of the top, in Chromium, until the page has drawn some pictures."""
     import tempfile
 
     from tests.browser.chromium import Chromium

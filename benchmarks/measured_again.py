@@ -108,7 +108,7 @@ def measure_in_turns(sources: Sequence[Source], seconds: float, clock: Callable[
 
 
 def in_words(sources: Sequence[Source]) -> str:
-    """Return what was measured again, what differs and what is as stored."""
+    """Return the report: of each source its new lines, their differences, and its stored lines."""
     headings = ("source", "lines", "measured again", "numbers", "others")
     rows = [
         [f"`{s.name}`", str(len(s.lines)), str(s.again), str(s.numbers), str(len(s.others))]

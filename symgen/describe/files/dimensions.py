@@ -133,7 +133,7 @@ class _Line(NamedTuple):
     second: WrittenPoint
 
     def dimension(self, points: PointsOfFile) -> Dimension:
-        """Return what is drawn of it."""
+        """Return the dimension in the picture."""
         ends = self._ends(points)
         x, y = ends[2] - ends[0], ends[3] - ends[1]
         value = math.hypot(x, y) if self.kind == LENGTH else math.atan2(y, x)

@@ -180,7 +180,7 @@ def _read_bounds(
 def _read_bounds_of_both_ways(
     scope: Scope, key: str, section: FrictionSection, least: Mapping[str, object], most: StateBound | None
 ) -> tuple[Expr, Expr, Expr | None, tuple[Expr, ...], bool]:
-    """Return what `_read_bounds` does, of bounds that differ in the two directions."""
+    """Return the bounds of friction whose two directions have one each; see `_read_bounds`."""
     if section.stribeck_speed is not None:
         expected = "no such key beside bounds of two directions, which may be formulas of rate"
         raise scope.error(f"{key}.stribeck_speed", expected, value_in_words(section.stribeck_speed))
