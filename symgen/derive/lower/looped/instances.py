@@ -165,7 +165,7 @@ class _Rewriting:
         return replace(instance, angles=angles) if angles else instance
 
     def drag_instance(self, row: BoundedRow) -> Instance:
-        """Return the friction of a row by a reaction as an instance, with the rows that press."""
+        """Return a row whose bounds a reaction sets as an instance, with the rows that press."""
         self.begin_element()
         whole: Any = row  # all kinds are structs
         rows: tuple[Row, ...]
