@@ -35,8 +35,9 @@ from symgen.run.loops.search_records import COUNT
 from symgen.run.loops.searching import deciding
 from symgen.run.printed.exchanged_run import RESTS, Exchange, exchanged_run
 from symgen.run.printed.foreseen_run import foreseen_run
+from symgen.run.printed.kept_loops import KeptLoops, Traits, kept_loops
 from symgen.run.printed.kept_reset import kept_reset
-from symgen.run.printed.kept_run import KeptLoops, KeptOutput, Traits, Visible, kept_run
+from symgen.run.printed.kept_run import KeptOutput, Visible
 from symgen.run.rows.rows import observe_nothing_of_coordinates
 from symgen.run.single.events import event_state
 from symgen.run.single.new_state import model_sizes, new_state, span_of
@@ -231,7 +232,7 @@ class PrintedRun:
 
     @property
     def _loops(self) -> KeptLoops:
-        return kept_run(*self._recipe)
+        return kept_loops(*self._recipe)
 
     @cached_property
     def _decide(self) -> Any:

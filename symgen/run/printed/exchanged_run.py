@@ -44,7 +44,8 @@ from symgen.run.modes.bounded_rows import OTHERS, OUT_OF_RANGE, SAME, switch_off
 from symgen.run.modes.choice import read_rows
 from symgen.run.modes.strikes import end_flights, end_lost_flights
 from symgen.run.modes.turn import OfModes, rest_gaps
-from symgen.run.printed.kept_run import CHANGED, ENDING, VISIBLE, Traits, Visible, meet_event, recipe_of
+from symgen.run.printed.kept_loops import Traits, recipe_of
+from symgen.run.printed.kept_run import CHANGED, ENDING, VISIBLE, Visible, meet_event
 from symgen.run.rows.row_events import ModelWithModes, begin_row_in_modes
 
 _F, _A, _K = types.float64, types.float64[::1], types.int64
@@ -334,7 +335,7 @@ _CORNERED = Meanings("FMUs for model exchange with corners of gaps", CORNERS=Tru
 
 
 def exchanged_run(loop: RuntimeFunction, traits: Traits) -> tuple[Any, Any]:
-    """Return `indicate_run` and `exchange_run` for a scheme, made at the first use; parameters as for `kept_run`."""
+    """Return `indicate_run` and `exchange_run` for a scheme, made at the first use; parameters as for `kept_loops`."""
     key = loop, traits
     if key not in _loops:
         name, meanings, _, model = recipe_of(loop, traits)

@@ -19,7 +19,7 @@ from symgen.run.layout.start_records import Instant
 from symgen.run.loops.unbound import effects_alone, leave_alone
 from symgen.run.modes.bounded_rows import open_rows
 from symgen.run.modes.turn import OfModes
-from symgen.run.printed.kept_run import Traits, recipe_of
+from symgen.run.printed.kept_loops import Traits, recipe_of
 from symgen.run.rows.row_events import ModelWithEffects
 
 _F, _A, _K = types.float64, types.float64[::1], types.int64
@@ -66,7 +66,7 @@ _loops: dict[Any, Any] = {}
 
 
 def kept_reset(loop: RuntimeFunction, traits: Traits) -> Any:
-    """Return `reset_run` for a scheme, made at the first use; parameters as for `kept_run`."""
+    """Return `reset_run` for a scheme, made at the first use; parameters as for `kept_loops`."""
     key = loop, traits
     if key not in _loops:
         name, meanings, _, model = recipe_of(loop, traits)
