@@ -20,9 +20,9 @@ from symgen.run.effects.applying import (
     CONTRADICTED,
     NO_VALUES,
     NOT_IN_PLACE,
-    EffectChanges,
     EffectModel,
     EffectWork,
+    apply_where_released,
     write_values,
 )
 from symgen.run.effects.applying import apply_effects as apply_changes
@@ -87,20 +87,9 @@ def add_losses(model: EffectModel, chosen: Integers, y: Array, work: EffectWork)
             k += 1
 
 
-@exact()
-def flip_releases(changes: EffectChanges, chosen: Integers, y: Array) -> None:
-    """Change the states that say whether the joints that release are in force: off, and on again by a second call."""
-    for i in range(changes.writes.shape[0] // 2):
-        event, place = changes.writes[2 * i], changes.writes[2 * i + 1]
-        if chosen[event] != 0 and changes.catches[2 * event] == -2:
-            y[place] = 1.0 - y[place]
-
-
 @exact(entry=True)
 def catch_and_apply(model: EffectModel, t: float, now: Instant, chosen: Integers, work: EffectWork) -> int:
     """Apply the effects of events as `symgen.run.effects.applying.apply_effects` does, and have rows follow.
-
-    No impulse goes through a joint that releases at the same instant.
 
     Returns `NOT_IN_PLACE` where a joint catches outside its place, which ``energy`` then says.
     """
@@ -122,9 +111,7 @@ def catch_and_apply(model: EffectModel, t: float, now: Instant, chosen: Integers
     if not distance <= IN_PLACE:
         work.energy[0] = distance
         return int(NOT_IN_PLACE)
-    flip_releases(changes, chosen, now.y)
-    code = int(apply_changes(model, t, now, chosen, work))
-    flip_releases(changes, chosen, now.y)  # the release itself has flipped them back where it was applied
+    code = int(apply_where_released(model, t, now, chosen, work))
     if code == APPLIED:
         add_losses(model, chosen, now.y, work)
         geometry(t, now.y, now.p, now.w)

@@ -14,9 +14,11 @@ TIGHT = {"integrator": "dop853", "rtol": 1e-12, "atol": 1e-13}
 INERTIAS, SPEEDS = (2.0, 1.0, 0.5), (3.0, -1.0, 2.0)
 
 
-def rotors(first: object, second: object) -> symgen.Model:
+def rotors(first: object, second: object, **numbers: float) -> symgen.Model:
     """Return three rotors with a clutch of teeth between neighbours."""
     builder = symgen.MechanismBuilder("rotors")
+    for name, number in numbers.items():
+        builder.parameter(name, number)
     for name, inertia, speed in zip("abc", INERTIAS, SPEEDS, strict=True):
         builder.body(name, mass=1.0, inertia=inertia, angular_velocity=speed)
         builder.joint(f"at_{name}", "revolute", between=("ground", name), at=((0.0, 0.0), "centre"))
@@ -62,6 +64,22 @@ def test_rotors_share_their_momentum(first, second, catches, coordinates) -> Non
     np.testing.assert_allclose(found, [*expected, speeds], rtol=0, atol=1e-12)
     assert run["left.dissipated"][-1] + run["right.dissipated"][-1] == pytest.approx(lost, abs=1e-12)
     assert np.abs(run.energy_error).max() < 1e-12
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_derivatives_of_a_hand_over(coordinates) -> None:
+    """By its time: the second rotor brings (1, w) to the third, where w and the angle are those of a rotor as it is."""
+    model = rotors("t < te", "t > te", te=0.1)
+    keys = {"until": 0.5, "coordinates": coordinates, **TIGHT}
+    common = caught(SPEEDS, "ab")[1]
+    after = (INERTIAS[1] * common + INERTIAS[2] * SPEEDS[2]) / (INERTIAS[1] + INERTIAS[2])
+    run = model.simulate(sensitivities=("te",), **keys)
+    assert run.ok, run.reason
+    for column, slope in (("b.theta", common - after), ("c.theta", SPEEDS[2] - after), ("a.theta", 0.0)):
+        assert run.gradient(column).values[-1, 0] == pytest.approx(slope, abs=1e-12), column
+        back = model.gradient(column, by=("te",), way="adjoint", **keys)
+        assert back.by["te"] == pytest.approx(slope, abs=1e-12), column
 
 
 def beam(left: str, right: str) -> symgen.Model:
