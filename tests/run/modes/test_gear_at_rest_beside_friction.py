@@ -15,13 +15,17 @@ TIGHT = {"integrator": "dop853", "rtol": 1e-11, "atol": 1e-12}
 
 
 def machine(
-    efficiency: tuple[float, float], static: float = DRY, second: float = 0.0, drive: str = "A*sin(w*t)"
+    efficiency: tuple[float, float],
+    static: float = DRY,
+    second: float = 0.0,
+    drive: str = "A*sin(w*t)",
+    dry: dict[str, object] | None = None,
 ) -> symgen.Model:
     """Return a motor and a drum with a gear of 2 : 1; the second shaft may have friction too."""
     builder = symgen.MechanismBuilder("lossy").parameter("A", 6.0).parameter("w", 3.0)
     builder.body("motor", mass=1.0, inertia=J1).body("drum", mass=1.0, inertia=J2, position=(0.3, 0.0))
-    dry = {"friction": {"sliding": DRY, "static": static}}
-    builder.joint("shaft", "revolute", between=("ground", "motor"), at=((0.0, 0.0), "centre"), **dry)
+    dry = dry or {"sliding": DRY, "static": static}
+    builder.joint("shaft", "revolute", between=("ground", "motor"), at=((0.0, 0.0), "centre"), friction=dry)
     more = {"friction": {"sliding": second}} if second else {}
     builder.joint("axle", "revolute", between=("ground", "drum"), at=((0.3, 0.0), "centre"), **more)
     builder.joint("gear", "gear", between=("motor", "drum"), ratio=RATIO, efficiency=list(efficiency))
@@ -155,6 +159,17 @@ def test_a_locked_gear_begins_to_lift_and_to_lower(efficiency, coordinates) -> N
         assert np.abs(run["shaft.force"][run.t < begin]).max() <= DRY * (1.0 + 1e-9)
         assert np.all(pace * run["motor.omega"][run.t > begin + 0.1] > 0.0)
         assert len(run.events) < 20, "efforts are shared out anew a few times only"
+
+
+@pytest.mark.slow
+def test_a_shaft_with_bounds_of_two_directions_beside_a_gear() -> None:
+    """The bounds forwards and backwards, 0.8 and 0.3 N m, are those of lifting and of lowering."""
+    for pace, limit in ((1.0, 0.8 + LOAD / (RATIO * 0.5)), (-1.0, 0.5 * LOAD / RATIO - 0.3)):
+        model = machine((0.5, 0.5), drive="1.0 + A*t", dry={"sliding": {"forwards": 0.8, "backwards": 0.3}})
+        run = model.simulate(until=4.0, parameters={"A": pace}, **TIGHT)
+        assert run.ok, run.reason
+        slips = {event.name: event.t for event in run.events}
+        assert slips["gear.slip"] == pytest.approx(abs(limit - 1.0), abs=1e-9)
 
 
 @pytest.mark.slow
