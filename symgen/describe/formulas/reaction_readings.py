@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from symgen.base.vocabulary.expressions import Expr, Reading, call, sum_of_terms
-from symgen.base.vocabulary.measures import GROUND, Component, Driven, Holonomic, LinkStretch, Source, axes
+from symgen.base.vocabulary.measures import GROUND, Component, Driven, Holonomic, LinkStretch, Measure, axes
 from symgen.describe.mechanism import Joint
 
 #: Names of a joint's reaction, and of the pull of a rod or a rope.
@@ -36,7 +36,7 @@ def readings_of_reaction(joint: Joint) -> Table:
     return table
 
 
-def _readings_of_pull(joint: Joint, row: str, measure: Source) -> Table:
+def _readings_of_pull(joint: Joint, row: str, measure: Measure) -> Table:
     """Return the tension of a rod or a rope, and the force of a rod on its first body, which is along the rod."""
     if not isinstance(measure, LinkStretch) and joint.kind != "rope":
         return {}

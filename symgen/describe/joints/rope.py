@@ -120,7 +120,7 @@ class Rope(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
         stops = [Stop("at[0]", ends[0], ZERO), *(_stop(scope, i, x) for i, x in enumerate(self.over))]
         stops.append(Stop("at[1]", ends[1], ZERO))
         way, start = way_in_space(scope, stops) if scope.spatial else _way_in_plane(scope, stops)
-        length = literal_of(start)
+        length: Expr = literal_of(start)
         if self.length is not None:
             length = scope.constant("length", self.length, positive=True)
         carried = (stop.centre.body for stop in stops[1:-1] if stop.centre.body != GROUND)
