@@ -73,7 +73,7 @@ def ball_on_a_rod(space: str, length: float = 1.0, **rod: object) -> Model:
     return load(builder.build())
 
 
-@pytest.mark.slow_cases("spatial")
+@pytest.mark.slow
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_the_force_of_a_rod_is_that_of_results(space: str) -> None:
     """A ball that falls from a height z0 on a rod: m (g cos + v^2/L), pulled towards the support."""

@@ -82,6 +82,18 @@ def test_derivatives_of_a_hand_over(coordinates) -> None:
         assert back.by["te"] == pytest.approx(slope, abs=1e-12), column
 
 
+@pytest.mark.slow
+def test_a_sweep_over_the_time_of_a_hand_over() -> None:
+    """301 times: none fails, and angles are those of rotors that turn evenly before and after."""
+    te = np.linspace(0.01, 0.49, 301)
+    swept = symgen.sweep(rotors("t < te", "t > te", te=0.1), {"te": te}, quantities=["c.theta", "a.theta"], until=0.5)
+    assert set(swept.status.tolist()) == {"ok"}
+    common = caught(SPEEDS, "ab")[1]
+    after = (INERTIAS[1] * common + INERTIAS[2] * SPEEDS[2]) / (INERTIAS[1] + INERTIAS[2])
+    for column, angle in (("c.theta", SPEEDS[2] * te + after * (0.5 - te)), ("a.theta", 0.5 * common + 0.0 * te)):
+        np.testing.assert_allclose(np.asarray(swept[column]).reshape(301), angle, rtol=0, atol=1e-12)
+
+
 def beam(left: str, right: str) -> symgen.Model:
     """Return a beam on two pins, which hold four rows of its three coordinates."""
     builder = symgen.MechanismBuilder("beam", gravity=(0.0, -G))

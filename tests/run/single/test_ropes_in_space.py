@@ -52,7 +52,7 @@ def spun(times: np.ndarray, m: float = 1.5) -> np.ndarray:
     return solve_ivp(rates, (0.0, times[-1]), start, "DOP853", rtol=1e-12, atol=1e-13, t_eval=times).y[:3].T
 
 
-@pytest.mark.slow_cases("joint", "looped")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "settings", [{}, {"coordinates": "joint"}, {"shape": "looped"}], ids=["plain", "joint", "looped"]
 )
