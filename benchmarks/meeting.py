@@ -228,6 +228,17 @@ FEATURES: Mapping[str, str] = {
         '[joints.rope]\ntype = "rope"\nbetween = ["pole", "weight"]\nat = ["tip", "centre"]\n'
         'over = [{ at = [0.4, 0.2], radius = 0.1, turn = "right" }]'
     ),
+    "rope in space": _HEAD
+    + """[bodies.weight]
+type = "point"
+mass = 0.5
+position = [0.6, 0.0, 0.3]
+[joints.rope]
+type = "rope"
+between = ["head", "weight"]
+at = ["centre", "centre"]
+over = [{ at = [0.2, 0.0, 0.5] }, { at = [0.4, 0.0, 0.6], radius = 0.1, turn = "left", axis = [0.0, 1.0, 0.0] }]
+""",
     "wheel that gives way": cart(
         more="[bodies.wheel]\nmass = 0.5\ninertia = 0.01\nposition = [0.1, 0.3]\nvelocity = [0.2, 0.0]\n"
         '[joints.road]\ntype = "rolling"\nbetween = ["wheel", "cart"]\nradius = 0.2\naxis = [1.0, 0.0]\n'

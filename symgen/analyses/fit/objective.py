@@ -20,7 +20,7 @@ from symgen.analyses.fit.free_numbers import Bounds, FreeNumbers, arrays_of_boun
 from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError
 from symgen.describe.facts.lifted import lift_numbers
-from symgen.describe.formulas.readings import REACTION
+from symgen.describe.formulas.reaction_readings import REACTION, TENSION
 from symgen.describe.mechanism import Mechanism, Output
 from symgen.describe.parts.context import Context
 from symgen.describe.parts.driven_mechanism import put_formulas
@@ -222,7 +222,8 @@ def _add_output(where: str, mechanism: Mechanism, quantity: str) -> tuple[Mechan
     text = arguments.text(where, quantity).strip()
     unit = ""
     if re.fullmatch(r"[^\W\d][\w.]*", text):
-        if text.rpartition(".")[2] not in REACTION:
+        owner, _, last = text.rpartition(".")
+        if last not in REACTION and (last != TENSION or "." in owner):
             return mechanism, text
         unit = "N"  # forces of joints are no columns with directions
     name = "objective"

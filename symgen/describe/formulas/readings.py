@@ -13,6 +13,8 @@
 | ``motor.angle.rate``, ``motor.rate`` | its rate; the short form where there is one coordinate | everywhere |
 | ``motor.effort``, ``motor.power`` | what a driver exerts along its coordinate | outputs |
 | ``pin.F``, ``pin.Fx``, ``.Fy``, ``.Fz`` | a joint's reaction on its first body: size, components | outputs |
+| ``rod.tension``, ``rod.F``, ``rod.Fx`` ... | of `distance` joints: its pull, and its force as of pins | outputs |
+| ``rope.tension`` | of ropes that keep their length | outputs |
 | ``spring.length``, ``.angle``, ``.rate`` | of a force along one measure | outputs, events |
 | ``rod.e3.strain``, ``.shear``, ``.curvature`` | of a beam element in its middle | outputs, events |
 | ``rod.e3.N``, ``.Q``, ``.M`` | force and moment of the section there | outputs, events |
@@ -67,6 +69,7 @@ from symgen.base.vocabulary.measures import (
     axes,
 )
 from symgen.describe.coordinate_names import ACCELERATIONS
+from symgen.describe.formulas.reaction_readings import REACTION, Table, readings_of_reaction
 from symgen.describe.mechanism import AnyBody, Force, Joint
 from symgen.describe.modal_body import COORDINATE, Modal, ModalRow, names_of_modes
 
@@ -74,8 +77,6 @@ if TYPE_CHECKING:
     from symgen.describe.parts.context import Context
 
 
-#: Names of a joint's reaction.
-REACTION = ("F", "Fx", "Fy", "Fz")
 #: Prefixes of a point's coordinates, by the order of the derivative, and their units.
 ORDERS = {"": "m", "v": "m/s", "a": "m/s^2"}
 #: Largest order in functions of state, and in outputs, where v' and efforts are available.
@@ -91,9 +92,6 @@ SPACE = (
     ("strain", "shear_y", "shear_z", "twist", "curvature_y", "curvature_z"),
     ("N", "Qy", "Qz", "T", "My", "Mz"),
 )
-
-#: Names after an owner's -> quantity and unit.
-Table = dict[str, tuple[Expr, str]]
 
 
 def readings_of_point(name: str, marker: Marker, dimension: int, order: int) -> Table:
@@ -157,28 +155,6 @@ def readings_of_joint(joint: Joint, order: int) -> Table:
         driven = Driven(f"{joint.name}.{row.label}", row.measure)
         table["effort"] = Reading(f"{joint.name}.effort", driven), "N m" if row.unit == "rad" else "N"
         table["power"] = Reading(f"{joint.name}.power", Driven(driven.row, driven.measure, power=True)), "W"
-    return table
-
-
-def readings_of_reaction(joint: Joint) -> Table:
-    """Return the size of the force on the first body of a joint, and its components where rows are along fixed axes.
-
-    Joints whose rows of forces are components of a vector between two points, along axes of one frame, have one: their
-    multipliers are the components.
-    """
-    forces = [row for row in joint.rows if isinstance(row, Holonomic) and row.unit == "m"]
-    rows = [(f"{joint.name}.{row.label}", row.measure) for row in forces]
-    components = [measure for _, measure in rows if isinstance(measure, Component)]
-    frames = {(each.a, each.b, each.along.body) for each in components}
-    if not rows or len(components) < len(rows) or len(frames) > 1:
-        return {}
-    efforts = [Reading(row, Driven(row, measure)) for row, measure in rows]
-    squares = [call("mul", each, each) for each in efforts]
-    table: Table = {"F": (call("sqrt", sum_of_terms(*squares)) if len(rows) > 1 else call("abs", efforts[0]), "N")}
-    for letter, axis in zip("xyz", axes(GROUND, len(components[0].along.vector)), strict=False):
-        along = [e for e, measure in zip(efforts, components, strict=True) if measure.along == axis]
-        if len(along) == 1:
-            table[f"F{letter}"] = call("neg", along[0]), "N"
     return table
 
 

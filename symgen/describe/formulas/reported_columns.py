@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 from symgen.base.vocabulary.expressions import Expr, Name, Reading
 from symgen.base.vocabulary.measures import Marker
+from symgen.describe.formulas.reaction_readings import Table
 from symgen.describe.formulas.readings import (
     OUTPUT,
-    Table,
     readings_of_force,
     readings_of_interface,
     readings_of_joint,

@@ -1,4 +1,4 @@
-"""Rope: a thread over sheaves, which keeps its length or stretches; in the plane."""
+"""Rope: a thread over sheaves, which keeps its length or stretches; in space through eyelets too."""
 
 from __future__ import annotations
 
@@ -22,13 +22,15 @@ from symgen.base.vocabulary.expressions import (
 from symgen.base.vocabulary.measures import GROUND, Bearing, Component, FormulaMeasure, Holonomic, Marker, axes
 from symgen.describe.joints._giving import force_of_pull, refuse_damping
 from symgen.describe.joints._paired import Paired
+from symgen.describe.joints._rope_in_space import Stop, way_in_space
 from symgen.describe.mechanism import Force, Joint
-from symgen.describe.parts.fields import BodyName, Point, Scalar
+from symgen.describe.parts.fields import Axis, BodyName, Point, Scalar
 from symgen.describe.parts.scope import CENTRE, Scope
+from symgen.describe.parts.triads import make_triad
 
 
 class Sheave(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A sheave on the way of a rope.
+    """A sheave on the way of a rope, or an eyelet: a point through which it glides.
 
     Parameters
     ----------
@@ -37,22 +39,18 @@ class Sheave(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     at : point
         Its centre.
     radius : scalar
-        [m], above 0.
+        [m], above 0; without it there is an eyelet.
     turn : {"left", "right"}
-        Which way the rope turns round it, from the first end on.
+        Of a sheave, which way the rope turns round it, from the first end on; in space as seen against the axis.
+    axis : direction
+        Of a sheave in space, in the frame of the body. Its length does not matter.
     """
 
     at: Point
-    radius: Scalar
-    turn: Literal["left", "right"]
+    radius: Scalar | None = None
+    turn: Literal["left", "right"] | None = None
+    axis: Axis | None = None
     body: BodyName = GROUND
-
-
-class _Stop(NamedTuple):
-    """An end, or a sheave with a radius that is below 0 where the rope turns right."""
-
-    centre: Marker
-    radius: Expr
 
 
 class _Straight(NamedTuple):
@@ -74,8 +72,9 @@ class Rope(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     at : pair of points
         The ends.
     over : list of tables
-        The sheaves on its way, each ``{ body, at, radius, turn }``; the rope turns round each by less than a turn at
-        the start.
+        The sheaves on its way, each ``{ body, at, radius, turn }``, in space with an `axis`; the rope turns round each
+        by less than a turn at the start. In space what is before and after a sheave starts in its plane. Without
+        `radius` there is an eyelet.
     length : scalar
         Length [m]; that of the way as the bodies are described to start by default.
     stiffness : scalar
@@ -92,7 +91,7 @@ class Rope(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     ``NAME.stretch`` [m], below 0 where the rope is slack.
     """
 
-    SPACES: ClassVar[tuple[str, ...]] = ("planar",)
+    SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
     over: tuple[Sheave, ...] = ()
     length: Scalar | None = None
@@ -118,28 +117,49 @@ class Rope(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     def _way(self, scope: Scope) -> tuple[tuple[str, ...], Expr, Expr]:
         """Return the bodies, the length of the way as a formula, and the length of the rope."""
         (a, b), ends = self.ends(scope, turns=(False, False))
-        stops, bodies = [_Stop(ends[0], ZERO)], [a, b]
-        for i, sheave in enumerate(self.over):
-            key = f"over[{i}]"
-            body = scope.body(f"{key}.body", sheave.body)
-            radius = scope.constant(f"{key}.radius", sheave.radius, positive=True)
-            centre = scope.marker(f"{key}.at", body, CENTRE if sheave.at == CENTRE else sheave.at)
-            stops.append(_Stop(centre, radius if sheave.turn == "left" else call("neg", radius)))
-            bodies.append(body)
-        stops.append(_Stop(ends[1], ZERO))
-        straights = [_straight(scope, i, *pair) for i, pair in enumerate(pairwise(stops))]
-        bends = zip(stops[1:], straights, straights[1:], strict=False)
-        arcs = [_arc(scope, stop, before, after) for stop, before, after in bends]
-        way = sum_of_terms(*(straight.length for straight in straights), *(arc for arc, _ in arcs))
+        stops = [Stop("at[0]", ends[0], ZERO), *(_stop(scope, i, x) for i, x in enumerate(self.over))]
+        stops.append(Stop("at[1]", ends[1], ZERO))
+        way, start = way_in_space(scope, stops) if scope.spatial else _way_in_plane(scope, stops)
+        length: Expr = literal_of(start)
         if self.length is not None:
             length = scope.constant("length", self.length, positive=True)
-        else:
-            length = literal_of(sum([straight.start for straight in straights] + [start for _, start in arcs]))
-        carried = (body for body in bodies[2:] if body != GROUND)
+        carried = (stop.centre.body for stop in stops[1:-1] if stop.centre.body != GROUND)
         return tuple(dict.fromkeys((a, b, *carried))), way, length
 
 
-def _straight(scope: Scope, i: int, a: _Stop, b: _Stop) -> _Straight:
+def _stop(scope: Scope, i: int, sheave: Sheave) -> Stop:
+    """Return a sheave, or an eyelet."""
+    key = f"over[{i}]"
+    axial = (("axis", sheave.axis),) if scope.spatial else ()
+    if sheave.axis is not None and not scope.spatial:
+        raise scope.error(f"{key}.axis", "no such key in the plane", "a direction")
+    body = scope.body(f"{key}.body", sheave.body, turns=sheave.axis is not None)
+    centre = scope.marker(f"{key}.at", body, CENTRE if sheave.at == CENTRE else sheave.at)
+    for name, value in (("turn", sheave.turn), *axial):
+        if (value is None) != (sheave.radius is None):
+            expected, got = ("no such key", "one") if value is not None else ("the key of a sheave", "no such key")
+            hint = "an eyelet has neither radius nor turn nor axis"
+            raise scope.error(
+                f"{key}.{name}", f"{expected} {'without' if value is not None else 'with'} a radius", got, hint
+            )
+    if sheave.radius is None:
+        return Stop(key, centre, ZERO)
+    radius = scope.constant(f"{key}.radius", sheave.radius, positive=True)
+    signed = radius if sheave.turn == "left" else call("neg", radius)
+    triad = None if sheave.axis is None else make_triad(scope, body, sheave.axis, keys=(f"{key}.axis", ""))
+    return Stop(key, centre, signed, triad)
+
+
+def _way_in_plane(scope: Scope, stops: list[Stop]) -> tuple[Expr, float]:
+    """Return the length of the way over some stops as a formula, and at the start."""
+    straights = [_straight(scope, i, *pair) for i, pair in enumerate(pairwise(stops))]
+    bends = zip(stops[1:], straights, straights[1:], strict=False)
+    arcs = [_arc(scope, stop, before, after) for stop, before, after in bends if stop.radius != ZERO]
+    way = sum_of_terms(*(straight.length for straight in straights), *(arc for arc, _ in arcs))
+    return way, sum([straight.start for straight in straights] + [start for _, start in arcs])
+
+
+def _straight(scope: Scope, i: int, a: Stop, b: Stop) -> _Straight:
     """Return the straight part between two sheaves or ends.
 
     With u along it, n to its left and signed radii r, the centres are apart by l u + (r_b - r_a) n.
@@ -161,7 +181,7 @@ def _straight(scope: Scope, i: int, a: _Stop, b: _Stop) -> _Straight:
     return _Straight(length, direction, start, angle)
 
 
-def _arc(scope: Scope, stop: _Stop, before: _Straight, after: _Straight) -> tuple[Expr, float]:
+def _arc(scope: Scope, stop: Stop, before: _Straight, after: _Straight) -> tuple[Expr, float]:
     """Return the arc on a sheave, by less than a turn at the start, and its length there."""
     radius = scope.value(stop.radius, "over")
     way, turned = math.copysign(1.0, radius), after.angle - before.angle

@@ -152,6 +152,8 @@ def straight_alone(mechanism: Mechanism) -> str:
         return "modal bodies"
     if any(reads_results(x.rate) for x in mechanism.states):
         return "states that read accelerations or forces"
+    if mechanism.holding:
+        return "joints that hold for a while"
     return "rows that may be off" if mechanism.switchable else ""
 
 

@@ -317,3 +317,21 @@ def apply_effects(model: EffectModel, t: float, now: Instant, chosen: Integers, 
     now.y[layout.nq + layout.nv] += work.energy[0]  # work of the impulses: the energy balance continues
     now.w[abi.KINETIC] += work.energy[0]
     return int(APPLIED)
+
+
+@exact()
+def flip_releases(changes: EffectChanges, chosen: Integers, y: Array) -> None:
+    """Change the states that say whether joints that release are in force: off, and on again by a second call."""
+    for i in range(changes.writes.shape[0] // 2):
+        event, place = changes.writes[2 * i], changes.writes[2 * i + 1]
+        if chosen[event] != 0 and changes.catches[2 * event] == -2:
+            y[place] = 1.0 - y[place]
+
+
+@exact(entry=True)
+def apply_where_released(model: EffectModel, t: float, now: Instant, chosen: Integers, work: EffectWork) -> int:
+    """Apply effects as `apply_effects` does; no impulse goes through a joint that releases at the same instant."""
+    flip_releases(model[4], chosen, now.y)
+    code = int(apply_effects(model, t, now, chosen, work))
+    flip_releases(model[4], chosen, now.y)  # where the release is applied, it has just put them back
+    return code

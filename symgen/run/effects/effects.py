@@ -18,7 +18,7 @@ from symgen.run.effects.applying import (
     NO_VELOCITIES,
     EffectChanges,
     EffectWork,
-    apply_effects,
+    apply_where_released,
     new_effect_work,
 )
 from symgen.run.layout.start_records import Instant
@@ -133,7 +133,7 @@ class Effects:
 
     @cached_property
     def model(self) -> tuple[Any, ...]:
-        """First argument of `apply_effects`."""
+        """First argument of `apply_where_released`."""
         emitted = self.compiled.model
         bodies = emitted.bodies if self.bodies else observe_nothing
         functions = (compiled_form(f) for f in (emitted.geometry, self.formulas, bodies))
@@ -174,7 +174,7 @@ class Effects:
         chosen, before = self.chosen(numbers), y[info.nq : info.work].copy()
         try:
             with np.errstate(all="ignore"):
-                code = int(compiled_form(apply_effects)(self.model, t, Instant(y, p, w), chosen, work))
+                code = int(compiled_form(apply_where_released)(self.model, t, Instant(y, p, w), chosen, work))
         except (ArithmeticError, ValueError):  # where nothing is compiled
             code = NO_VELOCITIES
         if code == NO_VALUES:
@@ -198,7 +198,7 @@ class Effects:
         before, m, n, problem = y[info.nq : info.work].copy(), info.m, info.nv, work.impulse
         with contextlib.suppress(ArithmeticError, ValueError), np.errstate(all="ignore"):
             # for the rows and masses of the problem, whose solution is another one
-            compiled_form(apply_effects)(self.model, t, Instant(y, p, w), self.chosen(numbers), work)
+            compiled_form(apply_where_released)(self.model, t, Instant(y, p, w), self.chosen(numbers), work)
         rows, mass = problem.rows[: (m + len(labels)) * n].reshape(-1, n), problem.mass.reshape(n, n)
         imposed = known.impulses[len(known.impulses) - len(labels) :]
         unit = 1.0 / np.sqrt(np.where(np.diag(mass) > 0.0, np.diag(mass), 1.0))

@@ -15,8 +15,10 @@ from symgen.compile.loopcode.loop_instances import Meanings, exact_instance
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout.redundancy import farthest_row
 from symgen.run.modes.bounded_rows import (
+    AT_REST,
     CONSTANT,
     DISAGREED,
+    EFFORT,
     HELD,
     JAMMED,
     LIMIT,
@@ -246,15 +248,67 @@ def is_shared_among(c: Choice, i: int, count: int) -> bool:
     return False
 
 
+@exact()
+def carrier_of(c: Choice, i: int) -> int:
+    """Return the row in force that carries the effort of another one at rest, -1 for none."""
+    at = MODE_NUMBERS * i
+    return int(c.after[at + CONSTANT]) - 1 if c.after[at + HELD] == 0.0 and c.after[at + CONSTANT] > 0.0 else -1
+
+
+@exact()
+def can_keep_efforts(c: Choice, i: int) -> bool:
+    """Whether a row at rest shares its effort with one row with a bound by its reaction, and with constant ones."""
+    owner, pressed = carrier_of(c, i), 0
+    if owner < 0:
+        return False
+    for j in range(c.count):
+        if j == owner or carrier_of(c, j) == owner:
+            pressed += 1 if c.pressed[j] != 0 else 0
+            if c.varying[j] != 0 and c.pressed[j] == 0:
+                return False
+    return pressed == 1
+
+
+@exact()
+def keep_efforts(c: Choice) -> None:
+    """Put a row with a bound by its reaction into force for those that share its effort, which keep what they have.
+
+    Its reaction is known then. At its bound efforts are shared out anew (`symgen.run.modes.resting`).
+    """
+    after = c.after
+    for i in range(c.count):
+        if c.pressed[i] != 0 and can_keep_efforts(c, i):
+            at, owner = MODE_NUMBERS * i, carrier_of(c, i)
+            for j in range(c.count):
+                if j != i and carrier_of(c, j) == owner:
+                    after[MODE_NUMBERS * j + CONSTANT] = float(i + 1)
+            after[MODE_NUMBERS * owner + HELD] = after[MODE_NUMBERS * owner + LIMIT] = 0.0
+            after[MODE_NUMBERS * owner + CONSTANT] = float(i + 1)
+            after[at + HELD] = 1.0
+            after[at + CONSTANT] = c.before[at + CONSTANT] if c.before[at + HELD] != 0.0 else c.value[i]
+            c.taken[i], c.taken[owner] = 1, 0
+    for i in range(c.count):
+        owner = carrier_of(c, i)
+        c.trial[i] = 1.0 if owner >= 0 and c.pressed[owner] != 0 and can_keep_efforts(c, i) else 0.0
+    for i in range(c.count):
+        if c.trial[i] != 0.0:
+            at = MODE_NUMBERS * i
+            after[at + CONSTANT], after[at + LIMIT], after[at + EFFORT] = AT_REST, 0.0, c.forces[i]
+
+
 @exact(entry=True)
 def follow_reactions(c: Choice) -> int:
     """Have largest efforts follow the reaction, unless it depends on a force that rows share; else return `SHARED`."""
     after, shared, count = c.after, False, 0
     for i in range(c.count):
+        c.trial[i] = 0.0
+    if c.changes != 0 or can_move(c) != 0:
+        keep_efforts(c)
+    for i in range(c.count):
         count += 1 if c.taken[i] != 0 else 0
     for i in range(c.count):
         at = MODE_NUMBERS * i
-        if after[at + HELD] == 0.0 and after[at + CONSTANT] != 0.0:
+        if after[at + HELD] == 0.0 and after[at + CONSTANT] != 0.0 and c.trial[i] == 0.0:
             shared = shared or c.pressed[i] != 0 or is_shared_among(c, i, count)
     if shared and (c.changes != 0 or can_move(c) != 0):
         count = 0

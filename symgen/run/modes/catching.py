@@ -22,6 +22,7 @@ from symgen.run.effects.applying import (
     NOT_IN_PLACE,
     EffectModel,
     EffectWork,
+    apply_where_released,
     write_values,
 )
 from symgen.run.effects.applying import apply_effects as apply_changes
@@ -110,7 +111,7 @@ def catch_and_apply(model: EffectModel, t: float, now: Instant, chosen: Integers
     if not distance <= IN_PLACE:
         work.energy[0] = distance
         return int(NOT_IN_PLACE)
-    code = int(apply_changes(model, t, now, chosen, work))
+    code = int(apply_where_released(model, t, now, chosen, work))
     if code == APPLIED:
         add_losses(model, chosen, now.y, work)
         geometry(t, now.y, now.p, now.w)

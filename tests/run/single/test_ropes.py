@@ -107,6 +107,26 @@ def test_a_rope_that_stretches_goes_slack_and_comes_back():
     assert result["rope.length"][-1] == pytest.approx(1.0 + G / 200.0, rel=1e-4)
 
 
+@pytest.mark.slow
+def test_a_rope_glides_through_an_eyelet():
+    """Two weights beside an eyelet between them: (m2 - m1) g/(m1 + m2), and the eyelet may move."""
+    builder = symgen.MechanismBuilder("eyelet", gravity=(0.0, -G))
+    builder.body("carrier", mass=1.0, inertia=0.1, position=(0.0, 0.2), points={"eye": (0.0, -0.2)})
+    builder.joint("rail", "translational", between=("ground", "carrier"), at=((0.0, 0.2), "centre"), axis=(0.0, 1.0))
+    builder.joint("lift", "driver", joint="rail", value="0.5*0.6*t**2")
+    for name, mass, y in (("left", 1.0, -1.0), ("right", 3.0, -0.5)):
+        builder.body(name, type="point", mass=mass, position=(0.0, y))
+        builder.joint(f"{name}_guide", "rows", rows=[{"position": f"{name}.x"}])
+    over = [{"body": "carrier", "at": "eye"}]
+    builder.joint("rope", "rope", between=("left", "right"), at=("centre", "centre"), over=over)
+    result = symgen.load(builder.build()).simulate(until=0.4, rtol=1e-11)
+    assert result.ok
+    # in the frame of the eyelet both weigh by g + 0.6
+    share = (G + 0.6) * 2.0 / 4.0
+    np.testing.assert_allclose(result["left.vy"], (share + 0.6) * result.t, atol=1e-9)
+    np.testing.assert_allclose(result["right.vy"], (0.6 - share) * result.t, atol=1e-9)
+
+
 @pytest.mark.parametrize(
     ("keys", "sentence"),
     [
