@@ -121,7 +121,7 @@ def find_fault(c: Choice, w: Array) -> int:
     c.named[0] = 0
     for i in range(c.dry):
         static, sliding = c.static[i], c.sliding[i]
-        shifted = abs(c.middle[i]) > (static - sliding) + ROUNDED * static
+        shifted = c.shifted != 0 and abs(c.middle[i]) > (static - sliding) + ROUNDED * static
         if not (sliding >= 0.0 and static >= sliding) or shifted:
             c.named[0] = i
             if shifted:  # the bounds of the way in which they are wrong

@@ -69,7 +69,9 @@ def test_code_of_every_name_compiles(fmi, model, tmp_path):
         folder = tmp_path / name
         folder.mkdir()
         files = sources(values) | {"main.c": render_template("c/main.c.j2", values)}
-        fmu = render_template("c/fmu.c.j2", {**values, **at, "fmi": fmi, "guid": "", "version": ""})
+        fmu = render_template(
+            "c/fmu.c.j2", {**values, **at, "fmi": fmi, "derivatives": None, "guid": "", "version": ""}
+        )
         assert not {"main.c", "fmu.c"} & {*sources(values)}
         for file, text in (files | {"fmu.c": fmu}).items():
             (folder / file).write_text(text)
