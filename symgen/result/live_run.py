@@ -16,6 +16,7 @@ from symgen.describe.parts.event_sections import DOES
 from symgen.result.labelled import Array
 from symgen.result.live_columns import live_columns
 from symgen.result.player.live import NONE, Live, live_part
+from symgen.run.compiling.pipeline import refuse_loops
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
 
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 
 #: The scheme of pages.
 LIVE_INTEGRATOR = "rk4"
+#: Bodies of a mechanism above which pages have looped code.
+MOST_STRAIGHT = 20
 #: Characters of emitted code for the spring by which a hand pulls a body, about.
 A_SPRING = 1300
 
@@ -63,7 +66,8 @@ def live_of_run(
     numbers = {name: x for name, x in inputs.items() if not isinstance(x, str)}
     parameters = independent_values(mechanism, parameter_values(mechanism, {**run["parameters"], **numbers}))
     step = run["step"] or mechanism.defaults.step
-    settings = Settings(shape="straight", coordinates=run["coordinates"], parameters=parameters, step=step)
+    shape = "looped" if _is_for_loops(mechanism) else "straight"
+    settings = Settings(shape=shape, coordinates=run["coordinates"], parameters=parameters, step=step)
     settings = replace(settings, method=method) if method else settings
     if mechanism.has_modes:  # whose run is the loop of this scheme
         settings = replace(settings, integrator=LIVE_INTEGRATOR)
@@ -85,6 +89,17 @@ def live_of_run(
         if prepared.tree is not None:
             return _live_part_on_tree(prepared, prepared.tree, step, begin, run["until"], fixed, pulled)
     return _add_columns(live, mechanism, prepared, run["until"], pulled), note
+
+
+def _is_for_loops(mechanism: Mechanism) -> bool:
+    """Whether a page has looped code: for many bodies straight code is long, and takes seconds to derive."""
+    if len(mechanism.bodies) <= MOST_STRAIGHT or mechanism.has_modes:
+        return False
+    try:
+        refuse_loops(mechanism)
+    except InputError:
+        return False
+    return True
 
 
 def _live_part_on_tree(

@@ -76,12 +76,16 @@ const nearest = (x) => {
 };
 const part = (array, first, size) => array.subarray(first, first + size);
 """
+#: Names that a text with looped code defines: its tables, one ``Uint32Array`` for all arrays that end with them, and
+#: the functions that are called by addresses; numbers in these arrays are places in that list.
+INDEX_TABLES, ADDRESSED = "indexTables", "addressed"
 #: Reserved words; emitted code uses none of them today.
 RESERVED = frozenset(
     "arguments await break case catch class const debugger default delete enum eval export extends function implements "
     "in instanceof interface let new package private protected public static super switch this throw typeof undefined "
     "var void with yield Math copysign floored rest least greatest square power "
-    "derive describe end newMemory quotient modulus nearest part low times sineOf cosineOf quarter sine cosine".split()
+    "derive describe end newMemory quotient modulus nearest part low times sineOf cosineOf quarter sine cosine "
+    f"prepareModel masses {INDEX_TABLES} {ADDRESSED}".split()
 )
 
 _CALLED = {"floordiv": "floored", "mod": "rest", "min": "least", "max": "greatest", "abs": "Math.abs"}
@@ -174,6 +178,23 @@ class _Printer(FunctionPrinter):
         further = f"{counter}++" if s.step == 1 else f"{counter} += {s.step}"
         return f"for (let {counter} = {first}{kept}; {counter} {sign} {end}; {further}) {{"
 
+    def statement(self, s: lang.Statement) -> list[str]:
+        """Return one statement; the tables of looped code are where their array ends, and the same for all."""
+        if isinstance(s, lang.ArrayView) and s.type == "unsigned":
+            self.arrays[s.name] = s.type, 1
+            self.views[self.variable_text(s.name)] = None
+            return [f"{self.variable_text(s.name)} = {INDEX_TABLES};"]
+        if isinstance(s, lang.Assign) and s.name.endswith(".start") and getattr(s.value, "name", "") == "bits":
+            return []  # where the tables begin
+        return super().statement(s)
+
+    def operation(self, e: lang.ScalarOperation) -> tuple[str, int]:
+        """Return an operation; numbers of tables and places of functions are numbers like others."""
+        first = e.arguments[0]
+        if e.name in ("bits", "unsigned") or (e.name == "int" and first.type == "unsigned"):
+            return self.expression(first)
+        return (f"{self.value(first, 11)} >>> 0", 11) if e.name == "low" else super().operation(e)
+
     def function_name(self, e: lang.ScalarOperation) -> str:
         """Return the name of an operation's function."""
         if e.name == "rest" and e.type == "int":
@@ -226,7 +247,9 @@ class _Printer(FunctionPrinter):
 
     def call_by_address(self, e: lang.Invoke) -> str:
         """Return the call of a function by its address, here the function itself."""
-        function = self.variable_text(e.function) if isinstance(e.function, str) else self.value(e.function)
+        function = (
+            self.variable_text(e.function) if isinstance(e.function, str) else f"{ADDRESSED}[{self.value(e.function)}]"
+        )
         return f"{function}({', '.join(self.arguments(e.arguments))})"
 
 

@@ -27,7 +27,8 @@ def check_kernels(compiled: CompiledModel, names: Container[str] = NAMES) -> dic
     Parameters
     ----------
     compiled : CompiledModel
-        Straight code of one method.
+        Code of one method; what is interpreted once a run in the looped shape, ``masses`` and ``prepareModel``, is left
+        out, and so is what is called through tables.
     names : container of str
         Names of `NAMES`.
 
@@ -44,11 +45,12 @@ def check_kernels(compiled: CompiledModel, names: Container[str] = NAMES) -> dic
     model, law, functions = compiled.model, compiled.law_module, dict[str, Function]()
     for module, table in ((law, _LAW), (model, _MODEL)):
         own = [name for name in table if name in names and hasattr(module, name)]
+        if compiled.shape == "looped" and "masses" in own:
+            own.remove("masses")
         functions |= {name: checked_function(getattr(module, name), table[name]) for name in own}
-    functions |= {
-        "prepareModel": checked_function(model.prepare, PREPARE),
-        "prepareLaw": checked_function(law.prepare, PREPARE),
-    }
+    if compiled.shape != "looped":
+        functions["prepareModel"] = checked_function(model.prepare, PREPARE)
+    functions["prepareLaw"] = checked_function(law.prepare, PREPARE)
     if "geometry" in names and "geometry" not in functions:
         functions["geometry"] = checked_function(model.geometry, abi.MEASURE)
     return functions
