@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Hashable, Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -32,6 +33,7 @@ from symgen.run.planning.start_lines import (
     written_start,
 )
 from symgen.run.single.turn_memory import words_of_run
+from symgen.run.starts.assembler import close_for_drawing
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -132,13 +134,14 @@ def live_part(
         whole = run_with_modes(acting or mechanism, run, compiled, start.datum or (), foresees=True)
     try:
         script = _script_of_dependents(mechanism, described)
-        code, size = _page_functions(
-            acting or mechanism,
-            compiled,
-            whole,
-            exported_start(mechanism, compiled, start.datum, None if described else turns),
-            len(start.redundant_rows),
-        )
+        with close_for_drawing() if looped else nullcontext():  # dense algebra takes half a second in a page
+            code, size = _page_functions(
+                acting or mechanism,
+                compiled,
+                whole,
+                exported_start(mechanism, compiled, start.datum, None if described else turns),
+                len(start.redundant_rows),
+            )
     except NotInLines:
         return None, f"{NONE}: a formula of the start is not one that pages know"
     except Foreign as error:

@@ -47,7 +47,7 @@ def text_of_tables(compiled: LoopedModel) -> str:
     listed = ", ".join("null" if called is None else f"generic{k}" for k, called in enumerate(compiled.called))
     return "\n".join(
         [
-            f"const {INDEX_TABLES} = new Uint32Array({_list_text(compiled.tables.numbers)});",
+            f"const {INDEX_TABLES} = new Int32Array({_list_text(compiled.tables.numbers)});",
             f"const {ADDRESSED} = [{listed}];",
             *_preparation(compiled.model.prepare),
             *_masses(compiled.model.masses),
