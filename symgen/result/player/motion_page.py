@@ -16,8 +16,8 @@ import numpy as np
 
 from symgen.base.arguments import path_argument as argument_path
 from symgen.base.escapes import script_json
-from symgen.compile.native.javascript_code import ADDRESSED, INDEX_TABLES
 from symgen.base.files import check_path, write_whole
+from symgen.compile.native.javascript_code import ADDRESSED, INDEX_TABLES
 from symgen.describe.drawing.mechanism_scene import build_scene
 from symgen.describe.drawing.paper import View
 from symgen.describe.drawing.scene import Array, Bent, Disc, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.vocabulary.expressions import Expr
-
 from symgen.base.vocabulary.measures import Holonomic
 from symgen.base.vocabulary.quantities import Quantity
 from symgen.compile.store.loaded_modules import plain_function
