@@ -102,7 +102,11 @@ _CALLED |= {"quotient": "quotient", "round": "nearest"}
 _CALLED |= {"math.fabs": "Math.abs", "math.copysign": "copysign", "math.pow": "Math.pow"}
 
 
-def javascript_functions(functions: Mapping[str, lang.Function], bound: BoundFunctions | None = None) -> str:
+def javascript_functions(
+    functions: Mapping[str, lang.Function],
+    bound: BoundFunctions | None = None,
+    written: Mapping[str, str] | None = None,
+) -> str:
     """Return the text of functions and their callees, each once, callees first.
 
     Parameters
@@ -112,15 +116,20 @@ def javascript_functions(functions: Mapping[str, lang.Function], bound: BoundFun
     bound : BoundFunctions, optional
         Functions of the runtime bound to a model, which follow; their first argument is an object with memory, which
         ``newMemory(p, w, iw)`` returns.
+    written : mapping of str to str, optional
+        Texts of functions of `functions` that have no body.
     """
-    bound = bound or BoundFunctions({})
+    bound, written = bound or BoundFunctions({}), written or {}
     order, names = order_functions({**functions, **bound.functions}, RESERVED)
     tables = [
         f"const {variable_name(table.name, RESERVED)} = [{', '.join(map(js_number, table.values))}];"
         for table in bound.tables.values()
     ]
-    printers = (_BoundPrinter(f, names, bound) if is_bound(f) else _Printer(f, names) for f in order)
-    return "\n".join([*tables, *(printer.text() for printer in printers), *_memory_function(bound)])
+    texts = (
+        written.get(names[f.key]) or (_BoundPrinter(f, names, bound) if is_bound(f) else _Printer(f, names)).text()
+        for f in order
+    )
+    return "\n".join([*tables, *texts, *_memory_function(bound)])
 
 
 def _memory_function(bound: BoundFunctions) -> list[str]:

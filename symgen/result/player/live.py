@@ -15,7 +15,7 @@ from symgen.compile.native.javascript_code import HELPERS, LOOP_HELPERS, javascr
 from symgen.compile.native.read import Foreign
 from symgen.describe.drawing.scene import Array
 from symgen.describe.mechanism import Parameter
-from symgen.result.player.looped_part import addressed_functions, text_of_tables
+from symgen.result.player.looped_part import addressed_functions, text_of_tables, written_functions
 from symgen.run.compiling.checked import check_kernels
 from symgen.run.compiling.looped_model import LoopedModel
 from symgen.run.compiling.printed import Printed, PrintedEvents
@@ -187,18 +187,19 @@ def _page_functions(
         printed.add_steps(compiled, events, ("take_steps",))
     if drivers := _driving_joints(mechanism):
         printed.add_lock(compiled, drivers, redundant)
-    text, size = get_or_make(_texts, printed.key, lambda: _text_of_functions(printed), MOST_TEXTS)
-    if not isinstance(compiled, LoopedModel):
-        return text, size
-    tables = text_of_tables(compiled)
-    return f"{text}\n{tables}", size + len(tables)
+    written, tables = dict[str, str](), ""
+    if isinstance(compiled, LoopedModel):
+        written, tables = written_functions(compiled), text_of_tables(compiled)
+    key = printed.key, tuple(written.values())
+    text, size = get_or_make(_texts, key, lambda: _text_of_functions(printed, written), MOST_TEXTS)
+    return (f"{text}\n{tables}" if tables else text), size + len(tables)
 
 
-def _text_of_functions(printed: Printed) -> tuple[str, int]:
+def _text_of_functions(printed: Printed, written: Mapping[str, str]) -> tuple[str, int]:
     """Return the text of all functions, and the characters of the emitted ones."""
     own = {name: function for name, function in printed.emitted.items() if name != FINDER}
-    return f"{LOOP_HELPERS}{javascript_functions(printed.emitted, printed.bind_functions())}", len(
-        javascript_functions(own)
+    return f"{LOOP_HELPERS}{javascript_functions(printed.emitted, printed.bind_functions(), written)}", len(
+        javascript_functions(own, written=written)
     )
 
 

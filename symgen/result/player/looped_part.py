@@ -37,23 +37,24 @@ def addressed_functions(compiled: LoopedModel) -> dict[str, Function]:
 
 
 def text_of_tables(compiled: LoopedModel) -> str:
-    """Return the tables, the list of functions that these call, and ``prepareModel`` and ``masses``.
+    """Return the tables and the list of functions that are called through them."""
+    listed = ", ".join("null" if called is None else f"generic{k}" for k, called in enumerate(compiled.called))
+    return (
+        f"const {INDEX_TABLES} = new Int32Array({_list_text(compiled.tables.numbers)});\n"
+        f"const {ADDRESSED} = [{listed}];\n"
+    )
+
+
+def written_functions(compiled: LoopedModel) -> dict[str, str]:
+    """Return the texts of ``prepareModel`` and ``masses``, which Python interprets in runs.
 
     Raises
     ------
     NotInLines
         If a formula of a parameter has no form in JavaScript.
     """
-    listed = ", ".join("null" if called is None else f"generic{k}" for k, called in enumerate(compiled.called))
-    return "\n".join(
-        [
-            f"const {INDEX_TABLES} = new Int32Array({_list_text(compiled.tables.numbers)});",
-            f"const {ADDRESSED} = [{listed}];",
-            *_preparation(compiled.model.prepare),
-            *_masses(compiled.model.masses),
-            "",
-        ]
-    )
+    texts = {"prepareModel": _preparation(compiled.model.prepare), "masses": _masses(compiled.model.masses)}
+    return {name: "\n".join(lines) for name, lines in texts.items()}
 
 
 def _name_of_preparation(k: int) -> str:
