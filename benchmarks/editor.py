@@ -5,8 +5,8 @@
 A scissor lift of so many bodies is checked and run as the page asks for it, first as it was opened, then after each of
 three changes of a number, with what was loaded before out of the collector's sight, as in the server. Processor time is
 that of this process [s]. With `--browser` Chromium drags a pin until there are twelve pictures: how many come in a
-second, the server's processor time for each [s], and that of the page's thread for each of its frames [ms]. Then the page
-works out motions itself: its processor time for a start [s] and for each second of motion [s].
+second, the server's processor time for each [s], and that of the page's thread for each of its frames [ms]. Before
+that the page works out motions itself: its processor time for a start [s] and for each second of motion [s].
 """
 
 from __future__ import annotations
@@ -206,8 +206,8 @@ def main() -> None:
         if given.browser:
             worked = motion_in_page(bodies)
             print(
-                f"{bodies:4d} bodies  in the page: {worked.start:.3f} s for a start, {worked.second:.2f} s for a second of"
-                " motion"
+                f"{bodies:4d} bodies  in the page: {worked.start:.3f} s for a start,"
+                f" {worked.second:.2f} s for a second of motion"
             )
             drag = frames_of_drag(bodies)
             print(
