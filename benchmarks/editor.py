@@ -5,7 +5,8 @@
 A scissor lift of so many bodies is checked and run as the page asks for it, first as it was opened, then after each of
 three changes of a number, with what was loaded before out of the collector's sight, as in the server. Processor time is
 that of this process [s]. With `--browser` Chromium drags a pin until there are twelve pictures: how many come in a
-second, the server's processor time for each [s], and that of the page's thread for each of its frames [ms].
+second, the server's processor time for each [s], and that of the page's thread for each of its frames [ms]. Before
+that the page works out motions itself: its processor time for a start [s] and for each second of motion [s].
 """
 
 from __future__ import annotations
@@ -96,6 +97,21 @@ class Drag(NamedTuple):
     worst: float
 
 
+class Worked(NamedTuple):
+    """Processor time of a page that works out motions.
+
+    Attributes
+    ----------
+    start : float
+        For a start, closed anew [s].
+    second : float
+        For a second of motion, by the steps of the file [s].
+    """
+
+    start: float
+    second: float
+
+
 #: Notes how long frames take: from the beginning of one until the page has time for something else.
 _WATCH = """(() => {
   const found = (window.worked = []), channel = new MessageChannel();
@@ -152,6 +168,30 @@ def frames_of_drag(bodies: int, pictures: int = 12, patience: float = 60.0) -> D
     return Drag(frames / spent, own_time / max(frames, 1), 1e3 * page_time / len(worked), max(worked))
 
 
+def motion_in_page(bodies: int, length: float = 0.2) -> Worked:
+    """Return the times of motions that the page of an editor works out, as a slider or a hand asks for them."""
+    import tempfile
+
+    from tests.browser.chromium import Chromium
+    from tests.browser.editor_page import Page
+
+    with tempfile.TemporaryDirectory() as folder, Chromium() as chromium:
+        file = Path(folder) / "scissors.toml"
+        file.write_text(scissor_lift(bodies))
+        with Page.of(chromium, file) as page:
+            page.editor.prepare()
+            page.open()
+            page.rested()
+            page.until("window.symgen.editor.times().lived === window.symgen.editor.version()")
+            chromium.call("Performance.enable", timeDomain="threadTicks")
+            spent = list[float]()
+            for until in (length, length, 0.001, 2 * length):  # the first one compiles the script
+                began = _thread_time(chromium)
+                page.run(f"symgen.run({{}}, {until})")
+                spent.append(_thread_time(chromium) - began)
+    return Worked(spent[2], (spent[3] - spent[1]) / length)
+
+
 def main() -> None:
     """Print a table for each number of bodies."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -164,6 +204,11 @@ def main() -> None:
                 f"{bodies:4d} bodies  {what:9s}", *(f"{name} {x:.3f} s" for name, x in zip(NAMES, spent, strict=True))
             )
         if given.browser:
+            worked = motion_in_page(bodies)
+            print(
+                f"{bodies:4d} bodies  in the page: {worked.start:.3f} s for a start,"
+                f" {worked.second:.2f} s for a second of motion"
+            )
             drag = frames_of_drag(bodies)
             print(
                 f"{bodies:4d} bodies  a pin is dragged: {drag.pictures:.1f} pictures a second,"

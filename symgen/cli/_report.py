@@ -27,6 +27,33 @@ _WORKING = ("--resume", "--journal", "--jobs")
 _WRITTEN = ("--output", "--csv", "--plot")
 
 
+_PAPER = "a4"
+#: The option for the paper of a report, as text.
+paper_option = click.option(
+    "--paper", metavar="SIZE", default=_PAPER, help="Size of the paper of the report: a4 or letter.  [default: a4]"
+)
+
+
+def paper_of_report(text: str, report: Path | None, option: str) -> str:
+    """Return the size of the paper of a report; another one than A4 needs a report.
+
+    Parameters
+    ----------
+    text : str
+        What ``--paper`` names.
+    report : Path or None
+        The file of the report.
+    option : str
+        The option that names this file.
+    """
+    from symgen.study.report.letterhead import paper_of_option
+
+    size = paper_of_option(text)
+    if report is None and size != _PAPER:
+        raise InputError("--paper", f"{option} FILE, the report that is printed", f"no {option}")
+    return size
+
+
 @dataclass(frozen=True)
 class StudyFiles:
     """Files of a study; None: not written.
@@ -37,12 +64,15 @@ class StudyFiles:
         Of the report, of the rows as CSV, and of the journal by which an interrupted study goes on.
     units : bool
         Whether the headings of the CSV file carry units.
+    paper : str
+        Size of the paper of the report.
     """
 
     report: Path | None
     csv: Path | None
     journal: Path | None
     units: bool
+    paper: str
 
 
 def study_files(row: str) -> Callable[[F], F]:
@@ -61,6 +91,7 @@ def study_files(row: str) -> Callable[[F], F]:
             metavar="FILE",
             help="Write a report: .html, .md, .pdf by a browser or matplotlib, or .tex, its tables.",
         ),
+        paper_option,
         click.option("--csv", metavar="FILE", help=f"Write the {row}s to a CSV file."),
         units_option,
         click.option(
@@ -73,7 +104,9 @@ def study_files(row: str) -> Callable[[F], F]:
 
     def decorate(function: F) -> F:
         @wraps(function)
-        def command(*, output: str | None, csv: str | None, units: bool, resume: str | None, **further: object) -> Any:
+        def command(
+            *, output: str | None, paper: str, csv: str | None, units: bool, resume: str | None, **further: object
+        ) -> Any:
             rows, report = check_output_file("--csv", csv), _check_report_file(output)
             if rows is not None and rows.suffix.lower() != ".csv":
                 raise InputError("--csv", "a file ending in .csv", f"'{csv}'")
@@ -81,7 +114,8 @@ def study_files(row: str) -> Callable[[F], F]:
                 raise InputError("--units", "--csv FILE, whose headings carry them", "no --csv")
             journal = None if resume is None else Path(resume)
             refuse_same_file({"--resume": journal, "--output": report, "--csv": rows})
-            return function(files=StudyFiles(report, rows, journal, units), **further)
+            size = paper_of_report(paper, report, "--output")
+            return function(files=StudyFiles(report, rows, journal, units, size), **further)
 
         for option in reversed(options):
             command = option(command)

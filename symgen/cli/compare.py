@@ -179,11 +179,13 @@ def command(
 
     def write_report(file: Path) -> None:
         from symgen.study.report.comparison_report import comparison_report
+        from symgen.study.report.letterhead import put_on_paper
         from symgen.study.report.write import write
 
         sketches = sketches_at_start(loaded, values["parameters"], values["start"])
         texts = [text for option, text in _label_ranges(step_list, rtol_list, bool(errors)).items() if used[option]]
-        write(comparison_report(studies, command_line_again(), texts, sketches), file)
+        document = comparison_report(studies, command_line_again(), texts, sketches)
+        write(put_on_paper(document, files.paper), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
     report = files.report if any(study.rows for study in studies) else None

@@ -13,7 +13,7 @@ from symgen.base.errors import InputError, quote
 from symgen.base.settings import Settings
 from symgen.base.units import read_amount
 from symgen.cli import FAILURE, INTERRUPTED, OK, write_complaint, write_files, write_json
-from symgen.cli._report import command_line_again
+from symgen.cli._report import command_line_again, paper_of_report, paper_option
 from symgen.cli._shared_options import (
     check_output_file,
     examples_in_help,
@@ -64,6 +64,7 @@ if TYPE_CHECKING:
 )
 @click.option("-o", "--output", metavar="FILE", help="Write MODEL with the new numbers to FILE (.toml).")
 @click.option("--report", metavar="FILE", help="Write a report before and after: .html, .md, .pdf or .tex.")
+@paper_option
 @json_option
 def command(
     model: str,
@@ -74,6 +75,7 @@ def command(
     seed: int,
     output: str | None,
     report: str | None,
+    paper: str,
     as_json: bool,
     **values: Any,
 ) -> int:
@@ -91,6 +93,7 @@ def command(
         from symgen.study.report.write import check_report
 
         check_report("--report", report_path)
+    size = paper_of_report(paper, report_path, "--report")
 
     from symgen.api import load
     from symgen.cli._progress import Bar
@@ -109,7 +112,7 @@ def command(
         code = write_complaint(found.reason, INTERRUPTED if found.interrupted else FAILURE)
     again = command_line_again()
     files: dict[Path | None, Callable[[Path], object]] = {path if _is_usable(found) else None: found.save}
-    files[report_path] = lambda file: _write_report(found, file, again)
+    files[report_path] = lambda file: _write_report(found, file, again, size)
     return write_files(code, files, None if as_json else lambda file: click.echo(f"written: {file}"))
 
 
@@ -118,11 +121,12 @@ def _is_usable(found: Design) -> bool:
     return all(limit.is_met for limit in found.limits)
 
 
-def _write_report(found: Design, path: Path, again: str) -> None:
+def _write_report(found: Design, path: Path, again: str, paper: str) -> None:
     from symgen.study.design.design_report import design_report
+    from symgen.study.report.letterhead import put_on_paper
     from symgen.study.report.write import write
 
-    write(design_report(found, again), path)
+    write(put_on_paper(design_report(found, again), paper), path)
 
 
 def _bounds_by_name(words: tuple[str, ...], model: str) -> Mapping[str, tuple[float, float]]:

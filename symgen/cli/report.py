@@ -11,7 +11,7 @@ import click
 from symgen.base.errors import InputError, quote
 from symgen.base.settings import Settings
 from symgen.cli import FAILURE, OK, write_complaint, write_files
-from symgen.cli._report import command_line_again
+from symgen.cli._report import command_line_again, paper_option
 from symgen.cli._shared_options import examples_in_help, setting_options, write_note
 
 
@@ -27,7 +27,7 @@ from symgen.cli._shared_options import examples_in_help, setting_options, write_
     *("options", "coordinates"),
 )
 @click.option("--over", metavar="NAME", default="t", help="Draw curves over NAME, such as crank.theta.  [default: t]")
-@click.option("--paper", metavar="SIZE", default="a4", help="Size of the paper: a4 or letter.  [default: a4]")
+@paper_option
 @click.option("--number", metavar="TEXT", default="", help="Number of the report, below its title.")
 @click.option("--logo", metavar="FILE", help="A mark at the top right: a picture, PNG or SVG.")
 @click.option(

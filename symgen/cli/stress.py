@@ -87,11 +87,13 @@ def command(
 
     def write_report(file: Path) -> None:
         from symgen.api import load
+        from symgen.study.report.letterhead import put_on_paper
         from symgen.study.report.stress_report import stress_report
         from symgen.study.report.write import write
 
         mechanisms = [load(name) for name in dict.fromkeys(models)]
-        write(stress_report(study, command_line_again(), sketches_at_start(mechanisms)), file)
+        document = stress_report(study, command_line_again(), sketches_at_start(mechanisms))
+        write(put_on_paper(document, files.paper), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
     report = files.report if study.rows else None

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from symgen.base.vocabulary.expressions import Expr, readings_in
 from symgen.base.vocabulary.measures import GROUND, Integral
-from symgen.compile.native.javascript_code import HELPERS, javascript_functions
+from symgen.compile.native.javascript_code import ADDRESSED, HELPERS, INDEX_TABLES, javascript_functions
 from symgen.compile.native.read import Foreign
 from symgen.describe.facts.carriers import bodies_of_reactions, seats_on_carriers
 from symgen.describe.formulas.reported_columns import TABLES as FORMULAS
@@ -68,7 +68,8 @@ def live_columns(
     except Foreign:
         return "null", {}
     tables = {table: signals for table, signals in tables.items() if table not in FORMULAS or table in functions}
-    text = f"(() => {{\n{HELPERS}{javascript_functions(functions)}\nreturn {{ {', '.join(functions)} }};\n}})()"
+    looped = f"const {{ {INDEX_TABLES}, {ADDRESSED} }} = emitted;\n" if own.shape == "looped" else ""
+    text = f"(() => {{\n{HELPERS}{looped}{javascript_functions(functions)}\nreturn {{ {', '.join(functions)} }};\n}})()"
     spec = _column_data(mechanism, compiled, start, own, tables, places)
     return text, spec if tree is None else {**spec, "of_state": ["outputs"]}
 

@@ -16,16 +16,20 @@ from symgen.describe.parts.event_sections import DOES
 from symgen.result.labelled import Array
 from symgen.result.live_columns import live_columns
 from symgen.result.player.live import NONE, Live, live_part
+from symgen.run.compiling.pipeline import refuse_loops
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
 
 if TYPE_CHECKING:
+    from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
     from symgen.run.planning.prepare import Prepared
     from symgen.run.planning.tree import TreeRun
 
 #: The scheme of pages.
 LIVE_INTEGRATOR = "rk4"
+#: Bodies of a mechanism above which pages have looped code: straight code is long, and takes seconds to derive.
+MOST_STRAIGHT = 20
 #: Characters of emitted code for the spring by which a hand pulls a body, about.
 A_SPRING = 1300
 
@@ -63,28 +67,51 @@ def live_of_run(
     numbers = {name: x for name, x in inputs.items() if not isinstance(x, str)}
     parameters = independent_values(mechanism, parameter_values(mechanism, {**run["parameters"], **numbers}))
     step = run["step"] or mechanism.defaults.step
+    absolute = run["coordinates"] == "absolute"
     settings = Settings(shape="straight", coordinates=run["coordinates"], parameters=parameters, step=step)
     settings = replace(settings, method=method) if method else settings
     if mechanism.has_modes:  # whose run is the loop of this scheme
         settings = replace(settings, integrator=LIVE_INTEGRATOR)
-    prepared = prepare(mechanism, settings, Purpose.STATE)
     state = {**initial["q"], **initial["v"]}
     names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
     names += [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]
     begin = np.array([state[n] for n in names]) if set(names) <= set(state) else None
-    if prepared.tree is not None:
-        return _live_part_on_tree(prepared, prepared.tree, step, begin, run["until"], fixed, pulled)
-    live, note = live_part(
-        *(mechanism, prepared.compiled, prepared.start, step, begin, fixed),
-        acting=prepared.mechanism,
-        run=prepared,
-        room=_room_for_springs(pulled),
-    )
-    if live is None and run["coordinates"] == "absolute":  # a tree has a tenth of the operations, or less
-        prepared = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
+
+    def part_of(prepared: Prepared) -> tuple[Live | None, str]:
         if prepared.tree is not None:
             return _live_part_on_tree(prepared, prepared.tree, step, begin, run["until"], fixed, pulled)
-    return _add_columns(live, mechanism, prepared, run["until"], pulled), note
+        live, note = live_part(
+            *(mechanism, prepared.compiled, prepared.start, step, begin, fixed),
+            acting=prepared.mechanism,
+            run=prepared,
+            room=_room_for_springs(pulled),
+        )
+        return _add_columns(live, mechanism, prepared, run["until"], pulled), note
+
+    in_loops = _in_loops(mechanism, settings) if absolute and len(mechanism.bodies) > MOST_STRAIGHT else None
+    if in_loops is not None:
+        return part_of(in_loops)
+    live, note = part_of(prepare(mechanism, settings, Purpose.STATE))
+    if live is None and absolute:  # a tree has a tenth of the operations, or less
+        prepared = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
+        if prepared.tree is not None:
+            live, note = part_of(prepared)
+        in_loops = _in_loops(mechanism, settings) if live is None else None
+        if in_loops is not None:
+            live, note = part_of(in_loops)
+    return live, note
+
+
+def _in_loops(mechanism: Mechanism, settings: Settings) -> Prepared | None:
+    """Return a run by looped code, whose length does not depend on the number of bodies; None where there is none."""
+    from symgen.run.planning.plan import Purpose
+    from symgen.run.planning.prepare import prepare
+
+    try:
+        refuse_loops(mechanism)
+        return prepare(mechanism, replace(settings, shape="looped"), Purpose.STATE)
+    except InputError:
+        return None
 
 
 def _live_part_on_tree(

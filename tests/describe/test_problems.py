@@ -201,16 +201,36 @@ def test_all_wrong_formulas_of_a_table_are_told_at_once():
         (20, "joints.slide.at", ["wx"]),
         *((21, "joints.slide.axis", [name]) for name in ("q1", "q2")),
         (22, "joints.slide.angle", ["q3"]),
+        (27, "joints.turn.value", ["w1"]),  # though the pin that it turns is wrong
         *((32, "forces.spring.at", [name]) for name in ("s1", "s2", "s3")),
         (33, "forces.spring.stiffness", ["k1"]),
         (34, "forces.spring.damping", ["c1"]),
         (39, "forces.push.at", ["f1"]),
         *((40, "forces.push.force", [name]) for name in ("f2", "f3")),
     ]
-    # the driver's own is told when the pin that it turns is right
-    mended = FORMULAS.replace('"ux"', "0.0").replace('"vx", "vy"', "0.0, 0.0")
-    lines = [p.line for p in problems_of_text(mended, "wrong.toml")]
-    assert lines[:2] == [15, 20] and 27 in lines
+
+
+def test_components_of_gravity_and_drivers_of_wrong_pins_are_told_at_once():
+    """What a driver says by itself does not wait for the joint that it drives."""
+    text = """\
+[mechanism]
+name = "arm"
+gravity = ["gx", "gy"]
+[bodies.arm]
+mass = 1.0
+inertia = 1.0
+[joints.pin]
+type = "revolut"
+between = ["ground", "arm"]
+at = [[0.0, 0.0], "centre"]
+[joints.motor]
+type = "driver"
+joint = "pin"
+value = "2 * t + offset"
+"""
+    places = [(3, "mechanism.gravity"), (3, "mechanism.gravity"), (8, "joints.pin.type"), (14, "joints.motor.value")]
+    assert found(text) == places
+    assert found(text.replace(" + offset", "").replace("revolut", "revolute")) == places[:2]
 
 
 def test_problems_say_what_errors_say():

@@ -43,8 +43,6 @@ from symgen.run.starts.assembler import close_for_drawing
 
 #: Errors of a text that are sent at most.
 MOST_ERRORS = 100
-#: Bodies of a mechanism whose code may be short enough for a page that works out motions; making it takes seconds.
-MOST_LIVE = 20
 
 
 class Drafts:
@@ -159,7 +157,7 @@ class Drafts:
                 return {"superseded": True}
             own = self._read_text(text)[1].parameters
             moved = result.measured.mechanism
-            if len(moved.bodies) > MOST_LIVE or digest(moved) in self._without_live:
+            if digest(moved) in self._without_live:
                 return {"data": None}
             fixed = {parameter.name for parameter in moved.parameters} - {parameter.name for parameter in own}
             data, script = view_data(result, fixed=fixed)

@@ -31,28 +31,36 @@ function power(x, n) {
   }
   return result;
 }
-let low = 0;
+const low = new Float64Array(1);
 function times(a, b) {
   const p = a * b, u = 134217729 * a, v = 134217729 * b, c = u - (u - a), d = v - (v - b);
-  low = (c * d - p + c * (b - d) + (a - c) * d) + (a - c) * (b - d);
+  low[0] = (c * d - p + c * (b - d) + (a - c) * d) + (a - c) * (b - d);
   return p;
 }
 function sineOf(x, y) {
-  const z = times(x, x), zl = low, p = z * z * x;
-  const c = times(z, x), cl = low + zl * x;
-  const d = times(c, 0.16666666666666666), dl = low + c * 9.25185853854297e-18 + cl * 0.16666666666666666;
+  const z = times(x, x), zl = low[0], p = z * z * x;
+  const c = times(z, x), cl = low[0] + zl * x;
+  const d = times(c, 0.16666666666666666), dl = low[0] + c * 9.25185853854297e-18 + cl * 0.16666666666666666;
   const s = x - d, e = x - s - d;
   let more = 1 / 1307674368000 - z / 355687428096000;
-  for (const n of [6227020800, 39916800, 362880, 5040, 120]) more = 1 / n - z * more;
+  more = 1 / 6227020800 - z * more;
+  more = 1 / 39916800 - z * more;
+  more = 1 / 362880 - z * more;
+  more = 1 / 5040 - z * more;
+  more = 1 / 120 - z * more;
   return s + (e - dl + p * more + y * (1 - z * (0.5 - z / 24)));
 }
 function cosineOf(x, y) {
-  const z = times(x, x), zl = low + 2 * x * y;
-  const q = times(z, z), ql = low + 2 * z * zl;
-  const r = times(q, 0.041666666666666664), rl = low + q * 2.3129646346357427e-18 + ql * 0.041666666666666664;
+  const z = times(x, x), zl = low[0] + 2 * x * y;
+  const q = times(z, z), ql = low[0] + 2 * z * zl;
+  const r = times(q, 0.041666666666666664), rl = low[0] + q * 2.3129646346357427e-18 + ql * 0.041666666666666664;
   const s = 1 - 0.5 * z, e = 1 - s - 0.5 * z, t = s + r, f = s - t + r;
   let more = 1 / 20922789888000 - z / 6402373705728000;
-  for (const n of [87178291200, 479001600, 3628800, 40320, 720]) more = 1 / n - z * more;
+  more = 1 / 87178291200 - z * more;
+  more = 1 / 479001600 - z * more;
+  more = 1 / 3628800 - z * more;
+  more = 1 / 40320 - z * more;
+  more = 1 / 720 - z * more;
   return t + (e + f - 0.5 * zl + rl - q * z * more);
 }
 function quarter(x, k, otherwise) {
@@ -76,12 +84,16 @@ const nearest = (x) => {
 };
 const part = (array, first, size) => array.subarray(first, first + size);
 """
+#: Names that a text with looped code defines: its tables, one ``Int32Array`` for all arrays that end with them, and
+#: the functions that are called by addresses; numbers in these arrays are places in that list.
+INDEX_TABLES, ADDRESSED = "indexTables", "addressed"
 #: Reserved words; emitted code uses none of them today.
 RESERVED = frozenset(
     "arguments await break case catch class const debugger default delete enum eval export extends function implements "
     "in instanceof interface let new package private protected public static super switch this throw typeof undefined "
     "var void with yield Math copysign floored rest least greatest square power "
-    "derive describe end newMemory quotient modulus nearest part low times sineOf cosineOf quarter sine cosine".split()
+    "derive describe end newMemory quotient modulus nearest part low times sineOf cosineOf quarter sine cosine "
+    f"prepareModel masses {INDEX_TABLES} {ADDRESSED}".split()
 )
 
 _CALLED = {"floordiv": "floored", "mod": "rest", "min": "least", "max": "greatest", "abs": "Math.abs"}
@@ -90,7 +102,11 @@ _CALLED |= {"quotient": "quotient", "round": "nearest"}
 _CALLED |= {"math.fabs": "Math.abs", "math.copysign": "copysign", "math.pow": "Math.pow"}
 
 
-def javascript_functions(functions: Mapping[str, lang.Function], bound: BoundFunctions | None = None) -> str:
+def javascript_functions(
+    functions: Mapping[str, lang.Function],
+    bound: BoundFunctions | None = None,
+    written: Mapping[str, str] | None = None,
+) -> str:
     """Return the text of functions and their callees, each once, callees first.
 
     Parameters
@@ -100,15 +116,20 @@ def javascript_functions(functions: Mapping[str, lang.Function], bound: BoundFun
     bound : BoundFunctions, optional
         Functions of the runtime bound to a model, which follow; their first argument is an object with memory, which
         ``newMemory(p, w, iw)`` returns.
+    written : mapping of str to str, optional
+        Texts of functions of `functions` that have no body.
     """
-    bound = bound or BoundFunctions({})
+    bound, written = bound or BoundFunctions({}), written or {}
     order, names = order_functions({**functions, **bound.functions}, RESERVED)
     tables = [
         f"const {variable_name(table.name, RESERVED)} = [{', '.join(map(js_number, table.values))}];"
         for table in bound.tables.values()
     ]
-    printers = (_BoundPrinter(f, names, bound) if is_bound(f) else _Printer(f, names) for f in order)
-    return "\n".join([*tables, *(printer.text() for printer in printers), *_memory_function(bound)])
+    texts = (
+        written.get(names[f.key]) or (_BoundPrinter(f, names, bound) if is_bound(f) else _Printer(f, names)).text()
+        for f in order
+    )
+    return "\n".join([*tables, *texts, *_memory_function(bound)])
 
 
 def _memory_function(bound: BoundFunctions) -> list[str]:
@@ -174,6 +195,23 @@ class _Printer(FunctionPrinter):
         further = f"{counter}++" if s.step == 1 else f"{counter} += {s.step}"
         return f"for (let {counter} = {first}{kept}; {counter} {sign} {end}; {further}) {{"
 
+    def statement(self, s: lang.Statement) -> list[str]:
+        """Return one statement; the tables of looped code are where their array ends, and the same for all."""
+        if isinstance(s, lang.ArrayView) and s.type == "unsigned":
+            self.arrays[s.name] = s.type, 1
+            self.views[self.variable_text(s.name)] = None
+            return [f"{self.variable_text(s.name)} = {INDEX_TABLES};"]
+        if isinstance(s, lang.Assign) and s.name.endswith(".start") and getattr(s.value, "name", "") == "bits":
+            return []  # where the tables begin
+        return super().statement(s)
+
+    def operation(self, e: lang.ScalarOperation) -> tuple[str, int]:
+        """Return an operation; numbers of tables and places of functions are integers like others, far below 2^31."""
+        first = e.arguments[0]
+        if e.name in ("bits", "unsigned") or (e.name == "int" and first.type == "unsigned"):
+            return self.expression(first)
+        return (f"{self.value(first, 8)} | 0", 7) if e.name == "low" else super().operation(e)
+
     def function_name(self, e: lang.ScalarOperation) -> str:
         """Return the name of an operation's function."""
         if e.name == "rest" and e.type == "int":
@@ -226,7 +264,9 @@ class _Printer(FunctionPrinter):
 
     def call_by_address(self, e: lang.Invoke) -> str:
         """Return the call of a function by its address, here the function itself."""
-        function = self.variable_text(e.function) if isinstance(e.function, str) else self.value(e.function)
+        function = (
+            self.variable_text(e.function) if isinstance(e.function, str) else f"{ADDRESSED}[{self.value(e.function)}]"
+        )
         return f"{function}({', '.join(self.arguments(e.arguments))})"
 
 

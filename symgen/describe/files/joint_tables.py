@@ -147,13 +147,8 @@ class JointTables:
         rows, cuts = dict[str, tuple[BoundedRow, ...]](), list[str]()
         for name, (scope, joint) in self._scopes.items():  # after all joints, as formulas may read any
             with self.errors.part_of_description(name):
-                try:
-                    rows[name] = self._rows_with_bounds(scope, joint, self.tables[name])
-                except InputError as error:
-                    if self.errors.all_of_them:
-                        read = partial(self._rows_with_bounds, scope, joint)
-                        error.further += further_errors(read, self.tables[name], error)
-                    raise
+                read = partial(self._rows_with_bounds, scope, joint)
+                rows[name] = self.errors.read_whole(read, self.tables[name])
                 own = self.scope("joints", name, joint.kind)
                 if (holding := read_holding(own, joint, self.tables[name])) is not None:
                     self.holding[name] = holding

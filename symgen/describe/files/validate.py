@@ -39,7 +39,7 @@ from symgen.describe.mechanism import (
     Vec,
 )
 from symgen.describe.parts.bodies import planar_body, read_shapes, spatial_body
-from symgen.describe.parts.collected import Errors, Incomplete, further_errors
+from symgen.describe.parts.collected import Errors, Incomplete
 from symgen.describe.parts.columns import check_columns
 from symgen.describe.parts.context import Context
 from symgen.describe.parts.event_sections import read_event
@@ -122,12 +122,9 @@ class _Validator:
             beam = (name.partition(".")[0],) if name in self._parts else ()  # whose further parts are wrong alike
             with self.errors.part_of_description(name, *beam):
                 self.errors.leave_if_wrong(*beam)
-                try:
-                    results.append(read(name, value))
-                except InputError as error:
-                    if self.errors.all_of_them and section != "joints":  # which tell theirs as they are resolved
-                        error.further += further_errors(partial(read, name), value, error)
-                    raise
+                own = partial(read, name)
+                # joints tell theirs as they are resolved
+                results.append(own(value) if section == "joints" else self.errors.read_whole(own, value))
         return tuple(results)
 
     def read_head(self) -> MechanismSection:
@@ -179,7 +176,8 @@ class _Validator:
         self.joints = JointTables(self.raw.get("joints", {}), self.errors, self.place_in_file, self.scope_of_entry)
         gravity: Vec = ()
         with self.errors.part_of_description():
-            gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
+            given = {"gravity": [0.0] * scope.dimension if head.gravity is None else list(head.gravity)}
+            gravity = self.errors.read_whole(lambda table: scope.vector("gravity", tuple(table["gravity"])), given)
         bodies = self.read_bodies(read_body, beams, modal)
         self.context = msgspec.structs.replace(self.context, bodies={body.name: body for body in bodies})
         joints = self.read_each_entry("joints", lambda name, _: self.read_joint(name, self.place_in_file("joints")))

@@ -50,8 +50,9 @@ class Driver(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
         if (self.joint is None) == (self.body is None):
             got = "neither" if self.joint is None else "both"
             raise scope.error("", "either the key joint or the key body", got)
+        value = scope.of_time("value", self.value)  # first: the driven joint may be wrong, which is told there
         bodies, measure, unit = self._drive_joint(scope) if self.joint is not None else self._drive_body(scope)
-        row = Holonomic("driver", measure, scope.of_time("value", self.value), unit)
+        row = Holonomic("driver", measure, value, unit)
         return Joint(scope.name, scope.kind, bodies, (row,))
 
     def _drive_joint(self, scope: Scope) -> tuple[tuple[str, ...], Measure, str]:

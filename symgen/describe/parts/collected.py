@@ -6,9 +6,11 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager
 from types import TracebackType
-from typing import Any
+from typing import Any, TypeVar
 
 from symgen.base.errors import InputError
+
+T = TypeVar("T")
 
 #: What a message quotes, up to a dot: the name that was looked up.
 _QUOTED = re.compile(r"""['"]([^'".]+)""")
@@ -125,6 +127,15 @@ class Errors:
     def all_of_them(self) -> bool:
         """Whether errors are collected."""
         return self._all
+
+    def read_whole(self, read: Callable[[Any], T], table: object) -> T:
+        """Return what `read` makes of a table; where errors are collected, all of its wrong formulas are told."""
+        try:
+            return read(table)
+        except InputError as error:
+            if self._all:
+                error.further += further_errors(read, table, error)
+            raise
 
     def leave_if_wrong(self, *names: str) -> None:
         """Leave the part being read if one of `names` stands for something wrong."""

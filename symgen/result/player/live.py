@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Hashable, Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,9 @@ from symgen.compile.native.javascript_code import HELPERS, LOOP_HELPERS, javascr
 from symgen.compile.native.read import Foreign
 from symgen.describe.drawing.scene import Array
 from symgen.describe.mechanism import Parameter
+from symgen.result.player.looped_part import addressed_functions, text_of_tables, written_functions
 from symgen.run.compiling.checked import check_kernels
+from symgen.run.compiling.looped_model import LoopedModel
 from symgen.run.compiling.printed import Printed, PrintedEvents
 from symgen.run.compiling.printed_run import FINDER
 from symgen.run.layout import abi
@@ -30,6 +33,7 @@ from symgen.run.planning.start_lines import (
     written_start,
 )
 from symgen.run.single.turn_memory import words_of_run
+from symgen.run.starts.assembler import close_for_drawing
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -42,6 +46,8 @@ if TYPE_CHECKING:
 #: Largest number of characters of emitted code in a page, in the plane and in space, and the same in operations.
 MOST = {False: 76_000, True: 270_000}
 A_OPERATION = 24
+#: The same with the tables of looped code, which grow with a mechanism, while its code does not.
+MOST_LOOPED = 400_000
 
 #: Texts of functions by what they follow from, and how many stay: another page of the same model has the same text.
 _texts = dict[Hashable, tuple[str, int]]()
@@ -108,10 +114,9 @@ def live_part(
         Characters of emitted code that the page may have besides the most that it has otherwise.
     """
     spatial, law = mechanism.space == "spatial", compiled.law
-    if compiled.shape != "straight":
-        return None, f"{NONE}: the code of this run is looped"
-    operations = sum(law.operations.get(name, 0) for name in ("rhs", "refactor", "spread"))
-    most = MOST[spatial] + room
+    looped = compiled.shape == "looped"
+    operations = 0 if looped else sum(law.operations.get(name, 0) for name in ("rhs", "refactor", "spread"))
+    most = MOST_LOOPED if looped else MOST[spatial] + room
     limit = most // A_OPERATION
     if operations > limit:
         where = "in space" if spatial else "in the plane"
@@ -129,13 +134,14 @@ def live_part(
         whole = run_with_modes(acting or mechanism, run, compiled, start.datum or (), foresees=True)
     try:
         script = _script_of_dependents(mechanism, described)
-        code, size = _page_functions(
-            acting or mechanism,
-            compiled,
-            whole,
-            exported_start(mechanism, compiled, start.datum, None if described else turns),
-            len(start.redundant_rows),
-        )
+        with close_for_drawing() if looped else nullcontext():  # dense algebra takes half a second in a page
+            code, size = _page_functions(
+                acting or mechanism,
+                compiled,
+                whole,
+                exported_start(mechanism, compiled, start.datum, None if described else turns),
+                len(start.redundant_rows),
+            )
     except NotInLines:
         return None, f"{NONE}: a formula of the start is not one that pages know"
     except Foreign as error:
@@ -165,6 +171,8 @@ def _page_functions(
     """
     events = PrintedEvents.of(mechanism, compiled) if run is None else None
     functions = check_kernels(compiled)
+    if isinstance(compiled, LoopedModel):
+        functions |= addressed_functions(compiled)
     if run is not None:
         functions |= run.functions
     elif events is not None:
@@ -179,14 +187,19 @@ def _page_functions(
         printed.add_steps(compiled, events, ("take_steps",))
     if drivers := _driving_joints(mechanism):
         printed.add_lock(compiled, drivers, redundant)
-    return get_or_make(_texts, printed.key, lambda: _text_of_functions(printed), MOST_TEXTS)
+    written, tables = dict[str, str](), ""
+    if isinstance(compiled, LoopedModel):
+        written, tables = written_functions(compiled), text_of_tables(compiled)
+    key = printed.key, tuple(written.values())
+    text, size = get_or_make(_texts, key, lambda: _text_of_functions(printed, written), MOST_TEXTS)
+    return (f"{text}\n{tables}" if tables else text), size + len(tables)
 
 
-def _text_of_functions(printed: Printed) -> tuple[str, int]:
+def _text_of_functions(printed: Printed, written: Mapping[str, str]) -> tuple[str, int]:
     """Return the text of all functions, and the characters of the emitted ones."""
     own = {name: function for name, function in printed.emitted.items() if name != FINDER}
-    return f"{LOOP_HELPERS}{javascript_functions(printed.emitted, printed.bind_functions())}", len(
-        javascript_functions(own)
+    return f"{LOOP_HELPERS}{javascript_functions(printed.emitted, printed.bind_functions(), written)}", len(
+        javascript_functions(own, written=written)
     )
 
 
@@ -239,12 +252,17 @@ def _rates_spec(compiled: CompiledModel, start: Start) -> dict[str, Any]:
     info = compiled.info
     values = [float(start.p[i]) for i in range(len(info.parameters))]
     places = [i for name in _SECTIONS for i in range(info.sections[name][0], sum(info.sections[name]))]
+    w, printed = start.w, compiled.printed_scratch()
+    if "tables" in info.sections:  # places of functions are in the scratch, tables are not
+        first, size = info.sections["tables"]
+        w, places = w.copy(), [*places, *range(first, first + size)]
+        w[first : first + size] = printed[first : first + size]
     return {
         "ny": info.ny,
-        "nw": len(start.w),
+        "nw": len(w),
         "p0": [float(x) for x in start.p],
-        "w0": [[i, float(start.w[i])] for i in places if start.w[i] != 0.0 and np.isfinite(start.w[i])],
-        "masked": [i for i in places if np.isinf(start.w[i])],
+        "w0": [[i, float(w[i])] for i in places if w[i] != 0.0 and np.isfinite(w[i])],
+        "masked": [i for i in places if np.isinf(w[i])],
         "parameters": [
             {"name": q.name, "unit": q.unit, "value": value} for q, value in zip(info.parameters, values, strict=True)
         ],

@@ -17,6 +17,7 @@ import numpy as np
 from symgen.base.arguments import path_argument as argument_path
 from symgen.base.escapes import script_json
 from symgen.base.files import check_path, write_whole
+from symgen.compile.native.javascript_code import ADDRESSED, INDEX_TABLES
 from symgen.describe.drawing.mechanism_scene import build_scene
 from symgen.describe.drawing.paper import View
 from symgen.describe.drawing.scene import Array, Bent, Disc, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
@@ -195,12 +196,17 @@ def _page_script(live: Live | None, spatial: bool) -> str:
     return f"(() => {{\n'use strict';\n{model_script(live)}{observed}{own}}})();"
 
 
+#: What emitted code of a page defines beside functions; code of columns reads the last two.
+_CONSTANTS = "newMemory", INDEX_TABLES, ADDRESSED
+
+
 def _emitted_object(live: Live, functions: str, *further: str) -> str:
     """Return emitted code as an object of the functions that it has, and what evaluates them.
 
     The code is a function's body, so that none of its names is one of the page's.
     """
-    names = [n for n in functions.split() if f"function {n}(" in live.code or f"const {n} =" in live.code]
+    names = [n for n in functions.split() if f"function {n}(" in live.code]
+    names += [n for n in _CONSTANTS if f"const {n} =" in live.code]
     given = f"return {{ {', '.join([*names, *further])} }};"
     return f"const emitted = (() => {{\n{live.code}{given}\n}})();\n{_read_web_part('rates.js')}"
 
@@ -208,7 +214,7 @@ def _emitted_object(live: Live, functions: str, *further: str) -> str:
 def model_script(live: Live) -> str:
     """Return a script that defines ``emitted``, the functions of a mechanism, and ``makeLive``, which runs them."""
     functions = "rhs accept geometry masses prepareModel prepareLaw derive describe confirm move bodies"
-    functions += " begin_row close_row take_steps start_run foresee_run advance_run find_lock newMemory"
+    functions += " begin_row close_row take_steps start_run foresee_run advance_run find_lock"
     return f"{_emitted_object(live, functions)}{_read_web_part('live.js')}"
 
 

@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from symgen.compile.native import types
-from symgen.compile.native.language import Function
+from symgen.compile.native.language import Function, FunctionParameter
 from symgen.compile.native.read import Foreign
 from symgen.run.layout import abi
 from symgen.run.layout.ensemble_abi import PREPARE
@@ -27,7 +27,8 @@ def check_kernels(compiled: CompiledModel, names: Container[str] = NAMES) -> dic
     Parameters
     ----------
     compiled : CompiledModel
-        Straight code of one method.
+        Code of one method. What is interpreted once a run in the looped shape, ``masses`` and ``prepareModel``, has no
+        body: printers write it. What is called through tables is left out.
     names : container of str
         Names of `NAMES`.
 
@@ -44,14 +45,24 @@ def check_kernels(compiled: CompiledModel, names: Container[str] = NAMES) -> dic
     model, law, functions = compiled.model, compiled.law_module, dict[str, Function]()
     for module, table in ((law, _LAW), (model, _MODEL)):
         own = [name for name in table if name in names and hasattr(module, name)]
+        if compiled.shape == "looped" and "masses" in own:
+            own.remove("masses")
+            functions["masses"] = written_function("masses", "p", "w")
         functions |= {name: checked_function(getattr(module, name), table[name]) for name in own}
-    functions |= {
-        "prepareModel": checked_function(model.prepare, PREPARE),
-        "prepareLaw": checked_function(law.prepare, PREPARE),
-    }
+    looped = compiled.shape == "looped"
+    functions["prepareModel"] = (
+        written_function("prepareModel", "p") if looped else checked_function(model.prepare, PREPARE)
+    )
+    functions["prepareLaw"] = checked_function(law.prepare, PREPARE)
     if "geometry" in names and "geometry" not in functions:
         functions["geometry"] = checked_function(model.geometry, abi.MEASURE)
     return functions
+
+
+def written_function(name: str, *arrays: str) -> Function:
+    """Return a function of arrays whose text a printer has from elsewhere, for its callers."""
+    parameters = tuple(FunctionParameter(array, "float", array=True) for array in arrays)
+    return Function(name, parameters, "int", (), {}, frozenset(), {}, (), source=("written", name))
 
 
 @lru_cache(maxsize=128)

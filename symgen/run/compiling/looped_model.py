@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import ModuleType
-from typing import final
+from typing import Any, final
 
 import numpy as np
+from numpy.typing import NDArray
 
+from symgen.base.vocabulary.expressions import Expr
 from symgen.base.vocabulary.measures import Holonomic
 from symgen.base.vocabulary.quantities import Quantity
 from symgen.compile.store.loaded_modules import plain_function
@@ -20,6 +22,8 @@ from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import state_quantities
 from symgen.run.layout.compiled import Array, CompiledModel, ModelInfo, RowInfo
+
+Integers = NDArray[np.int64]
 
 
 @final
@@ -48,69 +52,150 @@ class LoopedModel(CompiledModel):
     def scratch(self) -> Array:
         """Return a new scratch array ``w`` with the tables in it."""
         # these import Numba, which emitting code does without
-        from symgen.run.layout.kernel_addresses import GENERIC as GENERIC_CODE
         from symgen.run.layout.kernel_addresses import address
 
         w = np.zeros(self.law.nw)
         offset, size = self.tables.sections["tables"]
         part = w[offset : offset + size]
         part.view(np.uint32)[: len(self.tables.numbers)] = np.frombuffer(self.tables.numbers, dtype=np.uint32)
-        augmented = bool(self.tables.numbers[HEAD.index("augmented_factor")])
-        addresses = [
-            address(getattr(self.generic, f"{name}_code"), self.machine, GENERIC_CODE)
-            if augmented or name != "augment"
-            else 0
-            for name in GENERIC
-        ]
-        addresses += [address(getattr(self.kernels[stem], name), self.machine) for stem, name in self.tables.functions]
+        addresses = [0 if called is None else address(called[0], self.machine, called[1]) for called in self.called]
         part.view(np.int64)[-1] = offset
         w.view(np.int64)[-1] = offset  # read from the end, as sections of a run may follow the tables
         first = self.tables.addresses
         part.view(np.int64)[first : first + len(addresses)] = addresses
         return self.with_scales(w)
 
+    def printed_scratch(self) -> Array:
+        """Return the same for a printed text: places in `called` as addresses; the tables are constants of the text."""
+        w = np.zeros(self.law.nw)
+        first = self.tables.sections["tables"][0] + self.tables.addresses
+        w[first : first + len(self.called)] = np.arange(len(self.called))
+        return self.with_scales(w)
 
-def mass_diagonal_of(shape: LoopedShape, tables: IndexTables) -> Callable[[Array, Array], int]:
-    """Return the function that writes the diagonal of M to its section."""
-    first, (offset, size) = shape.mass_diagonal, tables.sections["mass"]
-    added = np.array(shape.rotor_diagonal, dtype=np.int64).reshape(-1, 2)
+    @property
+    def called(self) -> list[tuple[Any, Any] | None]:
+        """Functions that are called through the tables, in their order, with their types; None where nothing is."""
+        from symgen.run.layout.kernel_addresses import GENERIC as GENERIC_CODE
+        from symgen.run.layout.kernel_addresses import KERNEL
 
-    def fill_masses(p: Array, w: Array) -> int:
-        w[offset : offset + size] = p[first : first + size]
-        np.add.at(w, offset + added[:, 0], p[added[:, 1]])
+        augmented = bool(self.tables.numbers[HEAD.index("augmented_factor")])
+        generic = [
+            (getattr(self.generic, f"{name}_code"), GENERIC_CODE) if augmented or name != "augment" else None
+            for name in GENERIC
+        ]
+        return [*generic, *((getattr(self.kernels[stem], name), KERNEL) for stem, name in self.tables.functions)]
+
+
+@dataclass(frozen=True, eq=False)
+class MassDiagonal:
+    """Where the diagonal of M is: in ``p``, and in its section.
+
+    Attributes
+    ----------
+    first : int
+        Its place in ``p``.
+    section : tuple of int
+        Offset and size of the section of ``w``.
+    added : Array of int64, shape (k, 2)
+        Elements of the section to which numbers of ``p`` are added, and their places.
+    """
+
+    first: int
+    section: tuple[int, int]
+    added: Integers
+
+    def __call__(self, p: Array, w: Array) -> int:
+        """Write the diagonal to its section."""
+        offset, size = self.section
+        w[offset : offset + size] = p[self.first : self.first + size]
+        np.add.at(w, offset + self.added[:, 0], p[self.added[:, 1]])
         return 0
 
-    return fill_masses
+
+def mass_diagonal_of(shape: LoopedShape, tables: IndexTables) -> MassDiagonal:
+    """Return the function that writes the diagonal of M to its section."""
+    added = np.array(shape.rotor_diagonal, dtype=np.int64).reshape(-1, 2)
+    return MassDiagonal(shape.mass_diagonal, tables.sections["mass"], added)
+
+
+@dataclass(frozen=True, eq=False)
+class HoistedNumbers:
+    """The numbers after the parameters in ``p``: what fills them, interpreted, once a run.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        Its parameters are the first numbers.
+    constants : tuple of (int, Expr)
+        Places and formulas of parameters.
+    groups : tuple of (module, int)
+        Kernels that compute numbers, and the places of their tables, in their order.
+    tables : IndexTables
+        Tables that these read.
+    kernels : mapping of str to module
+        By name.
+    products : tuple of Array
+        Entries of D D^T that are constant: each with the velocity in whose column it is, and what it adds.
+    bases : tuple of int
+        Where D D^T and D M^-1 D^T begin.
+    size : int
+        Their length.
+    inverse : int
+        Where the diagonal of M^-1 begins.
+    ones : Array of int64
+        Diagonal elements of rotors in both.
+    """
+
+    mechanism: Mechanism
+    constants: tuple[tuple[int, Expr], ...]
+    groups: tuple[tuple[str, int], ...]
+    tables: IndexTables
+    kernels: Mapping[str, ModuleType]
+    products: tuple[Integers, Integers, Array]
+    bases: tuple[int, int]
+    size: int
+    inverse: int
+    ones: Integers
+
+    def __call__(self, p: Array) -> int:
+        """Fill the numbers after the parameters."""
+        mechanism, numbers = self.mechanism, np.frombuffer(self.tables.numbers, dtype=np.uint32)
+        values = {q.name: float(p[i]) for i, q in enumerate(mechanism.parameters)}
+        tables_by_name = {t.name: t for t in mechanism.tables}
+        for place, expression in self.constants:
+            p[place] = evaluate(expression, values, mechanism.name, tables_by_name)
+        for stem, at in self.groups:
+            plain_function(self.kernels[stem].prepare)(0.0, p, p, p, numbers, at, p)
+        (target, velocity, product), size = self.products, self.size
+        inverse = p[self.inverse :]
+        for base, weights in zip(self.bases, (product, product * inverse[velocity]), strict=True):
+            p[base : base + size] = np.bincount(target, weights, size)
+            p[base + self.ones] = 1.0
+        return 0
 
 
 def filler_of_hoisted(
     mechanism: Mechanism, shape: LoopedShape, tables: IndexTables, kernels: Mapping[str, ModuleType]
-) -> Callable[[Array], int]:
-    """Return the function that fills the numbers after the parameters in ``p``: interpreted, once a run."""
-    numbers = np.frombuffer(tables.numbers, dtype=np.uint32)
-    tables_by_name = {t.name: t for t in mechanism.tables}
-    constant = shape.products.constant
-    target = np.array([t for t, _, _ in constant], dtype=np.int64)
-    velocity = np.array([v for _, v, _ in constant], dtype=np.int64)
-    product = np.array([x for _, _, x in constant])
-    size = shape.gram.size
-    ones = np.array([shape.gram.place_of_entry(row, row) for row in shape.rotors], dtype=np.int64)
-
-    def prepare(p: Array) -> int:
-        values = {q.name: float(p[i]) for i, q in enumerate(mechanism.parameters)}
-        for expression, k in shape.constant_index.items():
-            p[shape.first_constant + k] = evaluate(expression, values, mechanism.name, tables_by_name)
-        for stem, computes, at in tables.groups:
-            if computes:
-                plain_function(kernels[stem].prepare)(0.0, p, p, p, numbers, at, p)
-        first = shape.mass_diagonal
-        inverse = p[first + shape.nv : first + 2 * shape.nv]
-        for base, weights in ((shape.gram_base, product), (shape.gram_base + size, product * inverse[velocity])):
-            p[base : base + size] = np.bincount(target, weights, size)
-            p[base + ones] = 1.0
-        return 0
-
-    return prepare
+) -> HoistedNumbers:
+    """Return the function that fills the numbers after the parameters in ``p``."""
+    constant, size = shape.products.constant, shape.gram.size
+    ones = [shape.gram.place_of_entry(row, row) for row in shape.rotors]
+    return HoistedNumbers(
+        mechanism=mechanism,
+        constants=tuple((shape.first_constant + k, expression) for expression, k in shape.constant_index.items()),
+        groups=tuple((stem, at) for stem, computes, at in tables.groups if computes),
+        tables=tables,
+        kernels=kernels,
+        products=(
+            np.array([t for t, _, _ in constant], dtype=np.int64),
+            np.array([v for _, v, _ in constant], dtype=np.int64),
+            np.array([x for _, _, x in constant], dtype=np.float64),
+        ),
+        bases=(shape.gram_base, shape.gram_base + size),
+        size=size,
+        inverse=shape.mass_diagonal + shape.nv,
+        ones=np.array(ones, dtype=np.int64),
+    )
 
 
 def describe_model(mechanism: Mechanism, shape: LoopedShape, tables: IndexTables) -> ModelInfo:

@@ -401,7 +401,7 @@ class Printed:
         if assembly.masses is not None:
             self.emitted[WEIGHED] = checked_function(assembly.masses.formulas, abi.OBSERVE)
             functions[id(compiled_form(assembly.masses.formulas))] = self.emitted[WEIGHED]
-        scratch = compiled.scratch()
+        scratch = compiled.printed_scratch()
         now = Instant(np.zeros(compiled.info.ny), compiled.parameter_array(defaultdict(float), {}), scratch)
         conditions = StartConditions(np.zeros(assembly.layout.nv), np.zeros(0), np.zeros(N_SUMMARY))
 

@@ -148,6 +148,10 @@ class CompiledModel(ABC):
     def scratch(self) -> Array:
         """Return a new scratch array ``w``; scales are 1 until a start sets them."""
 
+    def printed_scratch(self) -> Array:
+        """Return the same for a program in another language."""
+        return self.scratch()
+
     @property
     def closes_all(self) -> bool:
         """Whether all rows fix velocities or close loops that leave some free."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from datetime import date
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -32,9 +33,25 @@ def letterhead_of_options(number: str, logo: str | None, signatures: Sequence[st
     InputError
         If the paper is none, or the logo is no picture that browsers show.
     """
-    size = one_word_of("--paper", paper.lower(), PAPERS)
+    size = paper_of_option(paper)
     picture = None if logo is None else logo_of_file(Path(logo))
     return Letterhead(_line(number), picture, tuple(filter(None, map(_line, signatures))), size)
+
+
+def paper_of_option(text: str) -> str:
+    """Return the size of paper that an option names.
+
+    Raises
+    ------
+    InputError
+        If there is no such size.
+    """
+    return one_word_of("--paper", text.lower(), PAPERS)
+
+
+def put_on_paper(document: ReportDocument, size: str) -> ReportDocument:
+    """Return a report for a size of paper."""
+    return replace(document, letterhead=replace(document.letterhead, paper=size))
 
 
 def origin_of_file(mechanism: Mechanism, number: str = "") -> tuple[tuple[str, str], ...]:

@@ -69,6 +69,32 @@ def test_the_command_takes_them(cli, tmp_path, monkeypatch):
     assert "size: letter;" in page and "report R-104" in page and 'id="acceptance"' in page
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("command", "option"),
+    [
+        ("compare pendulum --methods lagrange --integrators rk4 --steps 1e-2 --until 0.1", "-o"),
+        ("stress pendulum --cases gravity --methods lagrange --quick --jobs 1", "-o"),
+        ("design pendulum --vary bob_mass=0.5:2 --aim max(bob.y) --until 0.1", "--report"),
+    ],
+)
+def test_reports_of_studies_have_a_size_of_paper(command, option, cli, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, _, err = cli(*command.split(), "--paper", "Letter", option, "a.html")
+    assert code == 0, err
+    page = (tmp_path / "a.html").read_text(encoding="utf-8")
+    assert "size: letter;" in page and "--paper Letter" in page  # in the command that makes it again
+    for words, complaint in {
+        ("--paper", "a5", option, "b.html"): "--paper: expected one of a4, letter, got 'a5'; known: a4, letter",
+        ("--paper", "letter"): f"--paper: expected {OPTIONS[option]} FILE, the report that is printed, "
+        f"got no {OPTIONS[option]}",
+    }.items():
+        code, out, err = cli(*command.split(), *words)
+        assert code == 2 and out == "" and err.strip() == f"symgen: {complaint}"
+    assert not (tmp_path / "b.html").exists()
+
+
+OPTIONS = {"-o": "--output", "--report": "--report"}
 REFUSED = {
     "--paper a5": "--paper: expected one of a4, letter, got 'a5'; known: a4, letter",
     "--logo none.png": "--logo: expected a picture that is PNG or SVG, got 'none.png' (no such file or folder)",

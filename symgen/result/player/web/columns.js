@@ -37,25 +37,31 @@ function makeColumns(live, code, spec, functions) {
   }
 
   // On the ground: what balances the joint's forces on all bodies, about the origin.
-  function onGround(q, g) {
+  function onGround(q, g, moved) {
     const force = [0, 0, 0], moment = [0, 0, 0];
-    spec.bodies.forEach(([i, , v, n], body) => {
-      if (g.subarray(v, v + n).every((x) => x === 0)) return;
-      const [f, c] = onBody(q, body, g), arm = cross([q[i], q[i + 1], dimension === 3 ? q[i + 2] : 0], f);
+    for (const body of moved) {
+      const [i] = spec.bodies[body], [f, c] = onBody(q, body, g), arm = cross([q[i], q[i + 1], dimension === 3 ? q[i + 2] : 0], f);
       for (let k = 0; k < 3; k++) {
         force[k] -= f[k];
         moment[k] -= c[k] + arm[k];
       }
-    });
+    }
     return [force, moment];
   }
 
+  // Entries of D in the rows of each joint, and the bodies that it moves.
+  const shares = spec.joints.map(() => []), forces = new Float64Array(spec.nv);
+  for (const share of jacobian) if (spec.joint_of_row[share[0]] >= 0) shares[spec.joint_of_row[share[0]]].push(share);
+  const bodyOf = spec.bodies.flatMap(([, , , n], body) => Array(n).fill(body));
+  const moved = shares.map((list) => [...new Set(list.map(([, column]) => bodyOf[column]))].sort((a, b) => a - b));
+  spec.joints.forEach(([, body], j) => body >= 0 && !moved[j].includes(body) && moved[j].push(body));
+
   // -D^T lambda of each joint on its first body, about its own point, in ground axes and in those of the body.
   function reactions(q, entry, lambda, seats) {
-    const of = spec.joints.map(() => new Float64Array(spec.nv));
-    for (const [row, column, constant, slot] of jacobian) if (spec.joint_of_row[row] >= 0) of[spec.joint_of_row[row]][column] -= (slot === null ? constant : entry[slot]) * lambda[row];
     return spec.joints.map(([, body, point, centre], j) => {
-      const [force, about] = body < 0 ? onGround(q, of[j]) : onBody(q, body, of[j]), r = axesOf(q, body);
+      for (const each of moved[j]) forces.fill(0, spec.bodies[each][2], spec.bodies[each][2] + spec.bodies[each][3]);
+      for (const [row, column, constant, slot] of shares[j]) forces[column] -= (slot === null ? constant : entry[slot]) * lambda[row];
+      const [force, about] = body < 0 ? onGround(q, forces, moved[j]) : onBody(q, body, forces), r = axesOf(q, body);
       const own = [0, 1, 2].map((k) => (point < 0 || k >= dimension ? 0 : seats[point + k] - (centre < 0 ? 0 : seats[centre + k])));
       const arm = cross(turned(r, own), force), moment = about.map((x, k) => x - arm[k]);
       return { ground: [...force, ...moment], body: [...back(r, force), ...back(r, moment)], F: Math.hypot(...force), T: Math.hypot(...moment) };
@@ -83,6 +89,12 @@ function makeColumns(live, code, spec, functions) {
     }
     return result.map((x, i) => x * weight[i]);
   }
+
+  // Which joint's reaction a column has, on its first body in axes of the ground or its own, and which component.
+  const placed = entries.map(({ name, source }) => {
+    const cut = name.lastIndexOf("."), label = name.slice(cut + 1), owner = name.slice(0, cut).replace(source === sources.BODY ? /\.body$/ : "", "");
+    return [spec.joints.findIndex(([joined]) => joined === owner), source === sources.MAGNITUDE ? label : components.indexOf(label === "M" ? "Mz" : label)];
+  });
 
   // Whether a function is one of the state, not of bodies.
   const at_state = (name) => Boolean(spec.of_state?.includes(name));
@@ -112,7 +124,7 @@ function makeColumns(live, code, spec, functions) {
     if (begin) first = energy;
     w.set(kept[0]);
     iw.set(kept[1]);
-    return Float64Array.from(entries, ({ table, name, source, column }) => {
+    return Float64Array.from(entries, ({ table, name, source, column }, i) => {
       if (name === "energy.work") return work;
       if (source === sources.STATE) return q[column];
       if (source === sources.STATUS) return measured[column];
@@ -123,11 +135,10 @@ function makeColumns(live, code, spec, functions) {
       if (source === sources.JOINT) return room.observe[m + column];
       if (source === sources.SIDE) return room[table][column];
       if (name === "violation.acceleration") return Math.hypot(...room.observe.subarray(0, m));
-      const cut = name.lastIndexOf("."), label = name.slice(cut + 1), owner = name.slice(0, cut).replace(source === sources.BODY ? /\.body$/ : "", "");
-      const found = of[spec.joints.findIndex(([joined]) => joined === owner)];
+      const [joint, component] = placed[i], found = of[joint];
       if (!found) return 0;
-      if (source === sources.MAGNITUDE) return found[label];
-      return (source === sources.BODY ? found.body : found.ground)[components.indexOf(label === "M" ? "Mz" : label)];
+      if (source === sources.MAGNITUDE) return found[component];
+      return (source === sources.BODY ? found.body : found.ground)[component];
     });
   }
 
