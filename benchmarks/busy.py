@@ -1,10 +1,11 @@
 """Ratios of run times as `symgen compare` takes them, alone and beside busy processes, in turns.
 
-    python -m benchmarks.busy [MODEL ...] [--busy N] [--times K] [--pinned]
+    python -m benchmarks.busy [MODEL ...] [--busy N] [--times K] [--pinned] [--few]
 
 Methods of the source with `rk4`, each timed beside `lagrange` K times alone and K times beside N processes that
 compute without end. A row has the median of all ratios alone and its change beside them; `within` counts the
-intervals of 95 % that hold that median, alone and beside. With `--pinned` all measurements have one processor.
+intervals of 95 % that hold that median, alone and beside. With `--pinned` all measurements have one
+processor, with `--few` noisy rows have no further rounds.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from symgen.api import load
 from symgen.base.settings import Settings
 from symgen.run.planning.prepare import prepare
 from symgen.study.comparison.combinations import DEFAULT_METHODS
-from symgen.study.comparison.model_comparison import AT_LEAST, AT_MOST, REPEAT
+from symgen.study.comparison.model_comparison import AT_LEAST, AT_MOST, NOISY, REPEAT
 from symgen.study.comparison.turns import Turns, time_in_turns
 from symgen.study.yardstick import YARDSTICK
 
@@ -73,7 +74,7 @@ def busy(count: int) -> Iterator[None]:
             process.wait()
 
 
-def measure(model: str, count: int, times: int) -> dict[str, Ratios]:
+def measure(model: str, count: int, times: int, further: bool = True) -> dict[str, Ratios]:
     """Return the ratios of the methods but `lagrange` on a mechanism."""
     mechanism = load(model).mechanism
     defaults = mechanism.defaults
@@ -85,7 +86,8 @@ def measure(model: str, count: int, times: int) -> dict[str, Ratios]:
         for others in (0, count):
             with busy(others):
                 for name, ratios in found.items():
-                    turns = time_in_turns(runs[name].integrate, runs[YARDSTICK].integrate, REPEAT, AT_LEAST, AT_MOST)
+                    both = runs[name].integrate, runs[YARDSTICK].integrate
+                    turns = time_in_turns(*both, REPEAT, AT_LEAST, AT_MOST, noisy=NOISY if further else 0.0)
                     (ratios.beside if others else ratios.alone).append(turns)
     return found
 
@@ -97,6 +99,7 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--busy", type=int, default=3, help="busy processes")
     parser.add_argument("--times", type=int, default=4, help="measurements of each row, alone and beside")
     parser.add_argument("--pinned", action="store_true", help="measure on one processor")
+    parser.add_argument("--few", action="store_true", help="no further rounds of noisy rows")
     given = parser.parse_args(arguments)
     if given.pinned:
         os.sched_setaffinity(0, [min(os.sched_getaffinity(0))])
@@ -105,7 +108,7 @@ def main(arguments: list[str]) -> int:
     )
     largest, held, count = 0.0, [0, 0], 0
     for model in given.models or MODELS:
-        for method, ratios in measure(model, given.busy, given.times).items():
+        for method, ratios in measure(model, given.busy, given.times, not given.few).items():
             shifts = sorted(ratios.shifts, key=abs)
             own, others = ratios.held(ratios.alone), ratios.held(ratios.beside)
             cells = [f"{ratios.middle:.3f}", f"{100 * median(shifts):+.1f}", f"{100 * shifts[-1]:+.1f}"]
