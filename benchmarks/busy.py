@@ -28,6 +28,7 @@ from symgen.run.planning.prepare import prepare
 from symgen.study.comparison.combinations import DEFAULT_METHODS
 from symgen.study.comparison.model_comparison import AT_LEAST, AT_MOST, NOISY, REPEAT
 from symgen.study.comparison.turns import Turns, time_in_turns
+from symgen.study.unlimited_runs import without_limits
 from symgen.study.yardstick import YARDSTICK
 
 MODELS = ("four-bar", "slider-crank", "andrews")
@@ -36,7 +37,7 @@ BUSY = "import array\nx = array.array('d', bytes(1 << 23))\nwhile True: sum(x[::
 
 
 class Ratios(NamedTuple):
-    """Ratios of a method on a mechanism: medians and their intervals, each time, alone and beside busy processes."""
+    """Times of a method on a mechanism beside the yardstick, alone and beside busy processes; all have ratios."""
 
     alone: list[Turns]
     beside: list[Turns]
@@ -80,7 +81,7 @@ def measure(model: str, count: int, times: int, further: bool = True) -> dict[st
     defaults = mechanism.defaults
     end = min(defaults.until, defaults.predictable_until or defaults.until)
     common = {"integrator": "rk4", "step": defaults.step, "until": end, "shape": "straight"}
-    runs = {name: prepare(mechanism, Settings(method=name, **common)) for name in DEFAULT_METHODS}
+    runs = {name: without_limits(prepare(mechanism, Settings(method=name, **common))) for name in DEFAULT_METHODS}
     found = {name: Ratios([], []) for name in DEFAULT_METHODS if name != YARDSTICK}
     for _ in range(times):
         for others in (0, count):
@@ -89,7 +90,7 @@ def measure(model: str, count: int, times: int, further: bool = True) -> dict[st
                     both = runs[name].integrate, runs[YARDSTICK].integrate
                     turns = time_in_turns(*both, REPEAT, AT_LEAST, AT_MOST, noisy=NOISY if further else 0.0)
                     (ratios.beside if others else ratios.alone).append(turns)
-    return found
+    return {name: ratios for name, ratios in found.items() if all(x.ratios for x in (*ratios.alone, *ratios.beside))}
 
 
 def main(arguments: list[str]) -> int:
