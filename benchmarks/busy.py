@@ -17,7 +17,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from statistics import median
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from rich.table import Table
 
@@ -80,7 +80,7 @@ def measure(model: str, count: int, times: int, further: bool = True) -> dict[st
     mechanism = load(model).mechanism
     defaults = mechanism.defaults
     end = min(defaults.until, defaults.predictable_until or defaults.until)
-    common = {"integrator": "rk4", "step": defaults.step, "until": end, "shape": "straight"}
+    common: dict[str, Any] = {"integrator": "rk4", "step": defaults.step, "until": end, "shape": "straight"}
     runs = {name: without_limits(prepare(mechanism, Settings(method=name, **common))) for name in DEFAULT_METHODS}
     found = {name: Ratios([], []) for name in DEFAULT_METHODS if name != YARDSTICK}
     for _ in range(times):
