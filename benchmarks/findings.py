@@ -17,7 +17,6 @@ from benchmarks import (
     all_methods,
     backward,
     beside_tools,
-    by_numba,
     claims,
     coordinates,
     equal_error,
@@ -56,7 +55,6 @@ def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
             *beside_tools.tables(),
         ),
         *functions.tables(),
-        by_numba.page_table(),
     )
 
 

@@ -36,7 +36,6 @@ NAMES = (
     "stress_quick",
     "identification",
     "functions",
-    "by_numba",
 )
 #: Digits of stored numbers.
 DIGITS = 3
