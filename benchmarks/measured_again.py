@@ -39,7 +39,9 @@ class Source:
     again, numbers : int
         Lines and numbers measured again.
     others : list of str
-        Numbers that are others now.
+        Numbers that are others now, and what a line raised.
+    seconds : float
+        Processor time of the lines measured again [s].
     """
 
     name: str
@@ -48,6 +50,7 @@ class Source:
     again: int = 0
     numbers: int = 0
     others: list[str] = field(default_factory=list)
+    seconds: float = 0.0
 
     @property
     def agrees(self) -> bool:
@@ -55,8 +58,13 @@ class Source:
         return len(self.others) <= self.stray * self.numbers
 
     def measure_next(self) -> None:
-        """Measure the next line."""
-        count, others = self.lines[self.again]()
+        """Measure the next line; one that raises is a difference, and those of the hour before are kept."""
+        began = time.process_time()
+        try:
+            count, others = self.lines[self.again]()
+        except Exception as error:
+            count, others = 1, [f"line {self.again + 1} of this order raised {type(error).__name__}: {error}"]
+        self.seconds += time.process_time() - began
         self.again, self.numbers, self.others = self.again + 1, self.numbers + count, [*self.others, *others]
 
 
@@ -109,9 +117,9 @@ def measure_in_turns(sources: Sequence[Source], seconds: float, clock: Callable[
 
 def in_words(sources: Sequence[Source]) -> str:
     """Return the report: of each source its new lines, their differences, and its stored lines."""
-    headings = ("source", "lines", "measured again", "numbers", "others")
+    headings = ("source", "lines", "measured again", "numbers", "others", "processor time [s]")
     rows = [
-        [f"`{s.name}`", str(len(s.lines)), str(s.again), str(s.numbers), str(len(s.others))]
+        [f"`{s.name}`", *map(str, (len(s.lines), s.again, s.numbers, len(s.others))), f"{s.seconds:.0f}"]
         for s in sources
     ]  # fmt: skip
     return "\n".join(["# Measured again", "", *markdown(headings, rows), "", *_sentences(sources), ""])

@@ -288,14 +288,21 @@ def main(arguments: Sequence[str]) -> int:
     (folder / "tables.md").write_text(tables_of_records(), encoding="utf-8")
     (folder / "lock.txt").write_text(lock(), encoding="utf-8")
     pictures(folder)
-    if sources:
+    done = typeset(folder)  # before what takes long: an error of LaTeX shows in the first minute
+    try:
         measured_again.measure_in_turns(sources, 60.0 * chosen.minutes)
-        (folder / "again.md").write_text(measured_again.in_words(sources), encoding="utf-8")
-    differ = int(not all(source.agrees for source in sources))
+    finally:  # an interruption leaves what has been found
+        if sources:
+            (folder / "again.md").write_text(measured_again.in_words(sources), encoding="utf-8")
+    return max(done, int(not all(source.agrees for source in sources)))
+
+
+def typeset(folder: Path) -> int:
+    """Make the PDF, where there is pdflatex; 1 if it finds errors."""
     engine = shutil.which("pdflatex")
     if engine is None:
         sys.stdout.write(f"{folder}: the PDF needs pdflatex\n")
-        return differ
+        return 0
     words = [engine, "-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape", SOURCE.name]
     for _ in range(2):
         done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
@@ -303,7 +310,7 @@ def main(arguments: Sequence[str]) -> int:
             sys.stderr.write(done.stdout[-2000:])
             return 1
     sys.stdout.write(f"{folder / 'paper.pdf'}\n")
-    return differ
+    return 0
 
 
 if __name__ == "__main__":

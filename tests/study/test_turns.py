@@ -1,5 +1,6 @@
 """The clock of a comparison: a fake clock, intervals of medians, and runs beside busy processes."""
 
+import itertools
 import os
 import subprocess
 import sys
@@ -10,20 +11,21 @@ import pytest
 
 import symgen
 from symgen.run.layout import abi
-from symgen.study.comparison.turns import MOST, interval_of_median, time_in_turns
+from symgen.study.comparison.turns import MOST, MOST_NOISY, interval_of_median, time_in_turns
 
 
 class Machine:
     """A machine by hand: every run takes its processor time, and others take the processor away meanwhile."""
 
-    def __init__(self, *stolen):
+    def __init__(self, *stolen, noise=()):
         self.stolen, self.turns, self.slow = list(stolen), [], 1.0
+        self.noise = itertools.cycle(noise or (1.0,))
 
     def run(self, name, seconds, code=abi.DONE, interrupted=False):
         def integrate():
             self.turns.append(name)
             away = self.stolen.pop(0) if self.stolen else 0.0
-            taken = seconds * self.slow
+            taken = seconds * self.slow * next(self.noise)
             return SimpleNamespace(cpu_seconds=taken, run_seconds=taken + away, code=code, interrupted=interrupted)
 
         return integrate
@@ -70,6 +72,22 @@ def test_a_run_is_repeated_as_often_as_noise_asks_for(seconds, repeat, rounds):
     assert machine.turns.count("row") == 1 + rounds
     assert turns.single is (rounds == 0) and (turns.quartiles is None) is turns.single
     assert turns.ratio == 1.0 and (turns.ratio_interval is None) is turns.single
+
+
+@pytest.mark.parametrize(
+    ("seconds", "noise", "noisy", "rounds"),
+    [
+        (0.01, (1.0,), 0.4, 5),  # certain as it is
+        (0.01, (1.2, 1.0, 1.0, 1.2), 0.4, 19),  # 0.4 s are over
+        (0.0001, (1.2, 1.0, 1.0, 1.2), 0.1, MOST_NOISY),
+        (0.01, (1.2, 1.0, 1.0, 1.2), 0.0, 5),  # nothing more is asked for
+        (0.01, (1.0, 1.0, *(1.0, 1.05) * 2, *(1.0, 1.0) * 20), 0.4, 12),  # the interval leaves out the two that differ
+    ],
+)
+def test_a_row_whose_ratio_is_uncertain_is_repeated_for_some_time(seconds, noise, noisy, rounds):
+    machine = Machine(noise=noise)
+    turns = time_in_turns(machine.run("row", seconds), machine.run("yardstick", seconds), 5, 0.0, 10.0, noisy=noisy)
+    assert len(turns.seconds) == rounds
 
 
 def test_a_run_that_fails_or_whose_yardstick_does_has_a_time_and_no_ratio():

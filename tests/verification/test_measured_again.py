@@ -48,6 +48,16 @@ def test_sources_take_turns_until_the_time_is_over():
     assert [source.again for source in sources] == [5, 5]
 
 
+def test_a_line_that_raises_is_a_difference_and_the_others_are_kept():
+    def raises():
+        raise ArithmeticError("no start")
+
+    source = Source("ones", [lambda: (3, []), raises, lambda: (2, [])])
+    measure_in_turns([source], 1e9)
+    assert (source.again, source.numbers) == (3, 6) and not source.agrees
+    assert source.others == ["line 2 of this order raised ArithmeticError: no start"] and source.seconds >= 0.0
+
+
 def test_rows_of_a_page_are_compared_with_what_it_prints(tmp_path, monkeypatch):
     (tmp_path / "page.md").write_text(
         "`python -m benchmarks.ones`\n\n| a | b |\n| --- | --- |\n| x | 1.2 |\n| y | 1.9 |\n"

@@ -41,30 +41,37 @@ def slot_types(kind: types.Kind) -> Iterator[str]:
         yield _SLOTS[kind]
 
 
-def slot_values(kind: types.Kind, value: Any) -> Iterator[int | float]:
-    """Yield the content of the slots of an argument: integers, addresses among them, and floating-point numbers.
+def slot_values(kind: types.Kind, value: Any) -> list[int | float]:
+    """Return the content of the slots of an argument: integers, addresses among them, and floating-point numbers.
 
     Raises
     ------
     TypeError, ValueError
         If the argument has another type.
     """
+    slots = list[int | float]()
+    _append_slots(kind, value, slots)
+    return slots
+
+
+def _append_slots(kind: types.Kind, value: Any, slots: list[int | float]) -> None:
+    """Append the content of the slots of an argument; a run has hundreds, within records of records."""
     if kind is types.float64:
-        yield float(value)
+        slots.append(float(value))
     elif isinstance(kind, types.ArrayType):
         if not isinstance(value, np.ndarray):
             raise TypeError(f"expected an array {kind}, got {type(value).__name__}")
         if not value.flags.c_contiguous or value.ndim != kind.ndim or value.dtype != _DTYPES[kind.dtype]:
             raise TypeError(f"expected an array {kind}, got one of {value.ndim} dimensions of {value.dtype}")
-        yield value.__array_interface__["data"][0]
-        yield from value.shape
+        slots.append(value.__array_interface__["data"][0])
+        slots.extend(value.shape)
     elif isinstance(kind, types.RecordType):
-        for part, item in zip(kind, value, strict=True):
-            yield from slot_values(part, item)
+        for part, item in zip(kind.parts, value, strict=True):
+            _append_slots(part, item, slots)
     elif isinstance(kind, types.FunctionType):
-        yield value.address(kind.signature)
+        slots.append(value.address(kind.signature))
     else:
-        yield int(value)
+        slots.append(int(value))
 
 
 def argument_type(value: object) -> types.Kind:

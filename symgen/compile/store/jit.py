@@ -83,6 +83,7 @@ class MachineFunction(ABC):
         self.py_func, self.inlined, self.contracted = function, inlined, contracted
         functools.update_wrapper(self, function, updated=())
         self._codes = dict[Arguments, MachineCode]()
+        self._latest: tuple[types.Signature, int] | None = None
         self._callers = dict[Arguments, Callable[..., Any]]()
 
     @abstractmethod
@@ -125,7 +126,11 @@ class MachineFunction(ABC):
             from symgen.compile.store.numba_route import address
 
             return address(self, signature)
-        return self.code(signature.arguments).address
+        # callers ask with the same object again and again, whose types take long to hash
+        latest = self._latest
+        if latest is None or latest[0] is not signature:
+            latest = self._latest = signature, self.code(signature.arguments).address
+        return latest[1]
 
     def caller(self, arguments: Arguments) -> Callable[..., Any]:
         """Return a function that calls the machine code with arguments of some types."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -291,7 +292,7 @@ def newton_plan(
         np.concatenate([terms.factors[independent], nothing]),
         np.concatenate([terms.sources[independent], one + nothing]),
     )
-    within, fill = elimination_order(n, rows % n, columns % n)
+    within, fill = _order_of_pattern(n, *((x % n).astype(np.int64).tobytes() for x in (rows, columns)))
     order = (np.array(within, dtype=np.int64)[:, None] + n * np.arange(stages)).ravel()
     position = np.empty(size, dtype=np.int64)
     position[order] = np.arange(size)
@@ -320,6 +321,12 @@ def newton_plan(
         at += len(part)
     whole = np.concatenate([head, *(np.asarray(part, dtype=np.int64) for _, part in plan)])
     return whole, np.zeros(len(entries) + 5 * size + room)
+
+
+@lru_cache(maxsize=64)
+def _order_of_pattern(n: int, rows: bytes, columns: bytes) -> tuple[list[int], int]:
+    """Return `elimination_order`, which runs with the same pattern share: a search takes longer than a short run."""
+    return elimination_order(n, *(np.frombuffer(places, dtype=np.int64) for places in (rows, columns)))
 
 
 def elimination_order(n: int, rows: Indices, columns: Indices) -> tuple[list[int], int]:

@@ -92,8 +92,8 @@ def compare(
     until : float, optional
         End time [s]; by default the mechanism's own, limited to the time in which its motion is predictable.
     repeat : int
-        Rounds a row, after a warm-up, in which the row and its yardstick run in turn. Short runs are repeated more
-        often, those of more than ten seconds run once, as all do with 1.
+        Rounds a row, after a warm-up, in which the row and its yardstick run in turn. Short runs and uncertain ratios
+        are repeated more often; runs of more than ten seconds run once, as all do with 1.
     output_step : float, optional
         Time between the outputs that are compared [s].
     parameters, options, start : mapping

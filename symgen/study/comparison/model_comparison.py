@@ -36,9 +36,9 @@ from symgen.study.runner import Cell, run_cells
 from symgen.study.unlimited_runs import WATCHES, without_limits
 from symgen.study.yardstick import YARDSTICK
 
-#: Default number of rounds a row, their least total time, and the total from which on none is repeated [s]: noise is a
-#: small part of a long run.
-REPEAT, AT_LEAST, AT_MOST = 5, 0.05, 10.0
+#: Default number of rounds a row, their least total time, the total up to which noisy ones are repeated, and that from
+#: which on none is [s]: noise is a small part of a long run.
+REPEAT, AT_LEAST, NOISY, AT_MOST = 5, 0.05, 0.4, 10.0
 #: What making the code of a method ready counts for in the progress, in rows; no process is started for what takes less
 #: than so many seconds.
 PREPARATION, PATIENCE = 10.0, 1.0
@@ -269,7 +269,7 @@ class ModelComparison:
             base = self.yardsticks[i]
             beside = None if base is None or base == i else without_limits(begin_run(base)).integrate
             warm = first_outcome if stopped is None else None
-            runs = time_in_turns(timed.integrate, beside, settings.repeat, AT_LEAST, AT_MOST, warm)
+            runs = time_in_turns(timed.integrate, beside, settings.repeat, AT_LEAST, AT_MOST, warm, NOISY)
             variant = words_of_variant(settings, self.common)
             entry, trace = measure_run(run, runs, distances, variant, stopped, self.laws[i])
             if base == i and entry.ended:

@@ -20,8 +20,10 @@ from symgen.run.layout import abi
 if TYPE_CHECKING:
     from symgen.run.single.outcome import Outcome
 
-#: Largest number of rounds, unless more are requested.
-MOST = 30
+#: Largest number of rounds, unless more are requested; and where noise asks for more.
+MOST, MOST_NOISY = 30, 400
+#: Half an interval over its ratio that a noisy row is repeated for.
+NEAR = 0.025
 #: A wall clock that is longer than the processor time by this factor: other work had the processor meanwhile.
 DISTURBED = 1.5
 #: Probability with which the interval of a median over rounds holds it.
@@ -77,6 +79,13 @@ class Turns:
         return median(self.ratios) if self.ratios else None
 
     @property
+    def near(self) -> bool:
+        """Whether the interval of the ratio is no wider than noise may leave it."""
+        low, high = self.ratio_interval or (0.0, 0.0)
+        middle = self.ratio or 0.0
+        return max(high - middle, middle - low) <= NEAR * middle
+
+    @property
     def ratio_interval(self) -> tuple[float, float] | None:
         """Interval that holds the median of the ratios with 95 %; None for a single run."""
         return interval_of_median(self.ratios) if len(self.ratios) > 1 else None
@@ -106,6 +115,7 @@ def time_in_turns(
     at_least: float = 0.0,
     at_most: float = math.inf,
     first: Outcome | None = None,
+    noisy: float = 0.0,
 ) -> Turns:
     """Run once to warm up, and in rounds beside a yardstick for the clock; once more where other work disturbs.
 
@@ -121,6 +131,9 @@ def time_in_turns(
         Total of a round and its yardstick's from which on none is repeated [s]; a first run so long is the only one.
     first : Outcome, optional
         Of a run that has warmed up already.
+    noisy : float, optional
+        Total of rounds and their yardsticks' [s] up to which they are repeated, at most `MOST_NOISY` times, until half
+        the interval of the ratio is within `NEAR`.
 
     Raises
     ------
@@ -134,18 +147,30 @@ def time_in_turns(
         return _turns_of_rounds([(outcome, other)])
     if beside is not None:
         _whole(beside())
-    turns = _measure_rounds(run, beside, repeat, at_least, at_most)
+    limits = repeat, at_least, at_most, noisy
+    turns = _measure_rounds(run, beside, *limits)
     if turns.disturbed:
-        turns = min(turns, _measure_rounds(run, beside, repeat, at_least, at_most), key=lambda x: x.load)
+        turns = min(turns, _measure_rounds(run, beside, *limits), key=lambda x: x.load)
     return turns
 
 
 def _measure_rounds(
-    run: Callable[[], Outcome], beside: Callable[[], Outcome] | None, repeat: int, at_least: float, at_most: float
+    run: Callable[[], Outcome],
+    beside: Callable[[], Outcome] | None,
+    repeat: int,
+    at_least: float,
+    at_most: float,
+    noisy: float,
 ) -> Turns:
     rounds = list[tuple["Outcome", "Outcome | None"]]()
     own = whole = 0.0
-    while whole < at_most and (len(rounds) < repeat or (own < at_least and len(rounds) < MOST)):
+
+    def is_uncertain() -> bool:
+        return whole < noisy and len(rounds) < MOST_NOISY and beside is not None and not _turns_of_rounds(rounds).near
+
+    while whole < at_most and (
+        len(rounds) < repeat or (own < at_least and len(rounds) < MOST) or (len(rounds) > 1 and is_uncertain())
+    ):
         outcome, other = _whole(run()), _whole(beside()) if beside is not None else None
         own += outcome.cpu_seconds
         whole += outcome.cpu_seconds + (0.0 if other is None else other.cpu_seconds)

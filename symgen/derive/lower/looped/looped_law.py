@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 from symgen.base.errors import InputError
 from symgen.base.ir.graph import ARITHMETIC
@@ -62,20 +63,27 @@ def refuse_dense(method: Method, options: Mapping[str, str], implicit: bool) -> 
     InputError
         With the reason in one sentence.
     """
-    expected = "a method whose cost grows linearly with the mechanism"
-    if options.get("solver") == "dense":
-        why = " with a dense factorisation of D"
-    elif method.dense:
-        why = f", {method.dense}"
-    elif strange := _unknown_operation(record_law(method, options).choose_solution(schur=True), KINDS, _FUNCTIONS):
-        why = f", whose formula asks for '{strange}'"
-    elif implicit and (
-        strange := _unknown_operation(record_form(method, options, "joint"), _OF_A_JOINT, ("residual",))
-    ):
-        expected, why = "constraints that each joint gives alone", f", whose constraints ask for '{strange}'"
-    else:
-        return
-    raise InputError("shape 'looped'", expected, f"'{method.name}'{why}; the straight shape is for it")
+    if reason := _reason_of_density(method, tuple(options.items()), implicit):
+        expected, why = reason
+        raise InputError("shape 'looped'", expected, f"'{method.name}'{why}; the straight shape is for it")
+
+
+@lru_cache(maxsize=128)
+def _reason_of_density(method: Method, options: tuple[tuple[str, str], ...], implicit: bool) -> tuple[str, str] | None:
+    """Return what a looped shape expects and what a method has, None where it is loopable.
+
+    Every run of a study asks, and formulas are recorded for the answer.
+    """
+    chosen, expected = dict(options), "a method whose cost grows linearly with the mechanism"
+    if chosen.get("solver") == "dense":
+        return expected, " with a dense factorisation of D"
+    if method.dense:
+        return expected, f", {method.dense}"
+    if strange := _unknown_operation(record_law(method, chosen).choose_solution(schur=True), KINDS, _FUNCTIONS):
+        return expected, f", whose formula asks for '{strange}'"
+    if implicit and (strange := _unknown_operation(record_form(method, chosen, "joint"), _OF_A_JOINT, ("residual",))):
+        return "constraints that each joint gives alone", f", whose constraints ask for '{strange}'"
+    return None
 
 
 #: Functions of laws that can be loops.
