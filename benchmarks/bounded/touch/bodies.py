@@ -164,7 +164,7 @@ class Scene:
     springs: list[Spring] = field(default_factory=list)
     contacts: list[Contact] = field(default_factory=list)
     near: float = 1e-11
-    slow: float = 2e-6
+    slow: float = 1e-7
 
     def forces(self, q: Array, v: Array) -> Array:
         """Return applied forces."""

@@ -38,7 +38,7 @@ from symgen.run.modes.bounded_rows import (
 )
 from symgen.run.modes.contact_combinations import LOWER, OFF, ON, UPPER
 from symgen.run.modes.contact_parts import choose_part, find_parts, probe_contacts
-from symgen.run.modes.contact_series import find_leading, hold_closed, remember_impact, sum_series
+from symgen.run.modes.contact_series import ends_closed, find_leading, remember_impact, sum_series
 from symgen.run.modes.contact_verification import try_combinations
 from symgen.run.modes.strikes import (
     OF_SERIES,
@@ -248,13 +248,14 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, now: Instant, iw:
     recall_modes(c, s)
     in_series = find_leading(t, c, s)
     for i in range(c.dry, c.count):
-        if turns_back(c, s, now.w, i):
+        turns = turns_back(c, s, now.w, i)
+        if turns or ends_closed(c, s, now.w, i):
+            opens = c.speed[i] > STILL * row_scale(c, now.w, i, abi.SPEED)
             s.active[i] = 1
             j = c.partner[i]
-            if j >= 0:
+            if j >= 0 and (turns or opens):
                 still = abs(c.speed[j]) <= STILL * row_scale(c, now.w, j, abi.SPEED)
                 c.mode[j] = ON if still else (UPPER if sign_of_number(c.speed[j]) > 0.0 else LOWER)
-    hold_closed(c, s, now.w)
     choose_events(c, s, False)
     tie_velocities(c, s, True)
     if in_series > 0 and not sum_series(t, c, s, now, iw):

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from benchmarks.bounded.touch.bodies import Surface
+from benchmarks.bounded.touch.kinds import drawn
 from benchmarks.bounded.touch.motion import run
 from benchmarks.bounded.touch.runs import RUNS, compared, reference
-from benchmarks.bounded.touch.scenes import FLOOR, KINDS, Draft, drawn
+from benchmarks.bounded.touch.scenes import FLOOR, KINDS, Draft
 
 
 def test_the_simulation_knows_a_bouncing_disc() -> None:
