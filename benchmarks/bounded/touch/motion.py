@@ -28,13 +28,13 @@ from benchmarks.bounded.touch.modes import (
 #: Parts of a step that are looked at.
 PARTS = 6
 #: Longest step [s], most events, and energy that an impact may add, over that before.
-LONGEST, MOST, _GAIN = 4e-3, 4000, 1e-9
+LONGEST, MOST, _GAIN = 4e-3, 1000, 1e-9
 
 
 #: Rates after impacts below which a series is looked for [m/s], and difference of its sums by one flight and by two.
-_LAST, _SAME = 1e-4, 1e-10
-#: Rates of gaps that open in turn below which they come to rest [m/s].
-_TURNS = 6e-6
+_LAST, _SAME = 1e-5, 1e-9
+#: Rates of gaps behind a series that are rounding [m/s].
+_STILL = 1e-8
 
 
 class Ended(Exception):
@@ -113,7 +113,9 @@ def run(scene: Scene, q: Array, v: Array, times: list[float], rtol: float = 1e-1
             ended = _ended(past[i][-3:])
             if ended is not None:
                 _note(motion, pending, ended.t, _between(past[i][-1], ended), len(q))
-                t, q, v, past = ended.t, ended.q, ended.v, {}
+                t, q, past[i] = ended.t, ended.q, []
+                still = np.abs(Problem(scene, q, ended.v).gap @ ended.v) < _STILL
+                v = brought_to_rest(scene, q, ended.v, [j for j in closed if still[j]])
                 if not pending:
                     return motion
             closed = _staying(scene, q, v, closed)
@@ -167,7 +169,7 @@ def _struck(scene: Scene, q: Array, v: Array, touching: list[int]) -> Array:
     if not touching or min((problem.gap @ v)[touching]) >= -1e-12:
         return v
     after = impact(scene, q, v, touching, scene.slow).value
-    if len(touching) > 1 and (problem.gap @ after)[touching].max() < _TURNS:
+    if len(touching) > 1 and (problem.gap @ after)[touching].max() < scene.turns:
         after = brought_to_rest(scene, q, after, touching)
     before = float(v @ (scene.masses * v))
     if float(after @ (scene.masses * after)) > before * (1.0 + _GAIN):
