@@ -31,7 +31,6 @@ from symgen.run.modes.bounded_rows import (
     STILL,
     TOUCHING,
     Choice,
-    is_held,
     row_scale,
     sign_of_number,
     switch_off,
@@ -55,25 +54,6 @@ from symgen.run.modes.strikes import (
 _NOTHING = 1e-12
 #: An impact adds energy where its work is above this part of the work of its impulses, one by one.
 _GAIN = 1e-9
-#: A flight ends where this part of its duration is left.
-_ENDING = 1e-3
-
-
-@exact(entry=True)
-def mark_flights(t: float, c: Choice, s: Strikes, w: Array) -> int:
-    """Mark the open gaps that have been struck before and are between two impacts, though they may seem closed.
-
-    The lowest flights stay within the resolution of positions. What ends them is their own event, and not one of
-    another contact meanwhile. Returns the number of gaps.
-    """
-    past = s.effects.past
-    for i in range(c.dry, c.count):
-        count = past.counts[s.events[i]]
-        c.flying[i] = 0
-        if count > 0 and not is_held(c, w, i):
-            since = t - past.times[OF_EVENT * s.events[i] + count - 1]
-            c.flying[i] = 1 if c.value[i] > _ENDING * abs(c.speed[i]) * since else 0
-    return int(c.count - c.dry)
 
 
 @exact(entry=True)

@@ -42,7 +42,7 @@ from symgen.run.loops.unbound import (
 )
 from symgen.run.modes.bounded_rows import OTHERS, OUT_OF_RANGE, SAME, switch_off
 from symgen.run.modes.choice import read_rows
-from symgen.run.modes.strikes import end_flights, end_lost_flights
+from symgen.run.modes.flights import end_flights, end_lost_flights
 from symgen.run.modes.turn import OfModes, rest_gaps
 from symgen.run.printed.kept_run import CHANGED, ENDING, VISIBLE, Traits, Visible, meet_event, recipe_of
 from symgen.run.rows.row_events import ModelWithModes, begin_row_in_modes
