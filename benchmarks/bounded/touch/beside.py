@@ -69,7 +69,7 @@ def stack(draft: Draft) -> None:
     r, mass = draft.one(0.1, 0.2), draft.one(0.5, 3.0)
     rate, spin = (draft.one(-0.2, 0.2), 0.0), draft.one(-3.0, 3.0)
     big = draft.body("big", mass, round(0.5 * mass * r * r, 7), (0.0, r), velocity=rate, omega=spin)
-    disc = _falling(draft, draft.sign() * (r + draft.one(0.02, 0.12)), draft.one(0.02, 0.1))
+    disc = _falling(draft, draft.sign() * (r + draft.one(0.105, 0.15)), draft.one(0.02, 0.1))
     draft.touch(Surface(big, radius=r), FLOOR, e=0.0)
     draft.touch(disc, FLOOR, e=draft.one(0.1, 0.6))
     draft.touch(disc, Surface(big, radius=r), e=draft.one(0.1, 0.6))

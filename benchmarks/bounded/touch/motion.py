@@ -32,7 +32,7 @@ LONGEST, MOST, _GAIN = 4e-3, 1000, 1e-9
 
 
 #: Rates after impacts below which a series is looked for [m/s], and difference of its sums by one flight and by two.
-_LAST, _SAME = 1e-5, 1e-9
+_LAST, _SAME = 2e-6, 1e-9
 #: Rates of gaps behind a series that are rounding [m/s].
 _STILL = 1e-8
 
