@@ -15,8 +15,33 @@ from tests.run.contacts.scenes import CRANK, DROP, LIGHT, body, floor, head, loa
 TIGHT: dict[str, Any] = {"rtol": 1e-12, "atol": 1e-13, "verify": False, "coordinates": "absolute"}
 #: A disc that skids up a slope and rolls back.
 SKID = head("skid") + body("disc", 3.0, 0.06, (0.0, 0.2), (2.0, 0.0), 4.0) + floor("disc", 0.2, "0.15")
+#: A disc that a slope turns back, and a follower that leaves its eccentric.
+SLOPE = head("slope", 3.0, -9.3) + body("disc", 3.0, 0.06, (0.0, 0.2), (-2.0, 0.0), 4.0) + floor("disc", 0.2, "0.15")
+FOLLOWER = """
+[mechanism]
+name = "cam"
+gravity = [0.0, -9.81]
+
+[bodies.f]
+type = "point"
+mass = 0.5
+
+[joints.guide]
+type = "rows"
+rows = [{ position = "f.x" }]
+
+[forces.spring]
+type = "force"
+body = "f"
+force = [0.0, "-800*f.y - 10"]
+
+[contacts.cam]
+gap = "f.y - 0.01*(1 - cos(100*t))"
+"""
 SCENES = {
     "skid": (SKID, 2.0),
+    "slope": (SLOPE, 1.0),
+    "follower": (FOLLOWER, 0.07),
     "drop": (DROP, 1.5),
     "rods": (rods(0.2, 0.5, (1.0, 0.7), (1.0, 0.6), (20.0, 35.0, -0.4, -0.9)), 0.3),
     "guide": (CRANK, 0.01),
@@ -53,6 +78,12 @@ def test_both_shapes_agree(name: str, tmp_path: Path) -> None:
 )
 def test_machines_of_the_catalogue_agree(name: str, until: float, method: str, integrator: str) -> None:
     both_shapes(symgen.load(name), until=until, method=method, integrator=integrator, rtol=1e-11, atol=1e-12)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "until"), [("skidding-wheel", 4.0), ("woodpecker", 0.3), ("geneva", 1.0)])
+def test_others_of_the_catalogue_agree(name: str, until: float) -> None:
+    both_shapes(symgen.load(name), until=until, method="lagrange", integrator="dop853")
 
 
 @pytest.mark.slow

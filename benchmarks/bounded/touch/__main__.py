@@ -12,10 +12,12 @@ from __future__ import annotations
 import argparse
 from collections import Counter
 
+from benchmarks.bounded.touch.beside import BESIDE
+from benchmarks.bounded.touch.kinds import drawn
 from benchmarks.bounded.touch.modes import Unsolved
 from benchmarks.bounded.touch.motion import Ended
 from benchmarks.bounded.touch.runs import RUNS, UNTIL, Reference, compared, reference
-from benchmarks.bounded.touch.scenes import KINDS, drawn
+from benchmarks.bounded.touch.scenes import KINDS
 from benchmarks.mechanisms.toml import text
 
 
@@ -24,10 +26,10 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=4, help="scenes of each kind")
     parser.add_argument("--seed", type=int, default=1, help="number of the first scene of each kind")
-    parser.add_argument("--kinds", default=",".join(KINDS))
+    parser.add_argument("--kinds", default="")
     parser.add_argument("--runs", default=",".join(RUNS))
     parser.add_argument("--until", type=float, default=UNTIL)
-    parser.add_argument("--fine", action="store_true", help="follow impacts below 2e-6 m/s, down to 1e-7 m/s")
+    parser.add_argument("--beside", action="store_true", help="kinds in which impacts accumulate beside contacts")
     parser.add_argument("--one", metavar="KIND/SEED", help="a single scene")
     parser.add_argument("--write", metavar="KIND/SEED", help="print the file of a scene")
     options = parser.parse_args()
@@ -36,15 +38,14 @@ def main() -> int:
         print(text(drawn(kind, int(seed)).raw), end="")
         return 0
     seeds = range(options.seed, options.seed + options.count)
-    jobs = [(kind, seed) for kind in options.kinds.split(",") for seed in seeds]
+    kinds = options.kinds.split(",") if options.kinds else list(BESIDE if options.beside else KINDS)
+    jobs = [(kind, seed) for kind in kinds for seed in seeds]
     if options.one:
         kind, seed = options.one.split("/")
         jobs = [(kind, int(seed))]
     total = Counter[str]()
     for kind, number in jobs:
         scene, against, why = drawn(kind, number), None, ""
-        if options.fine:
-            scene.scene.near, scene.scene.slow = 1e-13, 1e-7
         try:
             against = reference(scene, options.until)
         except (Unsolved, Ended) as reason:

@@ -155,7 +155,8 @@ class Spring:
 class Scene:
     """Bodies, joints, springs and contacts.
 
-    `near` and `slow`: gaps that count as zero [m], and rates of impacts that do not spring back [m/s].
+    `near`, `slow` and `turns`: gaps that count as zero [m], rates of impacts that do not spring back, and rates of gaps
+    that open after such impacts in turn below which all come to rest [m/s].
     """
 
     masses: Array
@@ -164,7 +165,8 @@ class Scene:
     springs: list[Spring] = field(default_factory=list)
     contacts: list[Contact] = field(default_factory=list)
     near: float = 1e-11
-    slow: float = 2e-6
+    slow: float = 1e-7
+    turns: float = 3e-7
 
     def forces(self, q: Array, v: Array) -> Array:
         """Return applied forces."""

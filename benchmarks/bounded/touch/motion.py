@@ -28,7 +28,13 @@ from benchmarks.bounded.touch.modes import (
 #: Parts of a step that are looked at.
 PARTS = 6
 #: Longest step [s], most events, and energy that an impact may add, over that before.
-LONGEST, MOST, _GAIN = 4e-3, 4000, 1e-9
+LONGEST, MOST, _GAIN = 4e-3, 1000, 1e-9
+
+
+#: Rates after impacts below which a series is looked for [m/s], and difference of its sums by one flight and by two.
+_LAST, _SAME = 2e-6, 1e-9
+#: Rates of gaps behind a series that are rounding [m/s].
+_STILL = 1e-8
 
 
 class Ended(Exception):
@@ -42,6 +48,16 @@ class Motion:
     t: list[float] = field(default_factory=list)
     q: list[Array] = field(default_factory=list)
     events: list[tuple[float, str, int]] = field(default_factory=list)
+
+
+@dataclass
+class Impact:
+    """A state after an impact, and the largest rate at which gaps open that touch."""
+
+    t: float
+    rate: float
+    q: Array
+    v: Array
 
 
 @dataclass
@@ -71,7 +87,7 @@ def run(scene: Scene, q: Array, v: Array, times: list[float], rtol: float = 1e-1
     Unsolved, Ended
         If modes are not determined, or the motion is of no use.
     """
-    motion, t, loose = Motion(), times[0], set[int]()
+    motion, t, loose, past = Motion(), times[0], set[int](), dict[int, list[Impact]]()
     q = scene.closed(np.array(q, float))
     closed, forced = _touching(scene, q), Modes()
     v = _struck(scene, q, np.array(v, float), closed)
@@ -93,6 +109,15 @@ def run(scene: Scene, q: Array, v: Array, times: list[float], rtol: float = 1e-1
         if what == "hit":
             closed = sorted(set(closed) | {i} | set(_touching(scene, q)))
             v = _struck(scene, q, v, closed)
+            past.setdefault(i, []).append(Impact(t, float((Problem(scene, q, v).gap @ v)[closed].max()), q, v))
+            ended = _ended(past[i][-3:])
+            if ended is not None:
+                _note(motion, pending, ended.t, _between(past[i][-1], ended), len(q))
+                t, q, past[i] = ended.t, ended.q, []
+                still = np.abs(Problem(scene, q, ended.v).gap @ ended.v) < _STILL
+                v = brought_to_rest(scene, q, ended.v, [j for j in closed if still[j]])
+                if not pending:
+                    return motion
             closed = _staying(scene, q, v, closed)
         elif what == "lift":
             closed = [j for j in closed if j != i]
@@ -111,6 +136,24 @@ def run(scene: Scene, q: Array, v: Array, times: list[float], rtol: float = 1e-1
     raise Ended("events do not end")
 
 
+def _ended(past: list[Impact]) -> Impact | None:
+    """Return the state at the end of a geometric series of impacts, by Aitken's method; None where it is none."""
+    if len(past) < 3 or past[-1].rate > _LAST or not past[-3].rate > past[-2].rate > past[-1].rate > 0.0:
+        return None
+    last = past[-1]
+    ends: list[Impact] = []
+    for before in past[:-1]:
+        part = last.rate / (before.rate - last.rate)
+        q, v = last.q + part * (last.q - before.q), last.v + part * (last.v - before.v)
+        ends.append(Impact(last.t + part * (last.t - before.t), 0.0, q, v))
+    return ends[1] if np.abs(ends[1].v - ends[0].v).max() < _SAME else None
+
+
+def _between(one: Impact, other: Impact) -> Callable[[float], Array]:
+    """Return the places between two impacts that are close, as a function of time."""
+    return lambda t: one.q + (t - one.t) / max(other.t - one.t, 1e-300) * (other.q - one.q)
+
+
 def _touching(scene: Scene, q: Array) -> list[int]:
     return [i for i, gap in enumerate(scene.gaps(q)) if gap < scene.near]
 
@@ -126,7 +169,7 @@ def _struck(scene: Scene, q: Array, v: Array, touching: list[int]) -> Array:
     if not touching or min((problem.gap @ v)[touching]) >= -1e-12:
         return v
     after = impact(scene, q, v, touching, scene.slow).value
-    if len(touching) > 1 and (problem.gap @ after)[touching].max() < 3.0 * scene.slow:
+    if len(touching) > 1 and (problem.gap @ after)[touching].max() < scene.turns:
         after = brought_to_rest(scene, q, after, touching)
     before = float(v @ (scene.masses * v))
     if float(after @ (scene.masses * after)) > before * (1.0 + _GAIN):

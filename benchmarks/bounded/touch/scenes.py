@@ -294,10 +294,3 @@ def cart(draft: Draft) -> None:
 KINDS: dict[str, Callable[[Draft], None]] = {
     draw.__name__: draw for draw in (corner, hole, block, meeting, hanging, chain, platform, play, guide, cart)
 }
-
-
-def drawn(kind: str, seed: int) -> Drawn:
-    """Return the scene of a kind and a seed."""
-    draft = Draft(np.random.default_rng([seed, *kind.encode()]))
-    KINDS[kind](draft)
-    return draft.drawn(kind)

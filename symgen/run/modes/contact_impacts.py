@@ -31,14 +31,13 @@ from symgen.run.modes.bounded_rows import (
     STILL,
     TOUCHING,
     Choice,
-    is_held,
     row_scale,
     sign_of_number,
     switch_off,
 )
 from symgen.run.modes.contact_combinations import LOWER, OFF, ON, UPPER
 from symgen.run.modes.contact_parts import choose_part, find_parts, probe_contacts
-from symgen.run.modes.contact_series import find_leading, hold_closed, remember_impact, sum_series
+from symgen.run.modes.contact_series import ends_closed, find_leading, remember_impact, sum_series
 from symgen.run.modes.contact_verification import try_combinations
 from symgen.run.modes.strikes import (
     OF_SERIES,
@@ -55,25 +54,6 @@ from symgen.run.modes.strikes import (
 _NOTHING = 1e-12
 #: An impact adds energy where its work is above this part of the work of its impulses, one by one.
 _GAIN = 1e-9
-#: A flight ends where this part of its duration is left.
-_ENDING = 1e-3
-
-
-@exact(entry=True)
-def mark_flights(t: float, c: Choice, s: Strikes, w: Array) -> int:
-    """Mark the open gaps that have been struck before and are between two impacts, though they may seem closed.
-
-    The lowest flights stay within the resolution of positions. What ends them is their own event, and not one of
-    another contact meanwhile. Returns the number of gaps.
-    """
-    past = s.effects.past
-    for i in range(c.dry, c.count):
-        count = past.counts[s.events[i]]
-        c.flying[i] = 0
-        if count > 0 and not is_held(c, w, i):
-            since = t - past.times[OF_EVENT * s.events[i] + count - 1]
-            c.flying[i] = 1 if c.value[i] > _ENDING * abs(c.speed[i]) * since else 0
-    return int(c.count - c.dry)
 
 
 @exact(entry=True)
@@ -248,13 +228,14 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, now: Instant, iw:
     recall_modes(c, s)
     in_series = find_leading(t, c, s)
     for i in range(c.dry, c.count):
-        if turns_back(c, s, now.w, i):
+        turns = turns_back(c, s, now.w, i)
+        if turns or ends_closed(c, s, now.w, i):
+            opens = c.speed[i] > STILL * row_scale(c, now.w, i, abi.SPEED)
             s.active[i] = 1
             j = c.partner[i]
-            if j >= 0:
+            if j >= 0 and (turns or opens):
                 still = abs(c.speed[j]) <= STILL * row_scale(c, now.w, j, abi.SPEED)
                 c.mode[j] = ON if still else (UPPER if sign_of_number(c.speed[j]) > 0.0 else LOWER)
-    hold_closed(c, s, now.w)
     choose_events(c, s, False)
     tie_velocities(c, s, True)
     if in_series > 0 and not sum_series(t, c, s, now, iw):

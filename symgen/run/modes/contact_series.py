@@ -18,7 +18,7 @@ from symgen.run.effects.applying import APPLIED
 from symgen.run.effects.pushing import push_contacts
 from symgen.run.layout import abi
 from symgen.run.layout.start_records import Instant
-from symgen.run.modes.bounded_rows import SAME, STILL, Choice, row_scale, switch_off
+from symgen.run.modes.bounded_rows import SAME, STILL, TOUCHING, Choice, row_scale, switch_off
 from symgen.run.modes.choice import find_starting, follow_modes, read_rows
 from symgen.run.modes.contacts import choose_contacts
 from symgen.run.modes.impact_memory import AT, HEAD, RATE, REMEMBERED
@@ -88,14 +88,6 @@ def find_leading(t: float, c: Choice, s: Strikes) -> int:
 
 
 @exact()
-def hold_closed(c: Choice, s: Strikes, w: Array) -> None:
-    """Have the gaps of series that are at rest, though the latest impact has not pushed them, stay so."""
-    for i in range(c.dry, c.count):
-        if s.memory.leads[i] >= 0 and abs(c.speed[i]) <= STILL * row_scale(c, w, i, abi.SPEED):
-            s.active[i] = 1
-
-
-@exact()
 def left_over(c: Choice, s: Strikes, i: int, place: int, now: float) -> float:
     """Return how a number changes until the end of the series of a contact, over the rate that remains.
 
@@ -106,6 +98,22 @@ def left_over(c: Choice, s: Strikes, i: int, place: int, now: float) -> float:
     one = (now - s.memory.impacts[at + place]) / (s.memory.impacts[at + RATE] - u)
     two = (now - s.memory.impacts[at + size + place]) / (s.memory.impacts[at + size + RATE] - u)
     return float(two if abs(two - one) <= _SAME_MODES * abs(one) else one)
+
+
+@exact()
+def ends_closed(c: Choice, s: Strikes, w: Array, i: int) -> bool:
+    """Return whether a gap of a series that the latest impact has not pushed is closed at the end of the series.
+
+    It is at rest, or is thrown open by each impact, ever more slowly.
+    """
+    lead = s.memory.leads[i]
+    if lead < 0 or s.active[i] != 0:
+        return False
+    if abs(c.speed[i]) <= STILL * row_scale(c, w, i, abi.SPEED):
+        return True
+    part = left_over(c, s, lead, HEAD + i, c.speed[i]) * s.asked[lead]
+    closed = c.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH) and c.speed[i] > 0.0
+    return bool(closed and abs(c.speed[i] + part) <= _ENDS * abs(part))
 
 
 @exact()

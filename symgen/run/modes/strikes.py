@@ -16,7 +16,7 @@ import numpy as np
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers, Record
-from symgen.run.effects.accumulation import OF_EVENT, accumulation, add_resets
+from symgen.run.effects.accumulation import accumulation, add_resets
 from symgen.run.effects.applying import APPLIED, apply_effects
 from symgen.run.effects.pushing import Ties, new_ties
 from symgen.run.effects.resets import KeptEffect, OfEffects, new_kept_effect
@@ -47,13 +47,9 @@ from symgen.run.modes.impact_memory import ImpactMemory, new_impact_memory
 _NOTHING = 1e-12
 #: Not a number of rows: no impulses keep all gaps from closing.
 _NONE = -2
-#: Flights up to this part of the mechanism's length are low; an importer loses those whose duration errs by this part.
-_LOW, _LOST = 1e-6, 0.1
-#: Changes of a gap below this part of the mechanism's length are rounding.
-_RESOLVED = 2e-15
 #: Numbers of the series of flights to and fro of a row: their number, the end that followed at the last impact, that of
 #: the last two, the least change of the latter, and the end after it.
-_COUNT, _LAST, _BETTER, _LEAST, _BEST = range(5)
+COUNT, LAST, _BETTER, _LEAST, BEST = range(5)
 OF_SERIES = 5
 
 
@@ -74,7 +70,7 @@ class Strikes(Record):
     before, asked : Array, shapes (rows,)
         Rates of gaps before the latest impact; those that their events ask for after it.
     series : Array, shape (OF_SERIES rows,)
-        For each row the numbers of its series of flights, at the places of `_COUNT` and following.
+        For each row the numbers of its series of flights, at the places of `COUNT` and following.
     left : Array, shape (rows,)
         Time until the impacts of a gap that comes to rest would have accumulated [s], else nan.
     struck, rested : KeptEffect
@@ -264,30 +260,20 @@ def follow_series(c: Choice, s: Strikes, t: float, count: int) -> float:
     for i in range(c.count):
         at, e = OF_SERIES * i, -s.asked[i] / s.before[i] if s.before[i] < 0.0 else 0.0
         if s.active[i] == 0 or count != 1:
-            s.series[at + _COUNT] = 0.0
+            s.series[at + COUNT] = 0.0
         elif c.out[i] < 0.0 and e < 1.0:
             now, part = t + 2.0 * e * (s.before[i] / c.out[i]) / (1.0 - e), e * e
-            before = s.series[at + _COUNT]
+            before = s.series[at + COUNT]
             if before > 0.0:
-                better = (now - part * s.series[at + _LAST]) / (1.0 - part)
+                better = (now - part * s.series[at + LAST]) / (1.0 - part)
                 change = abs(better - s.series[at + _BETTER])
                 if before > 1.0 and (before == 2.0 or change < s.series[at + _LEAST]):
-                    s.series[at + _LEAST], s.series[at + _BEST] = change, better
+                    s.series[at + _LEAST], s.series[at + BEST] = change, better
                 s.series[at + _BETTER] = better
-            s.series[at + _LAST] = now
-            s.series[at + _COUNT] = before + 1.0
-            end = s.series[at + _BEST] if before > 1.0 else now
+            s.series[at + LAST] = now
+            s.series[at + COUNT] = before + 1.0
+            end = s.series[at + BEST] if before > 1.0 else now
     return end
-
-
-@exact()
-def end_of_flights(t: float, c: Choice, s: Strikes) -> float:
-    """Return the end of the series of flights that `follow_series` has followed up to now; without any, the time."""
-    for i in range(c.count):
-        at = OF_SERIES * i
-        if s.active[i] != 0 and s.series[at + _COUNT] > 0.0:
-            return float(s.series[at + _BEST] if s.series[at + _COUNT] > 2.0 else s.series[at + _LAST])
-    return t
 
 
 @exact()
@@ -357,65 +343,6 @@ def gather(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, iw: In
         return SAME
     switch_off(c, w)
     return OTHERS if come_to_rest(t, c, s, series if series == series else end, now) == SAME else NOT_APPLIED
-
-
-@exact(entry=True)
-def end_flights(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -> int:
-    """Bring the gaps of the latest impact to rest where an importer's tolerance loses their flights.
-
-    A low flight takes twice the rate at its end over the acceleration. Where an importer finds another duration, its
-    errors are as large as the flight, and the next ones, which are lower, would be errors alone: how long they would
-    have lasted follows from those before. `gather` has written the accelerations. Returns as `gather` does.
-    """
-    lost = False
-    for i in range(c.dry, c.count):
-        pull, rate, flight = -c.out[i], -s.before[i], 0.0
-        if s.active[i] != 0 and pull > 0.0 and rate > 0.0:
-            last = OF_EVENT * s.events[i] + s.effects.past.counts[s.events[i]] - 1
-            if s.effects.past.counts[s.events[i]] > 1:
-                flight = s.effects.past.times[last] - s.effects.past.times[last - 1]
-            low = 0.5 * rate * rate <= _LOW * row_scale(c, w, i, abi.LENGTH) * pull
-            lost = lost or (low and flight > 0.0 and abs(flight * pull - 2.0 * rate) > _LOST * 2.0 * rate)
-    if not lost:
-        return SAME
-    switch_off(c, w)
-    end = end_of_flights(t, c, s)
-    return OTHERS if come_to_rest(t, c, s, end, Instant(y, p, w)) == SAME else NOT_APPLIED
-
-
-@exact()
-def find_lost(t: float, c: Choice, s: Strikes, w: Array) -> bool:
-    """Find the open gaps that are 0 again on the way up, while their flight is low: an importer has lost it.
-
-    Since the impact a gap has grown by more than its rate times the time, as rates fall in a flight; where less than
-    half of that is left, the height of the flight is below the importer's tolerance.
-    """
-    lost = False
-    for i in range(c.dry, c.count):
-        pull, rate, k = -c.out[i], c.speed[i], s.events[i]
-        s.active[i] = 0
-        if s.effects.past.counts[k] > 0 and not is_held(c, w, i) and pull > 0.0 and rate > 0.0:
-            length = row_scale(c, w, i, abi.LENGTH)
-            risen = rate * (t - s.effects.past.times[OF_EVENT * k + s.effects.past.counts[k] - 1])
-            low = 0.5 * rate * rate <= _LOW * length * pull
-            if low and risen > _RESOLVED * length and c.value[i] < 0.5 * risen:
-                s.active[i], s.before[i], s.asked[i], lost = 1, -rate, rate, True
-    return lost
-
-
-@exact(entry=True)
-def end_lost_flights(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, iw: Integers) -> int:
-    """Bring gaps to rest whose flight an importer has lost, see `find_lost`; rows have been read.
-
-    Returns as `gather` does.
-    """
-    now = Instant(y, p, w)
-    accelerate_in_force(t, c, now, iw)
-    if not find_lost(t, c, s, w):
-        return SAME
-    end = end_of_flights(t, c, s)
-    switch_off(c, w)
-    return OTHERS if come_to_rest(t, c, s, end, now) == SAME else NOT_APPLIED
 
 
 @exact()

@@ -55,11 +55,9 @@ from symgen.run.modes.choice import (
     measure_margins,
     read_rows,
 )
-from symgen.run.modes.contact_impacts import (
-    mark_flights,
-)
 from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_corners, spare_touching
 from symgen.run.modes.ends import find_undefined
+from symgen.run.modes.flights import mark_flights
 from symgen.run.modes.placing import put_gaps
 from symgen.run.modes.strikes import Strikes, find_struck, forget_passed, gather, strike
 from symgen.run.modes.transition_log import (
@@ -195,7 +193,7 @@ def look_ahead(code: int, modes: OfModes, state: EventState) -> int:
 
 
 def find_flying(t: float, modes: OfModes, state: EventState) -> None:
-    """Find the gaps of contacts that fly at the events noted, of which theirs is none."""
+    """Find the gaps that fly at the events noted, of which theirs is none."""
     mark_flights(t, modes.choice, modes.strikes, state.w)
     first, size = first_note(state), 2 + state.y.shape[0]
     for note in range(int(state.hunt[records.NOTED])):
@@ -208,8 +206,7 @@ def find_flying(t: float, modes: OfModes, state: EventState) -> None:
 def strike_gaps(t: float, modes: OfModes, state: EventState) -> int:
     """Apply the impact of gaps that strike at the present state, and log them; return `SAME`, or why there is none."""
     c, s, control = modes.choice, modes.strikes, state.control
-    if CONTACTS:
-        find_flying(t, modes, state)
+    find_flying(t, modes, state)
     code = find_struck(t, c, state.y, state.p, state.w, state.iw, control)
     if code != OTHERS:
         return int(code)

@@ -42,7 +42,7 @@ from symgen.run.loops.unbound import (
 )
 from symgen.run.modes.bounded_rows import OTHERS, OUT_OF_RANGE, SAME, switch_off
 from symgen.run.modes.choice import read_rows
-from symgen.run.modes.strikes import end_flights, end_lost_flights
+from symgen.run.modes.flights import end_flights, end_lost_flights
 from symgen.run.modes.turn import OfModes, rest_gaps
 from symgen.run.printed.kept_loops import Traits, recipe_of
 from symgen.run.printed.kept_run import CHANGED, ENDING, VISIBLE, Visible, meet_event

@@ -268,3 +268,24 @@ friction = {{ sliding = {sliding}, static = {static} }}
     half = 2.0 * (math.pi - math.atan2(spare * omega, v)) / omega
     assert [event.name for event in result.events[:3]] == ["floor.slip", "floor.stick", "floor.slip"]
     assert abs(result.events[0].t - breaks) < 1e-11 and abs(result.events[1].t - breaks - half) < 1e-10
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("steps", [37, 64, 100])
+def test_events_on_the_steps_of_generalized_alpha(steps: int, tmp_path: Path) -> None:
+    """Two feet stick, and a disc lands and skids, at the end of one of its steps."""
+    text = head("feet", 2.0) + body("block", 2.0, 0.05, (0.0, 0.1), (1.0, 0.0))
+    for name, side in (("left", -0.2), ("right", 0.2)):
+        text += f'[contacts.{name}]\nbetween = [{{ body = "block", at = [{side}, -0.1] }}, {{ line = "ground" }}]\n'
+        text += "friction = 0.5\n"
+    sticks = 1.0 / (0.5 * G - 2.0)
+    settings: dict[str, Any] = {"method": "generalized-alpha", "verify": False}
+    result = loaded(text, tmp_path).simulate(until=2.0 * sticks, step=sticks / steps, **settings)
+    assert result.ok and [event.name for event in result.events] == ["left.stick", "right.stick"]
+    assert abs(result.events[0].t - sticks) < 1e-12 and abs(result["block.x"][-1] - 0.5 * sticks) < 1e-12
+    text = head("drop") + body("disc", 1.0, 0.005, (0.0, 0.6), (1.0, 0.0)) + floor("disc", 0.1, 0.2)
+    lands = math.sqrt(2.0 * 0.5 / G)
+    result = loaded(text, tmp_path).simulate(until=2.0 * lands, step=lands / steps, **settings)
+    assert result.ok and [event.name for event in result.events] == ["floor.hit", "floor.rest"]
+    # the impulse of friction is up to 0.63 N s, and rolling takes a third of the momentum
+    assert abs(result["disc.x"][-1] - lands * (1.0 + 2.0 / 3.0)) < 1e-12

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from benchmarks.bounded.touch.scenes import drawn
+from benchmarks.bounded.touch.kinds import drawn
 from benchmarks.mechanisms.toml import text as toml_text
 from tests.run.contacts.scenes import DROP, LIGHT, body, floor, head, loaded, rods
 

@@ -5,10 +5,12 @@ import math
 import numpy as np
 import pytest
 
+from benchmarks.bounded.touch.beside import BESIDE
 from benchmarks.bounded.touch.bodies import Surface
+from benchmarks.bounded.touch.kinds import drawn
 from benchmarks.bounded.touch.motion import run
 from benchmarks.bounded.touch.runs import RUNS, compared, reference
-from benchmarks.bounded.touch.scenes import FLOOR, KINDS, Draft, drawn
+from benchmarks.bounded.touch.scenes import FLOOR, KINDS, Draft
 
 
 def test_the_simulation_knows_a_bouncing_disc() -> None:
@@ -35,9 +37,12 @@ def test_random_scenes(kind: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("kind", "seed"), [("block", 5), ("block", 1)])
+@pytest.mark.parametrize(("kind", "seed"), [("block", 5), ("block", 1), ("block", 4)])
 def test_what_is_left_out_at_rest_rubs_at_all_contacts(kind: str, seed: int) -> None:
-    """Impacts accumulate beside a closed contact, whose friction was lost in those left out: off by 2e-8 m/s."""
+    """Impacts accumulate beside a closed contact, whose friction was lost in those left out: off by 2e-8 m/s.
+
+    One that each of them throws open is closed behind them: without it the last one is off by 3e-7 m/s.
+    """
     scene = drawn(kind, seed)
     verdict = compared("dop853", scene, reference(scene, 1.0))
     assert verdict.outcome == "right" and verdict.error < 1e-10 and verdict.reason == ""
@@ -50,9 +55,17 @@ def test_contacts_slip_between_impacts_that_accumulate() -> None:
     Without the sum of what is left out, angles are off by 1e-6 at the end.
     """
     scene = drawn("meeting", 2)
-    scene.scene.near, scene.scene.slow = 1e-13, 1e-7  # what the simulation leaves out would be 1e-7
     against = reference(scene, 1.0)
     assert sum(word == "hit" for _, word, _ in against.events) > 10
     for name in ("dop853", "joint"):
         verdict = compared(name, scene, against)
         assert verdict.outcome == "right" and verdict.error < 1e-8 and verdict.reason == ""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", BESIDE)
+def test_impacts_accumulate_beside_contacts_and_joints(kind: str) -> None:
+    """A disc comes to rest beside what slides, sticks or rolls meanwhile."""
+    scene = drawn(kind, 3)
+    verdict = compared("dop853", scene, reference(scene, 0.4))
+    assert verdict.outcome == "right" and verdict.error < 1e-9

@@ -105,6 +105,19 @@ def test_pins_hold_while_a_block_slides_and_rests(coordinates: str, tmp_path: Pa
 
 
 @pytest.mark.slow
+@pytest.mark.by_turns(15)
+@pytest.mark.parametrize("part", range(15))
+def test_pins_hold_at_300_speeds_of_the_block(part: int, tmp_path: Path) -> None:
+    """From 0.01 to 3 m/s; about 2.4 m/s the linkage would hold again 0.1 s after it has broken loose."""
+    model = loaded(five_bar_with_block(), tmp_path)
+    for speed in np.linspace(0.01, 3.0, 300)[part::15]:
+        expected = breakaway(speed)
+        settings = {"integrator": "dop853", "until": expected + 0.1, "verify": False}
+        result = model.simulate(parameters={"speed": float(speed)}, **settings)
+        assert result.ok and first_slip(result) == pytest.approx(expected, rel=2e-9), speed
+
+
+@pytest.mark.slow
 def test_pins_hold_in_rows_in_c_in_an_fmu_and_step_by_step(tmp_path: Path) -> None:
     """All of them call one function; the linkage has moved by the end."""
     model = loaded(five_bar_with_block().replace("speed = 1.0", "speed = 2.5"), tmp_path)

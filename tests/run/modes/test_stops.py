@@ -441,3 +441,15 @@ def test_methods_have_the_same_impacts(method: str) -> None:
 def test_methods_that_read_all_rows_refuse_stops(method: str) -> None:
     with pytest.raises(InputError, match="where rows may be off"):
         ready(described(BALL), 4.0, method=method, integrator=method, step=1e-3)
+
+
+def test_a_low_flight_ends_by_its_own_impact() -> None:
+    """It rises to 9e-13 m, which counts as zero; that a slider strikes a wall meanwhile does not end it."""
+    text = BALL.replace("-9.81", "-1e-3").replace("[0.0, 1.0]", "[0.0, 1e-3]").replace("0.7", "3e-5")
+    text = text.replace('"ball.x" }', '"ball.x" }, { position = "slider.y" }')
+    slider = '[bodies.slider]\ntype = "point"\nmass = 1.0\nposition = [1.0, 0.0]\nvelocity = [-1.0, 0.0]\n'
+    wall = '[stops.wall]\ngap = "slider.x + 0.41427756"\nrestitution = 1.0\n'
+    result = symgen.load(described(text + slider + wall)).simulate(until=1.5)
+    hits = [(event.name, event.t) for event in result.events if event.name.endswith("hit")]
+    assert [name for name, _ in hits] == ["floor.hit", "wall.hit", "floor.hit"]
+    assert abs(hits[2][1] - np.sqrt(2.0) * (1.0 + 6e-5)) < 1e-10
