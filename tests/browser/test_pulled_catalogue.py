@@ -48,6 +48,7 @@ def pulled_and_run(
     return found[[i for i, _ in places]], np.array([tables[name][-1] for _, name in places])
 
 
+@pytest.mark.by_turns(6)
 @pytest.mark.parametrize("looped", [False, True])
 @pytest.mark.parametrize("name", catalogue.all_names())
 def test_every_catalogue_scene_is_pulled_as_with_the_spring_in_its_file(
