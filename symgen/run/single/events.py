@@ -213,7 +213,7 @@ class Events:
         rates = np.where(held, np.abs(values[len(rows.names) :][: len(rows.names)]), -1.0)
         rates[[i for i in range(len(rows.names)) if i not in watched.turns]] = -1.0
         i = int(np.argmax(rates))
-        if not rates[i] > 0.0:
+        if not rates[i] > event_loop.SMALL * hunt[searching.SPED]:  # something else is astray
             return ""
         unit = info.rows[info.bounded[i]].unit
         return (
