@@ -9,6 +9,7 @@ import numpy as np
 from symgen.base.vocabulary.expressions import ZERO, Call, Expr
 from symgen.describe.facts.kinks import discontinuities_of
 from symgen.describe.facts.lifted import literal_points_in_words
+from symgen.describe.facts.pins import pins_in_words
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.formulas.readings import OUTPUT, readings_of_joint
 from symgen.describe.mechanism import Mechanism
@@ -84,6 +85,8 @@ def remarks_on_values(varied: Varied, values: np.ndarray, after: Sampled) -> Ite
     if still:
         yield f"{enumeration(still)} {'changes' if len(still) == 1 else 'change'} neither the aim nor a limit"
     yield from literal_points_in_words(varied.names)
+    if varied.pins:
+        yield pins_in_words(varied.pins)
 
 
 def remark_on_sign(aim: Aim, after: Sampled) -> Iterator[str]:
