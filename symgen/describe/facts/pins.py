@@ -145,7 +145,10 @@ def lift_pins(
             got = f"a second name of the place {quote(first)}: both joints are one pin"
             raise InputError(f"{where} '{name}'", "each place once", got)
         local = [_si(x) for x in spots[name][0].raw]
-        before[name] = points.place_in_ground(spots[name][0].body, local)[AXES.index(axis)]
+        at = points.place_in_ground(spots[name][0].body, local)[AXES.index(axis)]
+        # of a frame that is not turned, the number as written, which lacks the rounding of the way there
+        own_numbers = [_si(spot.raw[AXES.index(axis)]) for spot in own if points.poses[spot.body][2] == 0.0]
+        before[name] = next((x for x in own_numbers if math.isclose(x, at, rel_tol=1e-12, abs_tol=1e-15)), at)
     slopes = dict[Path, dict[str, float]]()
     for name in names:
         for path, slope in _slopes(points, spots[name], AXES.index(name[-1])):
@@ -169,18 +172,6 @@ def numbers_of_moved(moved: Sequence[MovedNumber]) -> Iterator[str]:
 def path_in_words(path: Path) -> str:
     """Return a path as a person names it, such as ``bodies.crank.points.B[0]``."""
     return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path).lstrip(".")
-
-
-def pins_in_words(places: PinPlaces) -> str:
-    """Return a sentence on what pins move, and what stays."""
-    names = [*places.keys]
-    bodies = [*dict.fromkeys(s.body for own in places.spots.values() for s in own if s.body != GROUND)]
-    centres = [*dict.fromkeys(str(m.path[1]) for m in places.moved if m.path[2] == "centre_of_mass")]
-    verb = "moves" if len(names) == 1 else "move"
-    text = f"{', '.join(names)} {verb} points of {', '.join(bodies)}"
-    if centres:
-        text += f" and the {'centre' if len(centres) == 1 else 'centres'} of mass of {', '.join(centres)}"
-    return f"{text}: mass and inertia stay"
 
 
 def _spots_of_pin(where: str, points: PointsOfFile, joint: str) -> list[WrittenPoint]:
@@ -213,7 +204,7 @@ def _spots_of_pin(where: str, points: PointsOfFile, joint: str) -> list[WrittenP
         for k, (body, at) in enumerate(zip(entry["between"], entry.get("at", ()), strict=False)):
             if isinstance(at, str) and not any(s.point == at and s.body == body for s in spots):
                 got = f"{quote(at)} of {quote(body)} at joint {quote(name)}"
-                raise InputError(where, _NUMBERS, got, f"name a point of {body} with numbers in its frame")
+                raise InputError(where, _NUMBERS, got, f"write its coordinates in the frame of {body}")
             if body != GROUND and body not in points.poses:
                 raise InputError(where, "a pin of rigid bodies", f"{quote(body)} at joints.{name}.at[{k}]")
     if not spots:

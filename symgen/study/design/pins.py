@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 #: Numbers move by this part of their ranges to see whether pins come where they should, to this part of the step.
-STEP, NEAR = 1e-3, 1e-5
+STEP, NEAR = 1e-3, 1e-3
 #: Rounding of places, in parts of their size.
 ROUNDING = 1e-11
 
@@ -115,7 +115,7 @@ def check_pins(
         given = {**settings.parameters, keys[name]: now}
         try:
             q = start_of(mechanism, settings, given)
-        except AssemblyError as error:
+        except (AssemblyError, InputError) as error:
             if name not in places.keys:
                 continue
             raise InputError(f"{where} '{name}'", "a pin that other joints let move", str(error)) from None
