@@ -43,7 +43,8 @@ if TYPE_CHECKING:
     multiple=True,
     required=True,
     metavar="NAME=LOW:HIGH",
-    help="A number that varies, with its bounds: a parameter, or the path of a number such as bodies.crank.mass.",
+    help="A number that varies, with its bounds: a parameter, the place of a pin such as A.x, or the path of a number "
+    "such as bodies.crank.mass.",
 )
 @click.option(
     "--aim",

@@ -7,12 +7,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import msgspec
 import numpy as np
 
 from symgen.api import Model
 from symgen.base.errors import AssemblyError, InputError, SymgenError
-from symgen.base.settings import Settings
 from symgen.cli._editor.joints import joint_equations
 from symgen.cli._editor.made import make_file_for_browser
 from symgen.describe.drawing.scene import Array
@@ -36,7 +34,7 @@ from symgen.result.player.motion_page import page_data
 from symgen.result.player.recording import Recording
 from symgen.result.result import Result
 from symgen.result.viewed import view_data
-from symgen.run.compiling.pipeline import refuse_loops
+from symgen.run.planning.closing_part import closing_part, settings_in_loops
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare
 from symgen.run.starts.assembler import close_for_drawing
@@ -77,7 +75,7 @@ class Drafts:
         freedoms: dict[str, Any] = {}
         try:
             with close_for_drawing():
-                run = prepare(*_closing_part(mechanism), Purpose.STATE)
+                run = prepare(*closing_part(mechanism), Purpose.STATE)
             start = run.start
             q, warnings = start.y[: len(described)], start.warnings
             count = run.compiled.info.nv - start.rank
@@ -136,7 +134,7 @@ class Drafts:
 
             mechanism = self._read_text(text)[1]
             own = _numbers_as_parameters(mechanism)
-            result = Model(own).simulate(_settings_in_loops(mechanism), progress=still_wanted)
+            result = Model(own).simulate(settings_in_loops(mechanism), progress=still_wanted)
             if self._asked[tab] != asked:
                 return {"superseded": True}
             facts = {"status": result.status, "reason": result.reason or ""}
@@ -231,7 +229,7 @@ class Drafts:
         """Return the coordinates of bodies where assembly ends."""
         try:
             with close_for_drawing():
-                return prepare(*_closing_part(mechanism), Purpose.STATE).start.y
+                return prepare(*closing_part(mechanism), Purpose.STATE).start.y
         except AssemblyError as error:
             return np.array(error.q) if error.q else Model(mechanism).initial_state({})[0]
 
@@ -252,23 +250,6 @@ def line_of_path(text: str, mentions: Iterable[Any], path: tuple[str, ...]) -> i
     """Return the line of the first key of a path; 0 where there is none, as no line is wrong then."""
     start = next((mention.start for mention in mentions if mention.path == path), None)
     return 0 if start is None else text.count("\n", 0, start) + 1
-
-
-def _closing_part(mechanism: Mechanism) -> tuple[Mechanism, Settings]:
-    """Return the parts of a mechanism that close it, without forces, in a shape that needs no compiling."""
-    bare = msgspec.structs.replace(
-        mechanism, forces=(), outputs=(), events=(), states=(), rotors=(), bounded=(), switchable=()
-    )
-    return bare, _settings_in_loops(bare)
-
-
-def _settings_in_loops(mechanism: Mechanism) -> Settings:
-    """Return settings of runs that begin at once: loops over tables that all mechanisms share, where these can be."""
-    try:
-        refuse_loops(mechanism)
-    except InputError:
-        return Settings()
-    return Settings(shape="looped")
 
 
 def _numbers_as_parameters(mechanism: Mechanism) -> Mechanism:

@@ -69,11 +69,11 @@ def lift_numbers(where: str, mechanism: Mechanism, names: Sequence[str]) -> Lift
         expected = "names of parameters, as the file of this model is not at hand"
         raise InputError(where, expected, quote(paths[0]), "load the file again")
     places, raw = {name: path for name, path, _ in numbers_of_file(origin.raw)}, [origin.raw]
-    others = {name for section in ("parameters", "inputs", "states", "tables") for name in origin.raw.get(section, {})}
+    others = names_of_scalars(origin.raw)
     for name in paths:
         if name not in places:
             raise _no_such_number(where, name, origin, places)
-        keys[name] = _free_parameter_name(name, others)
+        keys[name] = free_parameter_name(name, others)
         others.add(keys[name])
         raw.append(_put_parameter(raw[-1], places[name], keys[name], name))
     try:
@@ -137,7 +137,12 @@ def _no_such_number(where: str, name: str, origin: Origin, places: Mapping[str, 
     return InputError(where, expected, quote(name), suggest(name, places))
 
 
-def _free_parameter_name(name: str, others: set[str]) -> str:
+def names_of_scalars(raw: Mapping[str, Any]) -> set[str]:
+    """Return the names that a new parameter of a description cannot have."""
+    return {name for section in ("parameters", "inputs", "states", "tables") for name in raw.get(section, {})}
+
+
+def free_parameter_name(name: str, others: set[str]) -> str:
     """Return a name of a parameter for a path."""
     own = re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_")[: LONGEST - 4]
     return next(x for k in range(len(others) + 1) if (x := own if not k else f"{own}_{k}") not in others)

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from symgen.base.units import Amount
+from symgen.describe.facts.pins import AXES
+from symgen.describe.files.handles import PINS
 from symgen.describe.formulas.readings import STATE, readings_of_joint
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import unit_of_column
@@ -35,7 +37,7 @@ def units_of_number(mechanism: Mechanism, name: str) -> tuple[str, str]:
     mechanism : Mechanism
         The mechanism.
     name : str
-        A parameter, an input, a state, or a coordinate or velocity of a body or joint.
+        A parameter, an input, a state, a coordinate or velocity of a body or joint, or the place of a pin.
     """
     for parameter in mechanism.parameters:
         if parameter.name == name:
@@ -47,6 +49,8 @@ def units_of_number(mechanism: Mechanism, name: str) -> tuple[str, str]:
     if any(body.name == owner for body in mechanism.bodies):
         unit = unit_of_column(label)
         return unit, unit
+    if label in AXES and any(joint.name == owner and joint.kind in PINS for joint in mechanism.joints):
+        return "m", "m"
     owner, _, label = name.partition(".")
     units = {
         of: unit

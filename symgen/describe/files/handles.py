@@ -131,14 +131,20 @@ def span_of_number(text: str, span: tuple[int, int]) -> tuple[int, int] | None:
 
 
 class PointsOfFile:
-    """The points of one mechanism."""
+    """The points of one mechanism, with values of its parameters; without such, those of the file."""
 
     def __init__(
-        self, mechanism: Mechanism, raw: Mapping[str, Any], spans: Spans, text: str, q: Sequence[float]
+        self,
+        mechanism: Mechanism,
+        raw: Mapping[str, Any],
+        spans: Spans,
+        text: str,
+        q: Sequence[float],
+        values: Mapping[str, float] | None = None,
     ) -> None:
         self.mechanism, self.raw, self.spans, self.text = mechanism, raw, spans, text
         self.context = Context.of_mechanism(mechanism)
-        self.values = {p.name: p.value for p in mechanism.parameters}
+        self.values = dict(values or {p.name: p.value for p in mechanism.parameters})
         self.units = {p.name: float(p.own_unit.factor) for p in mechanism.parameters}
         self.of_parameters = spans_of_parameters(raw, spans, text)
         self.centres = {body.name: body.centre_of_mass for body in mechanism.bodies}
@@ -262,14 +268,26 @@ class PointsOfFile:
         return (*result, *centres) if result else ()
 
     def centre_that_follows(self, spot: WrittenPoint) -> Iterator[Follower]:
-        """Yield the numbers of a centre of mass that lies in the middle of points, of which one is moved.
+        """Yield the numbers of a centre of mass that follows a point; see `points_about_centre`."""
+        count = self.points_about_centre(spot)
+        if not count:
+            return
+        angle = self.poses[spot.body][2]
+        centre = self.raw["bodies"][spot.body]["centre_of_mass"]
+        for k, way in enumerate(((math.cos(angle), math.sin(angle)), (-math.sin(angle), math.cos(angle)))):
+            span = self.spans.get((*spot.path[:2], "centre_of_mass", k))
+            if span is not None:
+                yield Follower(*span, float(centre[k]), way[0] / count, way[1] / count)
+
+    def points_about_centre(self, spot: WrittenPoint) -> int:
+        """Return how many points, of which one is moved, have the centre of mass in their middle; 0 where none have.
 
         These are all points of its body, or the first two or three, as of a bar or a plate that has further holes.
         """
         body = self.raw.get("bodies", {}).get(spot.body, {})
         centre, points = body.get("centre_of_mass"), body.get("points")
         if not spot.point or not _are_numbers(centre) or not isinstance(points, Mapping):
-            return
+            return 0
         for count in (len(points), 2, 3):
             of = dict([*points.items()][:count])
             if spot.point not in of or not all(map(_are_numbers, of.values())):
@@ -277,14 +295,8 @@ class PointsOfFile:
             middle = [math.fsum(column) / len(of) for column in zip(*of.values(), strict=True)]
             size = max(abs(x) for point in of.values() for x in point)
             if max(abs(a - b) for a, b in zip(middle, centre, strict=True)) < 1e-5 * size:
-                break
-        else:
-            return
-        angle = self.poses[spot.body][2]
-        for k, way in enumerate(((math.cos(angle), math.sin(angle)), (-math.sin(angle), math.cos(angle)))):
-            span = self.spans.get((*spot.path[:2], "centre_of_mass", k))
-            if span is not None:
-                yield Follower(*span, float(centre[k]), way[0] / len(of), way[1] / len(of))
+                return len(of)
+        return 0
 
     def deciding_number(self, spot: WrittenPoint, k: int, expression: Expr) -> tuple[tuple[int, int], float] | None:
         """Return the characters of the number that decides a coordinate, and metres for a unit of the number."""

@@ -81,8 +81,8 @@ def design(
     model : str, Path, Mechanism or Model
         An argument of `symgen.load`, or its result.
     vary : mapping of str to (float, float)
-        Bounds by the names of parameters, or of numbers of the file by their paths such as ``bodies.crank.mass``, in SI
-        units. The search begins with the values of the file.
+        Bounds by the names of parameters, of places of pins such as ``A.x``, or of numbers of the file by their paths
+        such as ``bodies.crank.mass``, in SI units. The search begins with the values of the file.
     aim : str, path or mapping
         ``peak(Q)``, the largest size of a quantity over time, ``rms(Q)`` or ``max(Q)``, which become small, or
         ``min(Q)``, which becomes large; a quantity at the end of the run, such as ``integral(motor.power)``; or columns
@@ -129,7 +129,7 @@ class _Designing:
         if origin is None:
             raise InputError("design: model", "a model whose file is at hand", "one without", "load the file again")
         self.model, self.settings, self.origin = model, settings, origin
-        self.varied = read_varied(model.mechanism, vary, settings.parameters)
+        self.varied = read_varied(model.mechanism, vary, settings)
         self.reader = QuantityReader(self.varied.mechanism)
         until = settings.until
         self.aim: Aim | DataAim
@@ -311,10 +311,13 @@ class _Designing:
         """Return the text of the file with new numbers, and its machine."""
         from symgen.api import Model
 
-        origin = self.origin
+        origin, pins = self.origin, self.varied.pins
         paths = {name: path for name, path, _ in numbers_of_file(origin.raw)}
         whole = {**self.settings.parameters, **values}
+        moved = {name: whole.pop(name) for name in pins.keys} if pins else {}
         numbers = {paths.get(name, ("parameters", name)): value for name, value in whole.items()}
+        if pins:
+            numbers |= {each.path: each.at(moved, pins.before) for each in pins.moved}
         file = _file_of_source(origin.source)
         text = text_with_numbers(None if file is None else read_text(file), origin.raw, numbers)
         return text, Model(validate(parse_toml(text, origin.source), origin.source))

@@ -15,12 +15,17 @@ from symgen.base.units import known_unit, read_unit
 from symgen.base.vocabulary.expressions import Name, names_in_expression
 from symgen.describe.facts.lifted import is_path, lift_numbers
 from symgen.describe.facts.motion_quantities import MotionQuantity, QuantityNames
+from symgen.describe.facts.pins import AXES, PinPlaces, pin_of_place
+from symgen.describe.files.handles import PINS
+from symgen.describe.files.origins import origin_of
 from symgen.describe.formulas.evaluate import evaluate, parameter_values
+from symgen.study.design.pins import check_pins, read_pins
 from symgen.study.design.rows import Aim, Limit
 from symgen.study.design.wording import Taken, WrittenLimit, read_limits, read_taken, unknown_word
 from symgen.study.report.words import enumeration
 
 if TYPE_CHECKING:
+    from symgen.base.settings import Settings
     from symgen.base.vocabulary.expressions import Expr
     from symgen.describe.mechanism import Mechanism, Parameter
 
@@ -42,6 +47,8 @@ class Varied:
         As written, and as parameters of `mechanism`.
     low, high, start : Array, shape (n,)
         Bounds, and the values of the file, in SI units.
+    pins : PinPlaces or None
+        Places of pins among them.
     """
 
     mechanism: Mechanism
@@ -50,6 +57,7 @@ class Varied:
     low: Array
     high: Array
     start: Array
+    pins: PinPlaces | None = None
 
     def values(self, u: Array) -> Array:
         """Return values from parts of the ranges."""
@@ -60,7 +68,7 @@ class Varied:
         return np.asarray(np.clip((x - self.low) / (self.high - self.low), 0.0, 1.0))
 
 
-def read_varied(mechanism: Mechanism, vary: object, parameters: Mapping[str, float]) -> Varied:
+def read_varied(mechanism: Mechanism, vary: object, settings: Settings) -> Varied:
     """Return the numbers that vary.
 
     Parameters
@@ -69,38 +77,57 @@ def read_varied(mechanism: Mechanism, vary: object, parameters: Mapping[str, flo
         The machine.
     vary : object
         As for `symgen.study.design.designing.design`.
-    parameters : mapping of str to float
-        Values that differ from the file's.
+    settings : Settings
+        Of its runs.
 
     Raises
     ------
     InputError
         If one is no number of the file, follows others by a formula, or its bounds do not hold its value.
     """
+    parameters = settings.parameters
     expected = "bounds by the names of numbers, such as {'a': (0.2, 0.4)}"
     given = arguments.mapping("design: vary", vary, expected)
     if not 0 < len(given) <= MOST_VARIED:
         raise InputError("design: vary", f"1 to {MOST_VARIED} numbers with bounds", f"{len(given)}")
-    own = {p.name: p for p in mechanism.parameters}
+    own, origin = {p.name: p for p in mechanism.parameters}, origin_of(mechanism)
+    moved = [name for name in given if not is_path(name) and origin is not None and pin_of_place(origin.raw, name)]
     for name in given:
-        if not is_path(name) and name not in own:
-            paths = "a parameter, or the path of a number in the file such as bodies.crank.mass"
-            raise InputError(f"design: vary '{name}'", paths, "none of that name", suggest(name, own))
-        if name in own and own[name].input:
-            raise InputError(f"design: vary '{name}'", "a number of the machine", "an input, which comes from outside")
-        if name in own and (formula := own[name].formula) is not None and name not in parameters:
-            by = enumeration(_roots(formula, own))
-            got = f"one that follows {by}" if by else "a formula"
-            hint = f"vary {by}" if by else "write it as a number"
-            raise InputError(f"design: vary '{name}'", "a number of its own", got, hint)
-    lifted = lift_numbers("design: vary", mechanism, tuple(given))
+        if name not in moved:
+            _refuse_name(name, own, mechanism, parameters)
+    others, pins = [name for name in given if name not in moved], None
+    if moved:
+        pins = read_pins("design: vary", mechanism, moved, others, settings)
+        mechanism = pins.mechanism
+    lifted = lift_numbers("design: vary", mechanism, others)
     values = parameter_values(lifted.mechanism, parameters)
-    keys, pairs = [lifted.keys[name] for name in given], list[tuple[float, float]]()
-    for (name, bounds), key in zip(given.items(), keys, strict=True):
-        pairs.append(_read_bounds(f"design: vary '{name}'", bounds, values[key]))
-    low, high = np.array(pairs).T
+    all_keys = {**lifted.keys, **(pins.keys if pins else {})}
+    bounds = {
+        name: _read_bounds(f"design: vary '{name}'", pair, values[all_keys[name]]) for name, pair in given.items()
+    }
+    if pins:
+        check_pins("design: vary", pins, lifted.mechanism, all_keys, bounds, settings)
+    low, high = np.array([*bounds.values()]).T
+    keys = tuple(all_keys[name] for name in given)
     start = np.array([values[key] for key in keys])
-    return Varied(lifted.mechanism, tuple(given), tuple(keys), low, high, start)
+    return Varied(lifted.mechanism, tuple(given), keys, low, high, start, pins)
+
+
+def _refuse_name(
+    name: str, own: Mapping[str, Parameter], mechanism: Mechanism, parameters: Mapping[str, float]
+) -> None:
+    """Refuse a name of no number, and one of a number that does not stand for itself."""
+    if not is_path(name) and name not in own:
+        expected = "a parameter, the place of a pin such as A.x, or the path of a number such as bodies.crank.mass"
+        pins = (f"{joint.name}.{axis}" for joint in mechanism.joints if joint.kind in PINS for axis in AXES)
+        raise InputError(f"design: vary '{name}'", expected, "none of that name", suggest(name, [*own, *pins]))
+    if name in own and own[name].input:
+        raise InputError(f"design: vary '{name}'", "a number of the machine", "an input, which comes from outside")
+    if name in own and (formula := own[name].formula) is not None and name not in parameters:
+        by = enumeration(_roots(formula, own))
+        got = f"one that follows {by}" if by else "a formula"
+        hint = f"vary {by}" if by else "write it as a number"
+        raise InputError(f"design: vary '{name}'", "a number of its own", got, hint)
 
 
 def _roots(formula: Expr, own: Mapping[str, Parameter]) -> list[str]:

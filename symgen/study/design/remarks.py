@@ -7,8 +7,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from symgen.base.vocabulary.expressions import ZERO, Call, Expr
+from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.facts.kinks import discontinuities_of
 from symgen.describe.facts.lifted import literal_points_in_words
+from symgen.describe.facts.pins import PinPlaces
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.formulas.readings import OUTPUT, readings_of_joint
 from symgen.describe.mechanism import Mechanism
@@ -84,6 +86,20 @@ def remarks_on_values(varied: Varied, values: np.ndarray, after: Sampled) -> Ite
     if still:
         yield f"{enumeration(still)} {'changes' if len(still) == 1 else 'change'} neither the aim nor a limit"
     yield from literal_points_in_words(varied.names)
+    if varied.pins:
+        yield _sentence_on_pins(varied.pins)
+
+
+def _sentence_on_pins(pins: PinPlaces) -> str:
+    """Return what pins move, and what stays."""
+    bodies = dict.fromkeys(spot.body for own in pins.spots.values() for spot in own if spot.body != GROUND)
+    centres = dict.fromkeys(str(each.path[1]) for each in pins.moved if each.path[2] == "centre_of_mass")
+    names, verb = enumeration([*pins.keys]), "moves" if len(pins.keys) == 1 else "move"
+    what = f"points of {enumeration([*bodies])}"
+    if centres:
+        noun = "centre" if len(centres) == 1 else "centres"
+        what += f", and the {noun} of mass of {enumeration([*centres])} in the middle of them"
+    return f"{names} {verb} {what}: mass and inertia stay"
 
 
 def remark_on_sign(aim: Aim, after: Sampled) -> Iterator[str]:

@@ -161,8 +161,10 @@ class Search:
                     ends.append(found)
                     best = found if found.is_better_than(best) else best
             # another programme from where this one ended begins with no curvature, and often goes on
-            settled = best.is_within and abs(before.score - best.score) <= SETTLED * abs(best.score)
-            if settled and (not ends or ends[0].is_within):
+            near = SETTLED * abs(best.score)
+            settled = best.is_within and abs(before.score - best.score) <= near
+            # one that ended at worse values than it began with missed a peak between its times, which are added below
+            if settled and (not ends or (ends[0].is_within and ends[0].score <= best.score + near)):
                 break
             for each in (*ends[:1], best):
                 times = self._with_peaks(times, each.fine)
