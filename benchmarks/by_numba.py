@@ -1,90 +1,251 @@
 """Runs, looped code and sweeps by Numba beside those by symgen's own compiler, over the catalogue.
 
-    python -m benchmarks.by_numba [MODEL ...] [--only run|looped|sweep]
+    python -m benchmarks.by_numba                              table of its page, from the record
+    python -m benchmarks.by_numba MODEL ... [--only run|looped|sweep]
+    python -m benchmarks.records by_numba [--seconds S]        measures what the record lacks
 
-Each is a process of its own with ``SYMGEN_COMPILER=numba`` or without it, from an empty cache: processor time to the
-result, and the largest difference of states over their largest value.
+Each compiler has a process with ``SYMGEN_COMPILER=numba`` or without it and an empty cache: processor time to the
+result, and the largest difference of states over their largest value. A run is the first tenth of a scene with the
+settings of ``symgen run``. The record has a run of every scene: in processes that have run others before, as the loops
+of all scenes are the same, and a few in processes of their own, where ``again`` is a second one with the same cache.
 """
 
 from __future__ import annotations
 
 import argparse
+import functools
 import json
 import os
-import resource
+import random
 import subprocess
 import sys
 import tempfile
-from typing import Any
+from collections.abc import Iterator
+from functools import partial
+from statistics import median
+from typing import Any, NamedTuple
 
 import numpy as np
 from rich.table import Table
 
+from benchmarks.page_tables import PageTable, list_of, number, print_tables
+from benchmarks.records import Line, Pair, Record
 from benchmarks.show import show
-from symgen.describe.catalogue import names
+from symgen.describe.catalogue import all_names, names
 
-#: What a process computes, by kind: short runs at constant steps, so that rounding does not choose steps.
+PAGE = "docs/measured/numba.md"
+#: Processor time of a process at most [s].
+PATIENCE = 600
+#: Largest difference of states over their largest value that is rounding, amplified by the motion.
+ROUNDING = 1e-9
+#: Scenes that have processes of their own as well, where Numba compiles the loops anew.
+ALONE = ("andrews", "pendulum")
+#: What a process computes, by kind; `run` has the settings of the scene, the others few constant steps.
 KINDS = ("run", "looped", "sweep")
 MEASURED = """
-import json, sys
-import numpy as np
+import contextlib, json, os, resource, sys, tempfile, time
+resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+folder = contextlib.nullcontext(sys.argv[2]) if sys.argv[2:] else tempfile.TemporaryDirectory()
+os.environ["SYMGEN_CACHE_DIR"] = folder.__enter__()
 from symgen.api import load
-name, kind = sys.argv[1:]
-model = load(name)
-step = model.mechanism.defaults.step or 1e-3
-settings = {"method": "direct-correction", "integrator": "rk4", "step": step, "until": 50 * step, "max_violation": 1.0}
-if kind == "sweep":
+
+def computed(name, kind):
+    model = load(name)
+    if kind == "run":
+        result = model.simulate(until=0.1 * model.mechanism.defaults.until)
+        return [result.q.values.tolist(), result.v.values.tolist()], result.status
+    step = model.mechanism.defaults.step or 1e-3
+    settings = {"method": "direct-correction", "integrator": "rk4", "step": step, "until": 50 * step}
+    settings["max_violation"] = 1.0
+    if kind == "looped":
+        result = model.simulate(**settings, times=[25 * step, 50 * step], shape="looped", verify=False)
+        return [result.q.values.tolist(), result.v.values.tolist()], result.status
     number = next(iter(model.mechanism.parameters)).name
     value = model.parameters()[number]
     study = model.sweep({number: [value, 1.01 * value, 1.02 * value]}, **settings)
     table = study.to_dataframe().select_dtypes("number")
-    states = table.drop(columns=[c for c in table if "seconds" in c]).to_numpy().tolist()
-else:
-    shape = {"run": "straight", "looped": "looped"}[kind]
-    result = model.simulate(**settings, times=[25 * step, 50 * step], shape=shape, verify=False)
-    states = np.hstack([result.q.values, result.v.values]).tolist()
-print(json.dumps({"states": states, "numba": "numba" in sys.modules}))
+    return [table.drop(columns=[c for c in table if "seconds" in c]).to_numpy().tolist()], "ok"
+
+print(json.dumps(time.process_time()), flush=True)
+for line in sys.stdin:
+    began = time.process_time()
+    resource.setrlimit(resource.RLIMIT_CPU, (int(began) + int(sys.argv[1]), resource.RLIM_INFINITY))
+    try:
+        states, status = computed(*line.split())
+    except Exception as error:
+        states, status = None, f"{type(error).__name__}: {error}".splitlines()[0][:100]
+    print(json.dumps([time.process_time() - began, states, status, "numba" in sys.modules]), flush=True)
+folder.__exit__(None, None, None)
 """
 
 
-def computed(name: str, kind: str, compiler: str) -> tuple[float, Any, str]:
-    """Return processor time of a process [s], its states, and what it said where it has none."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    with tempfile.TemporaryDirectory() as cache:
-        environment = {**os.environ, "SYMGEN_CACHE_DIR": cache, "SYMGEN_COMPILER": compiler}
-        words = [sys.executable, "-c", MEASURED, name, kind]
-        done = subprocess.run(words, env=environment, capture_output=True, text=True, check=False)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    if done.returncode != 0:
-        return seconds, None, done.stderr.strip().splitlines()[-1][:100]
-    found = json.loads(done.stdout.splitlines()[-1])
-    assert found["numba"] == (compiler == "numba"), "the compiler that was asked for"
-    return seconds, np.array(found["states"], dtype=float), ""
+class Computed(NamedTuple):
+    """A process: its processor time [s], states by kind, status, and what it said where it has none."""
+
+    seconds: float
+    states: list[Any] | None
+    status: str
 
 
-def main(arguments: list[str]) -> None:
-    """Print the table."""
+class Job(NamedTuple):
+    """A scene of the catalogue."""
+
+    model: str
+
+
+class Compiler:
+    """A process that computes by one compiler, from an empty cache unless it is given one."""
+
+    def __init__(self, name: str, *cache: str) -> None:
+        self.name = name
+        self.process = subprocess.Popen(
+            [sys.executable, "-c", MEASURED, str(PATIENCE), *cache],
+            env={**os.environ, "SYMGEN_COMPILER": name},
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+        #: Processor time of the imports [s].
+        self.start = float(self._answer() or 0.0)
+
+    def _answer(self) -> Any:
+        assert self.process.stdout is not None
+        line = self.process.stdout.readline()
+        return json.loads(line) if line else None
+
+    def computed(self, name: str, kind: str) -> Computed:
+        """Return what a scene takes and gives in this process."""
+        if self.process.poll() is None and self.process.stdin is not None:
+            self.process.stdin.write(f"{name} {kind}\n")
+            self.process.stdin.flush()
+            answer = self._answer()
+            if answer is not None:
+                assert answer[3] == (self.name == "numba"), "the compiler that was asked for"
+                return Computed(*answer[:3])
+        return Computed(0.0, None, f"signal {-self.process.wait()}")
+
+    def __enter__(self) -> Compiler:
+        return self
+
+    def __exit__(self, *of_error: object) -> None:
+        self.process.communicate()
+
+
+@functools.cache
+def lasting(name: str) -> Compiler:
+    """Return the process of a compiler that all scenes of a record share; it ends with this one."""
+    return Compiler(name)
+
+
+def alone(name: str, compiler: str, cache: str) -> float:
+    """Return the processor time of a scene in a process of its own, imports among it [s]."""
+    with Compiler(compiler, cache) as own:
+        return own.start + own.computed(name, "run").seconds
+
+
+def difference(one: list[Any], other: list[Any]) -> float:
+    """Return the largest difference of positions or velocities over their largest value; infinite if not numbers."""
+    worst = 0.0
+    for a, b in zip(map(np.array, one), map(np.array, other), strict=True):
+        if a.shape != b.shape or not (np.isfinite(a).all() and np.isfinite(b).all()):
+            return float("inf")
+        worst = max(worst, float(np.max(np.abs(a - b)) / (np.max(np.abs(a)) or 1.0)))
+    return worst
+
+
+def apart(name: str, kind: str, one: Compiler, other: Compiler) -> dict[str, Any]:
+    """Return processor times by both compilers [s], and the difference of states or what one of them said."""
+    own, judge = one.computed(name, kind), other.computed(name, kind)
+    found: dict[str, Any] = {"own": own.seconds, "numba": judge.seconds}
+    if own.states is None or judge.states is None or own.status != judge.status:
+        return found | {"says": own.status if own.status == judge.status else f"{own.status}; Numba: {judge.status}"}
+    return found | {"status": own.status, "difference": difference(own.states, judge.states)}
+
+
+def jobs() -> Iterator[Job]:
+    """Yield all scenes, those studied with every method first."""
+    yield from map(Job, dict.fromkeys((*names(), *all_names())))
+
+
+def examine(job: Job) -> dict[str, Any]:
+    """Return what both compilers take for the run of a scene, and how far their states are apart."""
+    found = apart(job.model, "run", lasting(""), lasting("numba"))
+    if job.model in ALONE:
+        with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as other:
+            times = [alone(job.model, name, folder) for name, folder in (("", one), ("", one), ("numba", other))]
+        found["alone"] = times
+    return found
+
+
+def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
+    """Yield how a scene ended beside its end now."""
+    with Compiler("") as one, Compiler("numba") as other:
+        yield Pair(stored["model"], end_of(stored), end_of(apart(stored["model"], "run", one, other)))
+
+
+def near(line: Line) -> bool:
+    """Whether states of both compilers differ by rounding."""
+    return line.get("difference") is not None and line["difference"] <= ROUNDING
+
+
+def end_of(line: Line) -> str:
+    """Return how a scene ended, in words."""
+    return str(line.get("died") or line.get("says") or (line["status"] if near(line) else "states differ"))
+
+
+def page_table() -> PageTable:
+    """Return processor times and differences by scene, from the record."""
+    lines = {line["model"]: line for line in RECORD.lines()}
+
+    def cells(model: str) -> Iterator[str]:
+        line = lines[model]
+        yield number(line["difference"]) if line.get("difference") is not None else end_of(line)
+        yield from (f"{line[name]:.2g}" if name in line else "" for name in ("own", "numba"))
+        yield from (f"{seconds:.2g}" for seconds in line.get("alone", ()))
+        yield from [""] * (3 - len(line.get("alone", ())))
+
+    rows = tuple(((f"`{job.model}`",), partial(list_of, cells, job.model)) for job in jobs() if job.model in lines)
+    headings = ("scene", "difference", "own [s]", "Numba [s]", "own, alone", "again", "Numba, alone")
+    return PageTable("by_numba", PAGE, headings, rows, stored=True, claims=claims)
+
+
+def claims() -> Iterator[str]:
+    """Yield what the page says of all scenes."""
+    lines = RECORD.lines()
+    largest = number(max((line["difference"] for line in lines if near(line)), default=0.0))
+    yield f"{sum(map(near, lines))} of {len(lines)} scenes agree to rounding, the largest difference being {largest}."
+    ended = [line for line in lines if "difference" in line]
+    if ended:
+        own, other = (median(line[name] for line in ended) for name in ("own", "numba"))
+        yield f"Medians, one scene after another: {own:.2g} s by the own compiler, {other:.2g} s by Numba."
+    left = sum(1 for _ in jobs()) - len(lines)
+    if left:
+        yield f"Scenes not measured: {left}."
+
+
+def main(arguments: list[str]) -> int:
+    """Print the table of the record, or that of scenes measured now."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.by_numba")
     parser.add_argument("models", nargs="*")
     parser.add_argument("--only", choices=KINDS)
     given = parser.parse_args(arguments)
+    if not given.models:
+        return print_tables({"": page_table()}, [""])
     table = Table("model", "what", "own [s]", "Numba [s]", "difference")
-    worst = 0.0
-    for name in given.models or names():
+    for name in given.models:
         for kind in (given.only,) if given.only else KINDS:
-            own, states, why = computed(name, kind, "")
-            other, again, says = computed(name, kind, "numba") if states is not None else (0.0, None, why)
-            if states is None or again is None:
-                table.add_row(name, kind, f"{own:.1f}", f"{other:.1f}", says)
-                continue
-            difference = float(np.nanmax(np.abs(states - again)) / np.nanmax(np.abs(states)))
-            worst = max(worst, difference)
-            print(f"{name}, {kind}: {difference:.0e}", file=sys.stderr, flush=True)
-            table.add_row(name, kind, f"{own:.1f}", f"{other:.1f}", f"{difference:.0e}")
+            with Compiler("") as one, Compiler("numba") as other:
+                found = apart(name, kind, one, other)
+            end = f"{found['difference']:.0e}" if "difference" in found else found["says"]
+            table.add_row(name, kind, f"{found['own']:.1f}", f"{found['numba']:.1f}", end)
+            print(f"{name}, {kind}: {end}", file=sys.stderr, flush=True)
     show(table)
-    print(f"largest difference: {worst:.1e}")
+    return 0
+
+
+RECORD = Record("by_numba", jobs, examine, again, 2.0 * PATIENCE, share=0.01)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    sys.exit(main(sys.argv[1:]))

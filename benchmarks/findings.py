@@ -17,6 +17,7 @@ from benchmarks import (
     all_methods,
     backward,
     beside_tools,
+    by_numba,
     claims,
     coordinates,
     equal_error,
@@ -55,6 +56,7 @@ def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
             *beside_tools.tables(),
         ),
         *functions.tables(),
+        by_numba.page_table(),
     )
 
 

@@ -36,6 +36,7 @@ NAMES = (
     "stress_quick",
     "identification",
     "functions",
+    "by_numba",
 )
 #: Digits of stored numbers.
 DIGITS = 3
