@@ -205,8 +205,9 @@ def test_a_slider_writes_its_number_back(page: Page) -> None:
     assert page.said() == []
 
 
-def test_sliders_of_many_bodies_write_into_the_text_and_the_server_moves_them(page: Page, file: Path) -> None:
-    file.write_text(chain_of_bars(22))
+def test_the_server_moves_what_has_no_code_in_the_page_and_sliders_write_into_the_text(page: Page, file: Path) -> None:
+    """A state that reads an acceleration has no looped code, and straight code of 22 bodies is too long for a page."""
+    file.write_text(chain_of_bars(22) + '\n[states.filtered]\nrate = "b0.alpha - filtered"\n')
     page.open()
     page.rested()
     page.until("document.querySelectorAll('#live input').length === 2 && !document.getElementById('live').inert")

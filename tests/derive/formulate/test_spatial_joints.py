@@ -13,7 +13,8 @@ from support.space import STEP, Space
 from symgen.derive.formulate.formulate import formulate
 from symgen.describe.joints import JOINTS
 
-KINDS = tuple(name for name, kind in JOINTS.items() if "spatial" in kind.SPACES)
+#: Ropes follow from their starts, and have references in tests/run/single/test_ropes_in_space.py.
+KINDS = tuple(name for name, kind in JOINTS.items() if "spatial" in kind.SPACES and name != "rope")
 
 #: Kinds whose other side is a plane of the ground, or whose formulas read coordinates in its frame.
 ON_THE_GROUND = ("rolling-disc", "rolling-sphere", "knife-edge", "rows")
