@@ -131,6 +131,7 @@ def test_generate_refuses_what_is_wrong_and_writes_nothing(cli, tmp_path):
 # -- run ---------------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_sensitivities_of_a_run(cli):
     words = ("run", "four-bar", "--integrator", "rk4", "--step", "1e-2", "--until", "0.2")
     code, out, _ = cli(*words, "--sensitivity", "crank_mass,coupler_mass", "--quantity", "crank.theta")
@@ -157,6 +158,7 @@ def test_run_defaults(cli):
     assert found["step"] is None and found["proposals"] == []
 
 
+@pytest.mark.slow
 def test_run_takes_everything(cli, tmp_path):
     code, out, _ = cli(
         *("run", "four-bar", "--method", "baumgarte", "--integrator", "dopri5", "--rtol", "1e-7", "--atol", "1e-9"),

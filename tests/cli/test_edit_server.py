@@ -174,6 +174,7 @@ def test_a_mechanism_that_does_not_close_is_drawn_with_its_sentence(editor: Edit
     assert len(found["data"]["motions"]) == 2  # the described start stands behind
 
 
+@pytest.mark.slow
 def test_the_drawing_has_the_start_and_the_motion_what_a_page_has(editor: Editor) -> None:
     text = TEXT.replace("until = 10.0", "until = 0.2")
     found = done(editor, "check", text=text)

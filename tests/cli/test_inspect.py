@@ -51,6 +51,7 @@ def worth(text, values, tables=()):
         return float(eval(text, words))
 
 
+@pytest.mark.slow
 def test_shown_expressions_have_the_values_of_the_graph(equations, monkeypatch):
     monkeypatch.setattr("symgen.result.reading.typeset.LONGEST", 10_000)
     rng = random.Random(3)

@@ -237,6 +237,7 @@ def test_packages_of_massless_and_light_bodies_give_the_numbers_of_runs(link, so
     assert options_of(tmp_path / "emitted", "direct_correction")["solver"] == solver
 
 
+@pytest.mark.slow
 def test_a_solver_that_was_asked_for_is_emitted(tmp_path):
     model, folder = three_rods(tmp_path / "rods.toml", "mass = 1e-12\ninertia = 1e-14"), tmp_path / "emitted"
     wanted = ["--method", "lagrange", "--method", "baumgarte", "--option", "lagrange.solver=augmented"]
@@ -245,6 +246,7 @@ def test_a_solver_that_was_asked_for_is_emitted(tmp_path):
     assert options_of(folder, "baumgarte")["solver"] == "elimination"
 
 
+@pytest.mark.slow
 def test_methods_that_invert_m_are_not_emitted_for_massless_bodies(tmp_path, capsys):
     model, folder = three_rods(tmp_path / "rods.toml", "mass = 0\ninertia = 0"), tmp_path / "emitted"
     assert main(["generate", model, "-o", str(folder), "--shape", "looped", "--all"]) == 0

@@ -145,6 +145,7 @@ def of_plugin(task: object) -> dict[str, object]:
     return {"here": getattr(InputError, "of_plugin", "")}
 
 
+@pytest.mark.slow
 def test_processes_of_a_study_load_what_this_one_has(loaded: Path) -> None:
     outcomes, _ = run_cells([Cell(str(i), "", i) for i in range(2)], of_plugin, Journal(), processes=2)
     assert [outcome["here"] for outcome in outcomes.values()] == ["loaded", "loaded"]

@@ -114,6 +114,7 @@ def integrating(process):
         time.sleep(0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not os.path.isdir("/proc/self/task"), reason="needs /proc")
 def test_an_interrupted_run_writes_what_it_has(tmp_path):
     assert symgen(["run", "pendulum", "--integrator", "rk4", "--until", "0.1", "--json"]).returncode == 0

@@ -2,7 +2,10 @@
 
 import re
 
+import pytest
 
+
+@pytest.mark.slow
 def test_a_column_of_rounding_is_zero_beside_lengths(cli, tmp_path):
     """A block on an inclined rail: its y is 0.5 x, and x sin(a) - y cos(a) is rounding of both."""
     file = tmp_path / "ramp.toml"

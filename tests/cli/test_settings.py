@@ -135,7 +135,7 @@ def test_limits_can_be_set_for_a_run(capsys, limit, reason):
     assert f"{limit}: expected a finite number above 0, got 0" in capsys.readouterr().err
 
 
-@pytest.mark.slow_cases("max_violation")
+@pytest.mark.slow_cases("max_violation", "max_energy_error")
 @pytest.mark.parametrize("limit", ["max_violation", "max_energy_error"])
 def test_limits_can_be_set_for_studies_and_sweeps(limit):
     found = symgen.compare("four-bar", "lagrange", "rk4", 1e-2, until=1.0, repeat=1, **{limit: 1e-13})

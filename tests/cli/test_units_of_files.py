@@ -224,6 +224,7 @@ def table(path):
     return heading, rows
 
 
+@pytest.mark.slow_cases("lin(10 cm, 50 cm, 5)")
 @pytest.mark.parametrize("values", ["lin(10 cm, 50 cm, 5)", "lin(100,500,5)", "values(100, 20 cm, 0.3 m, 400, 500)"])
 def test_a_sweep_varies_and_writes_in_the_unit_of_the_file(typed, found, tmp_path, values):
     words = ("--vary", f"length={values}", "--vary", "rod.omega=values(30 rpm, 1)", "--quantity", "turn,rod.theta")
@@ -240,7 +241,7 @@ def test_a_sweep_varies_and_writes_in_the_unit_of_the_file(typed, found, tmp_pat
     assert float(rows[2][4]) == pytest.approx(math.degrees(float(rows[2][5])), rel=1e-14)
 
 
-@pytest.mark.slow_cases("log(10 cm, 1 m, 3)-numbers0", "uniform(100, 20 cm, 2, 1)-None")
+@pytest.mark.slow_cases("log(10 cm, 1 m, 3)-numbers0", "uniform(100, 20 cm, 2, 1)-None", "values(5)-numbers2")
 @pytest.mark.parametrize(
     ("values", "numbers"),
     [("log(10 cm, 1 m, 3)", (0.1, math.sqrt(0.1), 1.0)), ("uniform(100, 20 cm, 2, 1)", None), ("values(5)", (0.005,))],
@@ -260,12 +261,14 @@ def labels(path):
     return re.findall(r"<!-- (.*?) -->", path.read_text(encoding="utf-8"))
 
 
+@pytest.mark.slow
 def test_pictures_of_sweeps_have_the_unit_of_the_file(typed, tmp_path):
     words = ("--vary", "length=lin(20 cm, 60 cm, 3)", "--vary", "lean=values(0, 45)", "--quantity", "turn")
     assert typed("sweep", "rod.toml", *SHORT, *words, "--plot", "s.svg")[0] == 0
     assert {"length [mm]", "turn [deg]", "200", "600", "lean = 0 deg", "lean = 45 deg"} <= {*labels(tmp_path / "s.svg")}
 
 
+@pytest.mark.slow
 def test_a_root_locus_is_over_the_unit_of_the_file(typed, tmp_path):
     text = ROD.replace('torque = "push"', 'torque = "(1 - 5*length)*rod.omega"')  # grows in short rods
     (tmp_path / "rod.toml").write_text(text, encoding="utf-8")
@@ -307,6 +310,7 @@ def test_equations_and_reports_show_values_as_the_file_has_them(typed, tmp_path)
     assert "<td>length</td><td>mm</td><td>600</td>" in page and "<td>push</td><td>N mm</td><td>20</td>" in page
 
 
+@pytest.mark.slow
 def test_sliders_of_pages_have_the_unit_of_the_file(typed, tmp_path):
     assert typed("view", "rod.toml", *SHORT, "-o", "v.html")[0] == 0
     page = (tmp_path / "v.html").read_text(encoding="utf-8")

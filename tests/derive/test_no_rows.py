@@ -26,6 +26,7 @@ def test_emitted_code_has_no_correction(tmp_path):
     assert "nothing is corrected" in text and "spread(" not in text and "refactor(" not in text
 
 
+@pytest.mark.slow
 def test_energy_is_still_balanced_where_no_row_is():
     """Scaling velocities to the energy needs no row."""
     model, settings = symgen.load("chain:2"), {"integrator": "rk4", "step": 2e-2, "until": 2.0, "coordinates": "joint"}

@@ -142,7 +142,7 @@ def test_nodes_that_are_none_get_one_sentence(at, words):
         mechanism_of(raw({"clamp": "ground"}, forces={"push": push}))
 
 
-@pytest.mark.fast("planar")
+@pytest.mark.slow
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_a_clamped_end_gives_its_mass_to_the_body(space):
     """Mass, centre and inertia of the body and the nodes together are those of body and beam."""

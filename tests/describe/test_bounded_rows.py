@@ -104,6 +104,7 @@ def test_a_further_kind_has_its_key_words_and_digest(braked: Mechanism) -> None:
     assert digest(braked) != digest(plain) and mechanism_digest(braked) != mechanism_digest(plain)
 
 
+@pytest.mark.slow
 def test_a_further_kind_runs_and_is_refused_in_its_own_words(braked: Mechanism) -> None:
     model = symgen.load(braked)
     run = model.simulate(until=0.5, start={"arm.omega": 4.0})

@@ -101,6 +101,7 @@ def test_a_disc_in_space_is_refused(tmp_path: Path) -> None:
         symgen.load(tmp_path / "touch.toml")
 
 
+@pytest.mark.slow
 def test_a_start_that_penetrates_names_its_depth(tmp_path: Path) -> None:
     path = tmp_path / "deep.toml"
     path.write_text(FILE.replace("{}", BETWEEN).replace("position = [0.0, 0.2]", "position = [0.0, 0.05]"))

@@ -33,6 +33,7 @@ def test_modes_of_stretch_and_of_bending_decay_by_their_own_times() -> None:
     assert times[times > 1e-4] == pytest.approx(BENDING, rel=1e-7)
 
 
+@pytest.mark.slow
 def test_a_cable_that_damps_bending_alone_runs_by_default() -> None:
     cable = {
         "mechanism": {"name": "cable", "gravity": [0.0, -9.81]},

@@ -48,6 +48,7 @@ def looped(tmp_path: Path, closing: str) -> Import:
     return imported(tmp_path, text, "loop.urdf")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pose", ["<pose>1 0 0 0 0 0</pose>", '<pose relative_to="b">0 0 1 0 0.4 0</pose>'])
 def test_a_joint_in_gazebo_closes_a_loop(tmp_path: Path, pose: str) -> None:
     """A parallelogram of three bars about y keeps the two cranks parallel, and falls as one of 0.9 kg m^2."""
@@ -94,6 +95,7 @@ FOOT = """<mujoco model="foot"><compiler angle="radian"/><worldbody>
 </worldbody><equality><connect body1="m" body2="rod" anchor="0.0175 -0.016 -0.004"/></equality></mujoco>"""
 
 
+@pytest.mark.slow
 def test_connect_keeps_the_tree_of_a_file(tmp_path: Path) -> None:
     """The mass matrix of joint coordinates is MuJoCo's, which knows no loop in it."""
     read = imported(tmp_path, FOOT, "foot.xml")

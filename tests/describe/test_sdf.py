@@ -281,7 +281,7 @@ SECOND = {
 }
 
 
-@pytest.mark.fast("0 0 1--1.0-down", "0 0 -2-1.0-back")
+@pytest.mark.fast("0 0 1--1.0-down")
 @pytest.mark.parametrize("second", SECOND)
 @pytest.mark.parametrize(("axis2", "sign"), [("0 0 1", -1.0), ("0 0 -2", 1.0)])
 def test_a_gearbox_couples_the_joints_of_its_wheels(second: str, axis2: str, sign: float, tmp_path: Path) -> None:

@@ -103,7 +103,6 @@ def same_motion(names: dict[str, str], settings: dict[str, str]) -> None:
 
 
 @pytest.mark.fast(
-    "cart=rate rail=s-{'shape': 'looped'}",
     "rail=rate spring=s point=rate-{'shape': 'looped'}",
     "pin=s drive=rate point=s-{'shape': 'looped'}",
     "out=s event=rate spring=rate-{'shape': 'looped'}",
@@ -134,6 +133,7 @@ def test_what_formulas_read_by_its_name_alone_may_not(word, name):
     assert str(error.value).endswith(f"no meaning of its own, got '{name}'; {why}'{name}_' is free")
 
 
+@pytest.mark.slow_cases("{'shape': 'straight'}")
 @pytest.mark.parametrize("settings", [{"shape": "straight"}, {"shape": "looped"}], ids=str)
 def test_names_of_units_are_free(settings):
     same_motion(dict(zip(NAMES, UNITS, strict=True)), settings)

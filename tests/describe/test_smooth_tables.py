@@ -29,7 +29,7 @@ def points(seed, n, periodic):
 
 
 @pytest.mark.by_turns(2)
-@pytest.mark.fast("4-cubic-False")
+@pytest.mark.slow
 @pytest.mark.parametrize(("how", "periodic"), KINDS)
 @pytest.mark.parametrize("n", [4, 5, 40])
 def test_values_and_derivatives_are_those_of_scipy(how, periodic, n):

@@ -152,6 +152,7 @@ def test_decimal_numbers_are_converted_without_rounding(digits, places, text):
     assert known_unit(text).to_si(number) == float(Fraction(digits, 10**places) * known_unit(text).factor)
 
 
+@pytest.mark.slow
 @given(st.text(max_size=30))
 def test_any_text_is_a_unit_or_none(text):
     unit = read_unit(text)

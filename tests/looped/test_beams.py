@@ -70,6 +70,7 @@ def test_rigid_motions_strain_nothing(space):
     assert abs(run.q["rod.2.x"][-1] - run.q["rod.2.x"][0] - 3.0) <= 1e-12
 
 
+@pytest.mark.slow
 def test_momentum_and_energy_are_kept_in_space():
     """A free beam that is thrown with a spin about an oblique axis, so that it bends and twists."""
     model = spatial(4, velocity=(0.0, 0.0, 0.0), angular_velocity=(0.5, 2.0, 3.0))
@@ -120,6 +121,7 @@ def test_verify_doubles_the_elements():
     assert 0.5 < estimated / max(errors) < 2.0
 
 
+@pytest.mark.slow
 def test_automatic_choice_for_beams():
     """Explicit schemes where vibrations are near the motion, generalised alpha where they are far faster, undamped."""
     calm = cantilever(4, axial=1e3, rotary=1e-2, forces={"tip": at_end(0.0, -1.0)})

@@ -111,6 +111,7 @@ def test_a_slider_crank_that_rubs_over_300_coefficients():
     assert counts["looped"] == counts["straight"] and len({len(names) for names in counts["straight"]}) > 1
 
 
+@pytest.mark.slow
 def test_methods_that_iterate_and_jammed_pins_are_refused():
     model = symgen.load(rubbing("A"))
     expected = "method 'augmented-lagrangian': expected one that finds multipliers at once, where dry friction depends"

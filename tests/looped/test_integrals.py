@@ -35,6 +35,7 @@ def test_integrals_behind_an_implicit_law(shape):
     assert end == pytest.approx(expected, rel=1e-8)
 
 
+@pytest.mark.slow_cases("abm-relative")
 @pytest.mark.parametrize("settings", [{}, {"atol": 1e-8}], ids=["relative", "absolute"])
 @pytest.mark.parametrize("integrator", ["dop853", "dopri5", "picard", "abm", "radau5", "sdirk"])
 def test_adaptive_steps_are_short_enough_for_integrals(integrator, settings):

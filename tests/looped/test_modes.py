@@ -29,7 +29,7 @@ METHODS = [
 ]
 
 
-@pytest.mark.fast("lagrange-dop853", "lagrange-radau5")
+@pytest.mark.fast("lagrange-dop853")
 @pytest.mark.parametrize(
     ("method", "integrator", "steps"), [pytest.param(*case, id=f"{case[0]}-{case[1]}") for case in METHODS]
 )

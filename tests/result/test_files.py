@@ -82,6 +82,7 @@ def test_netcdf(result, tmp_path):
         )
 
 
+@pytest.mark.slow
 def test_an_interrupted_start_can_be_saved(result, tmp_path):
     empty = symgen.simulate("pendulum", until=1.0, times=[])
     assert len(empty.t) == 0
@@ -116,6 +117,7 @@ def test_a_plot_without_a_path_shows_itself(result, tmp_path):
         plot.save(tmp_path / "a.txt")
 
 
+@pytest.mark.slow
 def test_a_figure_fits_into_a_column_of_a_page(result, tmp_path):
     """84 mm at 150 dots an inch are 496 pixels; each legend beside a panel would need 40 of the 84 mm."""
     plot = result.plot(None, ["q", "energy"])
@@ -140,6 +142,7 @@ def latex(folder, monkeypatch, script):
     monkeypatch.setenv("PATH", str(folder))
 
 
+@pytest.mark.slow
 def test_latex_reads_a_figure_or_says_why_it_cannot_be_measured(result, tmp_path, monkeypatch):
     """With a LaTeX the file has PGF; with one that fails, and with none, one sentence, and no file."""
     path = tmp_path / "column.pgf"

@@ -96,6 +96,7 @@ def test_ends_of_a_sweep_are_drawn_over_what_varies():
     assert [t.get_text() for t in axes.get_legend().get_texts()] == ["bob_mass = 1 kg", "bob_mass = 3 kg"]
 
 
+@pytest.mark.slow
 def test_a_motion_of_kinematics_has_a_page():
     moved = symgen.load("driven-four-bar").kinematics(np.linspace(0.0, 1.0, 61))
     page = moved.view()

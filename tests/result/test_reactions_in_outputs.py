@@ -34,7 +34,7 @@ def all_reactions(name: str, folder: Path) -> tuple[Model, list[str]]:
     return reporting(name, folder, "".join(lines)), names
 
 
-@pytest.mark.fast("absolute-four-bar", "absolute-bricard")
+@pytest.mark.fast("absolute-four-bar")
 @pytest.mark.parametrize("name", ["four-bar", "bricard", "spatial-slider-crank"])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_reaction_in_outputs_is_that_of_results(coordinates: str, name: str, tmp_path: Path) -> None:

@@ -110,7 +110,7 @@ def test_runs_that_are_wrong_behind_a_passage_are_not_ok(gap, settings, status):
     assert result.status == status and result.rank_event_count == 0
 
 
-@pytest.mark.slow_cases("jansen-leg")
+@pytest.mark.slow_cases("jansen-leg", "wiper")
 @pytest.mark.parametrize("model", ["four-bar", "wiper", "jansen-leg"])
 def test_coarse_runs_in_regular_positions_have_no_passage(model):
     run = prepare(symgen.load(model).mechanism, Settings(method="generalized-alpha", until=2.0))

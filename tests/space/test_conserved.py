@@ -73,6 +73,7 @@ def test_heavy_top_follows_the_elliptic_solution():
     np.testing.assert_allclose(velocity(result, "top")[0], [-turn, 0.0, 0.0], atol=1e-14)
 
 
+@pytest.mark.slow_cases("chain:3-5.0")
 @pytest.mark.parametrize(("name", "until"), [("spherical-double-pendulum", 10.0), ("chain:3", 5.0)])
 def test_energy_and_momentum_about_the_vertical_stay(name, until):
     model, result = run(name, until=until)

@@ -55,6 +55,7 @@ def test_nonholonomic_rows_have_no_position():
     assert np.abs(above[:2] - y[:2]).max() < 1e-3
 
 
+@pytest.mark.slow_cases("coordinate-partitioning")
 @pytest.mark.parametrize("method", ["lagrange", "coordinate-partitioning"])
 def test_rolling_by_other_methods(method):
     _, result = run("rolling-disc", method, rtol=1e-12, until=3.0)

@@ -44,6 +44,7 @@ def sweep(raw: dict, coordinates: str, leans, **changes):
     return symgen.sweep(mechanism_of(raw), {"lean": leans}, coordinates=coordinates, **asked)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["revolute", "cylindrical"])
 def test_axes_that_point_opposite_ways_are_one_line_and_said(kind):
     raw = hung({"type": kind, "axis": [[0.0, 1.0, 0.0], [0.0, -1.0, 0.0]], "reference": [[1.0, 0.0, 0.0]] * 2})

@@ -48,6 +48,7 @@ def test_rows_come_in_order(study):
     assert not study.interrupted and not study.failed
 
 
+@pytest.mark.slow
 def test_json_is_the_contract(study):
     found = study.to_json()
     assert json.loads(json.dumps(found, allow_nan=False)) == json.loads(json.dumps(found))
@@ -243,6 +244,7 @@ def test_pairs_that_do_not_suit_are_left_out():
     assert [r.integrator for r in own.rows] == ["generalized-alpha"]
 
 
+@pytest.mark.slow
 def test_methods_of_all_that_no_integrator_suits_are_left_out(cli):
     code, out, err = cli(
         "compare", "pendulum", "--methods", "all", "--integrators", "rattle", "--until", "0.01", "--json"
@@ -285,6 +287,7 @@ def test_cost_ratios_are_to_lagrange_with_the_same_setting(study):
     assert alone.rows[0].cost_ratio is None
 
 
+@pytest.mark.slow
 def test_a_ratio_lies_in_its_interval_and_the_spread_covers_it():
     base, other = symgen.compare("pendulum", ["lagrange", "baumgarte"], ["rk4"], [1e-2], until=1.0, repeat=7).rows
     assert (base.cost_ratio, base.cost_ratio_spread) == (1.0, None)

@@ -199,6 +199,7 @@ def test_keys_tell_apart_whatever_differs():
         cell_key(model=object())
 
 
+@pytest.mark.slow
 def test_a_process_that_dies_ends_the_study_and_keeps_what_is_done(tmp_path):
     cells = [*killed_study.cells(tmp_path, 4), Cell("last", "group 9", (str(tmp_path), "dies"))]
     with Journal(tmp_path / "j") as journal:

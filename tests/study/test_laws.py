@@ -74,6 +74,7 @@ def test_the_energy_of_a_smooth_law_is_what_the_motion_lacks(study) -> None:
     assert row.dissipated == pytest.approx(0.5 * 2.0 * 2.25**2 - trace.kinetic[-1] - trace.potential[-1], rel=1e-4)
 
 
+@pytest.mark.slow
 def test_stops_are_compared_by_their_impacts() -> None:
     """A ball on a floor: one impact until 0.5 s takes (1 - e^2) m g h."""
     ball = """

@@ -115,6 +115,7 @@ def test_singular_positions_are_passed_by_runs_whose_steps_fall_differently(wind
     assert general.estimated_error < 1e-6
 
 
+@pytest.mark.slow
 def test_runs_that_part_at_a_singular_position_are_not_passed_silently(monkeypatch):
     """Steps so long that a passage is a matter of chance: no two runs agree, and the reference says from when on."""
     from symgen.study.references import reference as module
@@ -161,7 +162,7 @@ def test_redundant_rows_do_no_harm():
     assert one.rate(0.0, y)[5] == pytest.approx(-0.5 * 9.81 / (0.1 + 0.25))
 
 
-@pytest.mark.fast("four-bar-1.0-scipy-lsoda")
+@pytest.mark.slow
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize(
     ("name", "until"),
@@ -294,7 +295,7 @@ def test_references_of_stress_studies_see_a_short_push_as_well(tmp_path):
 
 
 @pytest.mark.by_turns(2)
-@pytest.mark.fast("scipy-lsoda-0.001-None")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("solver", "w", "max_step"),
     [*((solver, 1e-3, None) for solver in (*SOLVERS, "of stress studies")), ("scipy-dop853", 3e-4, 6e-4)],

@@ -55,6 +55,7 @@ def test_compiled_equations_are_the_interpreted_ones():
     assert found.estimated_error < 1e-9
 
 
+@pytest.mark.slow
 def test_compiled_slopes_are_differences_of_the_interpreted_rates():
     mechanism = Base.of_mechanism("slider-crank").stressed
     values = {**symgen.load(mechanism).parameters(), "stress_stiffness": 300.0, "stress_damping": 2.0}
@@ -353,6 +354,7 @@ def test_a_branch_is_lost_at_the_singular_position_without_correction():
     assert all(row.model == "-" for row in study.rows)
 
 
+@pytest.mark.slow_cases("planar")
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_cells_see_a_force_between_two_places(space, tmp_path):
     """A point that flies by at 1 m/s is pushed by 6.6 N for 0.8 mm, as single runs see; cells were off by 1e-3 m."""
@@ -432,6 +434,7 @@ def test_looped_code_is_one_object_for_all_starts():
 # -- the study ---------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_rows_come_in_order_and_fit_the_contract(tmp_path):
     study = stress(["pendulum"], ["duration", "gravity"], ["lagrange", "ggl", "auto"])
     assert [row.family for row in study.rows] == ["duration"] * 18 + ["gravity"] * 30

@@ -57,6 +57,7 @@ def height(t):
     return at
 
 
+@pytest.mark.slow_cases("{ coefficient = MU }-lagrange")
 @pytest.mark.parametrize(("friction", "other"), [(BY_WEIGHT, "lagrange"), (CONSTANT, "index1-augmented-lagrangian")])
 def test_a_block_that_stops_is_on_its_closed_form(tmp_path, friction, other):
     (path := tmp_path / "block.toml").write_text(block(friction))

@@ -108,6 +108,7 @@ def test_two_blocks_in_a_row_strike_by_one_law() -> None:
     assert (push > 0.0).all()
 
 
+@pytest.mark.slow
 def test_a_pendulum_between_stops() -> None:
     tree = Tree([pin(GROUND, NOTHING, np.array([0.0, 0.5, 0.0]), 1.0, 0.05)], [], DOWN)
     stops = [Bounded("pin", joint(0), lower=-1.0, upper=1.0, restitution=0.5)]

@@ -24,6 +24,7 @@ from symgen.describe.joints import JOINTS
 ROOT = Path(__file__).resolve().parents[2]
 
 
+@pytest.mark.slow
 def test_a_number_means_the_same_mechanism_in_every_process() -> None:
     script = "from benchmarks.mechanisms.draw import draw; from benchmarks.mechanisms.toml import text; "
     script += "print(''.join(text(draw(5, i).raw) for i in range(4)))"

@@ -320,6 +320,7 @@ def test_a_leg_walks_where_circles_meet(name):
         assert_allclose(place(result, point), found, atol=1e-11)
 
 
+@pytest.mark.slow
 def test_klann_has_the_stride_that_the_patent_says():
     """Half a turn of the crank after its start the foot is one stride ahead, on the same height."""
     result = run("klann-leg")
@@ -329,6 +330,7 @@ def test_klann_has_the_stride_that_the_patent_says():
     assert result.points["leg.foot.y"][half] == pytest.approx(0.0, abs=1e-3 * stride)
 
 
+@pytest.mark.slow_cases("jansen-leg")
 @pytest.mark.parametrize("name", LEGS)
 def test_a_turn_of_a_leg_takes_the_work_on_the_ground(name):
     """Weights and inertia give back in a turn what they take; the ground's pull along the foot's way is left."""
@@ -383,6 +385,7 @@ def test_the_ram_returns_in_half_the_turn_of_its_cut():
     assert_allclose(angles[:3], expected, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_the_ram_is_where_the_lever_puts_it():
     result = run("shaper")
     p, theta = result.parameters, result["crank.theta"]
@@ -396,6 +399,7 @@ def test_the_ram_is_where_the_lever_puts_it():
 # -- engine ------------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_piston_stands_where_the_crank_puts_it():
     result = run("engine")
     p, theta = result.parameters, result["crank.theta"]

@@ -37,6 +37,7 @@ def file(text: str) -> dict:
     return tomllib.loads(text)
 
 
+@pytest.mark.slow
 def test_pendulum_is_elliptic() -> None:
     """IFToMM A01: theta from the downward vertical, sin(theta/2) = k sn(K - sqrt(g/L) t), k = sin(pi/4)."""
     times = np.linspace(0.0, 2.0, 9)
@@ -78,6 +79,7 @@ def rows(name: str) -> np.ndarray:
         return np.array([[float(x) for x in row] for row in csv.reader(x for x in lines if not x.startswith("#"))])
 
 
+@pytest.mark.slow
 def test_bricard_mechanism_follows_the_published_points() -> None:
     """A permanently redundant loop: 30 rows of rank 29."""
     table = rows("bricard_square_rods.csv")

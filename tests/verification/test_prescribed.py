@@ -129,7 +129,7 @@ def spatial(flip: bool) -> dict:
     }
 
 
-@pytest.mark.slow_cases("planar-True")
+@pytest.mark.slow_cases("planar-True", "planar-False")
 @pytest.mark.parametrize("flip", [False, True])
 @pytest.mark.parametrize("make", [planar, pytest.param(spatial, marks=pytest.mark.slow)])
 def test_driven_trees_move_as_bodies_with_rows_do(make, flip, tmp_path):

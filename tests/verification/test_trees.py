@@ -65,7 +65,7 @@ def test_random_trees_in_the_plane(index, tmp_path):
     compare(index, False, tmp_path)
 
 
-@pytest.mark.slow_cases("2")
+@pytest.mark.slow_cases("2", "3", "4")
 @pytest.mark.parametrize(
     "index", [*SPACE[2:5], *(pytest.param(i, marks=pytest.mark.slow) for i in of_turn((*SPACE[:2], *SPACE[5:]), 3))]
 )

@@ -65,6 +65,7 @@ def load(tmp_path, text):
     return symgen.load(path)
 
 
+@pytest.mark.slow
 def test_friction_of_a_pin_by_its_reaction(tmp_path):
     """Torque = I a + m g l cos + mu r |N|, the reaction N being m (a - g) of the centre."""
     t = np.linspace(0.0, 2.0, 41)

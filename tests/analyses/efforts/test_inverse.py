@@ -187,6 +187,7 @@ def test_a_motion_of_kinematics_comes_back_from_a_file(linkage, tmp_path, capsys
     assert np.allclose(found["efforts"]["motor"], run["motor.effort"], rtol=1e-10, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_motion_that_the_actuators_cannot_give_is_said(pendulum):
     run = pendulum.simulate(until=0.5, step=1e-3, output_step=0.1, inputs={"push": "4*sin(3*t)"})
     found = pendulum.inverse(run, actuators=["held"], inputs={"push": 0.0})
@@ -250,6 +251,7 @@ def test_inputs_that_jump_beside_a_motion_are_what_they_are_in_it(times):
         cart.inverse(before, actuators=["rail"], inputs={"push": late})
 
 
+@pytest.mark.slow
 def test_a_motion_of_some_drivers_is_taken_from_a_run(linkage):
     """A double pendulum whose first rod is driven: the motor's torque is what the run reports."""
     raw = four_bar((4.0, 1.0, 3.0, 3.0), math.pi / 3.0, CRANK, (1.0, 3.0, 3.0))

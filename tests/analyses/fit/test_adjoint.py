@@ -47,7 +47,7 @@ def test_lengths_masses_and_gravity_of_the_four_bar(four_bar, method, coordinate
         assert found.memory > 1000
 
 
-@pytest.mark.slow_cases("rod.theta")
+@pytest.mark.slow_cases("rod.theta", "length**2/3*rod.omega**2")
 @pytest.mark.parametrize("quantity", ["rod.theta", "length**2/3*rod.omega**2", "rod.alpha"])
 def test_the_rod_on_a_pin(tmp_path, quantity):
     rod = model(tmp_path, ROD)
@@ -92,6 +92,7 @@ def test_motion_in_space(method, coordinates):
     assert largest_difference(disc, "disc.x", by, **settings) < 1e-11
 
 
+@pytest.mark.slow
 def test_runs_that_are_kept_in_parts(four_bar, monkeypatch):
     settings = {"until": 2.0, "method": "direct-correction", "integrator": "rk4", "step": 1e-2, "way": "adjoint"}
     whole = four_bar.gradient("crank.theta", by=("a", "m2"), **settings)

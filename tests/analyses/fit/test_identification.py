@@ -87,6 +87,7 @@ def rod(tmp_path_factory):
     return model(tmp_path_factory.mktemp("rod"), ROD)
 
 
+@pytest.mark.slow
 def test_starts_and_the_bias_of_a_sensor_are_unknowns(rod):
     t = np.linspace(0.1, 3.0, 60)
     true = rod.simulate(times=t, until=3.0, parameters={"length": 1.2}, start={"rod.omega": 0.8}, **FINE)

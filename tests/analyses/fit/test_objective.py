@@ -109,6 +109,7 @@ def test_a_value_at_which_nothing_closes_is_infinite(four_bar):
     assert slopes[0] != 0.0
 
 
+@pytest.mark.slow_cases("crank.theta-changes10-a run that ends at a time, got an event")
 @pytest.mark.parametrize(
     ("quantity", "changes", "said"),
     [

@@ -48,7 +48,7 @@ def close(value, exact, part=1e-12):
     return np.abs(value - exact).max() <= part * max(1.0, np.abs(exact).max())
 
 
-@pytest.mark.slow_cases("chain", "fork")
+@pytest.mark.slow_cases("chain", "fork", "slides")
 def test_trees_are_those_of_own_recursions(robot):
     model, recursion = robot
     f = model.functions()
@@ -159,6 +159,7 @@ LOOPS = [
 ]
 
 
+@pytest.mark.slow_cases("four-bar-joint")
 @pytest.mark.parametrize(("name", "coordinates"), LOOPS)
 def test_loops_are_those_of_differences_and_numpy(name, coordinates):
     f = load(name).functions(coordinates)
@@ -433,6 +434,7 @@ def test_singular_positions_are_refused():
         f.inverse_dynamics([f.start[0], flat], flat, flat)
 
 
+@pytest.mark.slow
 def test_light_bodies_are_refused():
     f = parallelogram(mass=0.0).functions("absolute")
     q, v = f.start

@@ -54,6 +54,7 @@ def test_soft_beam_converges_with_fourth_order():
     assert errors[1] <= 4.5e-5 and 3.8 < np.log2(errors[0] / errors[1]) < 4.2
 
 
+@pytest.mark.slow
 def test_end_moment_rolls_a_beam_to_a_circle():
     moment = {"type": "torque", "body": "rod.end", "torque": 2.0 * np.pi}
     rest = cantilever(8, axial=1e4, shear=1e4, forces={"moment": moment}).equilibrium()
@@ -124,6 +125,7 @@ def test_flutter_under_a_follower_force():
     assert np.abs(np.array(frequencies) / 11.015557640923 - 1.0).max() <= 2e-3
 
 
+@pytest.mark.slow
 def test_resultants_are_those_of_statics():
     """Force and moment in the middles of the elements of a cantilever under a weight: what equilibrium says of them."""
     model = cantilever(4, forces={"tip": at_end(0.5, -2.0)})

@@ -76,6 +76,7 @@ def test_crossings_are_where_roots_are_on_the_axis(model, numbers, count):
     assert_allclose([c.eigenvalue.imag for c in found], [c[1] for c in expected], rtol=0.0, atol=1e-6)
 
 
+@pytest.mark.slow_cases("0")
 @pytest.mark.parametrize("seed", range(2))
 def test_as_many_pass_as_stand_on_the_other_side_behind(model, seed):
     rng = np.random.default_rng(seed)

@@ -164,6 +164,7 @@ def test_modes_beside_a_driver_at_rest_are_those_of_the_pole(value):
     assert model.equilibrium().notes == ()
 
 
+@pytest.mark.slow
 def test_a_few_modes_beside_a_driver_that_moves_are_refused_alike():
     with pytest.raises(InputError, match="'motor', which moves"):
         driven_cart("0.1 + 0.05*sin(3*t)").modes(count=1)

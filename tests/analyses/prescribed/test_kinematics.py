@@ -206,7 +206,7 @@ def test_angles_in_space_count_turns():
 # -- singular positions ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow_cases("fine")
+@pytest.mark.slow_cases("fine", "coarse")
 @pytest.mark.parametrize(
     "times",
     [np.linspace(0.0, 2.0, 401), np.linspace(0.0, 2.0, 9), [0.0, (math.pi - 0.7) / (2.0 * math.pi)], [-1.0, 1.0]],
@@ -227,7 +227,7 @@ def test_a_rhombus_goes_through_its_change_points(rhombus, times):
     assert all(p.kind == "passed" and "singular position at t =" in p.words for p in found.passages)
 
 
-@pytest.mark.slow_cases("fine")
+@pytest.mark.slow_cases("fine", "coarse")
 @pytest.mark.parametrize("times", [np.linspace(0.0, 1.0, 101), [0.0, 0.25, 0.5, 1.0]], ids=["fine", "coarse"])
 def test_redundant_links_go_through_flat_positions(times):
     """Three parallel links: a row depends on the others for ever, and two more positions are singular."""
@@ -270,6 +270,7 @@ def test_a_crank_that_cannot_go_round_stops_at_its_dead_centre():
     assert not nothing.ok and len(nothing.t) == 0 and nothing.to_json()["q"]["crank.theta"] == []
 
 
+@pytest.mark.slow
 def test_a_slider_drives_a_crank_over_both_dead_centres():
     """The slider moves as a steady crank would have moved it: at its ends it stands still, and the crank goes on."""
     raw = slider_crank("cos(0.7 + 2*pi*t) + sqrt(9 - sin(0.7 + 2*pi*t)**2)")
@@ -441,6 +442,7 @@ def test_doubled_pins_leave_reactions_that_are_not_unique():
     assert any("not unique" in note for note in found.notes)
 
 
+@pytest.mark.slow
 def test_files_and_json(driven, tmp_path, capsys):
     code = main(
         [

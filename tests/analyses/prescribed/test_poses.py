@@ -41,7 +41,17 @@ def turned(result, body, i):
     return Rotation.from_quat([result[f"{body}.e{k}"][i] for k in (1, 2, 3, 0)])
 
 
-@pytest.mark.slow_cases("joint-zyx", "looped-zyx", "joint-zxz", "looped-zxz", "joint-vector", "looped-vector")
+@pytest.mark.slow_cases(
+    "joint-zyx",
+    "looped-zyx",
+    "joint-zxz",
+    "looped-zxz",
+    "joint-vector",
+    "looped-vector",
+    "plain-vector",
+    "plain-zxz",
+    "plain-zyx",
+)
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize(
     "settings", [{}, {"coordinates": "joint"}, {"shape": "looped"}], ids=["plain", "joint", "looped"]

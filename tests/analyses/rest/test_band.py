@@ -50,6 +50,7 @@ def test_the_band_of_a_pendulum(coordinates: str) -> None:
     assert rest.to_dict()["band"] == {"pin.angle": [low, high]}
 
 
+@pytest.mark.slow
 def test_a_bound_beyond_all_forces_holds_everywhere() -> None:
     rest = pendulum().equilibrium(parameters={"torque": 10.0})
     assert rest.band == {"pin.angle": (-math.inf, math.inf)}

@@ -49,6 +49,7 @@ def test_a_column_flutters_beside_a_stiff_spring(way):
         model.modes(parameters={"load": 3.0}, count=1)
 
 
+@pytest.mark.slow
 def test_a_damper_beside_a_stiff_spring():
     """s^2 + c s + 1 = 0 has -c / 2 as real part."""
     block, rail, spring = beside(1e12, 1e4)

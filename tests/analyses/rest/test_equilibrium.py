@@ -60,7 +60,7 @@ def test_a_rod_on_its_head_is_an_equilibrium_too():
     assert_allclose([found.multipliers["pin.x"], abs(found.multipliers["pin.y"])], [0.0, 19.62], atol=1e-12)
 
 
-@pytest.mark.slow_cases("joint-False", "joint-True")
+@pytest.mark.slow_cases("joint-False", "joint-True", "absolute-True")
 @pytest.mark.parametrize("doubled", [False, True])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_both_equilibria_of_a_four_bar(doubled, coordinates):
@@ -73,7 +73,7 @@ def test_both_equilibria_of_a_four_bar(doubled, coordinates):
         assert found.not_unique == (("D", "D2", "link") if doubled else ())
 
 
-@pytest.mark.fast("joint-roof")
+@pytest.mark.slow
 @pytest.mark.parametrize("start", STARTS)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_links_hang_as_a_catenary(start, coordinates):

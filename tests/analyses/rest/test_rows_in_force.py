@@ -23,6 +23,7 @@ def models():
     return symgen.load(with_switchable(whole.mechanism, whole.mechanism.joints[-1].name)), whole
 
 
+@pytest.mark.slow
 def test_linear_systems_modes_and_equilibria_are_those_of_the_closed_mechanism():
     (switched, whole), near = models(), {"rtol": 1e-10, "atol": 1e-12}
     np.testing.assert_allclose(switched.linearise().eigenvalues(), whole.linearise().eigenvalues(), **near)
@@ -40,7 +41,7 @@ def test_efforts_of_a_motion_are_those_of_the_closed_mechanism():
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-9)
 
 
-@pytest.mark.fast("joint")
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [{}, {"coordinates": "joint"}, {"target": "lanes"}], ids=["cpu", "joint", "lanes"])
 def test_rows_of_a_sweep_are_those_of_the_closed_mechanism(how):
     switched, whole = models()
@@ -52,7 +53,7 @@ def test_rows_of_a_sweep_are_those_of_the_closed_mechanism(how):
             np.testing.assert_allclose(found[name][i, -1], one[name][-1], rtol=0.0, atol=1e-10)
 
 
-@pytest.mark.slow_cases("lagrange")
+@pytest.mark.slow_cases("lagrange", "implicit-constraint")
 @pytest.mark.parametrize("method", ["lagrange", "implicit-constraint"])
 def test_semi_implicit_steps_without_the_joint_are_those_of_the_open_mechanism(method):
     """The joint is off from 0.1 s on: the same steps from there as without it."""

@@ -82,7 +82,7 @@ def two_masses():
     return rods.model(bodies, joints, gravity=[0.0, 0.0], forces=forces)
 
 
-@pytest.mark.slow_cases("absolute")
+@pytest.mark.slow_cases("absolute", "joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_shares_of_damped_modes_are_those_of_two_by_two_matrices(coordinates):
     found = two_masses().modes(coordinates=coordinates)
@@ -110,7 +110,7 @@ def test_shares_of_damped_modes_are_those_of_two_by_two_matrices(coordinates):
             assert_allclose(sum(own.values())[j], 1.0, rtol=1e-12)
 
 
-@pytest.mark.slow_cases("flyball-governor")
+@pytest.mark.slow_cases("flyball-governor", "cart-pole")
 @pytest.mark.parametrize("name", ["four-bar", "cart-pole", "flyball-governor"])
 def test_tables_are_those_of_bodies_in_both_coordinates(name):
     asked = {"at": "steady"} if name == "flyball-governor" else {}

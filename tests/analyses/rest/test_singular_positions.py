@@ -43,7 +43,7 @@ length = 2.0
 """
 
 
-@pytest.mark.slow_cases("joint")
+@pytest.mark.slow_cases("joint", "absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_the_note_is_there_at_the_singular_position_alone(coordinates):
     """Weight along the ground line folds three parallel links flat, weight across it does not."""
@@ -57,7 +57,7 @@ def test_the_note_is_there_at_the_singular_position_alone(coordinates):
             assert any("position is singular" in note for note in analysis.notes) == (freedom == 2), analysis.notes
 
 
-@pytest.mark.slow_cases("equilibrium")
+@pytest.mark.slow_cases("equilibrium", "modes")
 @pytest.mark.parametrize("command", ["equilibrium", "modes", "linearise"])
 def test_the_note_is_on_standard_error_and_in_json(command, tmp_path, capsys):
     file = tmp_path / "folded.toml"

@@ -34,7 +34,7 @@ def hinged():
     )
 
 
-@pytest.mark.fast("0.4-looped", "-7.5-straight")
+@pytest.mark.fast("0.4-looped")
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize("turned", [0.4, 5.0, -7.5])
 def test_what_a_wound_spring_exerts(shape, turned):

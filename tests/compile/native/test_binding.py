@@ -157,6 +157,7 @@ def test_code_is_small(name, tmp_path, monkeypatch):
     starts_of(name, tmp_path, monkeypatch, compare)
 
 
+@pytest.mark.slow
 def test_what_is_constant_is_no_argument(tmp_path, monkeypatch):
     """Without held coordinates nothing is left of them; one function serves all arrays that it is called with."""
 

@@ -88,6 +88,7 @@ def test_what_is_no_call_is_copied(emitted):
     assert all(below[name].inlined for name in ("sine", "cosine"))
 
 
+@pytest.mark.slow
 def test_loops_over_lanes_become_vectors(emitted):
     """Of all sums and products half at least: the others are what is left over where lanes do not fill vectors."""
     law = load_module(emitted / "lagrange_lanes.py")

@@ -1,12 +1,14 @@
 """The search for events printed as C: every bit is that of its plain Python, times are those of machine code."""
 
 import numpy as np
+import pytest
 
 from compile.native import printed, printed_search
 from symgen.run.layout import abi
 from symgen.run.loops import searching
 
 
+@pytest.mark.slow
 def test_events_of_functions_of_time(tmp_path):
     function = searching.decide.read(printed_search.ARGUMENTS)
     decide = printed.Library({"decide": function}, tmp_path).function("decide", abi.DECIDE.signature)

@@ -22,7 +22,7 @@ def library(tmp_path_factory):
     return printed.Library(functions, tmp_path_factory.mktemp("printed"))
 
 
-@pytest.mark.fast("30-30-29")
+@pytest.mark.slow
 @pytest.mark.parametrize(("m", "n", "rank"), [(8, 9, 8), (8, 9, 5), (9, 4, 2), (1, 6, 1), (30, 30, 29)])
 def test_shortest_solutions(library, m, n, rank):
     own, solve = compiled_form(least_norm), library.function("least_norm", LEAST_NORM)
@@ -50,7 +50,7 @@ def closes_alike(library, case, monkeypatch):
     return printed_starts.starts(case, monkeypatch, compare)
 
 
-@pytest.mark.slow_cases("('four-bar', {}, {})", "((1, 'spatial', True, False), {}, {})")
+@pytest.mark.slow_cases("('four-bar', {}, {})", "((1, 'spatial', True, False), {}, {})", "('four-bar', {2: 0.3}, {})")
 @pytest.mark.parametrize("case", FEW, ids=str)
 def test_starts(library, case, monkeypatch):
     summary = closes_alike(library, case, monkeypatch)

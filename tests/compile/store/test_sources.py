@@ -78,7 +78,7 @@ def change(path):
 
 
 @pytest.mark.by_turns(3)
-@pytest.mark.fast("templates", "run/starts")
+@pytest.mark.fast("templates")
 @pytest.mark.parametrize("place", [*PLACES, "templates"])
 def test_one_character_in_any_room_makes_other_results(place, package, unchanged):
     path = package / place if (package / place).exists() else package.parent / place
@@ -89,6 +89,7 @@ def test_one_character_in_any_room_makes_other_results(place, package, unchanged
     assert after["rows"] != unchanged["rows"] and after["cells"] != unchanged["cells"]
 
 
+@pytest.mark.slow
 def test_what_is_put_back_makes_the_same_results(package, unchanged):
     text = change(package / "run/loops/frame.py")
     assert identities() != unchanged
@@ -129,6 +130,7 @@ def changed(file, before):
     return {name for name in before if before[name] != after[name]}
 
 
+@pytest.mark.slow
 def test_a_new_module_is_another_code(package):
     before = identities()
     (package / "run" / "integrators" / "new.py").write_text("KIND = None\n")

@@ -143,7 +143,7 @@ def test_printed_operations_are_those_counted():
             assert printed <= counted and 0.98 * counted <= printed + signs, f"{stem}.{function.name}"
 
 
-@pytest.mark.slow_cases("everything")
+@pytest.mark.slow_cases("everything", "four-bar", "n-four-bar:2")
 @pytest.mark.parametrize("model", MODELS)
 def test_the_header_says_what_it_must(model):
     for stem, source in sources(model).items():

@@ -128,6 +128,7 @@ def unchecked(value: Any, texts: Iterator[str]) -> Any:
     return tuple(unchecked(item, texts) for item in value) if isinstance(value, tuple) else value
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("space", ["planar", pytest.param("spatial", marks=pytest.mark.slow)])
 def test_emission_is_safe_by_itself(space, tmp_path):
     """A mechanism that was never validated, as a program may make one, with every canary as the unit of a parameter."""
@@ -212,6 +213,7 @@ def with_tables(of_rate: bool = False) -> dict[str, Any]:
     }
 
 
+@pytest.mark.slow
 def test_tables_of_any_names_are_kept_apart_in_every_route(tmp_path):
     """The arrays and functions of each table hold its own numbers, in every module that has tables."""
     sources = emitted(mechanism_of(with_tables(of_rate=True)))

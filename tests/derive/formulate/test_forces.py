@@ -24,6 +24,7 @@ APART = ("bushing", "beam")
 KINDS = tuple(name for name, kind in FORCES.items() if "planar" in kind.SPACES and name not in APART)
 
 
+@pytest.mark.slow_cases("spring-damper")
 @pytest.mark.parametrize("kind", KINDS)
 @RANDOM
 @given(data=st.data())

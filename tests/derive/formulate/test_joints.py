@@ -83,7 +83,7 @@ def check_emitted(raw, t, q, v, compiled=False):
         close(found.coordinates[2 * k : 2 * k + 2], pair, name)
 
 
-@pytest.mark.slow_cases("coupling", "distance")
+@pytest.mark.slow_cases("coupling", "distance", "pin-in-slot")
 @pytest.mark.parametrize("kind", KINDS)
 @RANDOM
 @given(data=st.data())
@@ -103,6 +103,7 @@ def test_every_joint_kind_was_tried():
     }
 
 
+@pytest.mark.slow
 @RANDOM
 @given(data=st.data())
 def test_parameters_stay_adjustable(data):

@@ -3,6 +3,7 @@
 import cmath
 
 import numpy as np
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from support import reference
@@ -36,6 +37,7 @@ def energy_rate(plain, q, v, acceleration):
     return float(np.dot(v, reference.masses(plain) * acceleration)) + potential
 
 
+@pytest.mark.slow
 @RANDOM
 @given(data=st.data())
 def test_scleronomic_joints_do_no_work(data):

@@ -332,7 +332,7 @@ def ball(spring, start):
     }
 
 
-@pytest.mark.slow_cases("absolute")
+@pytest.mark.slow_cases("absolute", "joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_stiffness_and_damping_of_a_ball(coordinates):
     """About a principal axis it is an oscillator; else the torque is -k times the rotation vector less c omega."""
@@ -368,6 +368,7 @@ def sprung(**keys):
     }
 
 
+@pytest.mark.slow_cases("{'integrator': 'radau5'}")
 @pytest.mark.parametrize(
     "settings", [{}, {"integrator": "radau5"}, {"shape": "looped"}, {"coordinates": "joint"}], ids=str
 )

@@ -18,7 +18,7 @@ from symgen.describe.forces import FORCES
 KINDS = tuple(name for name, kind in FORCES.items() if "spatial" in kind.SPACES and name != "beam")
 
 
-@pytest.mark.slow_cases("bushing", "spring-damper")
+@pytest.mark.slow_cases("bushing", "spring-damper", "force")
 @pytest.mark.parametrize("kind", KINDS)
 @RANDOM
 @given(data=st.data())

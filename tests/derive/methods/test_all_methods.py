@@ -99,6 +99,8 @@ def test_the_error_of_penalty_falls_with_the_penalty():
     "hamiltonian-baumgarte-rk4",
     "invariant-stabilization-rk4",
     "lagrange-abm",
+    "coordinate-partitioning-dop853",
+    "lagrange-radau5",
 )
 @pytest.mark.parametrize(
     ("method", "integrator"),

@@ -29,6 +29,7 @@ def energy_errors(result):
     return np.abs(result.energy.values[:, result.energy.names.index("error")])
 
 
+@pytest.mark.slow_cases("four-bar")
 @pytest.mark.parametrize("name", ["four-bar", "slider-crank"])
 def test_a_step_meets_the_equations_of_the_scheme(name):
     """Means by twelve nodes in equations from an independent derivation, which have one solution."""
@@ -52,7 +53,7 @@ def test_order_two_with_positions_on_their_constraints(name, until, keys):
     np.testing.assert_allclose(orders(errors), 2.0, atol=0.1)
 
 
-@pytest.mark.fast("four-bar-0.005", "spherical-double-pendulum-0.005")
+@pytest.mark.fast("spherical-double-pendulum-0.005")
 @pytest.mark.parametrize(
     ("name", "step"), [("four-bar", 5e-3), ("bricard", 1e-2), ("spherical-double-pendulum", 5e-3), ("heavy-top", 2e-3)]
 )

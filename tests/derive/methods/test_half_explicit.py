@@ -14,7 +14,7 @@ A = ((1 / 3,), (-1.0, 2.0), (0.0, 3 / 4, 1 / 4))
 C = (0.0, 1 / 3, 1.0, 1.0)
 
 
-@pytest.mark.fast("slider-crank")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["four-bar", "driven-four-bar", "slider-crank"])
 def test_a_step_is_the_textbooks(name):
     """Stage by stage with dense matrices from an independent derivation; drivers have a nu."""
@@ -34,7 +34,7 @@ def test_a_step_is_the_textbooks(name):
     np.testing.assert_allclose(v1, v, rtol=0.0, atol=1e-11)
 
 
-@pytest.mark.slow_cases("spatial-slider-crank-0.5-keys2")
+@pytest.mark.slow_cases("spatial-slider-crank-0.5-keys2", "spatial-slider-crank-0.5-keys3")
 @pytest.mark.parametrize(("name", "until", "keys"), MOTIONS)
 def test_order_three_with_velocities_to_rounding(name, until, keys):
     results, errors = compared(load(name), until, method="half-explicit", max_violation=1e-4, **keys)

@@ -1,6 +1,7 @@
 """Positions are pulled back to their constraints in the form of momenta."""
 
 import numpy as np
+import pytest
 from support.laws_at import LawAt, described, on_rails
 
 from symgen.derive.lower.record import record_law
@@ -25,6 +26,7 @@ def test_a_seeded_violation_decays_exponentially_where_constraints_are_linear():
     np.testing.assert_allclose(v, [0.0, 0.7, 0.0], rtol=0.0, atol=1e-14)
 
 
+@pytest.mark.slow
 def test_on_curved_constraints_it_pulls_where_the_method_without_gain_does_not():
     off = np.random.default_rng(2).standard_normal(9)
     left = {}

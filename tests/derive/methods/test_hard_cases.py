@@ -42,7 +42,7 @@ def test_redundant_constraints_by_every_method():
     check_redundant(tuple(m for m in METHODS.names if m not in (*FEW, *COARSE)))
 
 
-@pytest.mark.slow_cases("penalty-sdirk-1e-06")
+@pytest.mark.slow_cases("penalty-sdirk-1e-06", "generalized-alpha-generalized-alpha-1e-05")
 @pytest.mark.parametrize(
     ("method", "integrator", "tolerance"),
     [
@@ -109,7 +109,7 @@ def check_passages(method, windows, steps, until):
     return found
 
 
-@pytest.mark.slow_cases("lagrange")
+@pytest.mark.slow_cases("lagrange", "direct-correction")
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 def test_singular_positions(method):
     found = check_passages(method, 1, np.linspace(0.95e-3, 1.05e-3, 5), 10.0)
@@ -155,7 +155,7 @@ def two_links(massless: bool) -> Model:
     return Model(raw.build())
 
 
-@pytest.mark.fast("direct-correction")
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction", "stiffness-scaled-penalty"])
 def test_a_massless_coupler_moves_as_a_distance_joint(method):
     keys = {"method": method, "integrator": "dop853", "rtol": 1e-12, "atol": 1e-13, "until": 2.0, "output_step": 0.1}

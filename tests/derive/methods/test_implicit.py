@@ -98,13 +98,7 @@ class Stage:
 
 
 @pytest.mark.fast(
-    "adaptive-baumgarte",
-    "compliant-constraints",
-    "ggl",
-    "generalized-alpha",
-    "index3-augmented-lagrangian",
-    "rattle",
-    "discrete-gradient",
+    "compliant-constraints", "ggl", "generalized-alpha", "index3-augmented-lagrangian", "rattle", "discrete-gradient"
 )
 @pytest.mark.parametrize("method", LEVELS)
 def test_tangent_is_the_derivative_of_the_residual(method):
@@ -164,7 +158,7 @@ def test_generalized_alpha_without_damping_is_refused(rho):
         make_plan(load("four-bar").mechanism, settings)
 
 
-@pytest.mark.fast("direct-correction-sdirk-1e-06")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "integrator", "tolerance"),
     [

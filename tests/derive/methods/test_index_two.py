@@ -8,6 +8,7 @@ from symgen.base.errors import InputError
 from tests.derive.methods.test_hard_cases import two_links
 
 
+@pytest.mark.slow_cases("spatial-slider-crank-0.2-0.001")
 @pytest.mark.parametrize(("name", "until", "step"), [("four-bar", 1.0, 4e-3), ("spatial-slider-crank", 0.2, 1e-3)])
 def test_projected_velocities_keep_the_order(name, until, step):
     model = symgen.load(name)

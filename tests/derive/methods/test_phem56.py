@@ -47,10 +47,7 @@ def test_conditions_of_the_coefficients():
 
 
 @pytest.mark.fast(
-    "four-bar-2.0-0.004-keys1",
-    "spatial-slider-crank-0.4-0.00125-keys2",
-    "spatial-slider-crank-0.4-0.0025-keys3",
-    "heavy-top-0.5-0.0025-keys5",
+    "spatial-slider-crank-0.4-0.00125-keys2", "spatial-slider-crank-0.4-0.0025-keys3", "heavy-top-0.5-0.0025-keys5"
 )
 @pytest.mark.parametrize(("name", "until", "step", "keys"), MOTIONS)
 def test_order_five_with_velocities_to_rounding(name, until, step, keys):

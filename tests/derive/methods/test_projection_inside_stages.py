@@ -50,6 +50,7 @@ def run(name, **keys):
     return load(name).simulate(method="direct-correction", options=options, **UNWATCHED, **keys)
 
 
+@pytest.mark.slow_cases("straight")
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 def test_it_is_the_scheme_with_projected_stages(shape):
     own = plain_run("four-bar", 0.02, 10)

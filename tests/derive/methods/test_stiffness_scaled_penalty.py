@@ -12,7 +12,7 @@ from symgen.describe.catalogue import raw
 METHOD = "stiffness-scaled-penalty"
 
 
-@pytest.mark.fast("stiffness0", "stiffness3")
+@pytest.mark.slow
 @pytest.mark.parametrize("stiffness", CASES)
 def test_bars_share_a_load_like_their_stiffness(stiffness):
     own, _ = tensions(stiffness, METHOD)

@@ -84,7 +84,7 @@ def least_visible(drawing: Drawing) -> float:
     return least
 
 
-@pytest.mark.slow_cases("front-suspension", "stewart-platform")
+@pytest.mark.slow_cases("front-suspension", "stewart-platform", "bricard", "flyball-governor")
 @pytest.mark.parametrize("name", ["stewart-platform", "flyball-governor", "front-suspension", "bricard"])
 def test_no_body_is_mostly_hidden(name: str) -> None:
     """Legs of a platform cross in every view; each is still recognised."""

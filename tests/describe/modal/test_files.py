@@ -61,6 +61,7 @@ def test_a_body_has_modes_and_interfaces(folder):
     assert repr(model.mechanism) == "<Mechanism bent, planar: 1 body, 1 joint, 1 force, 0 parameters>"
 
 
+@pytest.mark.slow
 def test_rows_and_interfaces_are_read_by_name(folder):
     more = '[outputs]\npeak = { value = "max(abs(arm.sigma))", unit = "Pa" }\nlow = "min(arm.sigma)"\n'
     more += 'h = "arm.tip.vy + arm.lift"\n'
@@ -101,6 +102,7 @@ def test_a_start_that_a_joint_contradicts_is_refused(folder):
         model.simulate(until=0.001, start={axial: 0.01})
 
 
+@pytest.mark.slow
 def test_both_ends_of_a_joint_on_one_body(folder):
     """A bar of fixed length between the ends of one body: modes alone can follow it."""
     more = '[joints.tie]\ntype = "distance"\nlength = 1.0\nbetween = ["arm.root", "arm.tip"]\n'
@@ -232,6 +234,7 @@ def test_damaged_files_are_refused(folder):
             assert "\n" not in str(error)
 
 
+@pytest.mark.slow
 def test_a_bomb_is_not_unpacked(folder):
     with zipfile.ZipFile(folder / "bomb.npz", "w", zipfile.ZIP_DEFLATED) as archive:
         header = b"{'descr': '<f8', 'fortran_order': False, 'shape': (10000000,), }"
@@ -265,6 +268,7 @@ def test_the_digest_is_that_of_the_equations(folder):
         shutil.move(folder / "kept.npz", folder / "arm.npz")
 
 
+@pytest.mark.slow
 def test_commands_take_a_modal_body(folder):
     load(folder)
     file = str(folder / "bent.toml")

@@ -66,6 +66,7 @@ def test_sixteen_bits_between_the_smallest_and_the_largest() -> None:
     assert back == pytest.approx([1.0, 2.0, 4.0], abs=3.0 / 65534.0)
 
 
+@pytest.mark.slow
 def test_large_equations_stay_outside_and_the_page_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(live, "MOST", {False: 100, True: 100})  # besides the springs of a hand
     page = load("slider-crank").simulate(until=0.01, step=1e-3).view()
@@ -235,6 +236,7 @@ def test_a_step_of_a_page_makes_no_objects_and_memory_is_one_literal() -> None:
     assert "memory[" not in html
 
 
+@pytest.mark.slow
 def test_the_live_part_in_joint_coordinates_begins_where_the_run_began() -> None:
     run = load("slider-crank").simulate(until=0.01, coordinates="joint", start={"crank.theta": 1.0})
     live = data_of(run.view().html)["live"]
@@ -259,6 +261,7 @@ def test_formulas_that_the_run_had_numbers_for_keep_these() -> None:
     )
 
 
+@pytest.mark.slow
 def test_pages_in_joint_coordinates_have_no_sliders_that_move_the_start() -> None:
     """The lean of a pole says where it is described; pages begin with the joints' coordinates as they were."""
     run = load("cart-pole").simulate(until=0.01, coordinates="joint")
@@ -450,6 +453,7 @@ def test_gaps_of_single_joints_are_those_of_the_run() -> None:
     assert whole[-1] > 1e-9 and whole[-1] == pytest.approx(run.violations["position"][-1], rel=2e-3)
 
 
+@pytest.mark.slow
 def test_a_file_of_something_else_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str], result: Any) -> None:
     (tmp_path / "x.nc").write_bytes(b"nothing")
     assert main(["view", str(tmp_path / "x.nc")]) == 2

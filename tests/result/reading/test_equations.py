@@ -107,7 +107,7 @@ def test_numbers_of_the_whole_catalogue(name, coordinates):
     agrees(mechanism_on_tree(mechanism) if coordinates == "joint" else mechanism)
 
 
-@pytest.mark.slow_cases("dry-four-bar-joint")
+@pytest.mark.slow_cases("dry-four-bar-joint", "geneva-absolute", "geneva-joint", "slider-crank-with-clearance-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("name", [name for name in catalogue.all_names() if load_mechanism(name).bounded])
 def test_numbers_of_mechanisms_with_dry_friction_and_stops(name, coordinates):

@@ -213,6 +213,7 @@ def test_an_implicit_step_has_its_derivatives():
     compare(found, after, np.eye(4), {"push": 0.3}, 3e-3, 1e-11)
 
 
+@pytest.mark.slow_cases("stopped")
 @pytest.mark.parametrize("name", ["smooth", "stopped"])
 def test_a_step_that_is_made_in_pieces_has_the_derivatives_of_the_whole(name):
     model, h = (cart(), 3e-3) if name == "smooth" else (rubbed(1.0, 0.05), 1e-5)
@@ -236,6 +237,7 @@ def test_an_adaptive_run_has_derivatives_of_its_steps():
     assert np.abs(np.array(run.state) - end - 1e-6 * found.A[:, 2]).max() < 1e-10
 
 
+@pytest.mark.slow_cases("load_four_bar")
 @pytest.mark.parametrize("make", [load_four_bar, cart])
 def test_derivatives_of_explicit_steps_leave_the_factorisation_undifferentiated(make):
     # a cart computes other numbers of its parameters in that code: they stand behind those of the run

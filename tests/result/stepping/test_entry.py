@@ -36,6 +36,7 @@ def both(name, **settings):
     return sim, plain
 
 
+@pytest.mark.slow_cases("False-null-space-rk4", "True-direct-correction-bdf", "True-half-explicit-phem56")
 @pytest.mark.parametrize(("method", "integrator"), PAIRS)
 @pytest.mark.parametrize("adaptive", [False, True])
 def test_both_ways_give_the_same_bits(method, integrator, adaptive):
@@ -51,7 +52,7 @@ def test_both_ways_give_the_same_bits(method, integrator, adaptive):
     assert_same(sim, plain)
 
 
-@pytest.mark.fast("bricard-direct-correction-rk4-straight", "n-four-bar:1-null-space-dopri5-looped")
+@pytest.mark.fast("n-four-bar:1-null-space-dopri5-looped")
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize(
     ("name", "method", "integrator"),

@@ -117,7 +117,7 @@ def test_where_impacts_accumulate_the_run_stays_before_the_last_one(direct):
         assert all(e.t <= sim.t for e in sim.events)
 
 
-@pytest.mark.fast("False")
+@pytest.mark.slow
 @pytest.mark.parametrize("direct", [True, False])
 def test_velocities_that_cannot_be_leave_the_run_before_the_event(direct):
     rod = {"mass": 1.2, "inertia": 0.1, "points": {"A": [-0.5, 0.0]}, "position": [0.0, -0.5], "angle": "-pi/2"}

@@ -348,7 +348,7 @@ int main(int count, char **words) {{
 """
 
 
-@pytest.mark.slow_cases("wiper-None", "pendulum-dop853")
+@pytest.mark.slow_cases("wiper-None", "pendulum-dop853", "belt-oscillator-None")
 @pytest.mark.parametrize(("name", "integrator"), [("belt-oscillator", None), ("wiper", None), ("pendulum", "dop853")])
 def test_a_step_before_the_start_is_refused(name, integrator, tmp_path):
     """With friction it would go on in modes that nothing has chosen."""

@@ -53,6 +53,7 @@ def compare(name, coordinates, folder):
     return library
 
 
+@pytest.mark.slow
 def test_c_functions_of_a_loop(tmp_path):
     library = compare("four-bar", "joint", tmp_path)
     flat = np.zeros(3)
@@ -141,6 +142,7 @@ def compare_step(library, state):
         np.testing.assert_allclose(slopes[:, j], difference, atol=2e-7 * max(1.0, np.abs(difference).max()))
 
 
+@pytest.mark.slow
 def test_derivatives_and_a_step_of_a_loop(tmp_path):
     compare_step(*compare_derivatives("four-bar", "joint", tmp_path))
 

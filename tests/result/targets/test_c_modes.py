@@ -98,6 +98,7 @@ def loaded(text, tmp_path):
     return symgen.load(tmp_path / "model.toml")
 
 
+@pytest.mark.slow
 def test_a_block_on_a_belt_sticks_and_slips(tmp_path):
     model = symgen.load("belt-oscillator")
     program = program_of(model, tmp_path / "c")

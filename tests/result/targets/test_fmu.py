@@ -94,7 +94,7 @@ def test_model_exchange_neither_drifts_nor_restarts(four_bar, tolerance, error):
         assert np.abs(run.compiled.section(w, "residual")).max() < 1e-12
 
 
-@pytest.mark.slow_cases("2")
+@pytest.mark.slow_cases("2", "3")
 def test_co_simulation_is_a_run_with_the_same_step(four_bar):
     rows = simulated(four_bar, "CoSimulation", 1.0)
     own = load("four-bar").simulate(

@@ -221,6 +221,7 @@ def test_between_events_they_are_those_of_the_modes_in_force(tmp_path):
         assert by_pull == 0.0 and accelerations.max() == pytest.approx(1.0 if slides else 0.0, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_what_has_none_says_so(tmp_path):
     path = fmu_of(load("cart-pole"), tmp_path / "plain.fmu")
     with zipfile.ZipFile(path) as archive:

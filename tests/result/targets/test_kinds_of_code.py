@@ -32,7 +32,7 @@ def model_of(kind, coordinates, folder, target):
 
 
 @pytest.mark.by_turns(3)
-@pytest.mark.fast("plain-joint", "light body-absolute")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", COORDINATES)
 @pytest.mark.parametrize("kind", FILES)
 def test_c_and_fmus_compile_without_a_warning(kind, coordinates, tmp_path):

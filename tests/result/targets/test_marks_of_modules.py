@@ -61,6 +61,7 @@ def looks(tmp_path_factory):
     return json.loads(said.stdout)
 
 
+@pytest.mark.slow
 def test_a_transition_at_an_output_is_told_once(looks):
     """The block breaks loose at 0.5 s, turns, rests: 0.5 = 16 * 0.03125 and 0.625 = 5 * 0.125 are outputs."""
     first = looks[0]["told"]

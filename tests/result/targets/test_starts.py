@@ -12,7 +12,7 @@ from symgen.run.planning.prepare import prepare
 
 
 @pytest.mark.by_turns(2)
-@pytest.mark.fast("driven-four-bar-joint")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("name", ["four-bar", "driven-four-bar", "spatial-slider-crank", "rolling-disc", "wiper"])
 def test_a_start_is_that_of_a_run(name, coordinates, tmp_path):

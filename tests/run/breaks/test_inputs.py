@@ -368,7 +368,7 @@ def test_bad_files_are_told_in_a_sentence(model, tmp_path, text, word, message):
     assert message in str(caught.value)
 
 
-@pytest.mark.fast("3 if t > 0.37 else 0-0.37-3.0", "push3-0.37-3.0")
+@pytest.mark.fast("push3-0.37-3.0")
 @pytest.mark.parametrize(
     ("push", "when", "late"),
     [
@@ -396,6 +396,7 @@ def test_events_that_are_asked_for_read_what_a_run_gives_an_input(model, push, w
     assert_same_motion(found["end"], [stopped.end, stopped.end])
 
 
+@pytest.mark.slow
 def test_outputs_read_what_a_run_gives_an_input():
     """A formula of time, one that jumps, a curve and samples: what [outputs] show is what pushes."""
     mechanism = (

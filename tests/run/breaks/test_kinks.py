@@ -94,6 +94,7 @@ def test_a_run_that_goes_on_stops_at_the_kinks_ahead(pushed: symgen.Model) -> No
     np.testing.assert_allclose(second.q["mass.x"], x, rtol=0.0, atol=1e-13)
 
 
+@pytest.mark.slow_cases("pace")
 @pytest.mark.parametrize("vary", ["pace", "start"])
 def test_rows_of_a_sweep_stop_there_too(pushed: symgen.Model, vary: str) -> None:
     """They are what single runs are, wherever each row's kinks are."""

@@ -85,7 +85,7 @@ def test_motions_that_change_smoothly_are_not(value):
     assert refuse_jumps(mechanism_of(cart(value)), {}, 1.0) is None
 
 
-@pytest.mark.fast("joint")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_rows_whose_own_motion_jumps_fail(coordinates):
     raw = cart("speed*max(0, t - late)")

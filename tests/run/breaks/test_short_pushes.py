@@ -141,6 +141,7 @@ def test_plateaus_are_not_searched(pushed: symgen.Model) -> None:
     assert len(looks) < 4 * (2048 + 4096)
 
 
+@pytest.mark.slow
 def test_passages_of_any_frequency_are_found(pushed: symgen.Model) -> None:
     """Peaks that pass a level for a moment, more of them than the first looks, with known times."""
     random = np.random.default_rng(7)

@@ -85,6 +85,7 @@ def test_a_spinning_disc_bounces(integrator: str, coordinates: str, tmp_path: Pa
     assert result.ok and result["floor.mode"][-1] == 1.0
 
 
+@pytest.mark.slow
 def test_two_contacts_at_once(tmp_path: Path) -> None:
     """A disc flies into a corner: impulses of both contacts and their friction by a projection of one's own."""
     r, mu, e, v = 0.2, (0.25, 0.3), (0.5, 0.7), np.array([-1.0, -1.5, 4.0])
@@ -151,6 +152,7 @@ def test_a_block_rocks_and_comes_to_rest(integrator: str, tmp_path: Path) -> Non
         assert result.ok and result["left.mode"][-1] == result["right.mode"][-1] == 1.0
 
 
+@pytest.mark.slow
 def test_impacts_that_add_energy_end_a_run(tmp_path: Path) -> None:
     data = 20.0, 30.0, -0.1, -0.2
     with pytest.raises(
@@ -164,6 +166,7 @@ def test_impacts_that_add_energy_end_a_run(tmp_path: Path) -> None:
     assert abs(after @ mass @ after / (before @ mass @ before) - 0.88172953) < 1e-8
 
 
+@pytest.mark.slow
 def test_impulses_of_joints_are_those_of_bodies(tmp_path: Path) -> None:
     """A tip slides in an impact: momentum of both rods, of bodies and of joint coordinates alike."""
     lengths, masses = (1.0, 0.8), (1.5, 0.7)
@@ -183,6 +186,7 @@ def test_impulses_of_joints_are_those_of_bodies(tmp_path: Path) -> None:
         assert np.allclose(np.array(middle) - np.array(top), one, rtol=0.0, atol=1e-11)
 
 
+@pytest.mark.slow_cases("1.0")
 @pytest.mark.parametrize("way", [1.0, -1.0])
 def test_a_rod_jams(way: float, tmp_path: Path) -> None:
     """A sliding tip has a finite force up to mu (3 sin cos) = 1 + 3 cos^2, one way."""
@@ -214,6 +218,7 @@ def test_several_motions_are_named(tmp_path: Path) -> None:
         run_of(head("rod") + rod + tip, tmp_path, 1e-3)
 
 
+@pytest.mark.slow
 def test_two_feet_share_friction(tmp_path: Path) -> None:
     """A block on a slope rests inside the cone, without drift; both feet have equal parts of their bounds."""
     text = head("slope", 2.0, -9.5) + body("block", 1.0, 0.02, (0.0, 0.1))

@@ -20,6 +20,7 @@ for _name, _x in (("left", -0.3), ("right", 0.2)):
     PLANK += f"[contacts.{_name}]\nbetween = {_shapes}\nfriction = 0.5\n"
 
 
+@pytest.mark.slow
 def test_parts_and_forces_that_are_not_unique(tmp_path: Path) -> None:
     model = loaded(PLANK, tmp_path)
     facts = {each["name"]: each for each in model.inspect().facts["contacts"]}

@@ -64,6 +64,7 @@ def test_a_latch_snaps_behind_its_catch(speed: float, tmp_path: Path) -> None:
     assert abs(run["back.force"][-1] - 900.0 * 0.005) < 1e-9
 
 
+@pytest.mark.slow
 def test_a_door_that_is_too_slow_comes_back(tmp_path: Path) -> None:
     run = loaded(latch(speed=0.15), tmp_path).simulate(until=1.5, verify=False, integrator="picard")
     assert run.ok and run.events[-1].name == "seat.rest" and run["door.vx"][-1] < 0.0

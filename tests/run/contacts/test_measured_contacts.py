@@ -31,6 +31,7 @@ def test_a_slider_with_play_in_its_guide(text: str, tmp_path: Path) -> None:
     assert np.abs(angles[0] - angles[1]).max() < 1e-10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("integrator", ["dop853", pytest.param("picard", marks=pytest.mark.slow)])
 def test_a_woodpecker_comes_down_its_pole(integrator: str, tmp_path: Path) -> None:
     model, settings = loaded(woodpecker(), tmp_path), settings_of(integrator)
@@ -80,6 +81,7 @@ def test_a_pin_with_play_in_four_ways(tmp_path: Path) -> None:
         assert np.abs(np.array(found) - expected).max() < 1e-10
 
 
+@pytest.mark.slow
 def test_five_contacts_of_one_body_are_refused(tmp_path: Path) -> None:
     text = head("five") + body("plank", 1.0, 0.02, (0.0, 0.1))
     for i in range(5):
@@ -89,6 +91,7 @@ def test_five_contacts_of_one_body_are_refused(tmp_path: Path) -> None:
         loaded(text, tmp_path).simulate(until=0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_block_with_play_on_a_slope(coordinates: str, tmp_path: Path) -> None:
     """It falls by the play onto the right line of a tilted guide, loses mu of that rate along it, and slides on."""

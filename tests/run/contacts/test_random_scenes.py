@@ -13,6 +13,7 @@ from benchmarks.bounded.touch.runs import RUNS, compared, reference
 from benchmarks.bounded.touch.scenes import FLOOR, KINDS, Draft
 
 
+@pytest.mark.slow
 def test_the_simulation_knows_a_bouncing_disc() -> None:
     """Times of impacts are those of a ball that is thrown, and each takes mu (1 + e) times the rate from the slip."""
     draft = Draft(np.random.default_rng(1))

@@ -34,6 +34,7 @@ def gripper(power: int) -> str:
     return text + floor("ball", 0.03, 0.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("integrator", ["dop853", pytest.param("picard", marks=pytest.mark.slow)])
 def test_a_gripper_lifts_holds_and_lets_slip(integrator: str, tmp_path: Path) -> None:
     result = loaded(gripper(2), tmp_path).simulate(until=1.6, integrator=integrator, verify=False, rtol=1e-10)
@@ -46,6 +47,7 @@ def test_a_gripper_lifts_holds_and_lets_slip(integrator: str, tmp_path: Path) ->
     assert abs(held["ball.y"][-1] - 0.03 - 0.1 * 0.9**2) < 1e-12
 
 
+@pytest.mark.slow
 def test_a_hand_that_starts_smoothly_lifts_as_well(tmp_path: Path) -> None:
     """At 0.2 s nothing accelerates: friction that other rows carry is watched, as the hand takes it along."""
     result = loaded(gripper(3), tmp_path).simulate(until=1.0, integrator="dop853", verify=False)

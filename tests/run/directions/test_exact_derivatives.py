@@ -178,7 +178,7 @@ def largest_difference(name, numbers, method, integrator, steps, step=1e-2, coor
     return float((np.abs(found - expected).max(axis=0) / np.abs(expected).max(axis=0)).max())
 
 
-@pytest.mark.fast("direct-correction")
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction", "velocity-projection"])
 def test_derivatives_are_those_of_the_run_that_was_made(method):
     assert largest_difference("four-bar", MASSES, method, "rk4", 10) < 1e-11

@@ -65,7 +65,7 @@ def models(tmp_path_factory):
     return {"belt": symgen.load("belt-oscillator"), **{name: model(folder, text) for name, text in texts.items()}}
 
 
-@pytest.mark.fast("adjoint-absolute-rotor-1", "forward-absolute-ball-1")
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "row"), [(name, row) for name in QUANTITIES for row in range(len(CLOSED[name]))])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("way", ["forward", "adjoint"])

@@ -30,6 +30,7 @@ def swing(rod, angle, **settings):
     return run, abs(run.gradient("rod.theta").row()["angle"] - math.cos(3.0 * RATE))
 
 
+@pytest.mark.slow_cases("abm-0.0")
 @pytest.mark.parametrize("angle", [0.0, 1e-6, 1e-5])
 @pytest.mark.parametrize("integrator", ["dop853", "dopri5", "abm"])
 def test_a_start_at_an_equilibrium_or_near_it(rod, integrator, angle):
@@ -85,6 +86,7 @@ def test_the_sentence_has_the_time_and_reaches_searches(rod):
     assert moved.first.result.status == "ok"
 
 
+@pytest.mark.slow
 def test_the_sentence_reaches_a_fit(rod):
     t = np.linspace(0.1, 3.0, 30)
     data = {"t": t, "rod.theta": 1e-6 * np.cos(RATE * t) - math.pi / 2}

@@ -91,7 +91,7 @@ def by_hand(ratio: float) -> tuple[float, float, float]:
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("ratio", [5.0, 60.0])
-@pytest.mark.fast("60.0-joint")
+@pytest.mark.slow
 def test_an_impact_moves_the_rotor(ratio: float, coordinates: str) -> None:
     impulse, work, end = by_hand(ratio)
     run = arm(ARM + ROTOR).simulate(parameters={"ratio": ratio}, coordinates=coordinates, **SETTINGS)
@@ -101,6 +101,7 @@ def test_an_impact_moves_the_rotor(ratio: float, coordinates: str) -> None:
     assert run["lower.theta"][-1] == pytest.approx(end, abs=1e-10)
 
 
+@pytest.mark.slow_cases("absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_reset_is_that_of_a_geared_flywheel(coordinates: str) -> None:
     geared = arm(ARM + FLYWHEEL + KICK).simulate(coordinates="absolute", **SETTINGS)

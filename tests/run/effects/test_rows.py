@@ -62,6 +62,7 @@ def test_rows_are_their_single_runs(settings, inputs):
             np.testing.assert_allclose(found[name][i, -1], one[name][-1], rtol=0.0, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_events_that_accumulate_are_named_as_in_single_runs():
     """A ball in a wedge of two walls that take much of its speed: both accumulate; one that only records does not."""
     raw = {

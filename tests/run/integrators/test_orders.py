@@ -29,6 +29,7 @@ def test_order(model, method, integrator):
         assert found.slope >= found.order - 0.2, f"floor {found.floor:.1e}, errors {found.errors}"
 
 
+@pytest.mark.slow
 def test_the_floor_is_at_rounding():
     assert max(o.floor for o in observed("four-bar").values()) <= 1e-12
 

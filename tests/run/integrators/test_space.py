@@ -134,6 +134,7 @@ def test_euler_parameters_reach_the_same_motion():
     assert fine < 2e-8
 
 
+@pytest.mark.slow
 def test_generalised_alpha_turns_bodies_by_exponentials():
     coarse, fine = errors("generalized-alpha", "generalized-alpha", 0.002)
     assert 2.0**1.9 < coarse / fine < 2.0**2.1

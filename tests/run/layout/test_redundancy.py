@@ -149,7 +149,7 @@ def test_errors_of_kept_rows_are_not_enlarged_in_the_others(seed: int) -> None:
     assert np.abs(factors).max() <= 2.0 ** (left_out - 1) + 1e-9
 
 
-@pytest.mark.fast("dop853")
+@pytest.mark.slow
 @pytest.mark.parametrize("integrator", ["rk4", "dop853"])
 def test_a_pin_held_twice_drifts_no_more_than_one_held_once(integrator: str) -> None:
     """Which rows stand for all changes as the rod turns; each time drift was enlarged, some hundredfold a turn."""

@@ -45,7 +45,7 @@ def roots(g: Function) -> Any:
     return high
 
 
-@pytest.mark.fast("picard-settings2")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("integrator", "settings"),
     [("rk4", {"step": STEP}), ("radau5", {"step": STEP}), ("picard", {"rtol": 1e-8}), ("dop853", {"rtol": 1e-8})],

@@ -82,6 +82,7 @@ def test_random_patterns_as_numpy_solves_them(case):
         assume(np.linalg.cond(scaled) < 1e8)
 
 
+@pytest.mark.slow
 @given(matrices())
 def test_singular_matrices_have_a_solution_where_there_is_one(case):
     """A copy of an equation and the unknown that would need it: skipped, and the others are as without both."""

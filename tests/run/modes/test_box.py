@@ -47,7 +47,7 @@ def compare(count: int, stops: bool) -> None:
         np.testing.assert_allclose(here, rows.T @ (right - rows @ best), rtol=0, atol=1e-10)
 
 
-@pytest.mark.slow_cases("False")
+@pytest.mark.slow_cases("False", "True")
 @pytest.mark.parametrize("stops", [False, True])
 def test_accelerations_are_those_of_bounded_least_squares(stops: bool) -> None:
     compare(500, stops)

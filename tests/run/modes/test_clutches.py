@@ -118,7 +118,7 @@ def test_a_ramp_of_the_pressure_locks_a_clutch(steps: dict[str, Any], coordinate
         assert result["motor.omega"][-1] == pytest.approx(speed, abs=1e-10)
 
 
-@pytest.mark.fast("absolute")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_rows_of_a_sweep_lock_as_runs_do(coordinates: str) -> None:
     """In the slowest row the clutch still slips at the end."""
@@ -485,7 +485,7 @@ torque = "t"
 """
 
 
-@pytest.mark.fast("0.0-0.5-1.0-picard", "2 - t/4-2.0-1.25-dop853")
+@pytest.mark.slow
 @pytest.mark.parametrize("steps", [TIGHT, {"integrator": "picard"}], ids=["dop853", "picard"])
 @pytest.mark.parametrize(("one", "time", "rate"), [(1.5, 2.0, 1.0), (0.0, 0.5, 1.0), ("2 - t/4", 2.0, 1.25)])
 def test_two_brakes_and_a_clutch_that_hold_two_wheels(

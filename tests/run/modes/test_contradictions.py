@@ -53,6 +53,7 @@ def test_a_driver_that_runs_into_a_stop_is_named_with_it(
     assert run.reason.endswith("that joints and the driver motor determine")
 
 
+@pytest.mark.slow
 def test_a_row_of_a_sweep_names_it_too() -> None:
     model, settings = ram("speed*t"), {"until": 2.0, "integrator": "rk4", "step": 1e-3, "coordinates": "joint"}
     alone = model.simulate(parameters={"speed": 0.3}, verify=False, **settings)
@@ -151,7 +152,7 @@ def test_a_bound_that_becomes_undefined_is_named(bound: str, push: str, coordina
 
 
 @pytest.mark.parametrize("integrator", ["picard", "rk4"])
-@pytest.mark.fast("rk4")
+@pytest.mark.slow
 def test_rows_and_steps_name_a_contradiction_too(integrator: str) -> None:
     settings = {name: value for name, value in settings_of(integrator).items() if name != "verify"}
     for model, name, values in (

@@ -83,6 +83,7 @@ def names(result: symgen.Result) -> list[str]:
     return [event.name.rpartition(".")[2] for event in result.events]
 
 
+@pytest.mark.slow
 def test_a_yo_yo_jerks_where_its_string_is_unwound(tmp_path: Path) -> None:
     model = loaded(YO_YO, tmp_path)
     for integrator in ("dop853", "picard"):
@@ -159,6 +160,7 @@ def test_ramps_with_rebound(integrator: str, slope: float, restitution: float, c
     assert len(result.events) == count and abs(result.events[0].t - 0.5) < 1e-10
 
 
+@pytest.mark.slow
 def test_several_corners_in_one_gap(tmp_path: Path) -> None:
     text = block("b.y - 0.2*max(0, b.x - 1) + 0.05*max(0, b.x - 1.5) + 0.3*max(0, b.x - 2)", 0.815)
     result = loaded(text, tmp_path).simulate(integrator="dop853", verify=False)
@@ -221,6 +223,7 @@ def test_an_fmu_passes_corners(tmp_path: Path) -> None:
         assert abs(result["disc.y"][-1] - HEIGHT) < most, kind
 
 
+@pytest.mark.slow
 def test_smooth_gaps_have_no_code_for_corners(tmp_path: Path) -> None:
     for gap, word in (("b.y - 0.1*sin(b.x)", False), (RAMPS[0], False), (EDGES[0], True)):
         folder = tmp_path / f"{word}{len(gap)}"
@@ -383,6 +386,7 @@ restitution = 0.2
 """
 
 
+@pytest.mark.slow_cases("-0.31-1.0-0.3-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(("start", "speed", "turn"), [(-0.31, 1.0, 0.3), (-0.7, 2.3, 1.1), (-0.4, 3.0, 0.2)])
 def test_a_gap_that_is_touched_beside_a_closed_one_is_not_struck(

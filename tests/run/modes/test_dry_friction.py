@@ -228,6 +228,7 @@ def test_constant_steps_keep_their_order() -> None:
     assert ((orders > 3.8) & (orders < 4.2)).all()
 
 
+@pytest.mark.slow_cases("absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_two_blocks_with_static_bounds_above_sliding(coordinates: str) -> None:
     outcome = ready(blocks("a", "b"), 11.8, coordinates=coordinates).integrate()
@@ -239,7 +240,7 @@ def test_two_blocks_with_static_bounds_above_sliding(coordinates: str) -> None:
     assert abs(found[-1][0] - LAST_OF_TWO) < 1e-10
 
 
-@pytest.mark.slow_cases("joint")
+@pytest.mark.slow_cases("joint", "absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_dry_pins_of_a_four_bar(coordinates: str) -> None:
     """Four rows with one freedom: event-driven reference in minimal coordinates."""
@@ -372,7 +373,9 @@ def rest_by_the_reaction() -> tuple[int, float]:
         angle, turns = swing.y[0, -1], turns + 1
 
 
-@pytest.mark.slow_cases("coordinate-partitioning", "adaptive-baumgarte", "generalized-alpha", "implicit-constraint")
+@pytest.mark.slow_cases(
+    "coordinate-partitioning", "adaptive-baumgarte", "generalized-alpha", "implicit-constraint", "symmetric-projection"
+)
 @pytest.mark.parametrize("method", METHODS.names)
 def test_every_method_rests_by_the_reaction_or_says_why_not(method: str) -> None:
     integrator, steps, most = OTHERS.get(method, ("dop853", {"rtol": 1e-12, "atol": 1e-12}, 1e-9))
@@ -391,9 +394,7 @@ def test_every_method_rests_by_the_reaction_or_says_why_not(method: str) -> None
     assert abs(outcome.states[-1][2] - angle) < most
 
 
-@pytest.mark.fast(
-    "discrete-gradient", "dopri5", "euler", "generalized-alpha", "half-explicit", "picard", "rk4", "symplectic-euler"
-)
+@pytest.mark.fast("discrete-gradient", "dopri5", "euler", "half-explicit", "picard", "rk4")
 @pytest.mark.parametrize("integrator", INTEGRATORS.names)
 def test_every_integrator_turns_round(integrator: str) -> None:
     method = integrator if integrator in METHODS.names else "direct-correction"

@@ -36,6 +36,7 @@ def tooth_forces(result, driving, load):
     return (driving - INERTIAS[0] * rise) / RADII[0], (INERTIAS[1] * rise * RADII[0] / RADII[1] + load) / RADII[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("efficiency", "forwards", "backwards"),
     [
@@ -70,6 +71,7 @@ def test_all_power_is_motion_or_heat(efficiency):
     assert result["heat"][-1] > 0.1
 
 
+@pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_an_efficiency_may_depend_on_the_speed(coordinates):
     """As a table of losses over speed has it: beside the one equation of motion, integrated by SciPy."""
@@ -266,6 +268,7 @@ def test_a_pair_in_c_and_as_a_unit(tmp_path):
     assert unit["a.theta"][-1] == pytest.approx(run["a.theta"][-1], abs=1e-9)
 
 
+@pytest.mark.slow
 def test_derivatives_by_an_efficiency(tmp_path):
     (tmp_path / "pair.toml").write_text(MACHINE)
     model = symgen.load(tmp_path / "pair.toml")

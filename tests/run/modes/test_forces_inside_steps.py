@@ -110,7 +110,7 @@ SETTINGS = ({"integrator": "picard"}, {"integrator": "dop853", "rtol": 1e-6, "at
 SWEPT = ("picard", "dop853")
 
 
-@pytest.mark.fast("11-settings0")
+@pytest.mark.slow
 @pytest.mark.parametrize("settings", SETTINGS)
 @pytest.mark.parametrize("count", [11, pytest.param(301, marks=pytest.mark.slow)])
 def test_a_sweep_of_a_clutch_misses_no_slip(count: int, settings: dict[str, Any]) -> None:
@@ -190,7 +190,7 @@ JUMPS = {
 }
 
 
-@pytest.mark.fast("a stop opens-joint")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("kind", [*JUMPS])
 def test_modes_are_chosen_where_a_force_jumps_beside_a_resting_row(kind: str, coordinates: str) -> None:

@@ -241,6 +241,7 @@ def number_of(stepped, column: str) -> float:
     return float(stepped.bodies[column])
 
 
+@pytest.mark.slow_cases("pendulum")
 @pytest.mark.parametrize("machine", ["pendulum", "clutch", "rope"])
 def test_steps_equal_a_run(machine, loaded) -> None:
     """Pieces of a run, saved and gone back to between, and a run that goes on from another one."""
@@ -270,6 +271,7 @@ def test_functions_and_modes_take_a_joint_as_it_is_at_the_start(loaded) -> None:
     )
 
 
+@pytest.mark.slow
 def test_a_start_that_is_not_the_described_one_says_what_holds(loaded) -> None:
     """A condition on positions is that of the bodies' tables; a run that goes on from another one knows what holds."""
     model = loaded(CARRIAGE)

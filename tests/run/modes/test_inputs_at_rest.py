@@ -180,6 +180,7 @@ def test_c_takes_inputs_before_and_after_its_start(wheel: symgen.Model, tmp_path
         assert row == pytest.approx([whole["wheel.theta"][-1], whole["wheel.omega"][-1]], abs=1e-14), u
 
 
+@pytest.mark.slow
 def test_an_environment_takes_them_as_actions(wheel: symgen.Model) -> None:
     act, until = {"u": (1.0, 5.0)}, PIECE * PIECES
     env = symgen.gym.make(

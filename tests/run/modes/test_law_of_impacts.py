@@ -78,6 +78,7 @@ print(json.dumps({
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_all_books_follow_a_law_that_is_halved(coordinates: str) -> None:
     """Rates, works of impacts, dissipation, rest and rows by the closed form of a restitution of 0.4."""
@@ -96,6 +97,7 @@ def test_all_books_follow_a_law_that_is_halved(coordinates: str) -> None:
     assert found["row"] == found["alone"]
 
 
+@pytest.mark.slow
 def test_a_restitution_that_falls_with_the_rate_is_a_line() -> None:
     found = answer(FALLING, MOTION, "absolute")
     assert found["status"] == "ok" and len(found["before"]) > 10

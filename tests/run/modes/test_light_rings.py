@@ -118,7 +118,7 @@ def shift(text: str = SHIFT) -> symgen.Model:
 
 
 @pytest.mark.parametrize("way", [{}, {"coordinates": "joint"}, {"integrator": "radau5"}], ids=["", "joint", "radau5"])
-@pytest.mark.fast("")
+@pytest.mark.slow
 def test_a_light_ring_takes_as_many_steps_as_one_without_inertia(way: dict[str, str]) -> None:
     texts = SHIFT.replace('inertia = "ring"', "inertia = 0.0"), SHIFT
     runs = [shift(text).simulate(until=5.0, verify=False, **way) for text in texts]

@@ -84,7 +84,7 @@ def pins(**keys: Any) -> symgen.Model:
     return symgen.load(validate(raw, source))
 
 
-@pytest.mark.slow_cases("dop853", "radau5")
+@pytest.mark.slow_cases("dop853", "radau5", "picard")
 @pytest.mark.parametrize("integrator", ["dop853", "picard", "radau5"])
 def test_pins_of_a_loop_share_what_the_energy_lacks(integrator: str) -> None:
     """Each pin of a constant bound by its path, one by its reaction; together all of it."""

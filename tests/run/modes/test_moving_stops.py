@@ -145,7 +145,7 @@ def test_a_floor_that_swings_throws_what_rests_on_it(steps: dict[str, Any], coor
     assert result.energy_drift_max < 1e-6
 
 
-@pytest.mark.slow_cases("1.0-default-joint", "1.0-default-absolute")
+@pytest.mark.slow_cases("1.0-default-joint", "1.0-default-absolute", "1.0-dop853-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("part", [1.0, 0.5, 0.0])
@@ -160,7 +160,7 @@ def test_a_wall_pushes_a_block_that_friction_holds(part: float, steps: dict[str,
     assert result.energy_drift_max < 1e-10
 
 
-@pytest.mark.slow_cases("1.0-default-absolute", "1.0-default-joint")
+@pytest.mark.slow_cases("1.0-default-absolute", "1.0-default-joint", "1.0-dop853-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("part", [1.0, 0.5, 0.0])
@@ -177,7 +177,7 @@ def test_a_wall_meets_a_block_that_slides(part: float, steps: dict[str, Any], co
     assert result.energy_drift_max < 1e-10
 
 
-@pytest.mark.slow_cases("1.0-default-joint", "1.0-default-absolute")
+@pytest.mark.slow_cases("1.0-default-joint", "1.0-default-absolute", "1.0-dop853-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("part", [1.0, 0.5, 0.0])

@@ -118,7 +118,7 @@ def test_the_motion_is_that_without_the_joint(name, until, method, integrator, m
     assert state.control[abi.PASSAGES] == 0  # no passage
 
 
-@pytest.mark.slow_cases("rk4")
+@pytest.mark.slow_cases("rk4", "picard")
 @pytest.mark.parametrize("integrator", ["rk4", "picard"])
 def test_a_passage_without_the_joint_is_noted_as_there(integrator: str) -> None:
     whole, less, joint = catalogued("n-four-bar:3")

@@ -74,7 +74,7 @@ COORDINATES = "absolute", "joint"
 
 @pytest.mark.parametrize("coordinates", COORDINATES)
 @pytest.mark.parametrize("fault", [*FAULTS])
-@pytest.mark.fast("a gap-absolute", "bounds-joint")
+@pytest.mark.fast("a gap-absolute")
 def test_a_row_of_a_sweep_says_what_a_run_says(fault: str, coordinates: str) -> None:
     raw, wrong, sentence = FAULTS[fault]
     model = symgen.Model(validate(raw, "file.toml"))

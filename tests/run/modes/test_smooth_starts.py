@@ -59,7 +59,7 @@ def yoke(law: str) -> symgen.Model:
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("way", [*WAYS])
 @pytest.mark.parametrize("law", [*LAWS])
-@pytest.mark.fast("cycloid-dop853-joint", "cubic-rk4-absolute")
+@pytest.mark.slow
 def test_friction_acts_as_soon_as_the_driver_moves(law: str, way: str, coordinates: str) -> None:
     run = yoke(law).simulate(until=1.0, coordinates=coordinates, output_step=0.01, verify=False, **WAYS[way])
     assert run.status == "ok"

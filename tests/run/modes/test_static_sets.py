@@ -48,6 +48,7 @@ def breakaway(static: np.ndarray) -> float:
     return float(found.x[-1])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_pins_hold_by_any_forces_within_their_bounds(coordinates: str, tmp_path: Path) -> None:
     static = np.array([1.3, 2.1, 0.9, 1.7, 2.6])

@@ -159,7 +159,7 @@ def test_a_ball_bounces_and_rests(integrator: str, coordinates: str) -> None:
     assert outcome.happened[0].energy == pytest.approx(-2.0 * G * 0.51, rel=1e-12)
 
 
-@pytest.mark.fast("dop853-absolute", "gauss-joint")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("integrator", "coordinates"),
     [("dop853", "absolute"), ("picard", "joint"), ("radau5", "joint"), ("gauss", "absolute"), ("gauss", "joint")],
@@ -238,7 +238,7 @@ def leg_events(until: float) -> list[tuple[float, str]]:
     return events
 
 
-@pytest.mark.slow_cases("dop853-joint")
+@pytest.mark.slow_cases("dop853-joint", "picard-joint")
 @pytest.mark.parametrize(
     ("integrator", "coordinates"), [("dop853", "joint"), ("dop853", "absolute"), ("picard", "joint")]
 )

@@ -335,7 +335,6 @@ def test_orders_with_a_state(method, integrator, order):
 
 
 @pytest.mark.fast(
-    "rattle-rattle-2-joint",
     "discrete-gradient-discrete-gradient-2-joint",
     "symmetric-projection-gauss-4-joint",
     "half-explicit-half-explicit-3-absolute",
@@ -359,6 +358,7 @@ def test_schemes_with_a_state_in_a_loop(method, integrator, order, coordinates):
     )
 
 
+@pytest.mark.slow
 def test_generalized_alpha_controls_the_error_of_states():
     """A thousand times less is allowed, and ten times the steps, as order 2 takes; a stiff state takes few of them."""
     settings = {"method": "generalized-alpha", "options": {"integrator.adaptive": "true"}}
@@ -372,7 +372,7 @@ def test_generalized_alpha_controls_the_error_of_states():
     assert stiff.outputs["i"][-1] == pytest.approx((3.0 - 0.7 * stiff.v["wheel.omega"][-1]) / 1.2, rel=1e-5)
 
 
-@pytest.mark.slow_cases("augmented-hamiltonian-absolute")
+@pytest.mark.slow_cases("augmented-hamiltonian-absolute", "augmented-hamiltonian-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("method", ["augmented-hamiltonian", "hamiltonian-baumgarte"])
 def test_methods_of_momenta_take_states(method, coordinates):

@@ -26,6 +26,7 @@ def partitioned(mechanism):
     return run, tables, (layout, compiled_form(compiled.model.geometry), tables), (start.p, start.w.copy(), part)
 
 
+@pytest.mark.slow_cases("four-bar")
 @pytest.mark.parametrize("name", ["four-bar", "bricard"])
 def test_dependent_coordinates_follow_from_the_independent_ones(name):
     run, tables, model, behind = partitioned(load(name).mechanism)
@@ -72,6 +73,7 @@ BALL = {
 }
 
 
+@pytest.mark.slow
 def test_events_of_an_importer_are_noted_handled_and_end_the_motion():
     mechanism = mechanism_of(BALL)
     run, _, model, (p, w, part) = partitioned(mechanism)

@@ -515,6 +515,7 @@ def jacobian(q):
     return d
 
 
+@pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_blow_on_a_four_bar_is_that_of_the_equations_of_impact(coordinates):
     event = {"when": "t > 0.2", "reset": {"coupler.omega": "1.5 - 0.4*coupler.omega"}}

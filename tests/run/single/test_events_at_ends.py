@@ -68,7 +68,7 @@ def stepped(model: symgen.Model, lengths: tuple[float, ...], **settings: Any) ->
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("kind", [*KINDS])
-@pytest.mark.fast("impact without rebound-joint")
+@pytest.mark.slow
 def test_a_run_in_steps_whose_ends_are_events_is_the_run(kind: str, coordinates: str) -> None:
     model, end = wheel(kind), KINDS[kind][-1]
     for settings, lengths in itertools.product(INTEGRATORS, DIVISIONS):
@@ -78,7 +78,7 @@ def test_a_run_in_steps_whose_ends_are_events_is_the_run(kind: str, coordinates:
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("kind", [*KINDS])
-@pytest.mark.fast("stick-absolute")
+@pytest.mark.slow
 def test_runs_and_outputs_that_end_at_an_event_are_whole(kind: str, coordinates: str) -> None:
     model, times = wheel(kind), [0.0, 0.25, 0.5, 0.75, 1.0]
     for settings in INTEGRATORS:

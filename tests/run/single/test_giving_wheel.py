@@ -85,6 +85,7 @@ def test_damping_takes_energy_and_never_pulls(hopper, tmp_path):
     assert result["road.normal"][-1] == pytest.approx(MASS * G, rel=0.1)
 
 
+@pytest.mark.slow
 def test_one_wheel_in_all_coordinates_integrators_and_methods(hopper):
     expected = hopper.simulate(rtol=1e-12)
     others = (

@@ -139,7 +139,7 @@ def check_like(here, there):
     assert abs(there.steps - here.steps) <= 0.1 * here.steps
 
 
-@pytest.mark.fast("heavy-top")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MECHANISMS)
 def test_shifted_mechanisms(name):
     """Positions are measured from a place of the mechanism: no step depends on where the origin lies.

@@ -228,7 +228,7 @@ def test_sweeps_count_turns_and_examine_rows():
         symgen.sweep(belt(CUT), vary, until=3.0, integrator="rk4", step=1e-2, target="lanes")
 
 
-@pytest.mark.slow_cases("adaptive")
+@pytest.mark.slow_cases("adaptive", "constant", "joint")
 @pytest.mark.parametrize(
     "settings",
     [{"integrator": "dop853"}, {"integrator": "rk4", "step": 1e-2}, {"integrator": "dop853", "coordinates": "joint"}],
@@ -244,6 +244,7 @@ def test_rows_that_pass_a_place_go_on_in_their_loop_as_single_runs(settings):
     np.testing.assert_allclose(found["event.a.y > 0.9.first"][1:], [0.8, 0.4 / 0.7], atol=1e-8)
 
 
+@pytest.mark.slow
 def test_an_angle_in_space_is_about_an_axis():
     raw = {
         "mechanism": {"name": "turned", "space": "spatial"},

@@ -32,7 +32,7 @@ def cam_follower(value):
     )
 
 
-@pytest.mark.slow_cases("direct-correction-rk4-straight")
+@pytest.mark.slow_cases("direct-correction-rk4-straight", "ggl-radau5-straight")
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize(("method", "integrator"), [("direct-correction", "rk4"), ("ggl", "radau5")])
 def test_a_cam_is_the_polynomial_that_its_points_lie_on(shape, method, integrator):
@@ -92,6 +92,7 @@ def test_power_of_table_forces_is_the_change_of_energy(interpolation, periodic):
 TIMES = np.linspace(0.0, 2.0, 21)
 
 
+@pytest.mark.slow
 def test_lanes_take_smooth_tables():
     from symgen.study.ensemble.parameter_sweep import sweep
 

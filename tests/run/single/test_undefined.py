@@ -111,6 +111,7 @@ def test_a_run_fails_where_the_condition_of_an_event_becomes_undefined(settings)
     assert stepped.t < 0.2**0.5 < caught.value.time
 
 
+@pytest.mark.slow
 def test_rows_of_sweeps_fail_alone_where_the_condition_of_an_event_is_undefined():
     model, settings = falling("sqrt(ball.y) > 5", action="stop"), {"integrator": "rk4", "step": 0.01}
     found = symgen.sweep(model, {"height": [1.0, 2.0]}, times=(0.1, 0.5), **settings)

@@ -77,6 +77,7 @@ def test_a_small_move_is_told_with_the_digits_that_show_it():
     assert start.notes == (f"{words}: rod.x from 0.500000002 to 0.5 m",)
 
 
+@pytest.mark.slow
 def test_what_is_held_is_the_first_output_to_the_last_bit():
     found = model(raw()).simulate(start={"crank.theta": 0.5}, integrator="dop853", until=0.01)
     assert found["crank.theta"][0] == 0.5 and found.start["q"]["crank.theta"] == 0.5

@@ -61,6 +61,7 @@ def test_rows_that_contradict_each_other_are_noticed():
     assert impulse_along(mass, rows, values * [1.0, np.nan, 1.0], v)[2]
 
 
+@pytest.mark.slow
 def test_plain_python_and_printed_c_have_the_bits_of_machine_code(tmp_path):
     signature = smallest_impulse.compiled.signature
     library = printed.Library({"smallest_impulse": printed.source_of(smallest_impulse, signature)}, tmp_path)

@@ -55,7 +55,7 @@ def test_units_change_nothing(tmp_path, name, size, until, method, rank, events)
         np.testing.assert_array_equal(there.q.values[:, angles], here.q.values[:, angles])
 
 
-@pytest.mark.slow_cases("n-four-bar:1-1.4")
+@pytest.mark.slow_cases("n-four-bar:1-1.4", "bricard-1.0")
 @pytest.mark.parametrize(("name", "until"), [("n-four-bar:1", 1.4), ("four-bar", 2.0), ("bricard", 1.0)])
 def test_pivots_are_those_of_bodies_up_to_a_factor(name, until):
     """Measured over whole motions: 1.2 to 3.4 times as large, so `SKIP` and `WARN` mean the same in both."""

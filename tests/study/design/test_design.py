@@ -37,6 +37,7 @@ def machine():
 # -- closed forms ------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("integral(fx**2 + fy**2)")
 @pytest.mark.parametrize("aim", ["rms(shaking)", "integral(fx**2 + fy**2)"])
 def test_a_counterweight_is_that_of_the_closed_form(aim):
     found = of_raw(compressor()).design({"cw": (0.0, 6.0)}, aim)
@@ -55,6 +56,7 @@ def test_the_least_peak_of_a_force_is_found_between_samples():
     assert peaks[10] == pytest.approx(found.after, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_four_bar_is_found_from_positions_of_its_coupler():
     names = ("ax", "ay", "bx", "by", "cx", "cy", "dx", "dy")
     begin = dict(zip(names, (-45.0, 45.0, 65.0, 260.0, 300.0, 500.0, 515.0, -85.0), strict=True))
@@ -66,6 +68,7 @@ def test_a_four_bar_is_found_from_positions_of_its_coupler():
     assert max(abs(found.values[name] - x) for name, x in answer.items()) < 1e-9
 
 
+@pytest.mark.slow
 def test_a_machine_without_drivers_is_integrated():
     # a mass on a spring from rest at 0.2 m passes the middle with 0.2 sqrt(k/m), and the force is 0.2 k at most
     raw = {
@@ -96,6 +99,7 @@ def excess(result, steepest=0.75):
     return max((y.min() + 0.598) / 0.598, (-0.53 - y.max()) / 0.53, np.abs(mu).max() / steepest - 1.0)
 
 
+@pytest.mark.slow
 def test_an_answer_keeps_all_limits_and_the_price_of_one_is_that_of_a_second_search(machine):
     keep = ["min(ram.y) <= -598 mm", "max(ram.y) >= -530 mm"]
     found = machine.design(SMALL | {"b": (0.2, 0.4)}, AIM, keep)
@@ -111,6 +115,7 @@ def test_an_answer_keeps_all_limits_and_the_price_of_one_is_that_of_a_second_sea
     assert (found.after - near.after) / 1e-4 == pytest.approx(dear.price, rel=0.05)
 
 
+@pytest.mark.slow
 def test_limits_that_contradict_each_other_are_named(machine):
     # the best is in the middle, 15 mm from either
     found = machine.design(SMALL, AIM, ["ram.y >= -0.58 m", "min(ram.y) <= -0.61 m"])
@@ -151,6 +156,7 @@ def test_an_answer_is_never_worse_than_a_file_within_limits(tmp_path):
     assert len(worse) == 100 and not any(worse)
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_answer(machine):
     first, second, other = (machine.design(SMALL, AIM, "mu <= 0.7", starts=2, seed=seed) for seed in (3, 3, 4))
     assert first.to_json() == second.to_json()
@@ -184,6 +190,7 @@ def rooms_by_kinematics(machine, times, x, ends):
     return np.concatenate(parts)
 
 
+@pytest.mark.slow
 def test_rows_have_the_slopes_of_differences_of_kinematics():
     raw = press()
     raw["forces"]["load"]["force"][1] = "4e4*(-0.58 - ram.y)**2 + spring*(0.0 - ram.y - slack)"  # without a kink
@@ -287,6 +294,7 @@ def command(*words, folder):
     )
 
 
+@pytest.mark.slow
 def test_the_file_that_is_written_keeps_its_comments_and_gives_the_answer(tmp_path):
     (tmp_path / "shaker.toml").write_text(TEXT)
     varied = ["--vary", "r=20:80", "--vary", "m=2:6"]
@@ -315,6 +323,7 @@ def test_the_file_that_is_written_keeps_its_comments_and_gives_the_answer(tmp_pa
     assert "The motion before" in page and "The motion after" in page and "all 2 limits are kept" in page
 
 
+@pytest.mark.slow
 def test_a_failed_design_writes_no_file_and_says_why(tmp_path):
     (tmp_path / "shaker.toml").write_text(TEXT)
     words = ["--vary", "r=20:80", "--aim", AIM, "--keep", "max(stroke) >= 90 mm", "-o", "new.toml"]
@@ -324,6 +333,7 @@ def test_a_failed_design_writes_no_file_and_says_why(tmp_path):
     assert not (tmp_path / "new.toml").exists()
 
 
+@pytest.mark.slow
 def test_an_interrupted_search_returns_the_best_so_far(machine):
     def stop(done, of):
         if done == 1:
@@ -395,6 +405,7 @@ def test_a_file_that_does_not_move_is_refused_with_the_number_of_those_that_do(m
     assert "candidates within the bounds move" in text and not text.endswith(" 0 of 128 candidates")
 
 
+@pytest.mark.slow
 def test_remarks_say_how_an_aim_was_met(machine):
     found = machine.design({"ey": (-0.4, -0.2), "b": (0.25, 0.4)}, "max(motor.effort)", until=0.4)
     text = "; ".join(found.notes)

@@ -90,6 +90,7 @@ def test_balls_bounce_each_with_its_own_restitution_until_their_impacts_accumula
         assert_same_motion(found["ball.y"][i, 0], one["ball.y"][0])
 
 
+@pytest.mark.slow_cases("adaptive")
 @pytest.mark.parametrize("scheme", [{}, {"integrator": "dop853", "step": None}], ids=["constant", "adaptive"])
 def test_an_output_at_a_reset_holds_the_state_behind_it(scheme):
     """Thrown up with 3 m/s at 0.25 s, where h - g t^2 / 2 is the height: in rows as in single runs."""

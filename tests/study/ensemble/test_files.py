@@ -105,6 +105,7 @@ def test_names_of_a_mechanism_give_way_to_those_that_every_data_set_has(tmp_path
         assert [line.split(",")[5] for line in lines[1:]] == ["0.3"] * 4
 
 
+@pytest.mark.slow
 def test_an_output_called_as_a_parameter_that_varies_has_a_label_of_its_own(tmp_path):
     """x = t + k t^2/2 is the coordinate, the output and what is asked for by the parameter's name; a body gives way."""
     built = symgen.MechanismBuilder("pushed").parameter("x", 3.0).output("x", "2*block.x").output("t0", "output.x")

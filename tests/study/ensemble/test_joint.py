@@ -59,6 +59,7 @@ def test_both_coordinates_give_one_motion():
     assert np.any(joints["evaluations"] != bodies["evaluations"])  # it is another state that was integrated
 
 
+@pytest.mark.slow
 def test_whatever_else_is_kept_is_that_of_single_runs():
     """Accelerations, reactions, multipliers and joint coordinates follow from the motion that the loop leaves."""
     asked = {"until": 0.05, "times": (0.0, 0.05), "coordinates": "joint"}

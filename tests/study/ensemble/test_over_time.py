@@ -43,6 +43,7 @@ def test_they_have_units_and_columns_in_tables(tmp_path):
         study.sensitivities(["crank_mass"])
 
 
+@pytest.mark.slow
 def test_runs_that_an_event_ends_count_up_to_it_and_failed_ones_leave_nothing():
     ended = symgen.sweep(
         "pendulum", {"bob.vy": [0.0]}, quantities=["min(bob.y)"], until=1.0, output_step=0.01, stop_when="bob.y + 0.5"

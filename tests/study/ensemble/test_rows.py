@@ -108,6 +108,7 @@ def test_open_and_contradictory_starts_are_closed_and_projected_as_for_single_ru
     assert "initial state: expected a consistent start (`strict`), got positions that closing moves" in strict.reason[0]
 
 
+@pytest.mark.slow
 def test_a_start_that_stays_open_is_a_failed_row_in_the_words_of_a_single_run():
     description = copy.deepcopy(raw("four-bar"))
     description["parameters"]["reach"] = 10.0
@@ -143,6 +144,7 @@ def test_light_bodies_get_the_other_solver_where_they_are_light():
     assert_rows(found, model, **settings)
 
 
+@pytest.mark.slow_cases("direct-correction")
 @pytest.mark.parametrize("method", ["direct-correction", "lagrange"])
 def test_singular_passages_are_judged_as_single_runs_are(method):
     description = n_four_bar.KIND.build(1)
@@ -215,6 +217,7 @@ def test_an_initial_velocity_leads_the_others():
             assert found["slider.vx"][i, j, 0] == pytest.approx(slope * omega, abs=1e-11)
 
 
+@pytest.mark.slow
 def test_a_coordinate_in_space():
     """The first point of a body in space that varies, the turn that goes with it, and what may not vary."""
     found = symgen.sweep("bricard", {"rod1.z": [0.0, 0.02]}, times=(0.0,), until=1e-3)
@@ -339,7 +342,7 @@ def pushed(formula: str) -> Mechanism:
     return mechanism_of(text)
 
 
-@pytest.mark.fast("9*crank_mass if t < 0.02*crank_mass else 7 if t < 0.1 else crank_mass-adaptive")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "steps", [{"step": 2e-3}, {"integrator": "dopri5", "rtol": 1e-9}], ids=["constant", "adaptive"]
 )
@@ -372,7 +375,7 @@ def test_a_jump_to_where_a_formula_is_undefined_ends_a_run_with_its_reason(shape
         assert found.reason.tolist() == [one.reason] * 2
 
 
-@pytest.mark.slow_cases("record_when-constant")
+@pytest.mark.slow_cases("record_when-constant", "record_when-adaptive")
 @pytest.mark.parametrize(
     "steps", [{"step": 2e-3}, {"integrator": "dopri5", "rtol": 1e-9}], ids=["constant", "adaptive"]
 )

@@ -29,6 +29,7 @@ def test_signs_and_powers_are_latex(text, latex):
     assert latex_text(text) == latex
 
 
+@pytest.mark.slow
 def test_tables_of_numbers_come_with_rules_of_booktabs():
     text = latex_tables(comparison_report(STUDIES, "symgen compare four-bar -o t.tex"))
     assert text.startswith("% needs \\usepackage{booktabs}\n% symgen compare four-bar -o t.tex\n")

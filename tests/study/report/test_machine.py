@@ -45,6 +45,7 @@ def test_the_largest_loads_are_those_of_the_run(driven):
     assert power == pytest.approx(2 * np.pi * torque, rel=1e-2)
 
 
+@pytest.mark.slow
 def test_a_driver_along_a_slide_has_its_effort_alone():
     block = {"mass": 3.0, "inertia": 0.1, "position": [0.0, 0.0]}
     rail = {
@@ -123,6 +124,7 @@ def test_the_command_names_what_made_a_pdf(cli, tmp_path, monkeypatch):
     assert code == 0 and out.startswith("written: a.pdf, drawn by matplotlib, as there is no Chromium")
 
 
+@pytest.mark.slow
 def test_a_browser_that_prints_nothing_is_named(driven, tmp_path, monkeypatch):
     silent = tmp_path / "browser"
     silent.write_text("#!/bin/sh\nexit 3\n")
@@ -156,6 +158,7 @@ def test_a_report_links_to_the_page_beside_it(cli, tmp_path, monkeypatch):
         assert code == 2 and out == "" and err.startswith("symgen: --page: expected ") and page in err
 
 
+@pytest.mark.slow
 def test_number_author_revision_and_day_are_below_the_title(driven):
     model, result = driven
     mechanism = msgspec.structs.replace(model.mechanism, author="A. Builder", revision="C")

@@ -139,6 +139,7 @@ def test_links_lead_to_parts_of_the_page(page):
     assert set(targets) <= set(places)
 
 
+@pytest.mark.slow
 def test_the_page_says_what_it_was_made_with_and_words_are_escaped(text, page):
     whole = " ".join(page.text)
     for words in (

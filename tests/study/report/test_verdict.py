@@ -46,6 +46,7 @@ def scale(tmp_path, sag, smallest=-50.0):
     return load(file)
 
 
+@pytest.mark.slow
 def test_limits_that_are_kept_are_good(tmp_path):
     model = scale(tmp_path, 0.1)
     verdict = machine_report(model, model.simulate(until=1.0)).verdict
@@ -53,6 +54,7 @@ def test_limits_that_are_kept_are_good(tmp_path):
     assert verdict.text.startswith("The run reaches 1 s and keeps 3 limits of the file; its error is ")
 
 
+@pytest.mark.slow
 def test_limits_that_are_exceeded_are_named_with_value_and_time(tmp_path):
     """It sags by 2 m g / k = 78.5 mm after half a period, pi sqrt(m / k) = 0.1987 s."""
     model = scale(tmp_path, 0.05)
@@ -69,6 +71,7 @@ def test_limits_that_are_exceeded_are_named_with_value_and_time(tmp_path):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", LOCKED)
 def test_a_machine_that_locks_says_so_first_and_has_no_loads(name):
     described, expected, moved = LOCKED[name]
@@ -87,6 +90,7 @@ def test_a_machine_that_locks_says_so_first_and_has_no_loads(name):
     assert "loads" not in {picture.name for picture in document.pictures()}
 
 
+@pytest.mark.slow
 def test_limits_of_a_failed_run_are_not_judged():
     """Its last loads are as large as one likes; the limits that they pass say nothing of the machine."""
     described, expected, _ = LOCKED["slider-lock"]
@@ -97,6 +101,7 @@ def test_limits_of_a_failed_run_are_not_judged():
     assert limits.tables == () and limits.text == ("The limits of power are not judged, as the run failed.",)
 
 
+@pytest.mark.slow
 def test_the_command_writes_the_verdict_above_all(tmp_path):
     scale(tmp_path, 0.05)
     done = subprocess.run(

@@ -48,7 +48,7 @@ def test_check_and_run_agree_on_a_start_in_space(tmp_path: Path) -> None:
 # -- B5: units ---------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.fast("dopri5-1 cm", "dopri5-1 km")
+@pytest.mark.fast("dopri5-1 km")
 @pytest.mark.parametrize("name", [name for name in SIZES if name != "1 m"])
 @pytest.mark.parametrize("integrator", ["dop853", "dopri5"])
 def test_a_four_bar_of_any_size_is_the_same_mechanism(name: str, integrator: str, tmp_path: Path) -> None:
@@ -93,6 +93,7 @@ def test_a_homokinetic_joint_that_leans_through_180_degrees_is_no_quiet_success(
 # -- B7: names that collide in emitted code ----------------------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("straight")
 @pytest.mark.parametrize("shape", SHAPES)
 def test_any_names_that_a_file_may_have_keep_apart(shape: str, tmp_path: Path) -> None:
     """Parameters, tables, bodies, joints and forces under names that emitted code uses for things of its own."""

@@ -47,6 +47,7 @@ def test_a_curved_body_flies_as_all_nodes_do(space, tmp_path):
     assert np.abs(reference.y[: q.shape[1]].T - q).max() < 1e-12
 
 
+@pytest.mark.slow_cases("spatial")
 @pytest.mark.parametrize("space", CASES)
 def test_a_step_of_flight_has_the_accelerations_of_all_nodes(space, tmp_path):
     make, keys, start = CASES[space]

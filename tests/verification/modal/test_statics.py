@@ -30,6 +30,7 @@ def at_rest(folder, space, force, root, **run):
     return model, model.simulate(integrator="radau5", rtol=1e-9, atol=1e-12, **run)
 
 
+@pytest.mark.slow
 def test_a_cantilever_sinks_and_is_stressed_as_in_books(tmp_path):
     """P L^3 / 3 E I to 2e-3 and M h / 2 I to 2e-4."""
     mesh, second = straight(), 0.02 * 0.02**3 / 12.0
@@ -52,6 +53,7 @@ def test_nodes_with_turns_make_a_cantilever(tmp_path):
     assert result["arm.tip.theta"][-1] == pytest.approx(1.0 / (2.0 * 2e9 * second), rel=2e-4)
 
 
+@pytest.mark.slow
 def test_a_curved_body_in_space_gives_as_all_of_k_does(tmp_path):
     """To 1e-6 of the displacement, under a load so small that nothing turns."""
     mesh = arc()
