@@ -131,7 +131,7 @@ def span_of_number(text: str, span: tuple[int, int]) -> tuple[int, int] | None:
 
 
 class PointsOfFile:
-    """The points of one mechanism, with values of its parameters; without any, with those of the file."""
+    """The points of one mechanism, with values of its parameters, which are the values of the file unless given."""
 
     def __init__(
         self,
