@@ -12,7 +12,7 @@ from symgen.base.units import read_amount
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.facts.lifted import Path, free_parameter_name, names_of_scalars
 from symgen.describe.files.handles import PINS, PointsOfFile, WrittenPoint
-from symgen.describe.files.new_numbers import put_at_path
+from symgen.describe.files.new_numbers import put_at_path, value_at_path
 from symgen.describe.files.origins import Origin, origin_of
 from symgen.describe.files.validate import validate
 from symgen.describe.formulas.evaluate import parameter_values
@@ -155,7 +155,7 @@ def lift_pins(
             if abs(slope) > _NO_SLOPE:
                 mine = slopes.setdefault(path, {})
                 mine[name] = mine.get(name, 0.0) + slope
-    moved = tuple(MovedNumber(path, _si(_value_at(raw, path)), own) for path, own in slopes.items())
+    moved = tuple(MovedNumber(path, _si(value_at_path(raw, path)), own) for path, own in slopes.items())
     others, keys = names_of_scalars(raw), dict[str, str]()
     for name in names:
         keys[name] = free_parameter_name(name, others)
@@ -259,16 +259,11 @@ def _is_number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def _si(value: Any) -> float:
+def _si(value: object) -> float:
     """Return a number of a file in SI units."""
     if isinstance(value, str):
         amount = read_amount(value)
         assert amount is not None, "it was asked before"
         return amount.in_si("design", "m")
+    assert isinstance(value, int | float)
     return float(value)
-
-
-def _value_at(raw: Any, path: Path) -> Any:
-    for part in path:
-        raw = raw[part]
-    return raw

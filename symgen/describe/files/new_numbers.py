@@ -26,7 +26,7 @@ def text_with_numbers(text: str | None, raw: Mapping[str, Any], values: Mapping[
     """
     numbers = dict[Path, float | str]()
     for path, value in values.items():
-        entry = _value_at(raw, path)
+        entry = value_at_path(raw, path)
         if isinstance(entry, Mapping):
             numbers[(*path, "value")] = _number_as_written(entry["value"], value, str(entry.get("unit", "")))
         else:
@@ -52,7 +52,8 @@ def put_at_path(value: Any, path: Path, new: object) -> Any:
     return copied
 
 
-def _value_at(raw: Any, path: Path) -> Any:
+def value_at_path(raw: Any, path: Path) -> Any:
+    """Return what stands at the end of a path through tables and lists."""
     for part in path:
         raw = raw[part]
     return raw

@@ -9,6 +9,7 @@ from typing import Any
 from symgen.base.errors import InputError, quote, suggest
 from symgen.describe.bounds.keys import sections_of_files
 from symgen.describe.files.load import parse_toml
+from symgen.describe.files.new_numbers import value_at_path
 from symgen.describe.files.places import Outline, Path, outline_of_document
 from symgen.describe.files.snippet_tables import blocks_of_headers
 from symgen.describe.files.text_changes import Change, apply_changes
@@ -47,7 +48,7 @@ def rename_in_text(text: str, path: str, name: str, source: str) -> str:
     raw, parts = parse_toml(text, source), outline_of_document(text)
     where = _path_from_text(raw, path)
     check_identifier(name, f"{source}: {path}", "new")
-    siblings = _value_at_path(raw, where[:-1])
+    siblings = value_at_path(raw, where[:-1])
     if name in siblings and name != where[-1]:
         raise InputError(f"{source}: {path}", "a name that is free", quote(name))
     changes = {(m.start, m.end): name for m in parts.mentions if m.path == where}
@@ -100,19 +101,13 @@ def _path_from_text(raw: Mapping[str, Any], path: str) -> Path:
     return tuple(parts)
 
 
-def _value_at_path(raw: Any, path: Path) -> Any:
-    for part in path:
-        raw = raw[part]
-    return raw
-
-
 def _texts_to_change(
     raw: Mapping[str, Any], parts: Outline, where: Path, name: str
 ) -> Iterator[tuple[tuple[int, int], str]]:
     """Yield the characters inside texts and quoted keys that a new name changes, with what they become."""
     change = _changer_at_path(raw, where, name)
     for path, (start, end) in parts.values.items():
-        value = _value_at_path(raw, path)
+        value = value_at_path(raw, path)
         if isinstance(value, str) and (new := change(path, value)) != value:
             yield (start, end), _toml_string(new)
     for mention in parts.mentions:
@@ -170,7 +165,7 @@ def _is_coordinate(path: Path) -> bool:
 
 def _owner_of_point(raw: Mapping[str, Any], path: Path) -> object:
     """Return the body of a point that a joint or force names."""
-    entry = _value_at_path(raw, path[:2])
+    entry = value_at_path(raw, path[:2])
     if isinstance(path[-1], int) and isinstance(entry.get("between"), list):
         return entry["between"][path[-1]] if path[-1] < len(entry["between"]) else None
     return entry.get("body")
