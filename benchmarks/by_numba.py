@@ -115,7 +115,7 @@ class Compiler:
         return json.loads(line) if line else None
 
     def computed(self, name: str, kind: str) -> Computed:
-        """Return what a scene takes and gives in this process."""
+        """Return processor time, states and status of a scene in this process."""
         if self.process.poll() is None and self.process.stdin is not None:
             self.process.stdin.write(f"{name} {kind}\n")
             self.process.stdin.flush()
@@ -169,7 +169,7 @@ def jobs() -> Iterator[Job]:
 
 
 def examine(job: Job) -> dict[str, Any]:
-    """Return what both compilers take for the run of a scene, and how far their states are apart."""
+    """Return the processor times of the run of a scene by both compilers, and the difference of their states."""
     found = apart(job.model, "run", lasting(""), lasting("numba"))
     if job.model in ALONE:
         with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as other:

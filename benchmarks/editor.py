@@ -16,6 +16,8 @@ import gc
 import itertools
 import math
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -23,6 +25,7 @@ from symgen.cli._editor.drafts import Drafts
 
 if TYPE_CHECKING:
     from tests.browser.chromium import Chromium
+    from tests.browser.editor_page import Page
 
 #: Half of a bar [m] and its angle at the start [rad].
 HALF, ANGLE = 0.25, 0.6
@@ -132,8 +135,9 @@ def _thread_time(chromium: Chromium) -> float:
     return float(metrics["TaskDuration"])
 
 
-def frames_of_drag(bodies: int, pictures: int = 12, patience: float = 60.0) -> Drag:
-    """Return the times of a drag: a pin of the top, in Chromium, until the page has drawn some pictures."""
+@contextmanager
+def opened_editor(bodies: int) -> Iterator[tuple[Chromium, Page]]:
+    """Open the editor of a lift in Chromium, and wait until its page rests."""
     import tempfile
 
     from tests.browser.chromium import Chromium
@@ -146,49 +150,44 @@ def frames_of_drag(bodies: int, pictures: int = 12, patience: float = 60.0) -> D
             page.editor.prepare()
             page.open()
             page.rested()
-            name = f"bodies.a{bodies // 2 - 1}.points.B"
-            x, y = page.where(name)
-            page.press("#snap")
-            page.mouse("mousePressed", x, y)
-            page.run(_WATCH)
-            chromium.call("Performance.enable", timeDomain="threadTicks")
-            page_time, own_time = _thread_time(chromium), time.process_time()
-            count = "window.symgen.editor.times().frames"
-            began, before, frames, k = time.monotonic(), page.run(count), 0, 0
-            while frames < pictures and time.monotonic() - began < patience:
-                k += 1
-                page.mouse("mouseMoved", x + 10 * math.sin(0.3 * k), y + 5 + 5 * math.cos(0.3 * k))
-                time.sleep(0.03)
-                frames = page.run(count) - before
-            spent = time.monotonic() - began
-            worked = page.run("window.worked.splice(0)")
-            page_time, own_time = _thread_time(chromium) - page_time, time.process_time() - own_time
-            page.mouse("mouseReleased", x, y)
-            page.rested()
+            yield chromium, page
+
+
+def frames_of_drag(bodies: int, pictures: int = 12, patience: float = 60.0) -> Drag:
+    """Return the times of a drag: a pin of the top, in Chromium, until the page has drawn some pictures."""
+    with opened_editor(bodies) as (chromium, page):
+        name = f"bodies.a{bodies // 2 - 1}.points.B"
+        x, y = page.where(name)
+        page.press("#snap")
+        page.mouse("mousePressed", x, y)
+        page.run(_WATCH)
+        chromium.call("Performance.enable", timeDomain="threadTicks")
+        page_time, own_time = _thread_time(chromium), time.process_time()
+        count = "window.symgen.editor.times().frames"
+        began, before, frames, k = time.monotonic(), page.run(count), 0, 0
+        while frames < pictures and time.monotonic() - began < patience:
+            k += 1
+            page.mouse("mouseMoved", x + 10 * math.sin(0.3 * k), y + 5 + 5 * math.cos(0.3 * k))
+            time.sleep(0.03)
+            frames = page.run(count) - before
+        spent = time.monotonic() - began
+        worked = page.run("window.worked.splice(0)")
+        page_time, own_time = _thread_time(chromium) - page_time, time.process_time() - own_time
+        page.mouse("mouseReleased", x, y)
+        page.rested()
     return Drag(frames / spent, own_time / max(frames, 1), 1e3 * page_time / len(worked), max(worked))
 
 
 def motion_in_page(bodies: int, length: float = 0.2) -> Worked:
     """Return the times of motions that the page of an editor works out, as a slider or a hand asks for them."""
-    import tempfile
-
-    from tests.browser.chromium import Chromium
-    from tests.browser.editor_page import Page
-
-    with tempfile.TemporaryDirectory() as folder, Chromium() as chromium:
-        file = Path(folder) / "scissors.toml"
-        file.write_text(scissor_lift(bodies))
-        with Page.of(chromium, file) as page:
-            page.editor.prepare()
-            page.open()
-            page.rested()
-            page.until("window.symgen.editor.times().lived === window.symgen.editor.version()")
-            chromium.call("Performance.enable", timeDomain="threadTicks")
-            spent = list[float]()
-            for until in (length, length, 0.001, 2 * length):  # the first one compiles the script
-                began = _thread_time(chromium)
-                page.run(f"symgen.run({{}}, {until})")
-                spent.append(_thread_time(chromium) - began)
+    with opened_editor(bodies) as (chromium, page):
+        page.until("window.symgen.editor.times().lived === window.symgen.editor.version()")
+        chromium.call("Performance.enable", timeDomain="threadTicks")
+        spent = list[float]()
+        for until in (length, length, 0.001, 2 * length):  # the first one compiles the script
+            began = _thread_time(chromium)
+            page.run(f"symgen.run({{}}, {until})")
+            spent.append(_thread_time(chromium) - began)
     return Worked(spent[2], (spent[3] - spent[1]) / length)
 
 

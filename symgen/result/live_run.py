@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +16,6 @@ from symgen.describe.parts.event_sections import DOES
 from symgen.result.labelled import Array
 from symgen.result.live_columns import live_columns
 from symgen.result.player.live import NONE, Live, live_part
-from symgen.run.compiling.pipeline import refuse_loops
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
 
@@ -48,8 +47,6 @@ def live_of_run(
     Parameters that are `fixed` have no sliders. The code has a spring on each body, by which a hand pulls it.
     """
     from symgen.base.settings import Settings
-    from symgen.run.planning.plan import Purpose
-    from symgen.run.planning.prepare import prepare
 
     inputs, formulas, initial = run["inputs"], dict(mechanism.input_formulas), run["start"]
     if any(isinstance(x, str) and name not in formulas for name, x in inputs.items()) or (
@@ -67,7 +64,6 @@ def live_of_run(
     numbers = {name: x for name, x in inputs.items() if not isinstance(x, str)}
     parameters = independent_values(mechanism, parameter_values(mechanism, {**run["parameters"], **numbers}))
     step = run["step"] or mechanism.defaults.step
-    absolute = run["coordinates"] == "absolute"
     settings = Settings(shape="straight", coordinates=run["coordinates"], parameters=parameters, step=step)
     settings = replace(settings, method=method) if method else settings
     if mechanism.has_modes:  # whose run is the loop of this scheme
@@ -88,18 +84,32 @@ def live_of_run(
         )
         return _add_columns(live, mechanism, prepared, run["until"], pulled), note
 
-    in_loops = _in_loops(mechanism, settings) if absolute and len(mechanism.bodies) > MOST_STRAIGHT else None
-    if in_loops is not None:
-        return part_of(in_loops)
-    live, note = part_of(prepare(mechanism, settings, Purpose.STATE))
-    if live is None and absolute:  # a tree has a tenth of the operations, or less
-        prepared = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
-        if prepared.tree is not None:
-            live, note = part_of(prepared)
-        in_loops = _in_loops(mechanism, settings) if live is None else None
-        if in_loops is not None:
-            live, note = part_of(in_loops)
+    live: Live | None = None
+    note = ""
+    for prepared in _ways_to_run(mechanism, settings):
+        live, note = part_of(prepared)
+        if live is not None:
+            break
     return live, note
+
+
+def _ways_to_run(mechanism: Mechanism, settings: Settings) -> Iterator[Prepared]:
+    """Yield runs of the same motion whose code may fit into a page, each prepared where those before it do not fit."""
+    from symgen.run.planning.plan import Purpose
+    from symgen.run.planning.prepare import prepare
+
+    absolute = settings.coordinates == "absolute"
+    many = absolute and len(mechanism.bodies) > MOST_STRAIGHT
+    if many and (in_loops := _in_loops(mechanism, settings)) is not None:
+        yield in_loops
+        return
+    yield prepare(mechanism, settings, Purpose.STATE)
+    if absolute:  # a tree has a tenth of the operations, or less
+        on_tree = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
+        if on_tree.tree is not None:
+            yield on_tree
+    if absolute and not many and (in_loops := _in_loops(mechanism, settings)) is not None:
+        yield in_loops
 
 
 def _in_loops(mechanism: Mechanism, settings: Settings) -> Prepared | None:
@@ -108,7 +118,6 @@ def _in_loops(mechanism: Mechanism, settings: Settings) -> Prepared | None:
     from symgen.run.planning.prepare import prepare
 
     try:
-        refuse_loops(mechanism)
         return prepare(mechanism, replace(settings, shape="looped"), Purpose.STATE)
     except InputError:
         return None

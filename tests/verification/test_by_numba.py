@@ -65,7 +65,7 @@ def test_the_page_names_differences_times_and_what_is_missing(tmp_path, monkeypa
 def test_a_process_has_the_compiler_that_is_asked_for_and_says_why_it_has_no_states(tmp_path):
     with Compiler("") as own:
         first, second = own.computed("pendulum", "run"), own.computed("pendulom", "run")
-        assert first.status == "ok" and len(first.states) == 2 and 0.1 < first.seconds < 30.0
+        assert first.status == "ok" and len(first.states) == 2 and first.seconds > 0.0
         assert second.states is None and "'pendulom'" in second.status
         own.process.kill()
         assert own.computed("pendulum", "run").status == "signal 9"

@@ -12,7 +12,7 @@ from typing import Any
 
 from symgen.base.errors import InputError, quote, suggest
 from symgen.describe.bounds.keys import sections_of_files
-from symgen.describe.files.new_numbers import put_at_path
+from symgen.describe.files.new_numbers import put_at_path, value_at_path
 from symgen.describe.files.origins import Origin, origin_of
 from symgen.describe.files.validate import validate
 from symgen.describe.formulas.identifiers import LONGEST
@@ -110,15 +110,20 @@ def is_path(name: str) -> bool:
 
 def numbers_of_file(raw: Mapping[str, Any]) -> Iterator[tuple[str, Path, float]]:
     """Yield all numbers of a description that have paths: each path as text and as keys, and the number."""
-    stack: list[tuple[str, Path, object]] = [(name, (name,), raw.get(name)) for name in SECTIONS]
+    stack: list[tuple[Path, object]] = [((name,), raw.get(name)) for name in SECTIONS]
     while stack:
-        text, path, value = stack.pop()
+        path, value = stack.pop()
         if isinstance(value, Mapping):
-            stack.extend((f"{text}.{key}", (*path, key), item) for key, item in value.items())
+            stack.extend(((*path, key), item) for key, item in value.items())
         elif isinstance(value, list | tuple):
-            stack.extend((f"{text}[{i}]", (*path, i), item) for i, item in enumerate(value))
+            stack.extend(((*path, i), item) for i, item in enumerate(value))
         elif isinstance(value, int | float) and not isinstance(value, bool):
-            yield text, path, float(value)
+            yield path_in_words(path), path, float(value)
+
+
+def path_in_words(path: Path) -> str:
+    """Return a path as a person names it, such as ``bodies.crank.points.B[0]``."""
+    return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path).lstrip(".")
 
 
 def _no_such_number(where: str, name: str, origin: Origin, places: Mapping[str, Path]) -> InputError:
@@ -150,10 +155,7 @@ def free_parameter_name(name: str, others: set[str]) -> str:
 
 def _put_parameter(raw: Mapping[str, Any], path: Path, parameter: str, name: str) -> dict[str, Any]:
     """Return a description in which a parameter replaces a number; other entries of its list keep theirs."""
-    value: Any = raw
-    for part in path:
-        value = value[part]
-    entry = {"value": float(value), "unit": _unit_of_path(raw, path), "note": name}
+    entry = {"value": float(value_at_path(raw, path)), "unit": _unit_of_path(raw, path), "note": name}
     result: dict[str, Any] = put_at_path(raw, path, parameter)
     result["parameters"] = {**raw.get("parameters", {}), parameter: entry}
     return result

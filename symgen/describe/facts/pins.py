@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.units import read_amount
 from symgen.base.vocabulary.measures import GROUND
-from symgen.describe.facts.lifted import Path, free_parameter_name, names_of_scalars
+from symgen.describe.facts.lifted import Path, free_parameter_name, names_of_scalars, path_in_words
 from symgen.describe.files.handles import PINS, PointsOfFile, WrittenPoint
 from symgen.describe.files.new_numbers import put_at_path, value_at_path
 from symgen.describe.files.origins import Origin, origin_of
@@ -42,15 +42,14 @@ class MovedNumber(NamedTuple):
 
     def at(self, places: Mapping[str, float], before: Mapping[str, float]) -> float:
         """Return it with pins at other places than before."""
-        way = [slope * (places[name] - before[name]) for name, slope in self.slopes.items()]
-        # a number of the ground is the place itself
-        if len(way) == 1 and (name := next(iter(self.slopes))) and self.is_place_of(name, before[name]):
+        if (name := self.place_itself(before)) is not None:
             return places[name]
-        return math.fsum([self.value, *way])
+        return math.fsum([self.value, *(slope * (places[name] - before[name]) for name, slope in self.slopes.items())])
 
-    def is_place_of(self, name: str, before: float) -> bool:
-        """Whether it is the only coordinate of a pin that the place means."""
-        return dict(self.slopes) == {name: 1.0} and self.value == before
+    def place_itself(self, before: Mapping[str, float]) -> str | None:
+        """Return the place that the number is, as numbers of the ground are; None where it only follows places."""
+        name = next(iter(self.slopes))
+        return name if dict(self.slopes) == {name: 1.0} and self.value == before[name] else None
 
 
 @dataclass(frozen=True)
@@ -163,17 +162,6 @@ def lift_pins(
     return PinPlaces(_with_formulas(origin, moved, keys, before), keys, before, moved, spots)
 
 
-def numbers_of_moved(moved: Sequence[MovedNumber]) -> Iterator[str]:
-    """Yield the paths of numbers that follow pins, as a person names them."""
-    for number in moved:
-        yield path_in_words(number.path)
-
-
-def path_in_words(path: Path) -> str:
-    """Return a path as a person names it, such as ``bodies.crank.points.B[0]``."""
-    return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path).lstrip(".")
-
-
 def _spots_of_pin(where: str, points: PointsOfFile, joint: str) -> list[WrittenPoint]:
     """Return the points that a pin and further joints at it hold.
 
@@ -242,9 +230,9 @@ def _with_formulas(
     """Return the mechanism of a description in which numbers follow new parameters."""
     raw: Any = origin.raw
     for number in moved:
-        only = next(iter(number.slopes))
-        text = keys[only]
-        if not number.is_place_of(only, before[only]):
+        if (place := number.place_itself(before)) is not None:
+            text = keys[place]
+        else:
             parts = (f"({slope!r})*({keys[name]} - ({before[name]!r}))" for name, slope in number.slopes.items())
             text = " + ".join([repr(number.value), *parts])
         raw = put_at_path(raw, number.path, text)

@@ -53,7 +53,7 @@ def put_at_path(value: Any, path: Path, new: object) -> Any:
 
 
 def value_at_path(raw: Any, path: Path) -> Any:
-    """Return what stands at the end of a path through tables and lists."""
+    """Return the value at the end of a path through tables and lists."""
     for part in path:
         raw = raw[part]
     return raw

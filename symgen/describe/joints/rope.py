@@ -137,11 +137,10 @@ def _stop(scope: Scope, i: int, sheave: Sheave) -> Stop:
     centre = scope.marker(f"{key}.at", body, CENTRE if sheave.at == CENTRE else sheave.at)
     for name, value in (("turn", sheave.turn), *axial):
         if (value is None) != (sheave.radius is None):
-            expected, got = ("no such key", "one") if value is not None else ("the key of a sheave", "no such key")
-            hint = "an eyelet has neither radius nor turn nor axis"
-            raise scope.error(
-                f"{key}.{name}", f"{expected} {'without' if value is not None else 'with'} a radius", got, hint
-            )
+            expected, got = "the key of a sheave with a radius", "no such key"
+            if value is not None:
+                expected, got = "no such key without a radius", "one"
+            raise scope.error(f"{key}.{name}", expected, got, "an eyelet has neither radius nor turn nor axis")
     if sheave.radius is None:
         return Stop(key, centre, ZERO)
     radius = scope.constant(f"{key}.radius", sheave.radius, positive=True)

@@ -129,7 +129,7 @@ class Errors:
         return self._all
 
     def read_whole(self, read: Callable[[Any], T], table: object) -> T:
-        """Return what `read` makes of a table; where errors are collected, all of its wrong formulas are told."""
+        """Return the part that `read` reads from a table; where errors are collected, each wrong formula is one."""
         try:
             return read(table)
         except InputError as error:

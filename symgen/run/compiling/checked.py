@@ -43,13 +43,13 @@ def check_kernels(compiled: CompiledModel, names: Container[str] = NAMES) -> dic
         If one is not in the language, or was left to Python.
     """
     model, law, functions = compiled.model, compiled.law_module, dict[str, Function]()
+    looped = compiled.shape == "looped"
     for module, table in ((law, _LAW), (model, _MODEL)):
         own = [name for name in table if name in names and hasattr(module, name)]
-        if compiled.shape == "looped" and "masses" in own:
+        if looped and "masses" in own:
             own.remove("masses")
             functions["masses"] = written_function("masses", "p", "w")
         functions |= {name: checked_function(getattr(module, name), table[name]) for name in own}
-    looped = compiled.shape == "looped"
     functions["prepareModel"] = (
         written_function("prepareModel", "p") if looped else checked_function(model.prepare, PREPARE)
     )

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from symgen.base.errors import AssemblyError, InputError, quote
 from symgen.base.vocabulary.measures import GROUND
-from symgen.describe.facts.pins import PinPlaces, lift_pins, numbers_of_moved
+from symgen.describe.facts.lifted import path_in_words
+from symgen.describe.facts.pins import PinPlaces, lift_pins
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.run.planning.closing_part import closing_part
 from symgen.run.planning.plan import Purpose
@@ -66,7 +67,7 @@ def read_pins(
     except AssemblyError as error:
         raise InputError(where, "a file whose machine closes at the start", str(error)) from None
     places = lift_pins(where, mechanism, names, q, settings.parameters)
-    both = set(numbers_of_moved(places.moved)) & set(others)
+    both = {path_in_words(number.path) for number in places.moved}.intersection(others)
     if both:
         name = min(both)
         raise InputError(

@@ -1,6 +1,8 @@
 """Ropes in space, through eyelets and over sheaves, beside equations written here."""
 
 import math
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -22,6 +24,10 @@ def turned(axis: tuple[float, ...], angle: float) -> np.ndarray:
 
 def hole(**keys: object) -> symgen.Model:
     """Return a ball on a rope through a hole, at whose other end a weight hangs in a guide."""
+    return symgen.load(described_hole(**keys).build())
+
+
+def described_hole(**keys: object) -> symgen.MechanismBuilder:
     builder = symgen.MechanismBuilder("hole", space="spatial", gravity=(0.0, 0.0, -G))
     builder.body("ball", type="point", mass=1.0, position=(0.4, 0.0, -0.3), velocity=(0.3, 1.4, 0.2))
     builder.parameter("m", 1.5).body(
@@ -31,7 +37,7 @@ def hole(**keys: object) -> symgen.Model:
     builder.joint(
         "rope", "rope", between=("ball", "weight"), at=("centre", "centre"), over=[{"at": (0.0, 0.0, 0.0)}], **keys
     )
-    return symgen.load(builder.build())
+    return builder
 
 
 def spun(times: np.ndarray, m: float = 1.5) -> np.ndarray:
@@ -61,6 +67,18 @@ def test_a_ball_on_a_rope_through_a_hole(settings) -> None:
     assert result.ok, result.reason
     found = np.array([result[f"ball.{k}"] for k in "xyz"]).T
     np.testing.assert_allclose(found, spun(result.t), rtol=0, atol=1e-9)
+
+
+@pytest.mark.slow
+def test_a_command_runs_it(tmp_path) -> None:
+    (tmp_path / "hole.toml").write_text(described_hole().to_toml())
+    words = ["--until", "1.5", "--integrator", "dop853", "--rtol", "1e-12", "--atol", "1e-13", "--save", "run.csv"]
+    command = [sys.executable, "-m", "symgen", "run", "hole.toml", *words]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    table = np.genfromtxt(tmp_path / "run.csv", delimiter=",", names=True, deletechars="")
+    found = np.array([table[f"ball.{k}"] for k in "xyz"]).T
+    np.testing.assert_allclose(found, spun(table["t"]), rtol=0, atol=1e-9)
 
 
 def tackle(rotation: np.ndarray, flipped: bool) -> symgen.Model:

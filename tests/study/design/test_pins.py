@@ -266,6 +266,11 @@ def test_the_file_that_is_written_keeps_its_comments_and_gives_the_answer(tmp_pa
     assert again.returncode == 0 and "moved" not in again.stdout + again.stderr
     run = symgen.load(tmp_path / "new.toml").simulate(times=np.linspace(0.0, 1.0, 1441).tolist(), rtol=1e-10)
     assert np.abs(run["motor.effort"]).max() == pytest.approx(found["after"], rel=1e-6)
+    words = ["--until", "1", "--rtol", "1e-10", "--output-step", repr(1.0 / 1440), "--save", "run.csv"]
+    done = command("run", "new.toml", *words, folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    effort = np.genfromtxt(tmp_path / "run.csv", delimiter=",", names=True, deletechars="")["motor.effort"]
+    assert len(effort) == 1441 and np.abs(effort).max() == pytest.approx(found["after"], rel=1e-6)
     done = command("design", "bars.toml", "--vary", "D.x=1 kg:2 kg", "--aim", AIM, "-o", "x.toml", folder=tmp_path)
     assert done.returncode == 2 and "--vary D.x" in done.stderr and not (tmp_path / "x.toml").exists()
 

@@ -70,7 +70,7 @@ def refuse_dense(method: Method, options: Mapping[str, str], implicit: bool) -> 
 
 @lru_cache(maxsize=128)
 def _reason_of_density(method: Method, options: tuple[tuple[str, str], ...], implicit: bool) -> tuple[str, str] | None:
-    """Return what a looped shape expects and what a method has, None where it is loopable.
+    """Return the condition of looped code that a method does not meet, and its property; None without any.
 
     Every run of a study asks, and formulas are recorded for the answer.
     """
