@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
-import math
-from itertools import pairwise
-from typing import ClassVar, Literal, NamedTuple
+from typing import ClassVar, Literal
 
 import msgspec
 
 from symgen.base.vocabulary.expressions import (
     ZERO,
     Expr,
-    Number,
-    Reading,
     call,
-    difference,
     literal_of,
-    product,
-    sum_of_terms,
 )
-from symgen.base.vocabulary.measures import GROUND, Bearing, Component, FormulaMeasure, Holonomic, Marker, axes
+from symgen.base.vocabulary.measures import GROUND, FormulaMeasure, Holonomic
 from symgen.describe.joints._giving import force_of_pull, refuse_damping
 from symgen.describe.joints._paired import Paired
-from symgen.describe.joints._rope_in_space import Stop, way_in_space
+from symgen.describe.joints._way_of_rope import Stop, way_of_rope
 from symgen.describe.mechanism import Force, Joint
 from symgen.describe.parts.fields import Axis, BodyName, Point, Scalar
 from symgen.describe.parts.scope import CENTRE, Scope
@@ -51,15 +44,6 @@ class Sheave(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     turn: Literal["left", "right"] | None = None
     axis: Axis | None = None
     body: BodyName = GROUND
-
-
-class _Straight(NamedTuple):
-    """A straight part of the rope: its length and its direction, as formulas and at the start."""
-
-    length: Expr
-    direction: Expr
-    start: float
-    angle: float
 
 
 class Rope(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -119,7 +103,7 @@ class Rope(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
         (a, b), ends = self.ends(scope, turns=(False, False))
         stops = [Stop("at[0]", ends[0], ZERO), *(_stop(scope, i, x) for i, x in enumerate(self.over))]
         stops.append(Stop("at[1]", ends[1], ZERO))
-        way, start = way_in_space(scope, stops) if scope.spatial else _way_in_plane(scope, stops)
+        way, start = way_of_rope(scope, stops)
         length: Expr = literal_of(start)
         if self.length is not None:
             length = scope.constant("length", self.length, positive=True)
@@ -147,59 +131,6 @@ def _stop(scope: Scope, i: int, sheave: Sheave) -> Stop:
     signed = radius if sheave.turn == "left" else call("neg", radius)
     triad = None if sheave.axis is None else make_triad(scope, body, sheave.axis, keys=(f"{key}.axis", ""))
     return Stop(key, centre, signed, triad)
-
-
-def _way_in_plane(scope: Scope, stops: list[Stop]) -> tuple[Expr, float]:
-    """Return the length of the way over some stops as a formula, and at the start."""
-    straights = [_straight(scope, i, *pair) for i, pair in enumerate(pairwise(stops))]
-    bends = zip(stops[1:], straights, straights[1:], strict=False)
-    arcs = [_arc(scope, stop, before, after) for stop, before, after in bends if stop.radius != ZERO]
-    way = sum_of_terms(*(straight.length for straight in straights), *(arc for arc, _ in arcs))
-    return way, sum([straight.start for straight in straights] + [start for _, start in arcs])
-
-
-def _straight(scope: Scope, i: int, a: Stop, b: Stop) -> _Straight:
-    """Return the straight part between two sheaves or ends.
-
-    With u along it, n to its left and signed radii r, the centres are apart by l u + (r_b - r_a) n.
-    """
-    x, y = axes(GROUND, 2)
-    components = [Reading(f"rope{i}.{k}", Component(a.centre, b.centre, axis)) for k, axis in (("x", x), ("y", y))]
-    square = sum_of_terms(*(call("mul", e, e) for e in components))
-    across = difference(b.radius, a.radius)
-    bearing = Reading(f"rope{i}.angle", Bearing(a.centre, b.centre, x, y))
-    (ax, ay), (bx, by) = (_place_at_start(scope, stop.centre) for stop in (a, b))
-    apart, side = math.hypot(bx - ax, by - ay), scope.value(across, "over")
-    if not apart > abs(side):
-        raise scope.error("over", "sheaves and ends apart from each other", f"parts {i + 1} and {i + 2} that overlap")
-    start, angle = math.sqrt(apart**2 - side**2), math.atan2(by - ay, bx - ax) - math.asin(side / apart)
-    if across == ZERO:
-        return _Straight(call("sqrt", square), bearing, start, angle)
-    length = call("sqrt", call("sub", square, product(across, across)))
-    direction = call("sub", bearing, call("asin", call("div", across, call("sqrt", square))))
-    return _Straight(length, direction, start, angle)
-
-
-def _arc(scope: Scope, stop: Stop, before: _Straight, after: _Straight) -> tuple[Expr, float]:
-    """Return the arc on a sheave, by less than a turn at the start, and its length there."""
-    radius = scope.value(stop.radius, "over")
-    way, turned = math.copysign(1.0, radius), after.angle - before.angle
-    whole = math.floor(way * turned / math.tau)  # turns that the two directions differ by beyond the arc
-    turn = call("sub", after.direction, before.direction)
-    arc = product(stop.radius, turn if whole == 0 else call("sub", turn, Number(way * whole * math.tau)))
-    return arc, abs(radius) * (way * turned % math.tau)
-
-
-def _place_at_start(scope: Scope, marker: Marker) -> tuple[float, float]:
-    """Return where a point is as the bodies are described to start."""
-    x, y = (scope.value(e, "at") for e in marker.point)
-    if marker.body == GROUND:
-        return x, y
-    body = scope.context.bodies[marker.body]
-    px, py = (scope.value(e, "at") for e in body.position)
-    angle = scope.value(body.angle, "at") if scope.turns(marker.body) else 0.0  # type: ignore[union-attr]  # planar
-    c, s = math.cos(angle), math.sin(angle)
-    return px + c * x - s * y, py + s * x + c * y
 
 
 KIND = Rope
