@@ -218,7 +218,7 @@ def attempt(
     single[BUFFER] = float(which)
     ratio = ratio_at_aim(change, fall, iterations)
     single[RATIO] = min(_AGAIN, max(_SHORTEST, ratio))
-    if not ADAPTIVE and not converged:
+    if not converged and (between or not ADAPTIVE):  # a search for events would take the end of an attempt before
         return DIVERGED
     single[ADRIFT] = 0.0
     if not converged:
