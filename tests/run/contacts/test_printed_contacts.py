@@ -1,6 +1,7 @@
 """C, FMUs, pages and steps from Python are single runs with the same steps."""
 
 import json
+import math
 import shutil
 import subprocess
 from pathlib import Path
@@ -63,3 +64,38 @@ def test_printed_runs_with_the_same_steps(name: str, tmp_path: Path) -> None:
     for _ in range(4):
         steps.step(until / 4.0)
     assert abs(steps[seen] - run[seen][-1]) < 1e-12
+
+
+@pytest.mark.slow
+def test_last_impacts_in_c_are_those_of_a_closed_form(tmp_path: Path) -> None:
+    """A flight that begins ever more slowly ends where a height is 0 up to rounding: all 43 times are that exact."""
+    until, step, e = 3.0, 5e-4, 0.7
+    model = loaded(DROP, tmp_path)
+    _, transitions = rows_of(program_of(model, tmp_path / "c"), until, step)
+    run = model.simulate(method="direct-correction", integrator="rk4", step=step, until=until, verify=False)
+    fall = math.sqrt(2.0 / 9.81)
+    count = np.arange(43)
+    times = fall * (1.0 + 2.0 * (e - e ** (count + 1)) / (1.0 - e))
+    rounding = np.spacing(0.1) / (9.81 * fall * e**count)
+    for found in (transitions, [(event.t, event.name) for event in run.events]):
+        assert [name for _, name in found] == ["floor.hit"] * 43 + ["floor.rest"]
+        assert np.all(np.abs([t for t, _ in found[:43]] - times) < 1e-13 + 20.0 * rounding)
+
+
+@pytest.mark.slow
+def test_a_block_that_rocks_to_rest_in_c_is_off_by_less_than_by_a_rounding_of_gravity(tmp_path: Path) -> None:
+    until, step = 4.0, 5e-4
+    text = rocking_block(0.15, 0.5, 0.12).replace("-9.81]", '"-g"]') + "[parameters]\ng = 9.81\n"
+    model = loaded(text, tmp_path)
+    rows, _ = rows_of(program_of(model, tmp_path / "c"), until, step)
+
+    def states_of(g: float) -> np.ndarray:
+        settings = {"method": "direct-correction", "integrator": "rk4", "step": step, "until": until}
+        run = model.simulate(parameters={"g": g}, times=rows[:, 0], verify=False, **settings)
+        assert run.ok
+        return np.array([run[name] for name in (*run.q.names, *run.v.names)]).T
+
+    own = states_of(9.81)
+    off = np.abs(rows[:, 1:] - own)
+    moved = [np.abs(states_of(9.81 + k * float(np.spacing(9.81))) - own).max() for k in (-2, -1, 1, 2)]
+    assert off.max() < 4.0 * max(moved) < 1e-9 and off[-1].max() < 1e-12

@@ -26,7 +26,7 @@ from symgen.run.layout.records import ModelSystem, Run, Sizes, Span
 from symgen.run.layout.scales import tolerance_at_rest, weights_of
 from symgen.run.layout.scheme_records import NODES as SCHEME
 from symgen.run.layout.scheme_records import Nodes
-from symgen.run.loops.frame import loop
+from symgen.run.loops.frame import loop, shortest_step
 from symgen.run.loops.frame_parts import DIVERGED, evaluate
 from symgen.run.loops.schemes.explicit import attempt as one_step
 from symgen.run.loops.schemes.picard_memory import (
@@ -218,7 +218,7 @@ def attempt(
     single[BUFFER] = float(which)
     ratio = ratio_at_aim(change, fall, iterations)
     single[RATIO] = min(_AGAIN, max(_SHORTEST, ratio))
-    if not ADAPTIVE and not converged:
+    if not converged and (between or not ADAPTIVE):  # a search for events would take the end of an attempt before
         return DIVERGED
     single[ADRIFT] = 0.0
     if not converged:
@@ -293,7 +293,7 @@ def prepare(system: ModelSystem, scheme: Nodes, span: Span, run: Run) -> None:
     sizes, first, t = system.sizes, part(run.memory, NODES, system.sizes.width), run.clock[abi.TIME]
     begin_polynomial(system, run, t)
     run.control[abi.ORDER] = NODES
-    if not ADAPTIVE or span.step > 0.0:
+    if not ADAPTIVE or span.step > shortest_step(t):  # one that ends at an event may be as short as time resolves
         return
     speed = acceleration = 0.0
     for j in range(sizes.nq, sizes.nq + sizes.nv):
