@@ -83,7 +83,7 @@ class Acting:
                 continue
             value = constant * (number or 0.0) if slot is None else entries[:, slot]
             by_joint[joint].append((row, column, value))
-        vectors = dict[str, dict[str, Array]]()
+        forces, moments, arms = list[Array](), list[Array](), list[Array]()
         for joint, seat in self.seats.items():
             generalised: dict[int, Array] = {}
             for row, column, value in by_joint[joint]:
@@ -95,10 +95,14 @@ class Acting:
                 force, moment = self._reaction_on_body(seat.body, generalised, columns[seat.body])
             place = self._three_components(self._place_on_body(seat))[..., np.newaxis, :]
             arm = (place @ np.swapaxes(self._axes_of_body(seat.body), 1, 2))[..., 0, :]
-            moment = moment - np.cross(arm, force)
-            vectors[joint] = {"F": force, "M": moment}
+            forces.append(force)
+            moments.append(moment)
+            arms.append(np.broadcast_to(arm, force.shape))
+        vectors = {"F": forces, "M": list(np.array(moments) - np.cross(arms, forces)) if forces else []}
+        numbers = {joint: k for k, joint in enumerate(self.seats)}
         return self._make_table(
-            "reactions", (vectors[joint][part[0]][:, "xyz".index(part[1:] or "z")] for joint, part in self._parts)
+            "reactions",
+            (vectors[part[0]][numbers[joint]][:, "xyz".index(part[1:] or "z")] for joint, part in self._parts),
         )
 
     def _place_on_body(self, seat: Seat) -> Array:

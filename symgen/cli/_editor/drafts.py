@@ -11,6 +11,7 @@ import numpy as np
 
 from symgen.api import Model
 from symgen.base.errors import AssemblyError, InputError, SymgenError
+from symgen.base.memory import without_garbage_collection
 from symgen.cli._editor.joints import joint_equations
 from symgen.cli._editor.made import make_file_for_browser
 from symgen.cli._editor.texts import Texts
@@ -61,6 +62,7 @@ class Drafts:
         self._codes: Kept = {}
         self._start: tuple[str, list[float]] | None = None
 
+    @without_garbage_collection()
     def check_text(self, text: str) -> dict[str, Any]:
         """Return the errors of a text, each at its line, or the drawing of its start and what may be moved in it."""
         self._refuse_large(text)
@@ -143,7 +145,8 @@ class Drafts:
             if not len(result.t):
                 return {"data": None, **facts}
             self._results = {tab: (text, result)}
-            return {"data": view_data(result, live=False)[0], **facts}
+            with without_garbage_collection():
+                return {"data": view_data(result, live=False)[0], **facts}
 
     def live_page_data(self, text: str, tab: str, asked: int) -> dict[str, Any]:
         """Return the data and the script of a page that works out other motions of the last motion's text.
