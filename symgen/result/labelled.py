@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
@@ -129,6 +130,9 @@ def column_texts(table: Labelled, of: Callable[[Array], float] = lambda column: 
 
 def largest_magnitudes(values: Array) -> tuple[float, ...]:
     """Return the largest finite magnitude of an array, nothing where there is none."""
+    largest = float(np.abs(values).max(initial=0.0))
+    if math.isfinite(largest):
+        return (largest,) if values.size else ()
     finite = values[np.isfinite(values)]
     return (float(np.abs(finite).max()),) if finite.size else ()
 

@@ -194,6 +194,9 @@ class Tables(ABC):
     def whole(self, tables: Sequence[str] = ()) -> Labelled:
         """Return all columns of some tables, or of all of them, by the names that `select` takes."""
         chosen = tables or self.names
+        if len(chosen) == 1 and chosen[0] in self.names:  # as it is, without a detour over its columns
+            table: Labelled = getattr(self, chosen[0])
+            return Labelled(table.values.copy(), tuple(column_name(chosen[0], key) for key in table.names), table.units)
         return self._stack_columns([name for name, (table, _) in self._places.items() if table in chosen])
 
     def overview(self) -> Labelled:

@@ -102,11 +102,13 @@ class Points:
     def distances_over_time(self, a: Array, b: Array) -> Array:
         """Return the largest distance [m] over all bodies at each time, shape (k,)."""
         largest = np.zeros(len(a))
-        for i, length in self.bodies:
+        if self.dimension == 2:
+            largest = self._planar_distances(a, b)
+        for i, length in self.bodies if self.dimension == 3 else ():
             centre = a[:, i : i + self.dimension] - b[:, i : i + self.dimension]
             candidates = [np.linalg.norm(centre, axis=1)]
             if length > 0.0:
-                turn = slice(i + self.dimension, i + self.dimension + (1 if self.dimension == 2 else 4))
+                turn = slice(i + 3, i + 7)
                 tips = rotation_matrices(a[:, turn]) - rotation_matrices(b[:, turn])
                 candidates += [np.linalg.norm(centre + length * tips[:, :, k], axis=1) for k in range(self.dimension)]
             largest = np.maximum(largest, np.max(candidates, axis=0))
@@ -114,6 +116,22 @@ class Points:
             away = self._interface_places(interface, a) - self._interface_places(interface, b)
             largest = np.maximum(largest, np.linalg.norm(away, axis=1))
         return largest
+
+    def _planar_distances(self, a: Array, b: Array) -> Array:
+        """Return the largest distance over all bodies in the plane, at once for all of them."""
+        if not self.bodies:
+            return np.zeros(len(a))
+        first, length = (np.array(part) for part in zip(*self.bodies, strict=True))
+        first, turning = first.astype(int), length > 0.0
+        x, y = a[:, first] - b[:, first], a[:, first + 1] - b[:, first + 1]
+        largest = np.hypot(x, y).max(axis=1)
+        if turning.any():
+            (x, y), length, angle = (part[:, turning] for part in (x, y)), length[turning], first[turning] + 2
+            c = length * (np.cos(a[:, angle]) - np.cos(b[:, angle]))
+            s = length * (np.sin(a[:, angle]) - np.sin(b[:, angle]))
+            tips = np.maximum(np.hypot(x + c, y + s), np.hypot(x - s, y + c))
+            largest = np.maximum(largest, tips.max(axis=1))
+        return np.asarray(largest)
 
     def _interface_places(self, interface: tuple[int, int, CarriedInterface], q: Array) -> Array:
         """Return the places of an interface, shape (k, dimension)."""

@@ -83,7 +83,7 @@ class Acting:
                 continue
             value = constant * (number or 0.0) if slot is None else entries[:, slot]
             by_joint[joint].append((row, column, value))
-        vectors = dict[str, dict[str, Array]]()
+        forces, moments, arms = list[Array](), list[Array](), list[Array]()
         for joint, seat in self.seats.items():
             generalised: dict[int, Array] = {}
             for row, column, value in by_joint[joint]:
@@ -95,10 +95,14 @@ class Acting:
                 force, moment = self._reaction_on_body(seat.body, generalised, columns[seat.body])
             place = self._three_components(self._place_on_body(seat))[..., np.newaxis, :]
             arm = (place @ np.swapaxes(self._axes_of_body(seat.body), 1, 2))[..., 0, :]
-            moment = moment - np.cross(arm, force)
-            vectors[joint] = {"F": force, "M": moment}
+            forces.append(force)
+            moments.append(moment)
+            arms.append(np.broadcast_to(arm, force.shape))
+        vectors = {"F": forces, "M": list(np.array(moments) - np.cross(arms, forces)) if forces else []}
+        numbers = {joint: k for k, joint in enumerate(self.seats)}
         return self._make_table(
-            "reactions", (vectors[joint][part[0]][:, "xyz".index(part[1:] or "z")] for joint, part in self._parts)
+            "reactions",
+            (vectors[part[0]][numbers[joint]][:, "xyz".index(part[1:] or "z")] for joint, part in self._parts),
         )
 
     def _place_on_body(self, seat: Seat) -> Array:
@@ -114,7 +118,7 @@ class Acting:
         """The columns of all tables of forces."""
         return signals_of_forces(self.info, {joint: seat.body for joint, seat in self.seats.items()})
 
-    @property
+    @cached_property
     def _parts(self) -> list[tuple[str, str]]:
         """Joint and component of each column of the reactions."""
         return [(joint, part) for s in self.signals["reactions"] for joint, _, part in [s.key.rpartition(".")]]
@@ -182,13 +186,25 @@ class Acting:
 
     def _axes_of_body(self, body: str) -> Array:
         """Return the rotation matrices of a body at the outputs, shape (k, 3, 3)."""
-        names = {quantity.name for quantity in self.info.coordinates}
+        if (known := self._turns.get(body)) is not None:
+            return known
+        names = self._places_of_coordinates
         turns = np.zeros((len(self.states), 3, 3)) + np.eye(3)
         if f"{body}.theta" in names:
             turns[:, :2, :2] = rotation_matrices(np.column_stack(self._coordinates_of_body(body, ("theta",))))
         elif f"{body}.e0" in names:
             turns = rotation_matrices(np.column_stack(self._coordinates_of_body(body, ("e0", "e1", "e2", "e3"))))
+        self._turns[body] = turns
         return turns
+
+    @cached_property
+    def _turns(self) -> dict[str, Array]:
+        """Rotation matrices of the bodies that were asked for: several joints act on one body."""
+        return {}
+
+    @cached_property
+    def _places_of_coordinates(self) -> dict[str, int]:
+        return {quantity.name: i for i, quantity in enumerate(self.info.coordinates)}
 
     @staticmethod
     def _three_components(vectors: Array) -> Array:
@@ -198,8 +214,7 @@ class Acting:
 
     def _coordinates_of_body(self, body: str, names: Iterable[str]) -> list[Array]:
         """Return coordinates of a body at the outputs."""
-        indices = {quantity.name: i for i, quantity in enumerate(self.info.coordinates)}
-        return [self.states[:, indices[f"{body}.{name}"]] for name in names]
+        return [self.states[:, self._places_of_coordinates[f"{body}.{name}"]] for name in names]
 
 
 #: Singular values of D^T below this fraction of the largest one count as zero.
@@ -301,7 +316,7 @@ class Forces:
         """Return the lengths of the reactions' forces, and of their moments where these have several components."""
         return self._acting.magnitudes(reactions)
 
-    @property
+    @cached_property
     def _acting(self) -> Acting:
         return Acting(self.compiled.info, self.seats, self.outcome.states)
 

@@ -195,8 +195,10 @@ def _title_of_motion(table: str, head: str, columns: Labelled) -> Iterator[tuple
     for meaning, unit, logarithmic, part in panels_of_table(columns):
         owners = [name.partition(".")[0] for name in part.names]
         if table in _BY_JOINT:
-            for joint in dict.fromkeys(owners):
-                places = [i for i, owner in enumerate(owners) if owner == joint]
+            by_joint: dict[str, list[int]] = {}
+            for i, joint in enumerate(owners):
+                by_joint.setdefault(joint, []).append(i)
+            for joint, places in by_joint.items():
                 yield f"{joint}: {meaning}{_BY_JOINT[table]}", unit, logarithmic, columns_at(part, places)
         else:
             one = len(set(owners)) == 1 and head and table != "outputs"

@@ -65,14 +65,17 @@ def test_every_catalogue_scene_is_pulled_as_with_the_spring_in_its_file(
     assert chromium.said == []
 
 
-def test_a_lift_of_thirty_bodies_is_pulled_and_its_sliders_move_it(chromium: Chromium, tmp_path: Path) -> None:
-    file = parse_toml(scissor_lift(30), "scissors")
+@pytest.mark.parametrize(("bodies", "characters"), [(30, 300_000), (100, 500_000)])
+def test_a_lift_of_many_bodies_is_pulled_and_its_sliders_move_it(
+    bodies: int, characters: int, chromium: Chromium, tmp_path: Path
+) -> None:
+    file = parse_toml(scissor_lift(bodies), "scissors")
     own = Model(mechanism_of(file))
     result = own.simulate(until=0.1)
     page = result.view()
     page.save(tmp_path / "page.html")
-    assert len(page.html) < len(result.view(live=False).html) + 300_000
-    found, expected = pulled_and_run(chromium, tmp_path / "page.html", file, "a7", 3)
+    assert len(page.html) < len(result.view(live=False).html) + characters
+    found, expected = pulled_and_run(chromium, tmp_path / "page.html", file, f"a{bodies // 4}", 3)
     assert np.abs(found - expected).max() < 1e-9 * np.abs(expected).max()
     names = chromium.run("symgen.state")
     for values in ({}, {"k": 15000.0, "J": 0.03}):

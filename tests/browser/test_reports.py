@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import symgen
-from symgen.study.report.document import Letterhead, ReportDocument
+from symgen.study.report.document import DocumentTable, Letterhead, ReportDocument, Section
 from symgen.study.report.machine_report import machine_report
 from symgen.study.report.picture import sketches_section
 from symgen.study.report.write import html_report, write
@@ -47,3 +47,12 @@ def test_a_browser_prints_the_size(paper, points, tmp_path):
     document = ReportDocument("press", (), (), "", letterhead=Letterhead(paper=paper))
     data = write(document, tmp_path / "a.pdf").read_bytes()
     assert re.search(rb"/MediaBox \[0 0 " + points + rb"\]", data)
+
+
+def test_a_wide_table_is_printed_across_with_its_heading(tmp_path):
+    table = DocumentTable("Rows", tuple(f"column {k} [m/s]" for k in range(12)), (tuple(["1.23456e-10"] * 12),) * 3)
+    sections = Section("Before", ("words",)), Section("All rows", tables=(table,)), Section("After", ("words",))
+    document = ReportDocument("press", (), (), "", sections, letterhead=Letterhead(paper="a4"))
+    data = write(document, tmp_path / "a.pdf").read_bytes()
+    sizes = re.findall(rb"/MediaBox \[0 0 (\d+)[.\d]* (\d+)[.\d]*\]", data)
+    assert [int(width) > int(height) for width, height in sizes] == [False, True, False]

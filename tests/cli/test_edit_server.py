@@ -20,12 +20,14 @@ import pytest
 
 from symgen.api import load
 from symgen.base.errors import InputError
-from symgen.cli._editor.drafts import Drafts, _numbers_as_parameters
+from symgen.cli._editor.drafts import Drafts
 from symgen.cli._editor.edited_file import Document
 from symgen.cli._editor.server import LARGEST_REQUEST, Editor
+from symgen.cli._editor.texts import Texts
 from symgen.describe import catalogue
 from symgen.describe.facts.digest import digest
 from symgen.describe.files.load import LARGEST_FILE
+from symgen.describe.files.origins import Source, origin_of
 
 FOUR_BAR = catalogue.file_of_entry("four-bar")
 assert FOUR_BAR is not None
@@ -208,12 +210,43 @@ stop = { lower = -0.8 }
 """
 
 
-def test_a_moved_number_needs_no_new_code(tmp_path: Path) -> None:
-    file, digests = tmp_path / "stopped.toml", set[str]()
+def test_a_moved_number_needs_no_new_code() -> None:
+    digests = set[str]()
     for length in (-0.5, -0.45):
-        file.write_text(STOPPED.replace("[-0.5, 0.0]", f"[{length}, 0.0]"), encoding="utf-8")
-        digests.add(digest(_numbers_as_parameters(load(file).mechanism)))
+        texts = Texts(Source("stopped.toml"))  # each reads the whole text
+        digests.add(digest(texts.for_runs(texts.read(STOPPED.replace("[-0.5, 0.0]", f"[{length}, 0.0]")))))
     assert len(digests) == 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "at_hand"),
+    [("-0.5,", "-0.45,", True), ("-0.5,", "0.0,", False), ("-0.8", "-0.7", False), ("1.2\n", "1.2\n\n", False)],
+)
+def test_a_mechanism_with_other_numbers_is_that_of_its_whole_text(old: str, new: str, at_hand: bool) -> None:
+    texts, alone = Texts(Source("stopped.toml")), Texts(Source("stopped.toml"))
+    first = texts.for_runs(texts.read(STOPPED))
+    text = STOPPED.replace(old, new, 1)
+    kept, expected = texts.for_runs(texts.read(text)), alone.for_runs(alone.read(text))
+    origins = origin_of(kept), origin_of(expected)
+    assert kept == expected and origins[0] == origins[1] and origins[0] is not None
+    assert (kept.joints is first.joints) == at_hand  # a zero, a limit of a stop and any other text are read whole
+    assert texts.for_starts(texts.read(text)) is kept
+
+
+def test_drawing_and_motion_after_another_number_are_those_of_the_whole_text(tmp_path: Path) -> None:
+    kept, alone = Drafts(tmp_path / "bar.toml"), Drafts(tmp_path / "bar.toml")
+    before = TEXT.replace("until = 10.0", "until = 0.1")
+    text = before.replace("[10.0, 0.0]", "[9.75, 0.0]")
+    assert text != before
+    kept.check_text(before)
+    kept.run_motion(before, "a", 1)
+    assert len(kept._codes) == 2  # of the start, and of the run with numbers as parameters, which has no forces either
+    for _ in range(2):
+        drawn, expected = kept.check_text(text), alone.check_text(text)
+        assert {**drawn, "data": None} == {**expected, "data": None}
+        assert drawn["data"]["scene"] == expected["data"]["scene"]
+    moved, expected = kept.run_motion(text, "a", 2), alone.run_motion(text, "a", 2)
+    assert moved == expected and len(kept._codes) == 2
 
 
 def test_another_number_needs_no_other_live_part_whose_sliders_are_those_of_the_file(tmp_path: Path) -> None:

@@ -33,16 +33,23 @@ class Direction(msgspec.Struct, frozen=True):
     vector: tuple[Expr, ...]
 
 
-def nested_parts(value: object) -> Iterator[Any]:
-    """Yield a value of the vocabulary and everything inside it, each before its parts."""
+def nested_parts(value: object, whole: tuple[type, ...] = ()) -> Iterator[Any]:
+    """Yield a value of the vocabulary and everything inside it, each before its parts; types in `whole` have none."""
     waiting: list[object] = [value]
     while waiting:  # a stack: generators within generators take several times as long
         each = waiting.pop()
         yield each
+        if isinstance(each, whole):
+            continue
         if isinstance(each, msgspec.Struct):
             waiting += msgspec.structs.astuple(each)[::-1]
         elif isinstance(each, tuple):
             waiting += each[::-1]
+
+
+def markers_in(value: object) -> Iterator[Marker]:
+    """Yield the markers in a value of the vocabulary, in order."""
+    return (part for part in nested_parts(value, (Marker,)) if isinstance(part, Marker))
 
 
 def axes(body: str, dimension: int) -> tuple[Direction, ...]:

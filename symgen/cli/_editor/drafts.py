@@ -11,15 +11,16 @@ import numpy as np
 
 from symgen.api import Model
 from symgen.base.errors import AssemblyError, InputError, SymgenError
+from symgen.base.memory import without_garbage_collection
 from symgen.cli._editor.joints import joint_equations
 from symgen.cli._editor.made import make_file_for_browser
+from symgen.cli._editor.texts import Texts
 from symgen.describe.drawing.scene import Array
 from symgen.describe.facts.digest import digest
-from symgen.describe.facts.lifted import lift_numbers, numbers_of_file
 from symgen.describe.files.dimensions import dimension_changes, dimensions_of_file
 from symgen.describe.files.handles import movable_points, spans_of_parameters
 from symgen.describe.files.load import LARGEST_FILE, parse_toml
-from symgen.describe.files.origins import Source, origin_of
+from symgen.describe.files.origins import Source
 from symgen.describe.files.places import Path as Place
 from symgen.describe.files.places import outline_of_document
 from symgen.describe.files.problems import Problem, problems_of_text
@@ -27,13 +28,13 @@ from symgen.describe.files.renaming import remove_from_text, rename_in_text
 from symgen.describe.files.snippet_tables import Spot
 from symgen.describe.files.snippets import TURNED, snippet_changes
 from symgen.describe.files.text_changes import apply_changes, utf16_places
-from symgen.describe.files.validate import validate
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
 from symgen.result.player.motion_page import page_data
 from symgen.result.player.recording import Recording
 from symgen.result.result import Result
 from symgen.result.viewed import view_data
+from symgen.run.compiling.kept_code import Kept, keeping_code
 from symgen.run.planning.closing_part import closing_part, settings_in_loops
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare
@@ -57,25 +58,27 @@ class Drafts:
         self._running, self._results = threading.Lock(), dict[str, tuple[str, Result]]()
         self._enlivening, self._without_live = threading.Lock(), set[str]()
         self._asked: dict[str, int] = {}
-        self._last: tuple[str, tuple[dict[str, Any], Mechanism]] | None = None
+        self._texts = Texts(self.source)
+        self._codes: Kept = {}
         self._start: tuple[str, list[float]] | None = None
 
+    @without_garbage_collection()
     def check_text(self, text: str) -> dict[str, Any]:
         """Return the errors of a text, each at its line, or the drawing of its start and what may be moved in it."""
         self._refuse_large(text)
         try:
-            raw, mechanism = self._read_text(text)
+            draft = self._texts.read(text)
         except InputError:
             wrong = problems_of_text(text, self.source)
             return {"errors": [_error_entry(problem) for problem in wrong[:MOST_ERRORS]], "count": len(wrong)}
-        parts = outline_of_document(text)
+        parts, mechanism = draft.outline, draft.mechanism
         values = parameter_values(mechanism)
         described = Model(mechanism).initial_state(values)[0]
         q, open_joints, errors, warnings = described, tuple[str, ...](), list[dict[str, Any]](), tuple[str, ...]()
         freedoms: dict[str, Any] = {}
         try:
-            with close_for_drawing():
-                run = prepare(*closing_part(mechanism), Purpose.STATE)
+            with close_for_drawing(), keeping_code(self._codes):
+                run = prepare(*closing_part(self._texts.for_starts(draft)), Purpose.STATE)
             start = run.start
             q, warnings = start.y[: len(described)], start.warnings
             count = run.compiled.info.nv - start.rank
@@ -93,8 +96,8 @@ class Drafts:
         data = page_data(recording, second=ghost, open_joints=open_joints, note="; ".join(warnings))
         wide = utf16_places(text)
         self._start = text, [float(x) for x in q]
-        movable = movable_points(mechanism, raw, parts.values, text, self._start[1])
-        numbers = spans_of_parameters(raw, parts.values, text)
+        movable = movable_points(mechanism, draft.raw, parts.values, text, self._start[1])
+        numbers = spans_of_parameters(draft.raw, parts.values, text)
         return {
             "errors": errors,
             "count": len(errors),
@@ -132,16 +135,18 @@ class Drafts:
                 if self._asked[tab] != asked:
                     raise KeyboardInterrupt
 
-            mechanism = self._read_text(text)[1]
-            own = _numbers_as_parameters(mechanism)
-            result = Model(own).simulate(settings_in_loops(mechanism), progress=still_wanted)
+            draft = self._texts.read(text)
+            with keeping_code(self._codes):
+                own, settings = self._texts.for_runs(draft), settings_in_loops(draft.mechanism)
+                result = Model(own).simulate(settings, progress=still_wanted)
             if self._asked[tab] != asked:
                 return {"superseded": True}
             facts = {"status": result.status, "reason": result.reason or ""}
             if not len(result.t):
                 return {"data": None, **facts}
             self._results = {tab: (text, result)}
-            return {"data": view_data(result, live=False)[0], **facts}
+            with without_garbage_collection():
+                return {"data": view_data(result, live=False)[0], **facts}
 
     def live_page_data(self, text: str, tab: str, asked: int) -> dict[str, Any]:
         """Return the data and the script of a page that works out other motions of the last motion's text.
@@ -153,7 +158,7 @@ class Drafts:
             before, result = self._results.get(tab, ("", None))
             if result is None or before != text or self._asked.get(tab) != asked:
                 return {"superseded": True}
-            own = self._read_text(text)[1].parameters
+            own = self._texts.read(text).mechanism.parameters
             moved = result.measured.mechanism
             if digest(moved) in self._without_live:
                 return {"data": None}
@@ -167,14 +172,14 @@ class Drafts:
     def equations_of_joint(self, text: str, name: str) -> dict[str, Any]:
         """Return the equations of a joint of a text."""
         self._refuse_large(text)
-        return joint_equations(self._read_text(text)[1], name)
+        return joint_equations(self._texts.read(text).mechanism, name)
 
     def make_file(self, text: str, kind: str) -> dict[str, Any]:
         """Return a file that a command would write for a text."""
         self._refuse_large(text)
-        raw, mechanism = self._read_text(text)
+        draft = self._texts.read(text)
         with self._running:
-            return make_file_for_browser(kind, raw, mechanism, self.path)
+            return make_file_for_browser(kind, draft.raw, draft.mechanism, self.path)
 
     def add_part(self, text: str, part: str, spots: Sequence[Spot]) -> dict[str, Any]:
         """Return a text with a part added at spots, and the path of what was added."""
@@ -199,10 +204,10 @@ class Drafts:
         self, text: str
     ) -> tuple[Mechanism, dict[str, Any], Mapping[Place, tuple[int, int]], str, list[float]]:
         """Return a mechanism with its tables and their places, and coordinates of its bodies at the start."""
-        raw, mechanism = self._read_text(text)
+        draft = self._texts.read(text)
         if self._start is None or self._start[0] != text:
-            self._start = text, [float(x) for x in self._coordinates_at_start(mechanism)]
-        return mechanism, raw, outline_of_document(text).values, text, self._start[1]
+            self._start = text, [float(x) for x in self._coordinates_at_start(draft.mechanism)]
+        return draft.mechanism, draft.raw, draft.outline.values, text, self._start[1]
 
     def rename_part(self, text: str, path: str, name: str) -> dict[str, Any]:
         """Return a text with another name of a part, wherever it is named."""
@@ -216,7 +221,7 @@ class Drafts:
 
     def _angles_at_start(self, text: str) -> dict[str, float]:
         """Return how far bodies are turned where the page draws them at the start."""
-        mechanism = self._read_text(text)[1]
+        mechanism = self._texts.read(text).mechanism
         q = self._coordinates_at_start(mechanism)
         angles, at = dict[str, float](), 0
         for body in mechanism.bodies:
@@ -233,14 +238,6 @@ class Drafts:
         except AssemblyError as error:
             return np.array(error.q) if error.q else Model(mechanism).initial_state({})[0]
 
-    def _read_text(self, text: str) -> tuple[dict[str, Any], Mechanism]:
-        """Return the tables and the mechanism of a text; the last text is read once."""
-        last = self._last
-        if last is None or last[0] != text:
-            raw = parse_toml(text, self.source)
-            self._last = last = (text, (raw, validate(raw, self.source)))
-        return last[1]
-
     def _refuse_large(self, text: str) -> None:
         if len(text) > LARGEST_FILE or len(text.encode(errors="replace")) > LARGEST_FILE:
             raise InputError(self.source, f"a text of at most {LARGEST_FILE} bytes", "a larger one")
@@ -250,34 +247,6 @@ def line_of_path(text: str, mentions: Iterable[Any], path: tuple[str, ...]) -> i
     """Return the line of the first key of a path; 0 where there is none, as no line is wrong then."""
     start = next((mention.start for mention in mentions if mention.path == path), None)
     return 0 if start is None else text.count("\n", 0, start) + 1
-
-
-def _numbers_as_parameters(mechanism: Mechanism) -> Mechanism:
-    """Return a mechanism whose code stays what it is while a hand changes numbers of the file.
-
-    Zeros stay: code is shorter with them.
-    """
-    origin = origin_of(mechanism)
-    if origin is None:
-        return mechanism
-    names = [name for name in map(_name_of_changeable, numbers_of_file(origin.raw)) if name]
-    try:
-        return lift_numbers("edit", mechanism, names).mechanism
-    except InputError:  # a place that takes numbers alone
-        return mechanism
-
-
-def _name_of_changeable(number: tuple[str, Place, float]) -> str:
-    """Return the name of a number that emitted code has and a hand changes; empty for others."""
-    name, path, value = number
-    if value == 0.0:
-        return ""
-    if path[0] == "mechanism":
-        return name if path[1] == "gravity" else ""
-    key = path[2] if len(path) > 2 else ""
-    keys = {"bodies": ("mass", "inertia", "points", "centre_of_mass"), "joints": ("at",)}
-    forces = ("at", "stiffness", "damping", "free_length", "free_angle")
-    return name if key in {**keys, "forces": forces}.get(str(path[0]), ()) else ""
 
 
 def _error_entry(problem: Problem) -> dict[str, Any]:

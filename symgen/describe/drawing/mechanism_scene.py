@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from symgen.base.errors import InputError
-from symgen.base.vocabulary.measures import GROUND, Marker, nested_parts
+from symgen.base.vocabulary.measures import GROUND, Marker, markers_in
 from symgen.describe.contacts.outlines import Outline
 from symgen.describe.drawing.contact_parts import contact_items, outlines_of_contacts
 from symgen.describe.drawing.force_parts import force_item
@@ -107,8 +107,8 @@ def _points_of_bodies(numbers: PlacedMechanism) -> dict[str, list[Point]]:
     names = [body.name for body in numbers.mechanism.bodies]
     by_body: dict[str, dict[Point, None]] = {name: {} for name in names}
     for element in (*numbers.mechanism.joints, *numbers.mechanism.forces, *_outlines_with_points(numbers)):
-        for marker in nested_parts(element):
-            if isinstance(marker, Marker) and marker.body in by_body:
+        for marker in markers_in(element):
+            if marker.body in by_body:
                 place = numbers.place(marker)
                 by_body[names[place.body]][_round_point(place.at)] = None
     for joint in numbers.mechanism.joints:
@@ -336,7 +336,7 @@ def _inertia_mark(pen: Pen, body: int, gyration: Array, look: Look) -> list[Mark
 
 
 def _as_tuples(points: Array) -> tuple[Point, ...]:
-    return tuple((float(x), float(y), float(z)) for x, y, z in points)
+    return tuple((x, y, z) for x, y, z in points.tolist())
 
 
 def _bar_mark(pen: Pen, body: int, a: Array, b: Array, look: Look) -> Mark:
@@ -346,10 +346,9 @@ def _bar_mark(pen: Pen, body: int, a: Array, b: Array, look: Look) -> Mark:
     if pen.numbers.spatial:
         return Tube(body, ends[0], ends[1], 0.6 * half, replace(look, opacity=0.45, width=1.0))
     way = np.arctan2(b[1] - a[1], b[0] - a[0])
-    turn = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 9)
-    first = [b + half * np.array([np.cos(way + t), np.sin(way + t), 0.0]) for t in turn]
-    second = [a - half * np.array([np.cos(way + t), np.sin(way + t), 0.0]) for t in turn]
-    return Line(body, _as_tuples(np.array(first + second)), look, closed=True)
+    turn = way + np.linspace(-0.5 * np.pi, 0.5 * np.pi, 9)
+    rim = half * np.column_stack([np.cos(turn), np.sin(turn), np.zeros(len(turn))])
+    return Line(body, _as_tuples(np.concatenate([b + rim, a - rim])), look, closed=True)
 
 
 def convex_hull(points: Array) -> list[int]:

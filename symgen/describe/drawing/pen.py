@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import accumulate
 from typing import Any
 
 import numpy as np
 
-from symgen.base.vocabulary.measures import GROUND, Direction, Marker, nested_parts
+from symgen.base.vocabulary.measures import GROUND, Direction, Marker, markers_in, nested_parts
 from symgen.describe.drawing.scene import (
     COLOURS,
     GREY,
@@ -65,8 +66,8 @@ class PlacedMechanism:
         self.index = {body.name: i for i, body in enumerate(bodies)} | {GROUND: GROUNDED}
         self.centres = {body.name: self.vector(body.centre_of_mass) for body in mechanism.bodies}
         self.centres[GROUND] = np.zeros(3)
-        self.all = [Poses(self.frames, row, self.spatial) for row in q]
-        self.now = self.all[0]
+        self.rows = q
+        self.now = Poses(self.frames, q[0], self.spatial)
         state = {f"{b.name}.{c}" for b in mechanism.bodies for c in (*b.coordinates, *b.speeds)}
         names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
         self.state = {**dict.fromkeys(state, 0.0), **dict(zip(names, map(float, q[0]), strict=True)), "t": 0.0}
@@ -101,6 +102,11 @@ class PlacedMechanism:
                 bent = Bent(places[body.name], modes[body.name], at, tuple(map(_point, shape)), still)
                 frames.append(BodyFrame(body.name, 0, 0, bent))
         return frames
+
+    @cached_property
+    def all(self) -> list[Poses]:
+        """The poses in all positions, which guides alone ask for."""
+        return [Poses(self.frames, row, self.spatial) for row in self.rows]
 
     def number(self, expression: Any) -> float:
         """Return a constant of the mechanism."""
@@ -137,7 +143,7 @@ class PlacedMechanism:
     def markers(self, value: object) -> list[BodyPoint]:
         """Return the different points that a value names, in order."""
         if (found := self._markers.get(value)) is None:
-            found = list(dict.fromkeys(self.place(m) for m in nested_parts(value) if isinstance(m, Marker)))
+            found = list(dict.fromkeys(map(self.place, markers_in(value))))
             self._markers[value] = found
         return found
 

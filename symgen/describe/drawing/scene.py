@@ -291,21 +291,34 @@ class Poses:
         n, self._spatial = len(frames) + len(carried) + 1, spatial
         self.turns = np.tile(np.eye(3), (n, 1, 1))
         self.centres = np.zeros((n, 3))
+        if not spatial:
+            self._place_planar_bodies(frames, np.asarray(q, dtype=np.float64))
         for i, frame in enumerate(frames):
             if frame.bent is not None:  # its body comes before it
                 self._place_bent(i, frame.bent, np.asarray(q, dtype=np.float64))
                 continue
+            if not spatial:
+                continue
             own = [float(x) for x in q[frame.first : frame.first + frame.size]]
-            self.centres[i, : 3 if spatial else 2] = own[: 3 if spatial else 2]
-            if spatial and frame.size == 7:
+            self.centres[i] = own[:3]
+            if frame.size == 7:
                 e = np.array(own[3:]) / np.linalg.norm(own[3:])
                 self.turns[i] = rotation_matrix_of((e[0], e[1], e[2], e[3]))
-            elif not spatial and frame.size == 3:
-                c, s = np.cos(own[2]), np.sin(own[2])
-                self.turns[i, :2, :2] = [[c, -s], [s, c]]
         for i, own_frame in enumerate(carried, len(frames)):
             self.centres[i] = self.to_ground(own_frame.body, [own_frame.at])[0]
             self.turns[i] = self.turns[own_frame.turned]
+
+    def _place_planar_bodies(self, frames: Sequence[BodyFrame], q: Array) -> None:
+        """Place all bodies in the plane that no modes move, at once: a guide asks for many positions."""
+        own = [(i, f.first, f.size) for i, f in enumerate(frames) if f.bent is None]
+        if not own:
+            return
+        at, first, size = np.array(own).T
+        self.centres[at, 0], self.centres[at, 1] = q[first], q[first + 1]
+        turning, angle = at[size == 3], first[size == 3] + 2
+        c, s = np.cos(q[angle]), np.sin(q[angle])
+        self.turns[turning, 0, 0], self.turns[turning, 0, 1] = c, -s
+        self.turns[turning, 1, 0], self.turns[turning, 1, 1] = s, c
 
     def _place_bent(self, i: int, bent: Bent, q: Array) -> None:
         """Place what modes of a body move; its turn is the rotation of the Euler parameters (1, p)."""

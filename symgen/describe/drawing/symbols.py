@@ -14,6 +14,7 @@ from symgen.base.vocabulary.measures import (
     Direction,
     FormulaMeasure,
     LinkStretch,
+    Marker,
     PointSpeed,
     RimHeight,
     RollingSpeed,
@@ -377,7 +378,8 @@ def joint_symbol(pen: Pen, joint: Joint) -> Item:
     """Return the symbol of a joint; kinds without one show the points that they tie."""
     numbers = pen.numbers
     draw = (SPATIAL if numbers.spatial else PLANAR).get(joint.kind, joint_points)
-    measures = tuple(m for row in joint.rows for m in nested_parts(row) if isinstance(m, Component | LinkStretch))
+    parts = nested_parts(joint.rows, (Marker, Direction))
+    measures = tuple(m for m in parts if isinstance(m, Component | LinkStretch))
     ends: tuple[BodyPoint, ...] = tuple(numbers.markers(measures)) if len(joint.bodies) == 2 else ()
     articulation = articulation_of_joint(joint)
     if articulation is not None:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from symgen.base.vocabulary.measures import Marker, nested_parts
+from symgen.base.vocabulary.measures import markers_in
 from symgen.describe.drawing.scene import Point
 from symgen.describe.formulas.evaluate import evaluate
 
@@ -55,7 +55,7 @@ def traced_points(mechanism: Mechanism, values: Mapping[str, float]) -> list[Tra
         x, y, z = (round(c, 9) for c in point_as_numbers(point))
         return (x, y, z)
 
-    markers = [m for joint in mechanism.joints for m in nested_parts(joint.rows) if isinstance(m, Marker)]
+    markers = {m for joint in mechanism.joints for m in markers_in(joint.rows)}
     tied = {(m.body, rounded_point(m.point)) for m in markers}
     points = list[TracedPoint]()
     bodies: tuple[AnyBody, ...] = mechanism.bodies

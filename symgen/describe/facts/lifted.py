@@ -10,10 +10,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import msgspec
+
 from symgen.base.errors import InputError, quote, suggest
 from symgen.describe.bounds.keys import sections_of_files
 from symgen.describe.files.new_numbers import put_at_path, value_at_path
-from symgen.describe.files.origins import Origin, origin_of
+from symgen.describe.files.origins import Origin, keep_origin, origin_of
 from symgen.describe.files.validate import validate
 from symgen.describe.formulas.identifiers import LONGEST
 from symgen.describe.mechanism import Mechanism
@@ -87,6 +89,37 @@ def lift_numbers(where: str, mechanism: Mechanism, names: Sequence[str]) -> Lift
                 got = f"{quote(name)}, whose place takes {error.expected}"
                 raise InputError(where, "numbers that a parameter may stand for", got) from None
         raise
+
+
+def lifted_with_numbers(lifted: Lifted, values: Mapping[str, float]) -> Lifted | None:
+    """Return a mechanism with other numbers of its file, which are parameters of it: nothing else is read again.
+
+    Parameters
+    ----------
+    lifted : Lifted
+        With the numbers as parameters.
+    values : mapping of str to float
+        The numbers in SI units, by their paths.
+
+    Returns
+    -------
+    Lifted or None
+        None where one of them is no parameter of it.
+    """
+    origin = origin_of(lifted.mechanism)
+    own = {lifted.keys[name]: float(value) for name, value in values.items() if is_path(name) and name in lifted.keys}
+    if origin is None or len(own) < len(values):
+        return None
+    if not own:
+        return lifted
+    raw: dict[str, Any] = {**origin.raw, "parameters": dict(origin.raw["parameters"])}
+    for name, value in own.items():
+        raw["parameters"][name] = {**raw["parameters"][name], "value": value}
+    parameters = tuple(
+        msgspec.structs.replace(p, value=own[p.name]) if p.name in own else p for p in lifted.mechanism.parameters
+    )
+    mechanism = msgspec.structs.replace(lifted.mechanism, parameters=parameters)
+    return Lifted(keep_origin(mechanism, raw, origin.source), lifted.keys)
 
 
 def literal_points_in_words(names: Sequence[str]) -> tuple[str, ...]:

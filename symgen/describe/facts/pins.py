@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -15,7 +16,8 @@ from symgen.describe.files.handles import PINS, PointsOfFile, WrittenPoint
 from symgen.describe.files.new_numbers import put_at_path, value_at_path
 from symgen.describe.files.origins import Origin, origin_of
 from symgen.describe.files.validate import validate
-from symgen.describe.formulas.evaluate import parameter_values
+from symgen.describe.formulas.evaluate import parameter_values, scalar_values
+from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import Mechanism
 
 AXES = ("x", "y")
@@ -104,6 +106,23 @@ def pin_of_place(raw: Mapping[str, Any], name: str) -> str:
     """Return the joint whose place at the start a name such as ``A.x`` means; empty for other names."""
     joint, _, axis = name.rpartition(".")
     return joint if axis in AXES and joint in raw.get("joints", {}) else ""
+
+
+def pins_that_vary(mechanism: Mechanism) -> tuple[str, ...]:
+    """Return the pins whose places a design may vary, each by its first joint; the start decides on some of them.
+
+    Without the description of the mechanism, there are none.
+    """
+    origin = origin_of(mechanism)
+    if origin is None or mechanism.space != "planar":
+        return ()
+    q = described_start(mechanism, scalar_values(parameter_values(mechanism)))[0]
+    points, found = PointsOfFile(mechanism, origin.raw, {}, "", q), list[str]()
+    for joint, _ in points.pins_with_points():
+        with suppress(InputError):
+            _spots_of_pin("design", points, joint)
+            found.append(joint)
+    return tuple(found)
 
 
 def lift_pins(

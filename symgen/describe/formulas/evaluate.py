@@ -79,6 +79,14 @@ def scalar_values(values: Mapping[str, float]) -> Scalars:
     return Scalars(lambda expression, where: evaluate(expression, values, where))
 
 
+def hint_on_number(mechanism: Mechanism, name: str, known: Iterable[str]) -> str:
+    """Return the hint on a name that is no number of a run: of the place of a pin, who varies it."""
+    joint, _, axis = name.rpartition(".")
+    if axis in ("x", "y") and any(joint == each.name for each in mechanism.joints):
+        return "symgen design alone varies the places of pins"
+    return suggest(name, known)
+
+
 def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None = None) -> dict[str, float]:
     """Return all parameter values of a mechanism, `changed` ones replaced, dependent ones computed.
 
@@ -90,8 +98,8 @@ def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None =
     values = {p.name: p.value for p in mechanism.parameters}
     for name, value in arguments.mapping("parameters", changed, "numbers by the names of parameters").items():
         if name not in values:
-            expected = f"a parameter of {mechanism.name}"
-            raise InputError(f"parameter '{name}'", expected, "none of that name", suggest(name, values))
+            expected, hint = f"a parameter of {mechanism.name}", hint_on_number(mechanism, name, values)
+            raise InputError(f"parameter '{name}'", expected, "none of that name", hint)
         values[name] = arguments.number(f"parameter '{name}'", value)
     if changed:
         for name, formula in dependent_parameters(mechanism.parameters, changed):

@@ -2,23 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
 
 from symgen.compile.native import types
 from symgen.compile.native.formula_lines import JAVASCRIPT
 from symgen.compile.native.javascript_code import ADDRESSED, INDEX_TABLES, js_number
 from symgen.run.compiling.checked import checked_function
+from symgen.run.compiling.printed import source_of_piece
 from symgen.run.layout.kernel_addresses import KERNEL
 from symgen.run.planning.start_lines import room_for_lines
+from symgen.run.starts.hoisting import copy_masses, sum_products
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from symgen.compile.native.language import Function
     from symgen.run.compiling.looped_model import HoistedNumbers, LoopedModel, MassDiagonal
 
 
+#: Names of the loops that fill numbers of a run.
+_SUMS, _COPIES = "sumProducts", "copyMasses"
+#: Tables of the first one, in the order of its arguments; no other text has these names.
+_TABLES_OF_SUMS = ("placesOfSums", "targetsOfSums", "velocitiesOfSums", "productsOfSums", "onesOfSums")
+
+
 def addressed_functions(compiled: LoopedModel) -> dict[str, Function]:
-    """Return the functions that are called through tables, or prepare numbers, by their names in the text.
+    """Return the functions that are called through tables, or fill numbers of a run, by their names in the text.
 
     Raises
     ------
@@ -30,10 +40,11 @@ def addressed_functions(compiled: LoopedModel) -> dict[str, Function]:
         for k, called in enumerate(compiled.called)
         if called is not None
     }
-    return functions | {
+    functions |= {
         _name_of_preparation(k): checked_function(compiled.kernels[stem].prepare, types.FunctionType(KERNEL))
         for k, stem in enumerate(_preparing_kernels(compiled.model.prepare))
     }
+    return functions | {_SUMS: source_of_piece(sum_products), _COPIES: source_of_piece(copy_masses)}
 
 
 def text_of_tables(compiled: LoopedModel) -> str:
@@ -46,7 +57,7 @@ def text_of_tables(compiled: LoopedModel) -> str:
 
 
 def written_functions(compiled: LoopedModel) -> dict[str, str]:
-    """Return the texts of ``prepareModel`` and ``masses``, which Python interprets in runs.
+    """Return the texts of ``prepareModel`` and ``masses``, which call loops of the runtime with tables of the model.
 
     Raises
     ------
@@ -78,32 +89,27 @@ def _preparation(hoisted: HoistedNumbers) -> list[str]:
     ]
     names = {stem: _name_of_preparation(k) for k, stem in enumerate(_preparing_kernels(hoisted))}
     calls = [f"{names[stem]}(0, p, p, p, {INDEX_TABLES}, {at}, p);" for stem, at in hoisted.groups]
-    target, velocity, product = (array.tolist() for array in hoisted.products)
-    plain, weighed = hoisted.bases
     return [
-        f"const targets = {_list_text(target)}, velocities = {_list_text(velocity)}, products = {_list_text(product)};",
+        *_tables(dict(zip(_TABLES_OF_SUMS, hoisted.sums, strict=True))),
         "function prepareModel(p) {",
         *lines.lines,
         *constants,
         *calls,
-        *(f"p.fill(0, {base}, {base + hoisted.size});" for base in hoisted.bases),
-        "for (let k = 0; k < targets.length; k++) {",
-        f"p[{plain} + targets[k]] += products[k];",
-        f"p[{weighed} + targets[k]] += products[k] * p[{hoisted.inverse} + velocities[k]];",
-        "}",
-        *(f"p[{base + one}] = 1;" for base in hoisted.bases for one in hoisted.ones.tolist()),
-        "return 0;",
+        f"return {_SUMS}({', '.join(_TABLES_OF_SUMS)}, p);",
         "}",
     ]
 
 
 def _masses(diagonal: MassDiagonal) -> list[str]:
     """Return the function that writes the diagonal of M to its section."""
-    offset, size = diagonal.section
+    tables = {"placesOfMasses": diagonal.places, "addedMasses": diagonal.added}
     return [
+        *_tables(tables),
         "function masses(p, w) {",
-        f"for (let k = 0; k < {size}; k++) w[{offset} + k] = p[{diagonal.first} + k];",
-        *(f"w[{offset + place}] += p[{number}];" for place, number in diagonal.added.tolist()),
-        "return 0;",
+        f"return {_COPIES}({', '.join(tables)}, p, w);",
         "}",
     ]
+
+
+def _tables(tables: Mapping[str, NDArray[Any]]) -> list[str]:
+    return [f"const {name} = {_list_text(table.tolist())};" for name, table in tables.items()]

@@ -277,14 +277,24 @@ def encode_floats(values: Array) -> str:
 
 def encode_shorts(values: Array) -> dict[str, Any]:
     """Return columns as 16-bit numbers in base 64, each between its smallest and largest value."""
-    finite = np.where(np.isfinite(values), values, np.nan)
-    with np.errstate(all="ignore"):
-        low = np.nan_to_num(np.nanmin(finite, axis=0)) if len(values) else np.zeros(values.shape[1])
-        high = np.nan_to_num(np.nanmax(finite, axis=0)) if len(values) else np.zeros(values.shape[1])
+    whole = len(values) > 0 and bool(np.isfinite(values).all())
+    low, high = (values.min(axis=0), values.max(axis=0)) if whole else _finite_ends(values)
     span = np.where(high > low, high - low, 1.0)
-    scaled = np.where(np.isfinite(values), np.round((np.nan_to_num(values) - low) / span * 65534.0), 65535.0)
+    if whole:
+        scaled = np.round((values - low) / span * 65534.0)
+    else:
+        scaled = np.where(np.isfinite(values), np.round((np.nan_to_num(values) - low) / span * 65534.0), 65535.0)
     data = base64.b64encode(np.ascontiguousarray(scaled.T, dtype="<u2").tobytes()).decode()
     return {"low": _round_values(low), "span": _round_values(span), "data": data}
+
+
+def _finite_ends(values: Array) -> tuple[Array, Array]:
+    """Return the smallest and the largest finite value of each column, 0 where it has none."""
+    if not len(values):
+        return np.zeros(values.shape[1]), np.zeros(values.shape[1])
+    finite = np.where(np.isfinite(values), values, np.nan)
+    with np.errstate(all="ignore"):
+        return np.nan_to_num(np.nanmin(finite, axis=0)), np.nan_to_num(np.nanmax(finite, axis=0))
 
 
 def _round_values(values: Sequence[float] | Array) -> list[float]:

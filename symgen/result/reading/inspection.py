@@ -17,6 +17,7 @@ from symgen.derive.lower.looped.instances import instances_of_mechanism
 from symgen.derive.lower.model import lower_model
 from symgen.describe.bounds.bounded_modes import rows_by_family, unit_of_effort
 from symgen.describe.facts.digest import digest
+from symgen.describe.facts.pins import pins_that_vary
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Parameter
 from symgen.describe.parts.topology import state_names
@@ -194,6 +195,7 @@ def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> d
         "redundant_rows": list(start.redundant_rows),
         **_bounded_row_facts(run, mechanism),
         "dropped_rows": list(equations.dropped_rows),
+        "pins": list(pins_that_vary(whole)),
         "notes": list(start.notes),
         "coordinates": [{"name": q.name, "unit": q.unit} for q in equations.coordinates],
         "velocities": [{"name": v.name, "unit": v.unit} for v in equations.velocities],

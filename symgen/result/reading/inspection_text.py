@@ -42,6 +42,9 @@ def inspection_as_text(facts: dict[str, Any]) -> str:
         ]
     for label, rows in (("redundant at the start", facts["redundant_rows"]), ("repeated", facts["dropped_rows"])):
         lines.append(f"rows {label}: {', '.join(rows) or 'none'}")
+    if facts["pins"]:
+        first = facts["pins"][0]
+        lines.append(f"pins that symgen design can vary, as {first}.x and {first}.y: {', '.join(facts['pins'])}")
     lines += inspection_lines(facts)
     text_section("Coordinates q and velocities v")
     lines += [f"{q['name']} [{q['unit']}]" for q in facts["coordinates"]]

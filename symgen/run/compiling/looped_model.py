@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from symgen.base.vocabulary.expressions import Expr
 from symgen.base.vocabulary.measures import Holonomic
 from symgen.base.vocabulary.quantities import Quantity
+from symgen.compile.loopcode.exact import compiled_form, plain_form
 from symgen.compile.store.loaded_modules import plain_function
 from symgen.derive.lower.looped.index_tables import IndexTables
 from symgen.derive.lower.looped.layout import GENERIC, HEAD
@@ -22,6 +23,7 @@ from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import state_quantities
 from symgen.run.layout.compiled import Array, CompiledModel, ModelInfo, RowInfo
+from symgen.run.starts.hoisting import copy_masses, sum_products
 
 Integers = NDArray[np.int64]
 
@@ -86,41 +88,45 @@ class LoopedModel(CompiledModel):
         return [*generic, *((getattr(self.kernels[stem], name), KERNEL) for stem, name in self.tables.functions)]
 
 
+#: Loops of at most so many turns are interpreted, as compiled ones have to be loaded first; bits are the same.
+MOST_INTERPRETED = 400
+
+
+def _call_exactly(function: Any, turns: int, *arguments: Any) -> int:
+    """Call an exact function in the form that is sooner done."""
+    form = plain_form if turns <= MOST_INTERPRETED else compiled_form
+    return int(form(function)(*arguments))
+
+
 @dataclass(frozen=True, eq=False)
 class MassDiagonal:
-    """Where the diagonal of M is: in ``p``, and in its section.
+    """What writes the diagonal of M to its section: arguments of `symgen.run.starts.hoisting.copy_masses`.
 
     Attributes
     ----------
-    first : int
-        Its place in ``p``.
-    section : tuple of int
-        Offset and size of the section of ``w``.
-    added : Array of int64, shape (k, 2)
-        Elements of the section to which numbers of ``p`` are added, and their places.
+    places : Array of int64, shape (3,)
+        Its place in ``p``; offset and size of the section of ``w``.
+    added : Array of int64, shape (2 k,)
+        Elements of the section to which numbers of ``p`` are added, each with the place of the number.
     """
 
-    first: int
-    section: tuple[int, int]
+    places: Integers
     added: Integers
 
     def __call__(self, p: Array, w: Array) -> int:
         """Write the diagonal to its section."""
-        offset, size = self.section
-        w[offset : offset + size] = p[self.first : self.first + size]
-        np.add.at(w, offset + self.added[:, 0], p[self.added[:, 1]])
-        return 0
+        return _call_exactly(copy_masses, int(self.places[2]), self.places, self.added, p, w)
 
 
 def mass_diagonal_of(shape: LoopedShape, tables: IndexTables) -> MassDiagonal:
     """Return the function that writes the diagonal of M to its section."""
-    added = np.array(shape.rotor_diagonal, dtype=np.int64).reshape(-1, 2)
-    return MassDiagonal(shape.mass_diagonal, tables.sections["mass"], added)
+    added = np.array(shape.rotor_diagonal, dtype=np.int64).ravel()
+    return MassDiagonal(np.array([shape.mass_diagonal, *tables.sections["mass"]], dtype=np.int64), added)
 
 
 @dataclass(frozen=True, eq=False)
 class HoistedNumbers:
-    """The numbers after the parameters in ``p``: what fills them, interpreted, once a run.
+    """The numbers after the parameters in ``p``: what fills them, once a run.
 
     Attributes
     ----------
@@ -134,16 +140,8 @@ class HoistedNumbers:
         Tables that these read.
     kernels : mapping of str to module
         By name.
-    products : tuple of Array
-        Entries of D D^T that are constant: each with the velocity in whose column it is, and what it adds.
-    bases : tuple of int
-        Where D D^T and D M^-1 D^T begin.
-    size : int
-        Their length.
-    inverse : int
-        Where the diagonal of M^-1 begins.
-    ones : Array of int64
-        Diagonal elements of rotors in both.
+    sums : tuple of Array
+        Arguments of `symgen.run.starts.hoisting.sum_products` before ``p``, which comes last.
     """
 
     mechanism: Mechanism
@@ -151,11 +149,7 @@ class HoistedNumbers:
     groups: tuple[tuple[str, int], ...]
     tables: IndexTables
     kernels: Mapping[str, ModuleType]
-    products: tuple[Integers, Integers, Array]
-    bases: tuple[int, int]
-    size: int
-    inverse: int
-    ones: Integers
+    sums: tuple[Integers, Integers, Integers, Array, Integers]
 
     def __call__(self, p: Array) -> int:
         """Fill the numbers after the parameters."""
@@ -166,12 +160,8 @@ class HoistedNumbers:
             p[place] = evaluate(expression, values, mechanism.name, tables_by_name)
         for stem, at in self.groups:
             plain_function(self.kernels[stem].prepare)(0.0, p, p, p, numbers, at, p)
-        (target, velocity, product), size = self.products, self.size
-        inverse = p[self.inverse :]
-        for base, weights in zip(self.bases, (product, product * inverse[velocity]), strict=True):
-            p[base : base + size] = np.bincount(target, weights, size)
-            p[base + self.ones] = 1.0
-        return 0
+        places, *_, products, _ = self.sums
+        return _call_exactly(sum_products, len(products) + int(places[2]), *self.sums, p)
 
 
 def filler_of_hoisted(
@@ -186,15 +176,13 @@ def filler_of_hoisted(
         groups=tuple((stem, at) for stem, computes, at in tables.groups if computes),
         tables=tables,
         kernels=kernels,
-        products=(
+        sums=(
+            np.array([shape.gram_base, shape.gram_base + size, size, shape.mass_diagonal + shape.nv], dtype=np.int64),
             np.array([t for t, _, _ in constant], dtype=np.int64),
             np.array([v for _, v, _ in constant], dtype=np.int64),
             np.array([x for _, _, x in constant], dtype=np.float64),
+            np.array(ones, dtype=np.int64),
         ),
-        bases=(shape.gram_base, shape.gram_base + size),
-        size=size,
-        inverse=shape.mass_diagonal + shape.nv,
-        ones=np.array(ones, dtype=np.int64),
     )
 
 

@@ -16,6 +16,7 @@ from symgen.base.errors import InputError
 from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.closing import choice_at_start
+from symgen.run.compiling.kept_code import code_at_hand
 from symgen.run.compiling.method_choice import MethodChoice, choice_for_coordinates, choose_method
 from symgen.run.compiling.stages import Generated, PipelineStages, unless_stored
 from symgen.run.compiling.straight import StraightStages
@@ -76,8 +77,11 @@ def compile_model(mechanism: Mechanism, choice: MethodChoice, target: str = "cpu
     choice = choice_for_coordinates(mechanism, choice)
     options = dict(choice.options)
     arguments = mechanism, choice.method.name, options, choice.implicit, choice.shape, target, choice.directed
-    compiled = compile_in_stages(stages_of(mechanism, (choice_at_start(mechanism, choice),), choice.shape, target))
-    return replace(compiled, origin=(compile_again, arguments))
+
+    def compile_it() -> CompiledModel:
+        return compile_in_stages(stages_of(mechanism, (choice_at_start(mechanism, choice),), choice.shape, target))
+
+    return replace(code_at_hand(mechanism, choice, target, compile_it), origin=(compile_again, arguments))
 
 
 def compile_again(

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from symgen.base.errors import InputError, quote, suggest
+from symgen.base.errors import InputError, quote
+from symgen.describe.formulas.evaluate import hint_on_number
 from symgen.describe.parts.holds import joint_quantity_names
 
 if TYPE_CHECKING:
@@ -84,4 +85,4 @@ def _named(run: Prepared, name: str) -> RunDirection:
     candidates = (*parameters, *(q for q in quantities if q not in euler), *joints, *states)
     candidates += tuple(f"method.{key}" for key in laws)
     expected = f"parameters or values of the start of {mechanism.name}"
-    raise InputError(where, expected, quote(name), suggest(name, candidates))
+    raise InputError(where, expected, quote(name), hint_on_number(mechanism, name, candidates))

@@ -2,6 +2,7 @@
 
 import json
 import math
+from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -10,8 +11,10 @@ from analyses.rods import of_raw
 import symgen
 from study.design.machines import compressor, coupler_of_pivots, four_bar_of_pivots, pin
 from study.design.test_design import command
+from symgen.api import load
 from symgen.base.errors import InputError
 from symgen.base.settings import Settings
+from symgen.describe.facts.pins import lift_pins, pins_that_vary
 from symgen.study.design.designing import _Designing
 
 AIM = "peak(motor.effort)"
@@ -356,3 +359,29 @@ def test_one_pin_has_one_name(tmp_path):
     raw["joints"]["hub"] = pin("coupler", "disc", ["far", [0.0, 0.0]])
     with pytest.raises(InputError, match=r"a second name of the place 'C\.x': both joints are one pin"):
         of_raw(raw).design({"C.x": (350.0, 370.0), "hub.x": (350.0, 370.0)}, AIM)
+
+
+@pytest.mark.parametrize("name", ["four-bar", "slider-crank", "klann-leg", "engine", "bricard", "pendulum"])
+def test_pins_that_are_listed_are_those_that_become_parameters(name: str) -> None:
+    mechanism = load(name).mechanism
+    q = [float(x) for x in load(name).initial_state(load(name).parameters())[0]]
+    taken = set[str]()
+    for joint in mechanism.joints:
+        with suppress(InputError):
+            lift_pins("design", mechanism, [f"{joint.name}.x"], q, {})
+            taken.add(joint.name)
+    listed = pins_that_vary(mechanism)
+    assert set(listed) <= taken and bool(listed) == bool(taken)
+    for joint in taken - set(listed):  # further joints of a pin that is listed
+        with pytest.raises(InputError, match="each place once"):
+            lift_pins("design", mechanism, [*(f"{pin}.x" for pin in listed), f"{joint}.x"], q, {})
+
+
+def test_who_cannot_vary_a_pin_says_who_can() -> None:
+    hint = "symgen design alone varies the places of pins"
+    with pytest.raises(InputError, match=hint):
+        load("four-bar").kinematics(parameters={"A.x": 0.1})
+    with pytest.raises(InputError, match=hint):
+        load("four-bar").simulate(until=0.1, sensitivities=["A.x"])
+    with pytest.raises(InputError, match="known: coupler_mass"):
+        load("four-bar").simulate(until=0.1, parameters={"A.z": 0.1})

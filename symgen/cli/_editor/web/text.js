@@ -21,6 +21,7 @@ function remember(now, together = false) {
 
 // Another text, as one step of undo; the cursor goes to a place.
 function setText(text, from = null, to = from) {
+  T.classList.remove("moved");
   if (text === entry.text && text === T.value) return;
   const place = from ?? Math.min(T.selectionStart, text.length);
   T.value = text;
@@ -33,6 +34,7 @@ function setText(text, from = null, to = from) {
 // A text that is still being dragged about: no step of undo.
 function preview(text) {
   if (T.value === text) return;
+  T.classList.add("moved"); // what is seen is the coloured text: nothing of a long field is laid out meanwhile
   T.value = text;
   noteChange(true);
 }
