@@ -23,6 +23,7 @@ SMALL = ("--methods", "lagrange,direct-correction", "--integrators", "rk4", "--s
 WITHIN = ("--methods", "velocity-projection,direct-correction", *SMALL[2:])
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("ending", ["html", pytest.param("md", marks=pytest.mark.slow)])
 def test_a_report_is_written_beside_the_table(cli, tmp_path, ending):

@@ -294,11 +294,12 @@ def changes_modes(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", of_turn((name for name in catalogue.all_names() if not changes_modes(name)), 3))
+@pytest.mark.parametrize("name", of_turn((name for name in catalogue.all_names() if not changes_modes(name)), 9))
 def test_packages_of_the_catalogue_give_the_numbers_of_runs(name, alone, tmp_path):
     agrees(name, alone, tmp_path)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["bricard", "cam-follower", "flyball-governor", "scissor-lift", "spatial-slider-crank"]
@@ -322,6 +323,7 @@ def test_the_method_that_a_package_starts_is_in_it(coordinates, tmp_path):
     assert about["run"]["method"] in about["methods"] and (folder / "direct_correction.py").exists()
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("options0-model.py", "options1-direct_correction.py", "options2-model.json", "options3-machine.py")
 @pytest.mark.parametrize(
     ("options", "name"),

@@ -102,6 +102,7 @@ def same_motion(names: dict[str, str], settings: dict[str, str]) -> None:
         np.testing.assert_array_equal(getattr(found, table).values, getattr(expected, table).values)
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
     "rail=rate spring=s point=rate-{'shape': 'looped'}",
     "pin=s drive=rate point=s-{'shape': 'looped'}",

@@ -91,6 +91,7 @@ def test_an_interrupted_start_can_be_saved(result, tmp_path):
         assert empty.save(tmp_path / f"empty{ending}").exists()
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("ending", [".png", ".svg", ".pdf"])
 def test_plots(result, tmp_path, ending):
@@ -202,6 +203,7 @@ SIZES = {
 }
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SIZES)
 def test_tables_of_other_sizes_are_refused(saved, tmp_path, name):

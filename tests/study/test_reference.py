@@ -162,6 +162,7 @@ def test_redundant_rows_do_no_harm():
     assert one.rate(0.0, y)[5] == pytest.approx(-0.5 * 9.81 / (0.1 + 0.25))
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize(
@@ -315,6 +316,7 @@ def test_references_see_a_smooth_pulse(solver, w, max_step, tmp_path):
     assert off < 10.0 * found.estimated_error + 1e-11 and found.estimated_error < 1e-7
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "solver",

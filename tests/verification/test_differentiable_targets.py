@@ -113,6 +113,7 @@ def test_casadi_functions_of_a_loop_and_their_derivatives(tmp_path):
     compare_casadi("slider-crank", "joint", tmp_path)
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "coordinates"), MECHANISMS)
 def test_casadi_functions_are_the_compiled_ones(name, coordinates, tmp_path):

@@ -34,6 +34,7 @@ def largest_difference(model, quantity, by, **settings):
     return max(abs(one.by[name] - other.by[name]) / abs(other.by[name]) for name in by)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
@@ -83,6 +84,7 @@ def test_schemes(four_bar, method, integrator, options):
     )
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
@@ -172,7 +174,7 @@ def test_many_angles_that_count_turns(tmp_path):
     (tmp_path / "wound.toml").write_text(text)
     wound, t, factor = symgen.load(tmp_path / "wound.toml"), 1.5, np.arange(1.0, 8.0) @ speeds
     most = 0.0
-    for k in np.linspace(0.05, 2.0, 300):
+    for k in of_turn(np.linspace(0.05, 2.0, 300), 6):
         gradient = wound.gradient(
             wound_up, by=("k",), way="adjoint", until=t, integrator="dop853", rtol=1e-11, parameters={"k": k}
         )
@@ -184,6 +186,7 @@ def test_many_angles_that_count_turns(tmp_path):
     assert most > 2.0 * np.pi
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_loop_of_six_hinges(coordinates):
@@ -194,7 +197,7 @@ def test_a_loop_of_six_hinges(coordinates):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "method", of_turn((n for n in METHODS.names if {"ode", "one-step"} & set(METHODS.get(n, "method").forms)), 3)
+    "method", of_turn((n for n in METHODS.names if {"ode", "one-step"} & set(METHODS.get(n, "method").forms)), 9)
 )
 def test_every_method(method):
     four_bar, by = symgen.load("four-bar"), ("crank_mass", "rocker_mass", "crank.theta")

@@ -159,6 +159,7 @@ LOOPS = [
 ]
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases("four-bar-joint")
 @pytest.mark.parametrize(("name", "coordinates"), LOOPS)
 def test_loops_are_those_of_differences_and_numpy(name, coordinates):
@@ -451,6 +452,7 @@ def test_light_bodies_are_refused():
         f.forward_dynamics(np.zeros(3), np.zeros(3), np.zeros(3), {"m": 0.0})
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("floating", [False, True])
 def test_coordinates_of_joints_and_bodies_have_the_same_accelerations(floating, tmp_path):

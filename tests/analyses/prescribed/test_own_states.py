@@ -95,6 +95,7 @@ RATES = (
 )
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("1", "6")
 @pytest.mark.parametrize("seed", range(8))
 def test_random_states_along_driven_chains(seed):
@@ -134,6 +135,7 @@ def test_random_states_along_driven_chains(seed):
         np.testing.assert_allclose(needed[name], moved.efforts[name], atol=1e-6)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("1", "6")
 @pytest.mark.parametrize("seed", range(8))
 def test_random_states_in_recorded_motions(seed):

@@ -35,6 +35,7 @@ def arguments(function) -> list[str]:
     return list(code.co_varnames[: code.co_argcount])
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("stem", LAWS)
 def test_functions_over_lanes_do_what_python_does(stem, emitted):

@@ -31,6 +31,7 @@ SCHEMES = {
 LOOPS = [(scheme, name) for scheme, names in SCHEMES.items() for name in names]
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
     "False-explicit-constant",
     "False-picard-constant",
@@ -50,6 +51,7 @@ def test_every_loop_is_in_the_language(scheme, name, events):
     read(loop_with_seams(loop))
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
     "explicit-constant-False-False",
     "explicit-adaptive-True-False",

@@ -22,6 +22,7 @@ def library(tmp_path_factory):
     return printed.Library(functions, tmp_path_factory.mktemp("printed"))
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(("m", "n", "rank"), [(8, 9, 8), (8, 9, 5), (9, 4, 2), (1, 6, 1), (30, 30, 29)])
 def test_shortest_solutions(library, m, n, rank):
@@ -57,6 +58,7 @@ def test_starts(library, case, monkeypatch):
     assert (summary[e.REDUNDANT_ROWS] > 0) == (isinstance(case[0], tuple) and case[0][2])
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow  # C compiled once, machine code of each mechanism
 @pytest.mark.parametrize("case", MANY, ids=str)
 def test_more_starts(library, case, monkeypatch):

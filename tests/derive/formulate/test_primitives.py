@@ -90,6 +90,7 @@ ARMS = {
 }
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("where", ARMS)
@@ -234,6 +235,7 @@ SAME = {
 }
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SAME)
 def test_joints_are_put_together_of_primitives(name):

@@ -101,7 +101,7 @@ def test_numbers_of_every_kind_and_of_tables(raw):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "coordinates"), of_turn(in_coordinates(catalogue.all_names()), 3))
+@pytest.mark.parametrize(("name", "coordinates"), of_turn(in_coordinates(catalogue.all_names()), 9))
 def test_numbers_of_the_whole_catalogue(name, coordinates):
     mechanism = load_mechanism(name)
     agrees(mechanism_on_tree(mechanism) if coordinates == "joint" else mechanism)
@@ -180,6 +180,7 @@ def vanishes(equations, expression, seed=5):
     assert np.abs(numbers).max(initial=0.0) < 1e-12 * 100  # sums of tens of numbers of order 1 to 10
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("driven-four-bar", "slider-crank", "pendulum", "heavy-top", "free-rigid-body")
 @pytest.mark.parametrize("name", SMALL)
 def test_sympy_itself_finds_the_same_jacobian_gamma_and_masses(name):

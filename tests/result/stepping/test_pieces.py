@@ -37,6 +37,7 @@ def assert_end(sim, result):
     assert_same_motion(sim.state, np.concatenate([result.q.values[-1], result.v.values[-1]]))
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
     "direct-correction-rkmk4-screws",
     "generalized-alpha-generalized-alpha",

@@ -53,6 +53,7 @@ def test_c_and_fmus_compile_without_a_warning(kind, coordinates, tmp_path):
     assert len(compiled) == 3 and done.returncode == 0, done.stderr[:3000]
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast("plain", "redundant rows")
 @pytest.mark.parametrize("kind", FILES)
 def test_printed_functions_have_names_of_their_own(kind, tmp_path):
@@ -86,6 +87,7 @@ def test_names_of_templates_are_those_that_compilers_see(tmp_path):
         } <= defined_names()  # macros make some of these
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast("state with a formula", "rotor")
 @pytest.mark.parametrize("kind", FILES)
 def test_a_page_has_emitted_names_inside_a_function(kind):

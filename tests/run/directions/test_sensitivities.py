@@ -369,7 +369,7 @@ def test_mechanisms_of_the_catalogue(name, number, quantity, settings, coordinat
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("method", of_turn(ODE, 3))
+@pytest.mark.parametrize("method", of_turn(ODE, 9))
 def test_every_method_that_explicit_schemes_solve(method):
     four_bar = symgen.load("four-bar")
     limits = {"max_violation": 1.0, "max_energy_error": 1e3}

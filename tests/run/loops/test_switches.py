@@ -276,6 +276,7 @@ def fallen(law: Callable[[float], float]) -> list[float]:
     return [float(x) for x in found.y[:2, -1]]
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
     'actuator = "-10*abs(length - 2)*(length - 2)"-abm',
     'actuator = "-10*sign(length - 2)*(length - 2)**2"-dopri5',
@@ -448,6 +449,7 @@ torque = "-2e4*(angle - 0.02) - 20*rate if angle > 0.02 else -2e4*(angle + 0.02)
 """
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("radau5-10.0", "radau5-50.0", "dop853-2.0", "picard-2.0")
 @pytest.mark.parametrize("until", [2.0, 10.0, 50.0])
 @pytest.mark.parametrize("integrator", ["radau5", "dop853", "picard"])

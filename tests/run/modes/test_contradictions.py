@@ -168,6 +168,7 @@ def test_rows_and_steps_name_a_contradiction_too(integrator: str) -> None:
                 run.step(0.25)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("model", "time", "sentence"),

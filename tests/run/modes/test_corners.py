@@ -171,6 +171,7 @@ def test_several_corners_in_one_gap(tmp_path: Path) -> None:
     assert abs(result.events[1].v["b.vx"] - rate) < 1e-9 and abs(result["b.vx"][-1] - rate) < 1e-9
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("integrator", ["dop853", "picard", "rk4"])

@@ -184,6 +184,7 @@ def jack(torque, efficiency=0.4):
     return symgen.load(builder.force("motor", "torque", joint="bearing", torque=torque).build())
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "settings", [{}, {"coordinates": "joint"}, {"shape": "looped"}, {"integrator": "radau5"}], ids=str

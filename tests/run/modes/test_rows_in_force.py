@@ -94,6 +94,7 @@ RELEASES = [
 ]
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
     "baumgarte-dop853-1e-12-four-bar-0.8",
     "compliant-constraints-rk4-1e-12-four-bar-0.8",

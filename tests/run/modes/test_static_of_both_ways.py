@@ -180,6 +180,7 @@ def test_derivatives_by_differences(tmp_path: Path) -> None:
     assert exact == pytest.approx((near[1] - near[0]) / 2e-5, rel=1e-6)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_pins_share_bounds_of_both_ways(coordinates: str, tmp_path: Path) -> None:

@@ -94,6 +94,7 @@ def test_in_space_with_redundant_rows_and_through_a_passage(name, method, until,
     assert found.rank_event_count == whole.rank_event_count and found.rank == whole.rank
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("ending", ["nc", "parquet", "csv"])
 def test_files(tmp_path, ending):

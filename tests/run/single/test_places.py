@@ -73,6 +73,7 @@ CASES = {
 }
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
     "generalized-alpha-joint",
     "half-explicit-joint",
@@ -139,6 +140,7 @@ def check_like(here, there):
     assert abs(there.steps - here.steps) <= 0.1 * here.steps
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", MECHANISMS)
 def test_shifted_mechanisms(name):
@@ -161,6 +163,7 @@ def test_shifted_mechanisms(name):
         assert (there.status, there.rank.rank) == ("ok", here.rank.rank), there.reason
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast("pendulum-9.313225746154785e-10", "slider-crank-9.313225746154785e-10", "heavy-top-1073741824.0")
 @pytest.mark.parametrize("length", [2.0**-30, 2.0**30])
 @pytest.mark.parametrize("name", MECHANISMS)

@@ -97,6 +97,7 @@ def test_rows_that_jump_or_have_kinks_end_a_run_with_their_name(scheme, coordina
         assert "row wire.row1 jumps: its" in sentence or "joints.wire.rows[0].position: expected a motion" in sentence
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(("scheme", "coordinates"), CASES)
 def test_rows_that_change_smoothly_are_followed(scheme, coordinates):

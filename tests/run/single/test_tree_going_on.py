@@ -38,6 +38,7 @@ PIECES = [
 ]
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow_cases(
     "bricard-direct-correction-rk4", "driven-four-bar-direct-correction-rk4", "four-bar-augmented-hamiltonian-rk4"
 )

@@ -30,6 +30,7 @@ def scale(values):
     return np.maximum(1.0, np.nanmax(np.abs(values)))
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases("lagrange-options0", "direct-correction-options1")
 @pytest.mark.parametrize(
     ("method", "options"),

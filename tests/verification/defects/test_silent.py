@@ -67,6 +67,7 @@ def test_a_four_bar_of_any_size_is_the_same_mechanism(name: str, integrator: str
         assert abs(result.q["crank.theta"][-1] - q[k, 2]) < 1e-8
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["direct-correction", "lagrange", "auto"])
 def test_a_four_bar_of_a_micrometre_keeps_its_rows(method: str) -> None:
