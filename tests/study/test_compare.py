@@ -77,6 +77,7 @@ def test_a_failed_run_stays_a_row():
     assert not study.failed
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_run_that_exceeds_its_limits_is_measured_to_its_end(capsys):
     """The standard method at the settings of the source: one that stopped would leave all rows without a ratio."""

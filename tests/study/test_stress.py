@@ -110,6 +110,7 @@ def test_interpreted_equations_are_the_compiled_ones_and_undefined_where_these_a
     assert np.isnan(pair[1].evaluate(0.2, np.full(9, np.inf), v)[0]).any()
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_attempts_of_a_search_on_a_driven_cart_compile_nothing_anew(tmp_path):
     """Steps, parameters and starts are arguments of the code of one formulation."""

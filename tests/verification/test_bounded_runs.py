@@ -35,6 +35,7 @@ def test_short_sticks_are_found_in_long_steps() -> None:
     assert verdict.outcome == "right", verdict
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_friction_goes_on_where_a_rate_passes_zero_beside_one_at_rest() -> None:
     """A pin rests, and the angle of another, which follows from it, is at a dead centre: its friction was lost."""

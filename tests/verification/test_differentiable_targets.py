@@ -145,6 +145,7 @@ def alone(function, *arguments):
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_jax_functions_are_the_compiled_ones(tmp_path):
     alone(compare_jax, tmp_path)

@@ -167,6 +167,7 @@ def test_points_on_a_straight_line_change_nothing(space):
             assert abs(x - shapes[1][name]) <= 1e-12, name
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_vertices_may_depend_on_parameters_in_space():
     """A frame on a body that is turned; the same with numbers in place of the parameter."""

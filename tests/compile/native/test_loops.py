@@ -143,6 +143,7 @@ def compared(shape, *words):
             np.testing.assert_allclose(numbers, other["states"][name], rtol=0, atol=1e-9 * size, err_msg=name)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("loop", of_turn(CASES, 4), ids="-".join)
 def test_runs_are_numbas(loop):

@@ -287,6 +287,7 @@ def test_what_an_fmu_has_not_is_refused(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_friction_and_stops_in_co_simulation(tmp_path):
     model = load("toggle-press")

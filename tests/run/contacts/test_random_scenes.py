@@ -51,6 +51,7 @@ def test_what_is_left_out_at_rest_rubs_at_all_contacts(kind: str, seed: int) -> 
     assert verdict.outcome == "right" and verdict.error < 1e-10 and verdict.reason == ""
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_contacts_slip_between_impacts_that_accumulate() -> None:
     """Two discs on a floor meet ever faster; both skid after each impact, and roll before the next one.

@@ -198,6 +198,7 @@ def test_steps_from_python(integrator: str, tmp_path: Path) -> None:
     assert abs(run.q["disc.y"] - HEIGHT) < 1e-9
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_c_passes_corners(tmp_path: Path) -> None:
     model = loaded(YO_YO, tmp_path)
@@ -215,6 +216,7 @@ def test_c_passes_corners(tmp_path: Path) -> None:
         assert transitions_of(model.simulate(integrator="rk4", step=0.005, verify=False))[0][1] == transitions[0][1]
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_an_fmu_passes_corners(tmp_path: Path) -> None:
     model = loaded(YO_YO, tmp_path)

@@ -258,6 +258,7 @@ step = 1e-3
 """
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_pair_in_c_and_as_a_unit(tmp_path):
     (tmp_path / "pair.toml").write_text(MACHINE)

@@ -127,6 +127,7 @@ def test_limits_that_contradict_each_other_are_named(machine):
     assert missed == pytest.approx([0.015, 0.015], rel=0.05)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_press_needs_less_than_half_of_its_torque(machine, tmp_path):
     found = machine.design(PRESS_BOX, AIM, PRESS_KEEP, starts=8)

@@ -166,6 +166,7 @@ def test_a_target_that_does_not_exist():
         symgen.sweep("pendulum", {"bob_mass": [1.0]}, target="cud")
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_run_too_large_for_a_thread():
     settings = Settings(method="lagrange", options={"method.solver": "dense"}, until=0.01)
