@@ -106,6 +106,7 @@ def test_a_report_names_what_is_exceeded_and_the_room(swung):
     assert glance["room to the dead centre"] == ("22.7 deg", "below the travel of motor")
 
 
+@pytest.mark.slow
 def test_the_room_ends_where_the_links_are_in_line(swung):
     model, result = swung
     below, above = room_to_dead_centre(model.mechanism, result.t, result.parameters)

@@ -144,6 +144,7 @@ def test_steady_motions_are_found_in_all_units(entry, tmp_path):
         assert_allclose(after, before, rtol=1e-8, atol=1e-8 * np.abs(before).max())
 
 
+@pytest.mark.slow
 def test_what_no_start_closes_settles_alike_in_all_units(monkeypatch):
     """Its length was the spread of all its coordinates, angles among them: 1.2 m of a link of a micrometre."""
 

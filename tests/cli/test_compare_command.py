@@ -118,6 +118,7 @@ def rows_of(path: Path) -> int:
     return max(0, path.read_bytes().count(b"\n") - 1) if path.exists() else 0
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("how", [pytest.param(signal.SIGKILL, marks=pytest.mark.slow), signal.SIGINT])
 def test_killed_or_interrupted_and_resumed_no_row_is_lost_or_computed_twice(tmp_path, cli, how):

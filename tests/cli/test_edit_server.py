@@ -216,6 +216,7 @@ def test_a_moved_number_needs_no_new_code(tmp_path: Path) -> None:
     assert len(digests) == 1
 
 
+@pytest.mark.slow
 def test_another_number_needs_no_other_live_part_whose_sliders_are_those_of_the_file(tmp_path: Path) -> None:
     drafts, parts = Drafts(tmp_path / "bar.toml"), list[tuple[str, list[str], list[float]]]()
     for asked, place in enumerate(("[10.0, 0.0]", "[9.7, 0.0]")):

@@ -103,11 +103,7 @@ def same_motion(names: dict[str, str], settings: dict[str, str]) -> None:
 
 
 @pytest.mark.by_turns(4)
-@pytest.mark.fast(
-    "rail=rate spring=s point=rate-{'shape': 'looped'}",
-    "pin=s drive=rate point=s-{'shape': 'looped'}",
-    "out=s event=rate spring=rate-{'shape': 'looped'}",
-)
+@pytest.mark.fast("pin=s drive=rate point=s-{'shape': 'looped'}", "out=s event=rate spring=rate-{'shape': 'looped'}")
 @pytest.mark.parametrize("settings", [{"shape": "straight"}, {"shape": "looped"}, {"coordinates": "joint"}], ids=str)
 @pytest.mark.parametrize(
     "names",

@@ -113,6 +113,7 @@ def test_every_level_of_a_descriptor_form_is_covered():
     assert {form_key(METHODS.get(name), METHODS.get(name).complete_options({})) for name in with_form} == keys
 
 
+@pytest.mark.slow_cases("mass")
 @pytest.mark.parametrize("weight", ["identity", "mass"])
 def test_compiled_runs_agree(weight):
     model = load("slider-crank")

@@ -90,7 +90,7 @@ METHODS = (
 
 
 @pytest.mark.by_turns(4)
-@pytest.mark.fast("direct-correction-picard-loop")
+@pytest.mark.slow
 @pytest.mark.parametrize("last", [(), (0.22, 0.05)], ids=["chain", "loop"])
 @pytest.mark.parametrize(
     ("method", "integrator", "steps"), [pytest.param(*case, id=f"{case[0]}-{case[1]}") for case in METHODS]

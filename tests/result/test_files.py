@@ -227,6 +227,7 @@ def test_a_result_with_columns_of_another_model_is_not_viewed(saved, tmp_path):
         view_file("view", path, symgen.load("driven-four-bar").mechanism)
 
 
+@pytest.mark.slow
 def test_a_table_that_its_file_cannot_hold_is_not_read(result, tmp_path):
     """A table that nothing was written to takes no space in a file, and all of the memory."""
     path = result.save(tmp_path / "run.nc")

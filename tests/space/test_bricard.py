@@ -23,6 +23,7 @@ METHODS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.by_turns(3)
 @pytest.mark.parametrize("method", METHODS)
 def test_all_joints_follow_the_reference(method):

@@ -108,6 +108,7 @@ def hinged(x: np.ndarray, v: np.ndarray) -> tuple[Any, ...]:
     )
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_hinge_rubs_by_the_force_across_its_axis(coordinates: str) -> None:

@@ -76,6 +76,7 @@ def lengths_of(mechanism):
     return found
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(("method", "step"), [("direct-correction", 1e-4), ("lagrange", 4e-5)])
 def test_andrews(method, step):

@@ -48,7 +48,7 @@ def test_a_page_has_the_table_with_its_headings_and_rows(table):
         assert row[: len(names)] == list(names)
 
 
-@pytest.mark.slow_cases("docs/findings/random-mechanisms.md statistics")
+@pytest.mark.slow_cases("docs/findings/random-mechanisms.md statistics", "docs/findings/equal-work.md equal_work")
 @pytest.mark.parametrize("table", STORED, ids=lambda table: f"{table.page} {table.command}")
 def test_a_table_of_a_record_and_its_sentences_are_those_of_the_page(table):
     for row, own in zip(printed(table), table.measured(), strict=True):

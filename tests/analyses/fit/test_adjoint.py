@@ -48,7 +48,8 @@ def test_lengths_masses_and_gravity_of_the_four_bar(four_bar, method, coordinate
         assert found.memory > 1000
 
 
-@pytest.mark.slow_cases("rod.theta", "length**2/3*rod.omega**2")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize("quantity", ["rod.theta", "length**2/3*rod.omega**2", "rod.alpha"])
 def test_the_rod_on_a_pin(tmp_path, quantity):
     rod = model(tmp_path, ROD)
@@ -237,6 +238,7 @@ free_angle = 12.0
 """
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])

@@ -100,6 +100,7 @@ def test_loops_over_lanes_become_vectors(emitted):
     assert not re.search(r'call i32 @"?(sine|cosine|turned)', text)
 
 
+@pytest.mark.slow
 def test_functions_over_lanes_have_the_widest_registers(emitted):
     f = load_module(emitted / "lagrange_lanes.py").rhs.read((NUMBER, ARRAY))
     with for_avx512() as target:

@@ -51,7 +51,13 @@ def closes_alike(library, case, monkeypatch):
     return printed_starts.starts(case, monkeypatch, compare)
 
 
-@pytest.mark.slow_cases("('four-bar', {}, {})", "((1, 'spatial', True, False), {}, {})", "('four-bar', {2: 0.3}, {})")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases(
+    "('four-bar', {}, {})",
+    "((1, 'spatial', True, False), {}, {})",
+    "('four-bar', {2: 0.3}, {})",
+    "('wiper', {}, {'A.angle': -0.8, 'A.rate': 0.5})",
+)
 @pytest.mark.parametrize("case", FEW, ids=str)
 def test_starts(library, case, monkeypatch):
     summary = closes_alike(library, case, monkeypatch)

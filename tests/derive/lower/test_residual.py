@@ -49,7 +49,7 @@ def compare(found):
 
 
 @pytest.mark.by_turns(3)
-@pytest.mark.fast("four-bar-absolute-baumgarte", "four-bar-joint-lagrange")
+@pytest.mark.fast("four-bar-joint-lagrange")
 @pytest.mark.parametrize(
     ("name", "coordinates", "method"),
     [

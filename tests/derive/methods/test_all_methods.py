@@ -103,6 +103,8 @@ def test_the_error_of_penalty_falls_with_the_penalty():
     "lagrange-abm",
     "coordinate-partitioning-dop853",
     "lagrange-radau5",
+    "augmented-lagrangian-rk4",
+    "dependent-correction-rk4",
 )
 @pytest.mark.parametrize(
     ("method", "integrator"),

@@ -268,6 +268,7 @@ HORIZONS = {
 }
 
 
+@pytest.mark.slow_cases("events")
 @pytest.mark.parametrize("name", HORIZONS)
 def test_a_horizon_has_the_steps_and_the_derivatives_of_calls_one_by_one(name):
     make, settings = HORIZONS[name]

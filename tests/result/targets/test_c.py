@@ -352,6 +352,7 @@ int main(int count, char **words) {{
 """
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases("wiper-None", "pendulum-dop853", "belt-oscillator-None")
 @pytest.mark.parametrize(("name", "integrator"), [("belt-oscillator", None), ("wiper", None), ("pendulum", "dop853")])
 def test_a_step_before_the_start_is_refused(name, integrator, tmp_path):

@@ -106,6 +106,7 @@ def test_what_is_together_for_these_numbers_only_is_in_doubt(tmp_path, models, w
     assert two.gradient("ball.y", by=("g",), **settings | {"until": 1.0}).result.ok
 
 
+@pytest.mark.slow_cases("adjoint")
 @pytest.mark.parametrize("way", ["forward", "adjoint"])
 def test_what_rests_at_the_start_has_one_side(models, way):
     rests = "rests at the start for these numbers only: derivatives on both sides differ"

@@ -31,12 +31,8 @@ SETTINGS = (
 )
 
 
-@pytest.mark.fast(
-    "two_pins-direct-correction rk4 looped",
-    "two_pins_tilted-lagrange rk4",
-    "two_pins_tilted-direct-correction dop853 1e-10",
-    "two_pins_tilted-direct-correction radau5",
-)
+@pytest.mark.by_turns(4)
+@pytest.mark.fast("two_pins_tilted-direct-correction dop853 1e-10", "two_pins_tilted-direct-correction radau5")
 @pytest.mark.parametrize("settings", SETTINGS, ids=lambda s: " ".join(map(str, s.values())))
 @pytest.mark.parametrize("name", ["two_pins", "two_pins_tilted"])
 def test_two_pins_of_one_turning_body(name: str, settings: dict) -> None:

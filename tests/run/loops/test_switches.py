@@ -195,8 +195,8 @@ reset = { "bob.vx" = "-0.8*bob.vx" }
     np.testing.assert_allclose(*found, rtol=1e-9)
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
-    "3 + 5*(1 if low < bob.x and bob.x < high else 0)-0.0-dopri5-absolute",
     "3 + 5*(1 if low < t and t < high else 0)-0.0-dopri5-joint",
     "60*max(0, 1 - abs(2*bob.x - low - high)/(high - low))-0.0-dop853-joint",
     "60*max(0, 1 - abs(2*bob.x - low - high)/(high - low))-0.0-dopri5-absolute",
@@ -367,7 +367,7 @@ axis = [1, 0]
 SLIDING = '[forces.f]\ntype = "force"\nbody = "b"\nforce = ["LAW", "0"]\n'
 
 
-@pytest.mark.slow_cases("-2*sign(b.vx)-b.vx", "-2 if b.vx > 0 else 2-b.vx")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("law", "read"),
     [

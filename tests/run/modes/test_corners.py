@@ -389,7 +389,8 @@ restitution = 0.2
 """
 
 
-@pytest.mark.slow_cases("-0.31-1.0-0.3-absolute")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(("start", "speed", "turn"), [(-0.31, 1.0, 0.3), (-0.7, 2.3, 1.1), (-0.4, 3.0, 0.2)])
 def test_a_gap_that_is_touched_beside_a_closed_one_is_not_struck(

@@ -46,7 +46,7 @@ def swing(t0: float) -> tuple[float, float]:
 
 
 @pytest.mark.by_turns(4)
-@pytest.mark.fast("direct-correction-dop853-1e-10-absolute", "direct-correction-dop853-1e-10-joint")
+@pytest.mark.fast("direct-correction-dop853-1e-10-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(("method", "integrator", "most"), LAWS)
 def test_a_released_pendulum_is_a_projectile(method, integrator, most, coordinates, loaded) -> None:

@@ -98,6 +98,7 @@ def pulled_block(size: float) -> tuple[float, list[float]]:
     return float(state[0]), slips
 
 
+@pytest.mark.slow_cases("{ forwards = 5.0, backwards = 1.5 }-holds0-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(
     ("static", "holds"), [("{ forwards = 5.0, backwards = 1.5 }", (5.0, 1.5)), ("6.0", (6.0, 6.0))]

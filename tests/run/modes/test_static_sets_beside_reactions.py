@@ -89,6 +89,7 @@ def first_slip(result: symgen.Result) -> float:
     return next(event.t for event in result.events if event.name[0] == "p" and event.name.endswith(".slip"))
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_pins_hold_while_a_block_slides_and_rests(coordinates: str, tmp_path: Path) -> None:

@@ -155,7 +155,7 @@ def test_files_of_runs_that_were_not_changed_and_others(tmp_path, capsys):
     assert "one way of saying where a run begins" in capsys.readouterr().err
 
 
-@pytest.mark.slow_cases("FRHP")
+@pytest.mark.slow
 @pytest.mark.parametrize("mark", [b"OHDR", b"FRHP", b"BTLF"])
 def test_damaged_files_are_refused_in_one_sentence(tmp_path, capsys, mark):
     """A bit of each sort of a NetCDF file's metadata is flipped; libraries raise errors of other types for each."""

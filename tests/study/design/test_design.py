@@ -38,7 +38,7 @@ def machine():
 # -- closed forms ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow_cases("integral(fx**2 + fy**2)")
+@pytest.mark.slow
 @pytest.mark.parametrize("aim", ["rms(shaking)", "integral(fx**2 + fy**2)"])
 def test_a_counterweight_is_that_of_the_closed_form(aim):
     found = of_raw(compressor()).design({"cw": (0.0, 6.0)}, aim)
@@ -46,6 +46,7 @@ def test_a_counterweight_is_that_of_the_closed_form(aim):
     assert found.values["cw"] == pytest.approx(best_counterweight(), abs=1e-10)
 
 
+@pytest.mark.slow
 def test_the_least_peak_of_a_force_is_found_between_samples():
     # m w^2 times the distance of the masses from the pin: a grid over the counterweight
     machine = of_raw(compressor())
@@ -385,6 +386,7 @@ REFUSED = {
 }
 
 
+@pytest.mark.slow_cases("an aim that nothing changes")
 @pytest.mark.parametrize("what", REFUSED)
 def test_bad_input_has_one_sentence(machine, what):
     arguments, sentence = REFUSED[what]
@@ -400,6 +402,7 @@ def test_a_model_without_its_file_is_refused_before_the_search(machine):
         copied.design(SMALL, AIM)
 
 
+@pytest.mark.slow
 def test_a_file_that_does_not_move_is_refused_with_the_number_of_those_that_do(machine):
     with pytest.raises(InputError) as error:
         machine.design({"r": (0.04, 0.4)}, AIM, parameters={"r": 0.39})
@@ -417,6 +420,7 @@ def test_remarks_say_how_an_aim_was_met(machine):
     assert "the motion no longer passes a kink of the file, where -0.58 - ram.y = 0" in "; ".join(low.notes)
 
 
+@pytest.mark.slow
 def test_a_point_that_moves_alone_is_noted_and_signs_are_compared(tmp_path):
     (tmp_path / "shaker.toml").write_text(TEXT)
     model = symgen.load(tmp_path / "shaker.toml")

@@ -69,6 +69,7 @@ def test_the_same_operations_in_the_same_order(case, interpreted):
         np.testing.assert_array_equal(found[f"cuda_{name}"], found[f"cpu_{name}"], err_msg=name)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("case", COMPILED)
 def test_compiled_runs_to_rounding(case, compiled):
