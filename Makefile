@@ -53,10 +53,10 @@ demo: $(INSTALLED)  ## derive, generate, compile and run a mechanism with every 
 	@echo "       $(BIN)/symgen --help                 all commands"
 
 test: $(INSTALLED)  ## run the tests, except slow ones
-	@"$(BIN)/python" -m pytest -n $(WORKERS)
+	@"$(BIN)/python" -m pytest -n $(WORKERS) --dist worksteal
 
 slow: $(INSTALLED)  ## run the slow tests
-	@"$(BIN)/python" -m pytest -n $(WORKERS) -m slow
+	@"$(BIN)/python" -m pytest -n $(WORKERS) --dist worksteal -m slow
 
 browser: $(INSTALLED)  ## run the tests of pages in Chromium, which is installed where it is missing and apt-get can
 	@command -v chromium chromium-browser google-chrome chrome >/dev/null || test -n "$$SYMGEN_BROWSER" \
