@@ -1,5 +1,5 @@
 # make demo    what symgen is for, from an empty checkout to a table and a plot under out/
-# make test    the tests that take less than some 0.4 s each: five to seven minutes on two quiet cores
+# make test    the tests that take less than some 0.4 s each: about five minutes on two quiet cores
 # make help    everything else
 #
 # The first target that needs it makes .venv with Python 3.11 or newer and installs symgen there, editable, with all
