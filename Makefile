@@ -1,5 +1,5 @@
 # make demo    what symgen is for, from an empty checkout to a table and a plot under out/
-# make test    the tests that take less than some 0.4 s each: five to seven minutes on two quiet cores
+# make test    the tests that take less than some 0.4 s each: about five minutes on two quiet cores
 # make help    everything else
 #
 # The first target that needs it makes .venv with Python 3.11 or newer and installs symgen there, editable, with all
@@ -53,10 +53,10 @@ demo: $(INSTALLED)  ## derive, generate, compile and run a mechanism with every 
 	@echo "       $(BIN)/symgen --help                 all commands"
 
 test: $(INSTALLED)  ## run the tests, except slow ones
-	@"$(BIN)/python" -m pytest -n $(WORKERS)
+	@"$(BIN)/python" -m pytest -n $(WORKERS) --dist worksteal
 
 slow: $(INSTALLED)  ## run the slow tests
-	@"$(BIN)/python" -m pytest -n $(WORKERS) -m slow
+	@"$(BIN)/python" -m pytest -n $(WORKERS) --dist worksteal -m slow
 
 browser: $(INSTALLED)  ## run the tests of pages in Chromium, which is installed where it is missing and apt-get can
 	@command -v chromium chromium-browser google-chrome chrome >/dev/null || test -n "$$SYMGEN_BROWSER" \

@@ -188,7 +188,7 @@ def jobs() -> Iterator[Job]:
     return (Job(statistics.SEEDS[0], number) for number in range(COUNT))
 
 
-RECORD = Record("equal_work", jobs, examine, again, PATIENCE, share=0.03)
+RECORD = Record("equal_work", jobs, examine, again, PATIENCE, share=0.01)
 
 
 if __name__ == "__main__":

@@ -89,6 +89,8 @@ class Record:
         Lines of which a part is measured again by the test of a day.
     stray : float
         Share of numbers that may differ: a sensitive motion amplifies the rounding of a processor.
+    daily : callable
+        Whether the test of a day may draw a line: some take minutes.
     """
 
     name: str
@@ -98,6 +100,7 @@ class Record:
     patience: float
     share: float = 0.1
     stray: float = 0.05
+    daily: Callable[[Line], bool] = bool
 
     @property
     def path(self) -> Path:
@@ -110,7 +113,7 @@ class Record:
 
     def differences(self, seed: int) -> Iterator[str]:
         """Yield the numbers of drawn lines that are others now, if they are more than strays."""
-        dice, lines = random.Random(seed), self.lines()
+        dice, lines = random.Random(seed), [*filter(self.daily, self.lines())]
         drawn = dice.sample(lines, round(self.share * len(lines) + 0.5))
         pairs = [pair for line in drawn for pair in self.again(line, dice)]
         others = [f"{self.name}, {pair}" for pair in pairs if not pair.agree]

@@ -359,7 +359,7 @@ RECORD = Record(
     examine,
     again,
     PATIENCE,
-    share=0.02,
+    share=0.007,
 )
 
 

@@ -301,7 +301,7 @@ def with_words_once(text: str) -> str:
     return words.sub(once, text)
 
 
-RECORD = Record("stress_cells", jobs, examine, again, PATIENCE)
+RECORD = Record("stress_cells", jobs, examine, again, PATIENCE, share=0.02)
 
 
 if __name__ == "__main__":

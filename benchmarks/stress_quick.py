@@ -32,6 +32,8 @@ from symgen.study.stress.study import INDEX_ONE, STIFF, SUITED
 PAGE = "docs/measured/stress.md"
 #: Time of a study at most, however busy the machine is [s].
 LONGEST = 1200.0
+#: Processor time of a study that the test of a day may repeat [s].
+SHORT = 25.0
 #: Fills a cache with the loops.
 FILLS = "four-bar"
 
@@ -88,7 +90,7 @@ def _of_children() -> float:
 def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
     """Yield the outcomes of a mechanism beside those measured again."""
     if "outcomes" in stored:
-        yield Pair(stored["model"], stored["outcomes"], examine(Job(stored["model"]))["outcomes"])
+        yield Pair(stored["model"], stored["outcomes"], study(stored["model"])[1].get("outcomes"))
 
 
 def costs() -> PageTable:
@@ -137,7 +139,12 @@ def tables() -> dict[str, PageTable]:
     return {"": costs()}
 
 
-RECORD = Record("stress_quick", jobs, examine, again, float("inf"))
+def is_short(stored: Line) -> bool:
+    """Whether a study takes seconds: the test of a day draws from these."""
+    return float(stored["first"]) <= SHORT
+
+
+RECORD = Record("stress_quick", jobs, examine, again, float("inf"), share=0.02, daily=is_short)
 
 
 if __name__ == "__main__":

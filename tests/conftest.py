@@ -42,8 +42,23 @@ os.environ.setdefault("SYMGEN_TEST_TURN", "0")
 #: before those behind them. A session holds some millions: Python's own numbers look through them all the time.
 COLLECTIONS = (10_000, 20, 50)
 
-#: Tests of many minutes, which come first: last, they would leave all workers but one idle.
-LONGEST = ("test_many_random_mechanisms", "test_random_mechanisms_by_every_method")
+#: Tests of half a minute and more, which come first: last, they would leave all workers but one idle.
+LONGEST = {
+    "test_many_random_mechanisms",
+    "test_random_mechanisms_by_every_method",
+    "test_a_curved_body_flies_as_all_nodes_do",
+    "test_a_geneva_wheel",
+    "test_a_ratchet_over_the_angle_at_which_it_starts",
+    "test_another_floating_frame_is_off_by_the_second_order_of_the_deformation",
+    "test_drawn_lines_of_a_record_are_measured_again",
+    "test_functions_are_numbas",
+    "test_no_row_is_lost_or_computed_twice_by_a_lost_worker_and_a_lost_scheduler",
+    "test_runs_are_numbas",
+    "test_runs_of_looped_code_are_numbas",
+    "test_scipy_agrees_on_the_stiff_case",
+    "test_some_of_the_cells_are_measured_again",
+    "test_the_rod_bends_as_beams_do",
+}
 
 _made: list[Path] = []
 
@@ -67,7 +82,7 @@ def pytest_configure(config: pytest.Config) -> None:
 @pytest.hookimpl(tryfirst=True)  # before tests are chosen by their markers
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Put the longest tests in front; mark cases slow that `fast` does not name, or `slow_cases` does."""
-    items.sort(key=lambda item: item.name not in LONGEST)
+    items.sort(key=lambda item: item.name.partition("[")[0] not in LONGEST)
     named: dict[str, set[str]] = {}
     for item in items:
         place, _, case = item.nodeid.removesuffix("]").partition("[")
@@ -88,15 +103,19 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 def _take_turns(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Leave out the slow cases of tests marked `by_turns` that belong to another turn."""
-    from support.rotation import of_turn  # behind the choice of the turn
+    from support.rotation import has_turn, of_turn  # behind the choice of the turn
 
     cases: dict[str, list[pytest.Item]] = {}
     for item in items:
         if item.get_closest_marker("by_turns") and item.get_closest_marker("slow"):
             cases.setdefault(item.nodeid.partition("[")[0], []).append(item)
     others: set[pytest.Item] = set()
-    for own in cases.values():
-        others.update(set(own) - set(of_turn(own, own[0].get_closest_marker("by_turns").args[0])))
+    for place, own in cases.items():
+        turns = own[0].get_closest_marker("by_turns").args[0]
+        if len(own) == 1:
+            others.update(() if has_turn(place, turns) else own)
+        else:
+            others.update(set(own) - set(of_turn(own, turns)))
     if others:
         config.hook.pytest_deselected(items=[item for item in items if item in others])
         items[:] = [item for item in items if item not in others]

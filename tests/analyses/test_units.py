@@ -33,6 +33,7 @@ def carousel(mass, length, time=1.0, damping=0.0):
     return rods.model(bodies, joints, "spatial", gravity=pull, forces={"spring": spring})
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(("mass", "length"), [(1e-3, 1e-6), (1e-9, 1e-3), (1e6, 1e3)])
 def test_small_and_large_mechanisms_rest_alike(mass, length):
@@ -57,6 +58,7 @@ def test_what_falls_freely_at_the_start_is_found_whatever_it_weighs(mass):
     assert np.isfinite(found.residual)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(("length", "time"), [(2.0**-20, 1.0), (2.0**20, 1.0), (1.0, 2.0**-10), (1.0, 2.0**10)])
 def test_what_is_free_has_frequency_zero_in_all_units(length, time):
@@ -71,6 +73,7 @@ def test_what_is_free_has_frequency_zero_in_all_units(length, time):
         assert_allclose(other, usual, rtol=1e-9)
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast("1e-06-1.0-0.5", "1000.0-10000.0-0.5")
 @pytest.mark.parametrize("turned", [0.5, 0.0])
 @pytest.mark.parametrize(("length", "time"), [(1.0, 1.0), (1.0, 1e4), (1e-6, 1.0), (1e-6, 1e3), (1e3, 1e4)])
@@ -121,6 +124,7 @@ STEADY = {
 }
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("entry", STEADY)
 def test_steady_motions_are_found_in_all_units(entry, tmp_path):
@@ -140,6 +144,7 @@ def test_steady_motions_are_found_in_all_units(entry, tmp_path):
         assert_allclose(after, before, rtol=1e-8, atol=1e-8 * np.abs(before).max())
 
 
+@pytest.mark.slow
 def test_what_no_start_closes_settles_alike_in_all_units(monkeypatch):
     """Its length was the spread of all its coordinates, angles among them: 1.2 m of a link of a micrometre."""
 

@@ -51,6 +51,7 @@ def followed(load):
     return np.concatenate([np.sqrt(-squares), -np.sqrt(-squares)])
 
 
+@pytest.mark.slow_cases("looped")
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 def test_a_column_that_flutters_is_unstable(shape):
     """Its reduced stiffness has no real squares: one of each four roots grows, though all real parts are positive."""
@@ -78,7 +79,7 @@ def test_lowest_modes_are_those_of_a_potential():
     assert alone.omega_squared == pytest.approx(squares[:1], rel=1e-6)
 
 
-@pytest.mark.slow_cases("9.81")
+@pytest.mark.slow
 @pytest.mark.parametrize("gravity", [9.81, 0.0])
 def test_sparse_equilibria_of_what_only_springs_hold(gravity):
     bodies = {n: {"type": "point", "mass": 1.0, "position": [0.0, y]} for n, y in (("first", -1.0), ("second", -2.0))}
@@ -92,6 +93,7 @@ def test_sparse_equilibria_of_what_only_springs_hold(gravity):
     assert found.q["second.y"] == pytest.approx(-2.0 - 3.0 * gravity / 100.0, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_run_that_an_event_ends_before_is_no_place():
     model = rods.mass_spring_damper(events={"out": {"when": "body.x > 0.31", "action": "stop"}})
     start = {"body.x": 0.3, "body.vx": 1.0}
@@ -149,6 +151,7 @@ def orbit():
     )
 
 
+@pytest.mark.slow_cases("0.0-indifferent")
 @pytest.mark.parametrize(("power", "stability"), [(0.0, "indifferent"), (-4.0, "unstable"), (1.5, "indifferent")])
 def test_a_steady_motion_whose_speed_may_change_is_stable_or_not_with_its_momentum(power, stability):
     """Bob of 1 kg on an arm of I = 0.5 kg m^2 under F = 4 r^n N, on its circle of 1 m at 2 rad/s.

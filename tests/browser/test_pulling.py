@@ -39,6 +39,7 @@ def with_spring(name: str, body: str, at: list[float], to: list[float], k: float
     return Model(mechanism_of({**file, "forces": {**file.get("forces", {}), "hand": spring}}))
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", PULLED)
 def test_a_pulled_body_moves_as_with_the_spring_in_its_file(name: str, chromium: Chromium, tmp_path: Path) -> None:

@@ -47,6 +47,7 @@ def test_list(cli):
     assert found["four-bar"]["until"] == 10.0 and found["four-bar"]["step"] == 1e-3
 
 
+@pytest.mark.slow
 def test_new_gives_a_file_that_runs_and_never_overwrites(cli, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     code, out, _ = cli("new", "my-crane")
@@ -62,6 +63,7 @@ def test_new_gives_a_file_that_runs_and_never_overwrites(cli, tmp_path, monkeypa
     assert found["degrees_of_freedom"] == 2 and found["rank"] == 10
 
 
+@pytest.mark.slow
 def test_check(cli):
     code, out, _ = cli("check", "four-bar")
     assert code == 0 and "1 degree of freedom" in out and "8 constraint rows of rank 8" in out
@@ -261,6 +263,7 @@ def test_compare_against_another_reference(cli):
         assert found["error"] == pytest.approx(expected["error"], rel=1e-2, abs=1e-10)
 
 
+@pytest.mark.slow
 def test_compare_several_models(cli):
     code, out, _ = cli("compare", "pendulum", "four-bar", *COMPARE, "--repeat", "1", "--json")
     assert code == 0

@@ -23,6 +23,7 @@ SMALL = ("--methods", "lagrange,direct-correction", "--integrators", "rk4", "--s
 WITHIN = ("--methods", "velocity-projection,direct-correction", *SMALL[2:])
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("ending", ["html", pytest.param("md", marks=pytest.mark.slow)])
 def test_a_report_is_written_beside_the_table(cli, tmp_path, ending):
@@ -117,6 +118,7 @@ def rows_of(path: Path) -> int:
     return max(0, path.read_bytes().count(b"\n") - 1) if path.exists() else 0
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("how", [pytest.param(signal.SIGKILL, marks=pytest.mark.slow), signal.SIGINT])
 def test_killed_or_interrupted_and_resumed_no_row_is_lost_or_computed_twice(tmp_path, cli, how):

@@ -249,6 +249,7 @@ def test_drawing_and_motion_after_another_number_are_those_of_the_whole_text(tmp
     assert moved == expected and len(kept._codes) == 2
 
 
+@pytest.mark.slow
 def test_another_number_needs_no_other_live_part_whose_sliders_are_those_of_the_file(tmp_path: Path) -> None:
     drafts, parts = Drafts(tmp_path / "bar.toml"), list[tuple[str, list[str], list[float]]]()
     for asked, place in enumerate(("[10.0, 0.0]", "[9.7, 0.0]")):

@@ -106,6 +106,7 @@ def test_a_package_has_a_module_a_method_and_says_what_it_is(tmp_path, capsys):
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == first
 
 
+@pytest.mark.slow
 def test_a_method_that_is_not_in_the_folder_is_named_with_those_that_are(tmp_path):
     symgen.load("pendulum").generate(tmp_path / "emitted")
     command = [sys.executable, str(tmp_path / "emitted" / "simulate.py"), "direct-corection"]
@@ -130,6 +131,7 @@ def test_all_methods_that_suit_a_mechanism(tmp_path):
     assert main(["generate", "pendulum", "--all", "--method", "ggl", "-o", str(tmp_path / "other")]) == 2
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["coordinate-partitioning", "null-space", "augmented-lagrangian"])
 def test_a_package_gives_the_numbers_of_runs_by_other_methods(method, alone, tmp_path):
@@ -270,7 +272,8 @@ def test_inspect_tells_the_solver_that_runs_take_for_light_bodies(tmp_path, caps
     assert json.loads(capsys.readouterr().out)["method"]["options"]["solver"] == "elimination"
 
 
-@pytest.mark.fast("numpy", "version-1.0")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["json", "numpy", "version-1.0"])
 def test_a_package_runs_whatever_its_folder_is_called(name, alone, tmp_path):
     assert main(["generate", "pendulum", "--method", "lagrange", "-o", str(tmp_path / name)]) == 0
@@ -294,11 +297,12 @@ def changes_modes(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", of_turn((name for name in catalogue.all_names() if not changes_modes(name)), 3))
+@pytest.mark.parametrize("name", of_turn((name for name in catalogue.all_names() if not changes_modes(name)), 9))
 def test_packages_of_the_catalogue_give_the_numbers_of_runs(name, alone, tmp_path):
     agrees(name, alone, tmp_path)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["bricard", "cam-follower", "flyball-governor", "scissor-lift", "spatial-slider-crank"]
@@ -322,6 +326,7 @@ def test_the_method_that_a_package_starts_is_in_it(coordinates, tmp_path):
     assert about["run"]["method"] in about["methods"] and (folder / "direct_correction.py").exists()
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("options0-model.py", "options1-direct_correction.py", "options2-model.json", "options3-machine.py")
 @pytest.mark.parametrize(
     ("options", "name"),
@@ -360,7 +365,7 @@ def test_a_file_of_somebody_else_is_left_alone(options, name, tmp_path, capsys):
     assert {p.name: p.read_bytes() for p in folder.iterdir()} == files | {"README.md": b"mine"}
 
 
-@pytest.mark.slow_cases("dry-four-bar")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["dry-four-bar", "toggle-press"])
 def test_code_of_dry_friction_and_stops_is_that_of_runs(name, tmp_path, monkeypatch):
     """Callers choose modes: with rows in force, with signs and with none, accelerations are those of runs."""

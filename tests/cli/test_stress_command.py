@@ -50,7 +50,7 @@ def test_a_false_success_of_auto_is_a_failure(cli, monkeypatch, method, code):
     assert ("auto reports success with an error above 1e-3 of the length in 1 cell" in err) == bool(code)
 
 
-@pytest.mark.slow_cases("further0-with --resume FILE they would have been stored")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("further", "says"),
     [

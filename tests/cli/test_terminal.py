@@ -128,7 +128,8 @@ def check(found: dict[tuple[str, ...], click.Command], words: list[str]) -> None
             load(word)
 
 
-@pytest.mark.fast("list->&- 2>&-")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "closing"),
     [("generate pendulum --method lagrange -o emitted", "| head -c 5"), ("list", ">&-"), ("list", ">&- 2>&-")],

@@ -224,7 +224,8 @@ def table(path):
     return heading, rows
 
 
-@pytest.mark.slow_cases("lin(10 cm, 50 cm, 5)")
+@pytest.mark.by_turns(2)
+@pytest.mark.slow_cases("lin(10 cm, 50 cm, 5)", "lin(100,500,5)")
 @pytest.mark.parametrize("values", ["lin(10 cm, 50 cm, 5)", "lin(100,500,5)", "values(100, 20 cm, 0.3 m, 400, 500)"])
 def test_a_sweep_varies_and_writes_in_the_unit_of_the_file(typed, found, tmp_path, values):
     words = ("--vary", f"length={values}", "--vary", "rod.omega=values(30 rpm, 1)", "--quantity", "turn,rod.theta")
@@ -241,6 +242,7 @@ def test_a_sweep_varies_and_writes_in_the_unit_of_the_file(typed, found, tmp_pat
     assert float(rows[2][4]) == pytest.approx(math.degrees(float(rows[2][5])), rel=1e-14)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases("log(10 cm, 1 m, 3)-numbers0", "uniform(100, 20 cm, 2, 1)-None", "values(5)-numbers2")
 @pytest.mark.parametrize(
     ("values", "numbers"),

@@ -41,6 +41,7 @@ def test_a_beam_becomes_nodes_and_elements():
     assert [b.position[0].value for b in mechanism.bodies] == [k / 8 for k in range(9)]
 
 
+@pytest.mark.slow
 def test_an_arc_is_unloaded_and_as_long_as_it_should_be():
     model = symgen.Model(mechanism_of(raw({"arc": 2.0, "start": [1.0, 1.0], "end": [1.0, 3.0]})))
     run = model.simulate(until=1e-6, step=1e-6)
@@ -142,6 +143,7 @@ def test_nodes_that_are_none_get_one_sentence(at, words):
         mechanism_of(raw({"clamp": "ground"}, forces={"push": push}))
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_a_clamped_end_gives_its_mass_to_the_body(space):

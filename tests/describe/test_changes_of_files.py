@@ -450,7 +450,8 @@ def test_a_parameter_goes_with_its_line_unless_it_is_needed() -> None:
         remove_from_text(FOUR_BAR, "parameters.crank_mass", "x")
 
 
-@pytest.mark.slow_cases("jansen-leg", "scissor-lift", "geneva")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases("jansen-leg", "scissor-lift", "geneva", "klann-leg")
 @pytest.mark.parametrize("name", [*catalogue.names(catalogue.MACHINES), "four-bar", "andrews", "flyball-governor"])
 def test_every_body_and_joint_of_the_catalogue_can_be_renamed(name: str) -> None:
     text, source = text_of(name), Source.of_file(catalogue.file_of_entry(name))

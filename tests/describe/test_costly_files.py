@@ -88,6 +88,7 @@ def test_the_look_at_the_text_refuses_nothing_else(text):
     assert parse_toml(text, "x.toml") == tomllib.loads(text)
 
 
+@pytest.mark.slow
 def test_the_catalogue_is_far_within_the_bounds():
     for size in ("four-bar", "n-four-bar:300", "chain:200"):
         load_mechanism(size)
@@ -131,7 +132,7 @@ GROWING = {
 }
 
 
-@pytest.mark.slow_cases("bodies and torques")
+@pytest.mark.slow
 @pytest.mark.parametrize("build", GROWING.values(), ids=GROWING)
 def test_reading_takes_work_in_proportion_to_the_size(build):
     small, large = ({"mechanism": {"name": "x"}} | build(n) for n in (60, 240))

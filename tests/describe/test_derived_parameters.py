@@ -75,6 +75,7 @@ def test_a_single_run_is_that_of_the_numbers_written_out(model):
         np.testing.assert_array_equal(np.asarray(getattr(found, name)), np.asarray(getattr(expected, name)))
 
 
+@pytest.mark.slow_cases("settled0")
 @pytest.mark.parametrize("settled", [{}, {"mass": 1.1}])
 def test_rows_of_a_sweep_are_single_runs(model, settled):
     """Two axes, one of them a base of most others; with a derived one that stands for itself."""

@@ -124,6 +124,7 @@ def test_the_canonical_text_has_floats_to_the_last_digit():
     assert "-0.0" not in canonical_text(changed("bodies.a.centre_of_mass", [-0.0, 0.0]))
 
 
+@pytest.mark.slow
 def test_the_same_in_every_process():
     code = (
         "from symgen.describe import load; "

@@ -151,6 +151,7 @@ def test_a_joint_that_mimics_with_an_offset_starts_where_its_leader_leaves_it(tm
     assert not any("moved" in note for note in run.notes)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("tag", ["loop_joint", "loop"])
 def test_two_dialects_close_a_loop(tmp_path: Path, tag: str) -> None:

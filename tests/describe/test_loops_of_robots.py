@@ -116,6 +116,7 @@ def test_connect_keeps_the_tree_of_a_file(tmp_path: Path) -> None:
         np.testing.assert_allclose(column, product[order], atol=1e-12)
 
 
+@pytest.mark.slow
 def test_no_tree_ends_in_a_body_without_mass_where_another_does_not(tmp_path: Path) -> None:
     """The rod hangs on the motor by the shortest way, which leaves the fork of its universal joint without inertia."""
     read = imported(tmp_path, FOOT, "foot.xml")

@@ -281,6 +281,7 @@ SECOND = {
 }
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("0 0 1--1.0-down")
 @pytest.mark.parametrize("second", SECOND)
 @pytest.mark.parametrize(("axis2", "sign"), [("0 0 1", -1.0), ("0 0 -2", 1.0)])

@@ -35,7 +35,7 @@ FAST = "slider-crank"
 OWN = ("four-bar", "spatial-slider-crank", "chain:3", "everything", "geared", "reading", "rough", "parallelogram")
 OWN += ("spatial", "spatial-geared")
 OTHERS = (*OWN, "n-four-bar:3", *(name for name in catalogue.names() if name not in (FAST, *OWN)))
-OF_TURN = of_turn(OTHERS, 3)
+OF_TURN = of_turn(OTHERS, 6)
 MECHANISMS = [FAST, *(pytest.param(name, marks=pytest.mark.slow) for name in OF_TURN)]
 
 
@@ -113,6 +113,7 @@ def test_every_level_of_a_descriptor_form_is_covered():
     assert {form_key(METHODS.get(name), METHODS.get(name).complete_options({})) for name in with_form} == keys
 
 
+@pytest.mark.slow_cases("mass")
 @pytest.mark.parametrize("weight", ["identity", "mass"])
 def test_compiled_runs_agree(weight):
     model = load("slider-crank")

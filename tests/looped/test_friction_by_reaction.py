@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.rotation import of_turn
 
 import symgen
 from symgen.base.errors import InputError
@@ -55,6 +56,7 @@ METHODS = (
 )
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "integrator", "steps"), [pytest.param(*case, id=f"{case[0]}-{case[1]}") for case in METHODS]
@@ -103,7 +105,7 @@ def test_a_slider_crank_that_rubs_over_300_coefficients():
     for shape in ("straight", "looped"):
         outcomes = [
             prepare(mechanism, replace(settings, shape=shape, parameters={"mu": float(mu)})).integrate()
-            for mu in np.linspace(0.01, 0.3, 300)
+            for mu in of_turn(np.linspace(0.01, 0.3, 300), 4)
         ]
         ends[shape] = [outcome.states[-1] for outcome in outcomes]
         counts[shape] = [[event.name for event in outcome.happened] for outcome in outcomes]

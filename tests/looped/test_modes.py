@@ -29,6 +29,7 @@ METHODS = [
 ]
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("lagrange-dop853")
 @pytest.mark.parametrize(
     ("method", "integrator", "steps"), [pytest.param(*case, id=f"{case[0]}-{case[1]}") for case in METHODS]
@@ -42,6 +43,8 @@ def test_a_pendulum_rests_where_its_friction_holds_it(method, integrator, steps)
     assert abs(outcome.states[-1][2] + TURNS[-1]) < (1e-5 if "step" in steps else 1e-9)
 
 
+@pytest.mark.by_turns(2)
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", pytest.param("augmented-lagrangian", marks=pytest.mark.slow)])
 def test_a_ball_bounces_until_it_rests(method):
     settings = Settings(method, "dop853", until=4.0, verify=False, shape="looped", **TIGHT)
@@ -135,6 +138,7 @@ def parallel_bars():
     return symgen.load(builder.build())
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("count", [3, pytest.param(300, marks=pytest.mark.slow)], ids=["3", "300"])
 def test_reactions_that_are_not_unique_are_those_of_straight_code(count):

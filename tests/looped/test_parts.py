@@ -155,7 +155,8 @@ def test_constraints_that_ask_for_more_than_their_joint_have_straight_code():
     assert choose_shape(load("four-bar").mechanism, choice, "auto", 1e4).name == "straight"
 
 
-@pytest.mark.fast("generalized-alpha-generalized-alpha")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "integrator"),
     [("direct-correction", "radau5"), ("ggl", "radau5"), ("generalized-alpha", "generalized-alpha")],

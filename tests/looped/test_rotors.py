@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from support.rotation import of_turn
 
 import symgen
 from symgen.base.settings import Settings
@@ -88,7 +89,8 @@ METHODS = (
 )
 
 
-@pytest.mark.fast("direct-correction-picard-loop")
+@pytest.mark.by_turns(4)
+@pytest.mark.slow
 @pytest.mark.parametrize("last", [(), (0.22, 0.05)], ids=["chain", "loop"])
 @pytest.mark.parametrize(
     ("method", "integrator", "steps"), [pytest.param(*case, id=f"{case[0]}-{case[1]}") for case in METHODS]
@@ -136,7 +138,7 @@ def test_a_four_bar_with_a_geared_motor_over_300_ratios():
         settings = Settings("lagrange", "rk4", until=0.2, step=1e-3, shape=shape, coordinates="absolute", verify=False)
         ends[shape] = [
             prepare(mechanism, replace(settings, parameters={"ratio": ratio})).integrate().states[-1]
-            for ratio in np.linspace(0.5, 60.0, 300)
+            for ratio in of_turn(np.linspace(0.5, 60.0, 300), 4)
         ]
     np.testing.assert_allclose(ends["looped"], ends["straight"], rtol=0.0, atol=1e-10)
     assert np.ptp(ends["straight"], axis=0).max() > 1e-2

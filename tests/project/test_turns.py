@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import conftest
 import pytest
-from support.rotation import TURN, of_turn
+from support.rotation import TURN, has_turn, of_turn
 
 
 @pytest.mark.parametrize("turns", [1, 2, 3, 7])
@@ -17,6 +17,20 @@ def test_each_case_has_one_turn(turns, monkeypatch):
     assert sorted(found) == cases
     monkeypatch.setenv(TURN, "all")
     assert of_turn(iter(cases), turns) == cases
+
+
+@pytest.mark.parametrize("turns", [2, 3, 5])
+def test_a_test_without_cases_has_one_turn_and_names_differ_in_theirs(turns, monkeypatch):
+    names, when = [f"tests/test_some.py::test_{i}" for i in range(50)], {}
+    for turn in range(turns):
+        monkeypatch.setenv(TURN, str(turn))
+        for name in names:
+            if has_turn(name, turns):
+                when.setdefault(name, []).append(turn)
+    assert [*map(len, when.values())] == [1] * len(names)
+    assert {turn for (turn,) in when.values()} == set(range(turns))
+    monkeypatch.setenv(TURN, "all")
+    assert all(has_turn(name, turns) for name in names)
 
 
 class Item:

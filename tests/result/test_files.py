@@ -91,6 +91,7 @@ def test_an_interrupted_start_can_be_saved(result, tmp_path):
         assert empty.save(tmp_path / f"empty{ending}").exists()
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("ending", [".png", ".svg", ".pdf"])
 def test_plots(result, tmp_path, ending):
@@ -202,6 +203,7 @@ SIZES = {
 }
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SIZES)
 def test_tables_of_other_sizes_are_refused(saved, tmp_path, name):
@@ -225,6 +227,7 @@ def test_a_result_with_columns_of_another_model_is_not_viewed(saved, tmp_path):
         view_file("view", path, symgen.load("driven-four-bar").mechanism)
 
 
+@pytest.mark.slow
 def test_a_table_that_its_file_cannot_hold_is_not_read(result, tmp_path):
     """A table that nothing was written to takes no space in a file, and all of the memory."""
     path = result.save(tmp_path / "run.nc")

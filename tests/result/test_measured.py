@@ -141,6 +141,7 @@ def change_of_energy(result, raw):
     return gained
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("1-planar")
 @pytest.mark.parametrize(("seed", "space"), [(1, "planar"), (2, "planar"), (3, "spatial"), (6, "spatial")])
 def test_everything_beside_the_state(seed, space):

@@ -35,6 +35,7 @@ def test_curves_that_coincide_are_one_line_with_both_names():
     assert len(axes.lines) == 2
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("ending", SVG)
 def test_commands_draw_what_is_named(ending, tmp_path, monkeypatch, capsys):

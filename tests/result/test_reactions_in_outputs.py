@@ -34,6 +34,7 @@ def all_reactions(name: str, folder: Path) -> tuple[Model, list[str]]:
     return reporting(name, folder, "".join(lines)), names
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("absolute-four-bar")
 @pytest.mark.parametrize("name", ["four-bar", "bricard", "spatial-slider-crank"])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
@@ -45,6 +46,7 @@ def test_a_reaction_in_outputs_is_that_of_results(coordinates: str, name: str, t
         np.testing.assert_allclose(result.outputs[f"r{i}"], result[column], rtol=0, atol=1e-9 * size + 1e-12)
 
 
+@pytest.mark.slow
 def test_the_impulse_of_a_reaction_is_integrated(tmp_path: Path) -> None:
     model = reporting("four-bar", tmp_path, 'impulse = { value = "integral(C.Fx)", unit = "N s" }\n')
     found = {c: model.simulate(until=1.0, coordinates=c, output_step=1e-3, **EXACT) for c in ("absolute", "joint")}
@@ -54,6 +56,7 @@ def test_the_impulse_of_a_reaction_is_integrated(tmp_path: Path) -> None:
         assert result.outputs["impulse"][-1] == pytest.approx(np.sum(simpson) * 1e-3 / 3.0, abs=1e-8)
 
 
+@pytest.mark.slow
 def test_a_stop_along_a_slide_leaves_it_without_the_name(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="got 'F', which 'guide' does not have"):
         reporting("toggle-press", tmp_path, 'f = { value = "guide.F" }\n')

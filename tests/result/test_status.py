@@ -91,6 +91,7 @@ def test_energy_jumps_over_a_passage(four_bar, share, status, reason):
 CONSTANT = {"integrator": "rk4", "step": 1e-3}
 
 
+@pytest.mark.slow_cases("0.001-settings0-failed")
 @pytest.mark.parametrize(
     ("gap", "settings", "status"),
     [
@@ -154,7 +155,8 @@ def error_of(model, result):
     return Points.of_mechanism(model.mechanism, model.parameters()).largest_distance(q, known.q)
 
 
-@pytest.mark.slow_cases("changes3")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases("changes3", "changes0", "changes1", "changes2", "changes5")
 @pytest.mark.parametrize(
     "changes",
     [
@@ -201,6 +203,7 @@ def test_a_failed_run_is_not_verified(four_bar):
     assert "error not estimated" not in repr(result)
 
 
+@pytest.mark.slow
 def test_uncorrected_runs_through_singular_positions_never_end_ok():
     model = symgen.load("n-four-bar:1")
     for method in ("lagrange", "baumgarte"):
@@ -210,6 +213,7 @@ def test_uncorrected_runs_through_singular_positions_never_end_ok():
             assert result.reason and result.warnings
 
 
+@pytest.mark.slow
 def test_a_corrected_run_through_singular_positions_warns():
     result = symgen.simulate("n-four-bar:1", until=4.0)
     assert result.status == "ok"

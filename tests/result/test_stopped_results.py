@@ -29,6 +29,7 @@ restitution = 0.5
 """
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])

@@ -77,6 +77,7 @@ def read(text: str) -> symgen.Model:
     return symgen.load(validate(parse_toml(text, "door.toml"), "door.toml"))
 
 
+@pytest.mark.slow_cases("null-space-dop853-absolute-1e-09")
 @pytest.mark.parametrize(
     ("method", "integrator", "coordinates", "tolerance"),
     [
@@ -99,6 +100,7 @@ def test_states_follow_reactions_and_accelerations(method, integrator, coordinat
     np.testing.assert_allclose(found, [*exact, exact[1]], rtol=0.0, atol=tolerance)
 
 
+@pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_brake_is_heated_by_what_it_takes(coordinates):
     result = read(BRAKE).simulate(until=8.0, integrator="dop853", coordinates=coordinates, **TIGHT)
@@ -109,6 +111,7 @@ def test_a_brake_is_heated_by_what_it_takes(coordinates):
     assert result["warmth"][-1] == pytest.approx((risen - fallen) * np.exp(-2.0 * k), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_derivatives_and_sweeps_have_them():
     model, settings = read(DOOR), {"method": "lagrange", "integrator": "dop853", "until": 0.4, **TIGHT}
     low, high = door_by_hand(0.4, M - 1e-4)[2], door_by_hand(0.4, M + 1e-4)[2]

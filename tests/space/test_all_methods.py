@@ -26,6 +26,7 @@ def expected():
     return model, columns(result, model.mechanism)
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", [m for m in METHODS.names if m not in COARSE])
 def test_every_method_moves_the_slider_crank(method):

@@ -23,6 +23,8 @@ METHODS = [
 ]
 
 
+@pytest.mark.slow
+@pytest.mark.by_turns(3)
 @pytest.mark.parametrize("method", METHODS)
 def test_all_joints_follow_the_reference(method):
     _, result = run("bricard", method, "rk4", step=1e-3, until=10.0, times=REFERENCE[:, 0])

@@ -39,6 +39,7 @@ def coin(stiffness=1e6, speed=1e-3, friction=0.3, **motion):
     )
 
 
+@pytest.mark.slow
 def test_a_coin_slips_and_then_rolls():
     """With no spin at first two thirds of the speed remain; friction is mu m g until then, and 0 from then on."""
     result = simulated(coin(velocity=(1.0, 0.0, 0.0)), until=0.5, rtol=1e-10)

@@ -22,6 +22,7 @@ def away(result, model):
     )
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_two_formulations_agree_for_ten_seconds():
     """24 Cartesian velocities and 20 rows by an explicit integrator, against two coordinates by an implicit one."""
@@ -31,6 +32,7 @@ def test_two_formulations_agree_for_ten_seconds():
     assert away(result, model) < 1e-8
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_the_general_route_leads_the_same_way():
     """Derived once more, in Euler parameters and their rates; for a moment only, as it is stiff and slow."""

@@ -87,6 +87,7 @@ def test_rows_that_close_half_a_turn_off_fail(coordinates, further):
     assert "joint 'pin' closes half a turn from where its directions coincide" in found.reason[1]
 
 
+@pytest.mark.slow_cases("further0")
 @pytest.mark.parametrize("further", [{}, {"stop_when": "a.z < -9"}])
 def test_rows_that_joint_coordinates_would_turn_over_fail(further):
     raw = hung(

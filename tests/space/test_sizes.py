@@ -23,7 +23,8 @@ SIZES = {
 }
 
 
-@pytest.mark.slow_cases("stewart-platform", "front-suspension")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases("stewart-platform", "front-suspension", "bricard")
 @pytest.mark.parametrize("name", SIZES)
 def test_sizes_and_ranks(name):
     mechanism = load_mechanism(name)

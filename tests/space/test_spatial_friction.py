@@ -108,6 +108,7 @@ def hinged(x: np.ndarray, v: np.ndarray) -> tuple[Any, ...]:
     )
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_hinge_rubs_by_the_force_across_its_axis(coordinates: str) -> None:
@@ -204,6 +205,7 @@ def linkage(x: np.ndarray, v: np.ndarray) -> tuple[Any, ...]:
     return matrix, np.eye(3)[:, :2], right, reactions
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_hinge_and_a_slide_of_a_loop_rub_by_their_reactions(coordinates: str) -> None:

@@ -59,6 +59,7 @@ def test_json_is_the_contract(study):
         assert (row["step"] is None) != (row["rtol"] is None)
 
 
+@pytest.mark.slow
 def test_errors_shrink_with_the_fourth_power_of_the_step_and_follow_the_tolerance(study):
     for method in ("baumgarte", "direct-correction", "lagrange"):
         coarse, fine = (r.error for r in study.rows if r.method == method and r.integrator == "rk4")
@@ -77,6 +78,7 @@ def test_a_failed_run_stays_a_row():
     assert not study.failed
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_run_that_exceeds_its_limits_is_measured_to_its_end(capsys):
     """The standard method at the settings of the source: one that stopped would leave all rows without a ratio."""
@@ -231,6 +233,7 @@ def test_the_whole_catalogue_can_be_compared(name):
     assert study.estimated_error < 1e-8
 
 
+@pytest.mark.slow
 def test_pairs_that_do_not_suit_are_left_out():
     study = symgen.compare("four-bar", ["lagrange", "ggl"], ["rk4", "radau5"], [1e-2], [1e-6], until=0.2, repeat=1)
     assert [(r.method, r.integrator) for r in study.rows] == [

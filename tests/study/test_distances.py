@@ -36,7 +36,8 @@ def test_errors_of_a_pendulum_are_those_from_its_energy():
     assert study.speed == pytest.approx(down.max(), rel=1e-9)
 
 
-@pytest.mark.fast("four-bar-1.0-0.01")
+@pytest.mark.by_turns(2)
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "until", "step"), [("four-bar", 1.0, 1e-2), ("spatial-slider-crank", 0.3, 2e-3)])
 def test_errors_are_distances_to_a_run_with_tight_tolerances(name, until, step):
     study, row, run, fine = compared(name, until, step)
@@ -75,6 +76,7 @@ def test_only_determined_reactions_are_compared():
     assert study.rows[0].velocity_error > 0.0
 
 
+@pytest.mark.slow
 def test_iterations_of_laws_are_counted():
     study = symgen.compare("four-bar", ["augmented-lagrangian", "lagrange"], ["rk4"], [1e-2], until=0.5, repeat=1)
     law, plain = study.rows

@@ -76,6 +76,7 @@ def lengths_of(mechanism):
     return found
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(("method", "step"), [("direct-correction", 1e-4), ("lagrange", 4e-5)])
 def test_andrews(method, step):
@@ -129,6 +130,7 @@ BRICARD = np.loadtxt(DATA / "bricard_square_rods.csv", delimiter=",")
 FIXED = {0: np.zeros(3), 5: np.array([0.0, 0.0, 1.0])}
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_bricard():
     """Pins lie on the rods' axes at half a metre: their distances from the published ones bound the error from below.

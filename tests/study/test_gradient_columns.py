@@ -33,6 +33,7 @@ def study(journal):
         return symgen.compare("four-bar", journal=records, **RUNS)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 def test_errors_of_derivatives_fall_at_the_order_of_the_scheme(study, method):

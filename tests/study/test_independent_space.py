@@ -55,7 +55,7 @@ def regular(joints, forces):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("joints", "forces"), of_turn(GROUPS, 3), ids=lambda kinds: "-".join(kinds) or "none")
+@pytest.mark.parametrize(("joints", "forces"), of_turn(GROUPS, 9), ids=lambda kinds: "-".join(kinds) or "none")
 def test_rows_and_accelerations_are_those_emitted(joints, forces):
     mechanism, emitted, found, rng, (t, q, v) = regular(joints, forces)
     values = {p.name: p.value for p in mechanism.parameters}

@@ -82,7 +82,7 @@ def test_killed_in_the_middle_and_resumed(tmp_path, processes):
     assert sum(begun.values()) < killed_study.COUNT
 
 
-@pytest.mark.slow_cases("2")
+@pytest.mark.slow
 @pytest.mark.parametrize("processes", [1, 2])
 def test_interrupted_keeps_what_is_done(tmp_path, processes):
     process = start(tmp_path, processes)
@@ -124,6 +124,7 @@ def test_a_foreign_file_is_refused_and_left_as_it_is(tmp_path, content):
     assert path.read_bytes() == content
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("every", [3, pytest.param(1, marks=pytest.mark.slow)])
 def test_of_bits_of_a_journal_none_changes_what_is_read(every, tmp_path):

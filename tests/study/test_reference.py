@@ -41,7 +41,10 @@ def both(name, times, parameters=None):
     )
 
 
-@pytest.mark.slow_cases("n-four-bar:3-0.6-None", "pendulum-5.0-None", "driven-four-bar-1.5-None")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases(
+    "n-four-bar:3-0.6-None", "pendulum-5.0-None", "driven-four-bar-1.5-None", "n-four-bar:1-0.6-None"
+)
 @pytest.mark.parametrize(
     ("name", "until", "parameters"),
     [
@@ -162,6 +165,7 @@ def test_redundant_rows_do_no_harm():
     assert one.rate(0.0, y)[5] == pytest.approx(-0.5 * 9.81 / (0.1 + 0.25))
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize(
@@ -274,7 +278,8 @@ def swung(times, passages):
     return found
 
 
-@pytest.mark.fast("scipy-bdf", "scipy-lsoda")
+@pytest.mark.by_turns(3)
+@pytest.mark.fast("scipy-lsoda")
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_references_see_a_push_that_is_shorter_than_a_step(solver, tmp_path):
     """100 N for 3 ms: solvers do not see it, or take its ends for positions at which accelerations are unknown."""
@@ -315,6 +320,7 @@ def test_references_see_a_smooth_pulse(solver, w, max_step, tmp_path):
     assert off < 10.0 * found.estimated_error + 1e-11 and found.estimated_error < 1e-7
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "solver",

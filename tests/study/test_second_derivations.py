@@ -13,6 +13,7 @@ from symgen.study.stress.study import stress
 from tests.derive.formulate.test_primitives import ARMS
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["cam-follower", "engine", "scissor-lift"])
 def test_both_forms_of_the_equations_are_the_same(name):
@@ -26,6 +27,7 @@ def test_both_forms_of_the_equations_are_the_same(name):
             np.testing.assert_allclose(a, b, rtol=1e-9, atol=1e-9 * max(1.0, np.abs(a).max(initial=0.0)))
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["cam-follower", "scissor-lift"])
 def test_stress_judges_tables_and_kinks(name):
@@ -76,6 +78,7 @@ def test_states_of_a_file_have_a_second_derivation(tmp_path):
     assert row.status == "ok" and row.error < 1e-10
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("where", ["plane", "space"])
 def test_rotors_have_a_second_derivation(where):

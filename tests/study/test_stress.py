@@ -100,6 +100,7 @@ value = "0.1 + 0.05*sin(3*t)"
 """
 
 
+@pytest.mark.slow
 def test_interpreted_equations_are_the_compiled_ones_and_undefined_where_these_are():
     mechanism = Base.of_mechanism("slider-crank").stressed
     values = {**symgen.load(mechanism).parameters(), "stress_stiffness": 300.0, "stress_mass": 3.0}
@@ -110,6 +111,7 @@ def test_interpreted_equations_are_the_compiled_ones_and_undefined_where_these_a
     assert np.isnan(pair[1].evaluate(0.2, np.full(9, np.inf), v)[0]).any()
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_attempts_of_a_search_on_a_driven_cart_compile_nothing_anew(tmp_path):
     """Steps, parameters and starts are arguments of the code of one formulation."""
@@ -137,6 +139,7 @@ def search_on_a_cart(file):
     assert 1e-4 < found["accurate_step"] <= found["stable_step"] < 0.01
 
 
+@pytest.mark.slow
 def test_a_stiff_motion_has_a_reference_too():
     """A point mass that sinks against a strong damper: v = m g / c along the damper, in closed form."""
     builder = symgen.MechanismBuilder("sinking", gravity=(0.0, -9.81))
@@ -190,6 +193,7 @@ def test_one_compiled_module_serves_all_cases_but_those_with_other_joints():
     assert len(found) == 4
 
 
+@pytest.mark.slow
 def test_neutral_handles_change_nothing():
     base = Base.of_mechanism("four-bar")
     plain = symgen.load("four-bar").simulate(integrator="dop853", rtol=1e-10, until=1.0)
@@ -290,6 +294,7 @@ def test_the_largest_step_of_rk4_is_where_its_region_of_stability_ends(damped):
         assert found["stable_step"] == pytest.approx(2.785 / fastest, rel=0.04)
 
 
+@pytest.mark.slow
 def test_the_length_of_a_point_on_a_link_is_the_diagonal_of_its_motion():
     """Else nothing of a pendulum would be within a tenth of its length: the largest step would be that of an error."""
     level = levels_of_family("duration", Base.of_mechanism("pendulum"), True)[0]
@@ -354,7 +359,8 @@ def test_a_branch_is_lost_at_the_singular_position_without_correction():
     assert all(row.model == "-" for row in study.rows)
 
 
-@pytest.mark.slow_cases("planar")
+@pytest.mark.by_turns(2)
+@pytest.mark.slow
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_cells_see_a_force_between_two_places(space, tmp_path):
     """A point that flies by at 1 m/s is pushed by 6.6 N for 0.8 mm, as single runs see; cells were off by 1e-3 m."""
@@ -463,6 +469,7 @@ def test_rows_come_in_order_and_fit_the_contract(tmp_path):
     assert float(rows[0]["error"]) == study.rows[0].error
 
 
+@pytest.mark.slow
 def test_a_journal_keeps_cells_and_changes_nothing(tmp_path):
     journal = tmp_path / "journal.jsonl"
     with Journal(journal) as kept:

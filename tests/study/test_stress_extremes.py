@@ -75,6 +75,7 @@ def test_the_largest_damper_is_where_the_largest_step_is_the_step_of_the_mechani
     assert 0.9 * extreme.reached < expected < 1.1 * extreme.beyond
 
 
+@pytest.mark.slow
 def test_a_quick_study_leaves_stiffness_to_the_largest_steps():
     study = stress(["pendulum"], ["damping", "gravity"], ["lagrange"], quick=True)
     assert {extreme.family for extreme in study.extremes} == {"gravity"}

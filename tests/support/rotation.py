@@ -1,6 +1,7 @@
 """Long lists of cases that prove the same of many mechanisms: a share of them in a turn, and all of them on request."""
 
 import os
+import zlib
 from collections.abc import Iterable
 from typing import TypeVar
 
@@ -22,6 +23,11 @@ def of_turn(cases: Iterable[Case], turns: int) -> list[Case]:
     """
     listed, turn = list(cases), os.environ[TURN]
     return listed if turn == "all" else listed[number_of_turn() % turns :: turns]
+
+
+def has_turn(name: str, turns: int) -> bool:
+    """Whether a test without further cases runs in this turn: its name decides, so that turns take about as long."""
+    return os.environ[TURN] == "all" or (zlib.crc32(name.encode()) - number_of_turn()) % turns == 0
 
 
 def number_of_turn() -> int:

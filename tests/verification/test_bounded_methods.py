@@ -16,6 +16,7 @@ def wrong(lines: list[Line]) -> list[Line]:
     return [line for line in bad if line.outcome != "failed" or "energy" not in line.reason]
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("file", ["backlash", "pushed", "lifted"])
 def test_stops_are_left(file: str) -> None:
@@ -26,7 +27,7 @@ def test_stops_are_left(file: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("method", of_turn(METHODS.names, 3))
+@pytest.mark.parametrize("method", of_turn(METHODS.names, 9))
 def test_stops_are_left_by_all_methods(method: str) -> None:
     lines = examine([method], [], [])
     assert lines

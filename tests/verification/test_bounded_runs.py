@@ -35,6 +35,7 @@ def test_short_sticks_are_found_in_long_steps() -> None:
     assert verdict.outcome == "right", verdict
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_friction_goes_on_where_a_rate_passes_zero_beside_one_at_rest() -> None:
     """A pin rests, and the angle of another, which follows from it, is at a dead centre: its friction was lost."""
@@ -45,7 +46,7 @@ def test_friction_goes_on_where_a_rate_passes_zero_beside_one_at_rest() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", of_turn(HARD, 2))
+@pytest.mark.parametrize("name", of_turn(HARD, 5))
 def test_hard_chains_in_all_kinds_of_runs(name: str) -> None:
     """All kinds beside one reference, which takes most of the time."""
     verdicts = examined(hard(name), ALL, HARD[name])[1]

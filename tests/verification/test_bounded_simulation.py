@@ -45,6 +45,7 @@ def test_block_that_is_pushed_up_a_slope_stays_there() -> None:
     assert motion.u[-1][0] == pytest.approx(0.25, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_static_friction_breaks_and_sliding_friction_holds_what_comes_to_rest() -> None:
     tree = Tree([slide(x(1.0), 1.0, force=x(6.0), frequency=2.0)], [], NOTHING)
     motion = moved(tree, [Bounded("guide", joint(0), sliding=3.0, static=4.5)], [0.0], [0.0], 2.0)

@@ -22,6 +22,7 @@ def block() -> Tree:
     return Tree([first, second], [], np.array([0.0, -9.81, 0.0]))
 
 
+@pytest.mark.slow
 def test_the_simulation_flies_off_an_edge_and_lands() -> None:
     """A block slides at 2 m/s, leaves the edge at 0.5 s and lands on the slope."""
     point = Point(1, NOTHING)

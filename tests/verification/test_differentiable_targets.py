@@ -113,6 +113,7 @@ def test_casadi_functions_of_a_loop_and_their_derivatives(tmp_path):
     compare_casadi("slider-crank", "joint", tmp_path)
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "coordinates"), MECHANISMS)
 def test_casadi_functions_are_the_compiled_ones(name, coordinates, tmp_path):
@@ -144,6 +145,7 @@ def alone(function, *arguments):
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_jax_functions_are_the_compiled_ones(tmp_path):
     alone(compare_jax, tmp_path)

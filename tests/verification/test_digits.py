@@ -26,6 +26,7 @@ def test_accelerations_and_multipliers_have_the_digits_that_the_condition_allows
     assert np.median([max(one.law) for one in summary.digits]) <= 1e-10
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_few_evaluations_of_a_run_are_confirmed(coordinates):

@@ -48,7 +48,7 @@ def test_the_reference_itself_is_right(reference: Reference) -> None:
     assert verdict.honest and verdict.right and set(verdict.errors) == set(groups(reference.system, reference.motion))
 
 
-@pytest.mark.slow_cases("1.01-q")
+@pytest.mark.slow_cases("1.01-q", "1.01-v")
 @pytest.mark.parametrize("group", ["q", "v", "lam", "reactions", "energies"])
 @pytest.mark.parametrize("change", [1.01, np.nan])
 def test_what_is_off_is_found_and_is_dishonest_only_where_it_is_called_ok(

@@ -114,7 +114,7 @@ def test_the_part_of_a_file_on_a_page_stands_in_the_entry():
     assert set(text.splitlines()) <= set(whole.splitlines())
 
 
-@pytest.mark.slow_cases("flexible-slider-crank")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["cantilever", "flexible-slider-crank"])
 def test_the_beams_run_as_they_come(name):
     """Loads and speeds are such that beams bend by some percent of their lengths; energy keeps its balance."""
@@ -127,6 +127,7 @@ def test_the_beams_run_as_they_come(name):
         assert 1e-4 < np.abs(result.outputs["deflection"]).max() < 5e-3
 
 
+@pytest.mark.slow
 def test_the_block_on_the_belt_slips_and_sticks() -> None:
     """It leaves the belt at 0.06 m and comes to rest on it at 0.02 m; the period is that of the closed form."""
     result = run("belt-oscillator")
@@ -330,7 +331,7 @@ def test_klann_has_the_stride_that_the_patent_says():
     assert result.points["leg.foot.y"][half] == pytest.approx(0.0, abs=1e-3 * stride)
 
 
-@pytest.mark.slow_cases("jansen-leg")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", LEGS)
 def test_a_turn_of_a_leg_takes_the_work_on_the_ground(name):
     """Weights and inertia give back in a turn what they take; the ground's pull along the foot's way is left."""
@@ -409,6 +410,7 @@ def test_the_piston_stands_where_the_crank_puts_it():
     )
 
 
+@pytest.mark.slow
 def test_the_gas_gives_in_a_cycle_what_is_enclosed_in_its_diagram():
     result = model("engine").simulate(stop_when="crank.theta > 4*pi", output_step=0.01)
     p, (x, y) = result.parameters, table("engine", "pressure")

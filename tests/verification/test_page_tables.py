@@ -48,7 +48,7 @@ def test_a_page_has_the_table_with_its_headings_and_rows(table):
         assert row[: len(names)] == list(names)
 
 
-@pytest.mark.slow_cases("docs/findings/random-mechanisms.md statistics")
+@pytest.mark.slow_cases("docs/findings/random-mechanisms.md statistics", "docs/findings/equal-work.md equal_work")
 @pytest.mark.parametrize("table", STORED, ids=lambda table: f"{table.page} {table.command}")
 def test_a_table_of_a_record_and_its_sentences_are_those_of_the_page(table):
     for row, own in zip(printed(table), table.measured(), strict=True):
@@ -168,9 +168,9 @@ def test_a_table_is_what_is_written():
     assert lines[0] == "| a | b |" and [cells_of(line) for line in lines[2:]] == [["", r"\|Phi\|"], ["x", "2"]]
 
 
-@pytest.mark.slow  # measures: a thirtieth of all cells, others in another turn
+@pytest.mark.slow  # measures: a hundredth of all cells, others in another turn
 def test_some_of_the_cells_are_measured_again():
-    chosen, dice = drawn(MEASURED, 1 / 30, number_of_turn()), random.Random(number_of_turn())
+    chosen, dice = drawn(MEASURED, 1 / 100, number_of_turn()), random.Random(number_of_turn())
     assert chosen
     chosen.append((table := dice.choice(TIMED), dice.randrange(len(table.rows))))
     found = []
@@ -180,7 +180,7 @@ def test_some_of_the_cells_are_measured_again():
     assert not found, "\n".join(map(str, found))
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(5)
 @pytest.mark.parametrize("name", [name for name in NAMES if record_of(name).lines()])
 @pytest.mark.slow  # measures: a part of a share of the lines, others in another turn
 def test_drawn_lines_of_a_record_are_measured_again(name):
@@ -216,6 +216,17 @@ def test_a_record_may_have_few_numbers_that_rounding_decides(others, named, tmp_
 
     record = Record("drawn", lambda: (), lambda job: {}, again, patience=1.0)
     assert len(list(record.differences(seed=1))) == named
+
+
+def test_a_day_draws_from_lines_that_take_seconds(tmp_path, monkeypatch):
+    monkeypatch.setattr("benchmarks.records.FOLDER", tmp_path)
+    (tmp_path / "drawn.jsonl").write_text("".join(f'{{"number": {i}}}\n' for i in range(100)))
+    record = Record(
+        "drawn", lambda: (), lambda job: {}, lambda line, dice: [Pair("", line["number"], -1)], 1.0, 0.1,
+        daily=lambda line: line["number"] < 10,
+    )  # fmt: skip
+    assert {int(found.split()[2].rstrip(",")) for found in record.differences(seed=2)} <= set(range(10))
+    assert len([*record.differences(seed=2)]) == 2
 
 
 def test_stored_numbers_have_three_digits_and_are_finite():

@@ -284,6 +284,7 @@ def test_torque_free_top_keeps_its_momentum_and_precesses() -> None:
     np.testing.assert_allclose(a @ (np.array([0.4, 0.4, 0.1]) * motion.v[-1][3:]), [0.4, 0.0, 0.5], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_massless_link_is_a_rod() -> None:
     """A body without mass between two pins does what a rod without mass does."""
     common = head(False, "[0.0, -9.81]") + '[bodies.p]\ntype = "point"\nmass = 1.0\nposition = [0.6, -0.8]\n'

@@ -45,6 +45,7 @@ def close(mine, theirs, size: float) -> None:
     np.testing.assert_allclose(mine, theirs, rtol=0.0, atol=2e-6 * size)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("spatial", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_every_row_has_the_derivatives_of_its_value(spatial: bool) -> None:
@@ -77,6 +78,7 @@ def test_every_row_has_the_derivatives_of_its_value(spatial: bool) -> None:
     assert seen >= set(table) - {"prismatic", "point-on-line", "inline", "in-plane", "place"}, set(table) - seen
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("spatial", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_forces_with_a_potential_are_its_gradient(spatial: bool) -> None:

@@ -129,6 +129,7 @@ def spatial(flip: bool) -> dict:
     }
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases("planar-True", "planar-False")
 @pytest.mark.parametrize("flip", [False, True])
 @pytest.mark.parametrize("make", [planar, pytest.param(spatial, marks=pytest.mark.slow)])

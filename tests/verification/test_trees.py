@@ -59,7 +59,8 @@ def compare_with_plain(raw: dict, mechanism: Mechanism) -> None:
     np.testing.assert_allclose(a, expected, rtol=0.0, atol=bound * size)
 
 
-@pytest.mark.slow_cases("0", "2", "5", "6")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases("0", "2", "5", "6", "3")
 @pytest.mark.parametrize("index", PLANE)
 def test_random_trees_in_the_plane(index, tmp_path):
     compare(index, False, tmp_path)
@@ -67,7 +68,7 @@ def test_random_trees_in_the_plane(index, tmp_path):
 
 @pytest.mark.slow_cases("2", "3", "4")
 @pytest.mark.parametrize(
-    "index", [*SPACE[2:5], *(pytest.param(i, marks=pytest.mark.slow) for i in of_turn((*SPACE[:2], *SPACE[5:]), 3))]
+    "index", [*SPACE[2:5], *(pytest.param(i, marks=pytest.mark.slow) for i in of_turn((*SPACE[:2], *SPACE[5:]), 9))]
 )
 def test_random_trees_in_space(index, tmp_path):
     compare(index, True, tmp_path)

@@ -43,6 +43,7 @@ def pendulum():
 # -- drivers -----------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_torques_of_the_reference_four_bar(linkage):
     """Minimal coordinates in 30 digits, computed twice independently; the motor turns the crank from the ground."""
     found = linkage.inverse(times=[0.0, 0.25, 0.5])
@@ -88,6 +89,7 @@ def test_efforts_that_are_not_unique_are_the_smallest(linkage, weights):
     assert found.notes == (f"2 actuators move 1 degree of freedom: efforts are those of minimum norm, {how}",)
 
 
+@pytest.mark.slow
 def test_reactions_with_another_actuator_balance_the_rods(linkage):
     """Newton for each rod: reactions and weight give its mass times the acceleration of its centre."""
     times = np.linspace(0.0, 0.9, 7)
@@ -211,6 +213,7 @@ def test_data_of_a_recorded_motion_are_asked_for_again(pendulum):
     assert np.abs(again.efforts["held"] - run["held.torque"]).max() < 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("push", ["4*abs(t - 0.23)", {"t": [0.0, 0.23, 0.5], "u": [0.92, 0.0, 1.08]}])
 def test_inputs_with_kinks_are_what_they_are_at_each_time(pendulum, push):
     """Two straight lines, as a formula and as data; the same with a step is refused."""
@@ -224,7 +227,7 @@ def test_inputs_with_kinks_are_what_they_are_at_each_time(pendulum, push):
         pendulum.inverse(run, actuators=["held"], inputs={"push": stepped})
 
 
-@pytest.mark.slow_cases("times0")
+@pytest.mark.slow_cases("times0", "times1")
 @pytest.mark.parametrize("times", [[-0.5, -0.3], [0.1, 0.4], [0.7]])
 def test_inputs_that_jump_beside_a_motion_are_what_they_are_in_it(times):
     """A cart of 2 kg with 0.4 m/s^2 by a driver: held at what was given from 0 on, and refused for jumps elsewhere."""
@@ -318,6 +321,7 @@ def test_the_command(tmp_path, capsys):
     assert "minimum norm, weighted as asked" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_too_few_times_for_integrals_are_said(linkage, capsys):
     """Where it is said the energy is off by tenths, and elsewhere by no more than a hundredth of the work exchanged."""
     fine = linkage.inverse(times=np.linspace(0.0, 0.9, 2001))

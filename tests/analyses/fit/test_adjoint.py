@@ -34,6 +34,7 @@ def largest_difference(model, quantity, by, **settings):
     return max(abs(one.by[name] - other.by[name]) / abs(other.by[name]) for name in by)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
@@ -47,7 +48,8 @@ def test_lengths_masses_and_gravity_of_the_four_bar(four_bar, method, coordinate
         assert found.memory > 1000
 
 
-@pytest.mark.slow_cases("rod.theta", "length**2/3*rod.omega**2")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize("quantity", ["rod.theta", "length**2/3*rod.omega**2", "rod.alpha"])
 def test_the_rod_on_a_pin(tmp_path, quantity):
     rod = model(tmp_path, ROD)
@@ -83,6 +85,7 @@ def test_schemes(four_bar, method, integrator, options):
     )
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
@@ -172,7 +175,7 @@ def test_many_angles_that_count_turns(tmp_path):
     (tmp_path / "wound.toml").write_text(text)
     wound, t, factor = symgen.load(tmp_path / "wound.toml"), 1.5, np.arange(1.0, 8.0) @ speeds
     most = 0.0
-    for k in np.linspace(0.05, 2.0, 300):
+    for k in of_turn(np.linspace(0.05, 2.0, 300), 6):
         gradient = wound.gradient(
             wound_up, by=("k",), way="adjoint", until=t, integrator="dop853", rtol=1e-11, parameters={"k": k}
         )
@@ -184,6 +187,7 @@ def test_many_angles_that_count_turns(tmp_path):
     assert most > 2.0 * np.pi
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_loop_of_six_hinges(coordinates):
@@ -194,7 +198,7 @@ def test_a_loop_of_six_hinges(coordinates):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "method", of_turn((n for n in METHODS.names if {"ode", "one-step"} & set(METHODS.get(n, "method").forms)), 3)
+    "method", of_turn((n for n in METHODS.names if {"ode", "one-step"} & set(METHODS.get(n, "method").forms)), 9)
 )
 def test_every_method(method):
     four_bar, by = symgen.load("four-bar"), ("crank_mass", "rocker_mass", "crank.theta")
@@ -234,6 +238,7 @@ free_angle = 12.0
 """
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])

@@ -42,7 +42,7 @@ CASES = {
 
 
 @pytest.mark.by_turns(2)
-@pytest.mark.fast("adaptive-jump")
+@pytest.mark.slow
 @pytest.mark.parametrize("case", [*CASES])
 @pytest.mark.parametrize("steps", ["adaptive", "constant"])
 def test_the_adjoint_is_what_forward_directions_are(tmp_path, steps, case):

@@ -104,6 +104,7 @@ def test_starts_and_the_bias_of_a_sensor_are_unknowns(rod):
     assert fit.result.start["v"]["rod.omega"] == pytest.approx(0.8)
 
 
+@pytest.mark.slow
 def test_several_runs_have_one_set_of_parameters(rod):
     runs = [np.linspace(0.1, end, 20) for end in (1.0, 1.7)]
     data = [
@@ -133,6 +134,7 @@ def test_powers_of_what_cannot_be_told_apart():
     assert null_directions(np.zeros((4, 1)), np.ones(1), ("c",)) == ("c changes nothing that was measured",)
 
 
+@pytest.mark.slow
 def test_the_command(rod, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "rod.toml").write_text(ROD, encoding="utf-8")

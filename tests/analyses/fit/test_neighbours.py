@@ -30,6 +30,7 @@ def pendulum(length):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("length", "follow"), [(LENGTH, False), (0.50, True)])
 def test_a_wrong_length_is_said_and_noise_is_not(length, follow):
     t = np.linspace(0.02, 4.0, 200)

@@ -37,6 +37,7 @@ def test_the_rod_on_a_pin(rod):
     assert energy.by == pytest.approx(expected, rel=1e-11)
 
 
+@pytest.mark.slow
 def test_lengths_masses_and_gravity_of_the_four_bar(four_bar):
     angle = four_bar.objective("crank.theta", by=tuple(BY_NAME), until=2.0, **TIGHT)
     value, slopes = angle(angle.x0)
@@ -99,6 +100,7 @@ def test_a_search_finds_a_length_again(rod):
     assert again["rod.theta"][-1] + np.pi / 2 == pytest.approx(ROD_STATE[0], abs=1e-5)
 
 
+@pytest.mark.slow
 def test_a_value_at_which_nothing_closes_is_infinite(four_bar):
     height = four_bar.objective("rocker.C.y", by=("a",), **CONSTANT)
     value, slopes = height([100.0])

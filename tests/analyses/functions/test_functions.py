@@ -48,7 +48,7 @@ def close(value, exact, part=1e-12):
     return np.abs(value - exact).max() <= part * max(1.0, np.abs(exact).max())
 
 
-@pytest.mark.slow_cases("chain", "fork", "slides")
+@pytest.mark.slow
 def test_trees_are_those_of_own_recursions(robot):
     model, recursion = robot
     f = model.functions()
@@ -66,7 +66,7 @@ def test_trees_are_those_of_own_recursions(robot):
         assert abs(f.kinetic_energy(q, v) - 0.5 * v @ mass @ v) < 1e-12 * (v @ mass @ v)
 
 
-@pytest.mark.slow_cases("fork", "chain")
+@pytest.mark.slow_cases("fork", "chain", "slides")
 def test_frames_are_those_of_own_recursions(robot):
     model, recursion = robot
     f = model.functions()
@@ -109,6 +109,7 @@ def test_derivatives_are_those_of_differences():
     compare_derivatives(Model(builder.build()).functions("joint"))
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["four-bar", "slider-crank", "bricard", "spatial-slider-crank"])
 def test_derivatives_with_rows_are_those_of_differences(name):
@@ -159,7 +160,8 @@ LOOPS = [
 ]
 
 
-@pytest.mark.slow_cases("four-bar-joint")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "coordinates"), LOOPS)
 def test_loops_are_those_of_differences_and_numpy(name, coordinates):
     f = load(name).functions(coordinates)
@@ -198,6 +200,7 @@ def test_bias_is_the_gradient_of_the_potential_and_the_lagrangian_of_absolute_co
         assert abs(f.bias(q, v)[k] - (momentum - force)) < 1e-8
 
 
+@pytest.mark.slow
 def test_named_actuators_make_what_is_asked():
     model = load("four-bar")
     f = model.functions("joint")
@@ -362,6 +365,7 @@ def parallelogram(mass: float = 1.0) -> Model:
     return Model(builder.build())
 
 
+@pytest.mark.slow
 def test_an_input_of_the_file_is_an_actuator():
     f = parallelogram().functions("joint", {"motor": 0.5})
     q, v = f.start
@@ -451,6 +455,7 @@ def test_light_bodies_are_refused():
         f.forward_dynamics(np.zeros(3), np.zeros(3), np.zeros(3), {"m": 0.0})
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("floating", [False, True])
 def test_coordinates_of_joints_and_bodies_have_the_same_accelerations(floating, tmp_path):

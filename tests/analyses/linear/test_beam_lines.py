@@ -130,6 +130,7 @@ def test_masses_of_a_frame_are_those_of_its_rods(space):
     np.testing.assert_allclose(found[compared], expected[compared], atol=1e-14)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_frame_vibrates_as_beams_with_a_rigid_joint(space):
@@ -148,6 +149,7 @@ def test_frame_vibrates_as_beams_with_a_rigid_joint(space):
     np.testing.assert_allclose(found, joined, rtol=1e-8)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_points_on_a_straight_line_change_nothing(space):
@@ -165,6 +167,7 @@ def test_points_on_a_straight_line_change_nothing(space):
             assert abs(x - shapes[1][name]) <= 1e-12, name
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_vertices_may_depend_on_parameters_in_space():
     """A frame on a body that is turned; the same with numbers in place of the parameter."""

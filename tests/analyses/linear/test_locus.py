@@ -46,7 +46,8 @@ def known(x0, x1, y0, y1):
     return found
 
 
-@pytest.mark.fast("numbers0-9", "numbers2-6", "numbers4-20", "numbers5-2", "numbers6-4")
+@pytest.mark.by_turns(3)
+@pytest.mark.fast("numbers0-9", "numbers5-2", "numbers6-4")
 @pytest.mark.parametrize(
     ("numbers", "count"),
     [
@@ -92,7 +93,8 @@ def test_as_many_pass_as_stand_on_the_other_side_behind(model, seed):
         assert sum((1 if c.rising else -1) * (2 if c.eigenvalue.imag > 1e-6 else 1) for c in inside) == change
 
 
-@pytest.mark.fast("sprung-5", "damped-3")
+@pytest.mark.by_turns(3)
+@pytest.mark.fast("damped-3")
 @pytest.mark.parametrize("count", [2, 3, 5])
 @pytest.mark.parametrize("beside", [{"c0": 9.0, "d0": 0.0}, {"c0": 0.0, "d0": 1.0}], ids=["sprung", "damped"])
 def test_a_branch_that_passes_and_comes_back_between_two_values_is_seen(model, count, beside):

@@ -233,7 +233,8 @@ def test_zeros_are_a_decision_of_rank():
         assert np.isclose(sorted(values.real)[0], -40.0) and np.isclose(sorted(values.real)[-1], 3.0)
 
 
-@pytest.mark.fast("0.3-absolute", "0.3333333333333333-joint")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("far", [0.177, 0.3, 1.0 / 3.0])
 def test_a_joint_that_holds_nothing_takes_no_freedom(coordinates, far):
@@ -258,6 +259,7 @@ def test_a_joint_that_holds_nothing_takes_no_freedom(coordinates, far):
     assert_allclose(system.eigenvalues(), [1j * math.sqrt(square), -1j * math.sqrt(square)], rtol=1e-12)
 
 
+@pytest.mark.slow_cases("distances in space")
 @pytest.mark.parametrize("kind", ["ball", "distances in space"])
 def test_states_that_were_chosen_can_be_given_back_where_bodies_have_euler_parameters(kind):
     model = rods.hanging(kind)

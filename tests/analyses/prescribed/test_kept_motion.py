@@ -81,6 +81,7 @@ def pump(r, length, m):
     return np.array([x, SPEED * by_angle(x), rod, torque])
 
 
+@pytest.mark.slow
 def test_slopes_of_places_speeds_and_torque_are_those_of_a_closed_form():
     at = kept(PUMP, ["r", "l", "m"], ["piston.x", "piston.vx", "rod.theta", "motor.effort"])
     numbers, times = np.array([0.06, 0.35, 3.1]), (ANGLES - 0.4) / SPEED

@@ -158,6 +158,7 @@ def test_another_branch_is_chosen_by_a_start(driven):
         driven.kinematics([0.0, 1.0], start={"rocker.omega": 1.0})
 
 
+@pytest.mark.slow
 def test_massless_links_have_kinematics_and_forces_along_them():
     raw = four_bar((3.0, 1.0, 3.0, 2.5), 0.7, CRANK)
     raw["bodies"]["coupler"] |= {"mass": 0.0, "inertia": 0.0}
@@ -206,7 +207,7 @@ def test_angles_in_space_count_turns():
 # -- singular positions ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow_cases("fine", "coarse")
+@pytest.mark.slow_cases("fine", "coarse", "at the change point")
 @pytest.mark.parametrize(
     "times",
     [np.linspace(0.0, 2.0, 401), np.linspace(0.0, 2.0, 9), [0.0, (math.pi - 0.7) / (2.0 * math.pi)], [-1.0, 1.0]],
@@ -255,6 +256,7 @@ def test_a_rhombus_in_space_does_the_same(rhombus):
     assert found.non_unique_reactions == ("A", "B", "C", "D")
 
 
+@pytest.mark.slow
 def test_a_crank_that_cannot_go_round_stops_at_its_dead_centre():
     stuck = model(four_bar((1.3, 1.0, 1.0, 1.0), 0.7, CRANK))
     # there coupler and rocker lie in one line: the pins B and D are 2 m apart
@@ -309,7 +311,8 @@ def test_random_linkages_go_as_far_as_circles_meet():
                 assert abs(found.passages[-1].t - end) < 1e-9
 
 
-@pytest.mark.fast("more often than asked for", "resting long")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("start", "far", "turns", "power"),
     [(0.7, 2.4, 1.0, 4), (0.7, 2.4, 6.0, 2), (0.7, 2.4, 1.0, 60), (2.8, 0.1, 1.0, 2)],

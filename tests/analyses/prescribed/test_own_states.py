@@ -34,6 +34,7 @@ def model_of(description):
     return Model(validate(description, "test"))
 
 
+@pytest.mark.slow
 def test_a_prescribed_motion_integrates_the_state():
     """The effort is I theta'' - c, with theta'' = 2 and c = 2 exp(-t), before the start as well."""
     model, t = model_of(disc(joints=DRIVEN, outputs={"o": "c + 1"})), np.array([-0.5, 0.0, 0.5, 1.0])
@@ -69,6 +70,7 @@ def test_a_record_without_the_state_is_refused(tmp_path):
         model_of(disc(forces=MOTOR)).inverse(file, actuators=["motor"])
 
 
+@pytest.mark.slow
 def test_a_state_without_an_end_ends_in_a_sentence():
     """c' = c^2 from 2 has a pole at 0.5 s."""
     raw = disc(joints=DRIVEN, states={"c": {"rate": "c**2", "start": 2.0}})
@@ -95,7 +97,8 @@ RATES = (
 )
 
 
-@pytest.mark.fast("1", "6")
+@pytest.mark.by_turns(3)
+@pytest.mark.fast("1")
 @pytest.mark.parametrize("seed", range(8))
 def test_random_states_along_driven_chains(seed):
     """States by SciPy along the motion in closed form; efforts are those of a run, which integrates everything."""
@@ -134,7 +137,8 @@ def test_random_states_along_driven_chains(seed):
         np.testing.assert_allclose(needed[name], moved.efforts[name], atol=1e-6)
 
 
-@pytest.mark.fast("1", "6")
+@pytest.mark.by_turns(3)
+@pytest.mark.fast("1")
 @pytest.mark.parametrize("seed", range(8))
 def test_random_states_in_recorded_motions(seed):
     """A motor's torque is a formula of time in the run; the motion needs just that."""

@@ -64,7 +64,7 @@ def test_a_damper_beside_a_stiff_spring():
         model.modes(count=1)
 
 
-@pytest.mark.slow_cases("0.3-{'shape': 'looped'}")
+@pytest.mark.slow_cases("0.3-{'shape': 'looped'}", "0.7-{'shape': 'looped'}")
 @pytest.mark.parametrize("way", WAYS, ids=str)
 @pytest.mark.parametrize("angle", [0.3, 0.7, 2.0, -0.4])
 def test_a_balanced_lamp_stays_wherever_it_is_put(angle, way):

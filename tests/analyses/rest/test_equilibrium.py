@@ -28,6 +28,7 @@ STARTS = {
 }
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
     "absolute-revolute",
     "absolute-slot and rail",
@@ -35,7 +36,6 @@ STARTS = {
     "absolute-ball",
     "absolute-distances in space",
     "joint-massless",
-    "joint-revolute in space",
 )
 @pytest.mark.parametrize("kind", rods.KINDS)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
@@ -73,6 +73,7 @@ def test_both_equilibria_of_a_four_bar(doubled, coordinates):
         assert found.not_unique == (("D", "D2", "link") if doubled else ())
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("start", STARTS)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
@@ -84,6 +85,7 @@ def test_links_hang_as_a_catenary(start, coordinates):
     assert found.iterations <= 30 and found.stability == "stable"
 
 
+@pytest.mark.slow
 def test_the_catenary_has_the_least_energy():
     """The same with angles alone, by SciPy: heights of the middles under two conditions."""
 
@@ -100,6 +102,7 @@ def test_the_catenary_has_the_least_energy():
     assert_allclose([found.q[f"l{i}.theta"] for i in range(10)], least, atol=1e-6)  # what SLSQP reaches
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize("unit", [1.0, 1e-3])

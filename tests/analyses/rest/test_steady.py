@@ -24,7 +24,8 @@ EIGENVALUES = {
 WEAVE, CAPSIZE = 4.29238253634111, 6.02426201538837
 
 
-@pytest.mark.slow_cases("0.0", "1.0")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases("0.0", "1.0", "5.0")
 @pytest.mark.parametrize("v", [0.0, 1.0, 5.0, 10.0])
 def test_a_bicycle_rides(v):
     found = symgen.load("bicycle").linearise(at="start", states=["lean", "steer"], parameters={"speed": v})
@@ -76,6 +77,7 @@ def disc(spin, radius=0.3):
     return rods.model({"disc": body}, {"contact": contact}, "spatial", outputs=outputs)
 
 
+@pytest.mark.slow
 def test_a_disc_stands_upright_above_the_critical_spin():
     """lean'' = 4/5 g/r lean + 6/5 Omega u, u' = -2 Omega lean'."""
     critical = 3.301514803844
@@ -215,6 +217,7 @@ def beside_a_wheel(spin):
     return rods.model({"wheel": wheel, "bob": bob}, joints, "spatial")
 
 
+@pytest.mark.slow_cases("spin0")
 @pytest.mark.parametrize("spin", [[20.0, 0.0, 0.0], [0.0, 0.3, 0.2]])
 def test_a_spin_is_not_lost_beside_a_wheel_that_turns_on(spin):
     assert_allclose(beside_a_wheel([0.0, 0.0, 0.0]).steady().q["bob.z"], -0.5, rtol=1e-12)
@@ -242,6 +245,7 @@ def carousel(driven, speed=5.0):
     return rods.model(bodies, joints, gravity=[0.0, 0.0], forces={"spring": spring})
 
 
+@pytest.mark.slow_cases("False")
 @pytest.mark.parametrize("driven", [False, True])
 def test_what_a_turning_body_carries_turns_along_in_the_plane(driven):
     """Angles in the plane are absolute: no coordinate turns on by itself, so that the disc was taken to be at rest."""
@@ -285,6 +289,7 @@ def test_a_wheel_by_itself_is_steady():
     assert_allclose(found.A, [[0.0]], atol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("driven", [None, "second"])
 def test_wheels_in_mesh_turn_on_together(driven):
     """A bob on a spring along a spoke of the second wheel; the way along which nothing changes is that of both."""

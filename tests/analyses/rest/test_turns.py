@@ -34,7 +34,8 @@ def hinged():
     )
 
 
-@pytest.mark.fast("0.4-looped")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize("turned", [0.4, 5.0, -7.5])
 def test_what_a_wound_spring_exerts(shape, turned):
@@ -66,7 +67,7 @@ def wound(torque=10.0, gravity=0.0):
     )
 
 
-@pytest.mark.slow_cases("0.0-absolute", "0.2-absolute")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("gravity", [0.0, 0.2])
 def test_an_equilibrium_more_than_half_a_turn_away(coordinates, gravity):
@@ -87,6 +88,7 @@ def test_an_equilibrium_more_than_half_a_turn_away(coordinates, gravity):
     assert_allclose(again.q["pin.angle"], angle, rtol=1e-12)
 
 
+@pytest.mark.slow_cases("absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_scan_goes_round(coordinates):
     """Beyond half a turn a hinge in space was said to have no such angles, and what rests there was left out."""

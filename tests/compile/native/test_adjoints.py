@@ -17,6 +17,7 @@ def compiled(name, coordinates, method="lagrange"):
     return prepare(load(name).mechanism, settings)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("four-bar-absolute", "four-bar-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("name", ["four-bar", "andrews", "spatial-slider-crank", "flying-spaghetti"])

@@ -132,6 +132,7 @@ def starts_of(name, tmp_path, monkeypatch, compare):
     model.assemble(compiled)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["four-bar", "pendulum", "driven-four-bar", "spatial-slider-crank"])
 def test_bits_are_those_of_plain_python(name, tmp_path, monkeypatch):
@@ -146,6 +147,7 @@ def test_bits_are_those_of_plain_python(name, tmp_path, monkeypatch):
 SIZES = {"four-bar": 14_000, "bricard": 90_000}
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SIZES)
 def test_code_is_small(name, tmp_path, monkeypatch):

@@ -15,7 +15,7 @@ from .twofold import apart
 #: Methods of every kind of law and correction, each with a model that needs them.
 KINDS = ("lagrange", "augmented-lagrangian", "null-space", "coordinate-partitioning", "ggl", "direct-correction")
 #: Models with all kinds of elements, and every other method in some turn, as most of their functions are those of
-#: another method. Numba compiles all of them: half of the cases run in a turn.
+#: another method. Numba compiles all of them: one case runs in a turn.
 CASES = (
     ("pendulum", KINDS[1:5]),
     ("everything", KINDS[:1]),
@@ -26,6 +26,6 @@ CASES = (
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("model", "methods"), [pytest.param(*case, id=case[0]) for case in of_turn(CASES, 2)])
+@pytest.mark.parametrize(("model", "methods"), [pytest.param(*case, id=case[0]) for case in of_turn(CASES, 5)])
 def test_functions_are_numbas(model, methods):
     assert apart(model, *methods) == ""

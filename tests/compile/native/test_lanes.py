@@ -35,6 +35,7 @@ def arguments(function) -> list[str]:
     return list(code.co_varnames[: code.co_argcount])
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("stem", LAWS)
 def test_functions_over_lanes_do_what_python_does(stem, emitted):
@@ -99,6 +100,7 @@ def test_loops_over_lanes_become_vectors(emitted):
     assert not re.search(r'call i32 @"?(sine|cosine|turned)', text)
 
 
+@pytest.mark.slow
 def test_functions_over_lanes_have_the_widest_registers(emitted):
     f = load_module(emitted / "lagrange_lanes.py").rhs.read((NUMBER, ARRAY))
     with for_avx512() as target:

@@ -31,6 +31,7 @@ SCHEMES = {
 LOOPS = [(scheme, name) for scheme, names in SCHEMES.items() for name in names]
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
     "False-explicit-constant",
     "False-picard-constant",
@@ -50,6 +51,7 @@ def test_every_loop_is_in_the_language(scheme, name, events):
     read(loop_with_seams(loop))
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
     "explicit-constant-False-False",
     "explicit-adaptive-True-False",
@@ -141,6 +143,7 @@ def compared(shape, *words):
             np.testing.assert_allclose(numbers, other["states"][name], rtol=0, atol=1e-9 * size, err_msg=name)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("loop", of_turn(CASES, 4), ids="-".join)
 def test_runs_are_numbas(loop):

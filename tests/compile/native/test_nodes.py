@@ -64,6 +64,7 @@ def test_random_programs(tmp_path_factory, program):
     assert result & SUSPICIOUS == max(results)
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast("four-bar-lagrange", "slider-crank-penalty", "slider-crank-udwadia-kalaba")
 @pytest.mark.parametrize("method", ["lagrange", "baumgarte", "penalty", "udwadia-kalaba"])
 @pytest.mark.parametrize("name", ["four-bar", "slider-crank", "spatial-slider-crank", "cam-follower", "engine"])

@@ -22,6 +22,7 @@ def library(tmp_path_factory):
     return printed.Library(functions, tmp_path_factory.mktemp("printed"))
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(("m", "n", "rank"), [(8, 9, 8), (8, 9, 5), (9, 4, 2), (1, 6, 1), (30, 30, 29)])
 def test_shortest_solutions(library, m, n, rank):
@@ -50,13 +51,20 @@ def closes_alike(library, case, monkeypatch):
     return printed_starts.starts(case, monkeypatch, compare)
 
 
-@pytest.mark.slow_cases("('four-bar', {}, {})", "((1, 'spatial', True, False), {}, {})", "('four-bar', {2: 0.3}, {})")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases(
+    "('four-bar', {}, {})",
+    "((1, 'spatial', True, False), {}, {})",
+    "('four-bar', {2: 0.3}, {})",
+    "('wiper', {}, {'A.angle': -0.8, 'A.rate': 0.5})",
+)
 @pytest.mark.parametrize("case", FEW, ids=str)
 def test_starts(library, case, monkeypatch):
     summary = closes_alike(library, case, monkeypatch)
     assert (summary[e.REDUNDANT_ROWS] > 0) == (isinstance(case[0], tuple) and case[0][2])
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow  # C compiled once, machine code of each mechanism
 @pytest.mark.parametrize("case", MANY, ids=str)
 def test_more_starts(library, case, monkeypatch):

@@ -119,6 +119,7 @@ CASES = {
 }
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow  # Numba compiles all of looped code once more, another case in another turn
 @pytest.mark.parametrize("case", of_turn(CASES, 3))
 def test_runs_of_looped_code_are_numbas(case):

@@ -48,6 +48,7 @@ def emitted(compiled) -> list[EmittedFunction]:
     return list({id(f): f for f in found if isinstance(f, EmittedFunction) and f.__name__ != "side"}.values())
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "method"),

@@ -170,6 +170,7 @@ assert entries.get(folder, "model") == {"made": True}
 """
 
 
+@pytest.mark.slow
 def test_the_second_of_two_processes_waits_and_finds_the_entry(entries, tmp_path):
     log = tmp_path / "log"
     processes = [start(BUILDER, FOLDER, log) for _ in range(3)]
@@ -192,6 +193,7 @@ for i in range(60):
 """
 
 
+@pytest.mark.slow
 def test_clearing_while_another_process_generates(entries):
     process = start(GENERATOR, FOLDER)
     assert process.stdout is not None

@@ -78,7 +78,7 @@ def change(path):
 
 
 @pytest.mark.by_turns(3)
-@pytest.mark.fast("templates")
+@pytest.mark.slow
 @pytest.mark.parametrize("place", [*PLACES, "templates"])
 def test_one_character_in_any_room_makes_other_results(place, package, unchanged):
     path = package / place if (package / place).exists() else package.parent / place
@@ -177,6 +177,7 @@ def test_a_compiled_function_depends_on_constants_of_other_rooms():
     assert {"base/ir/program.py", "run/layout/abi.py", "run/effects/stepping.py"} <= reached
 
 
+@pytest.mark.slow
 def test_a_function_of_somebody_else_depends_on_what_its_file_imports(tmp_path, package):
     """As a function of a plugin does on a room that no loop imports."""
     (tmp_path / "own.py").write_text("from symgen.study.report import document\n\ndef own(x):\n    return x\n")
@@ -212,6 +213,7 @@ def test_the_package_is_read_once_for_all_processes(settled, tmp_path, monkeypat
     assert identities() == before
 
 
+@pytest.mark.slow
 def test_a_change_that_keeps_size_and_time_is_seen(settled, tmp_path):
     file = settled / "run" / "effects" / "stepping.py"
     before, status = identities(), file.stat()
@@ -222,6 +224,7 @@ def test_a_change_that_keeps_size_and_time_is_seen(settled, tmp_path):
     assert after["rows"] != before["rows"] and len(tables(tmp_path)) == 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("damage", [b"", b"nonsense", None], ids=["empty", "other content", "one bit"])
 def test_a_spoilt_table_is_read_anew(damage, settled, tmp_path):
     before = identities()

@@ -20,7 +20,8 @@ def choices():
         yield choose_method(name, None, not forms & EXPLICIT_FORMS)
 
 
-@pytest.mark.fast("slider-crank-cuda", "spherical-double-pendulum-cuda")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize("target", ["cpu", "cuda"])
 @pytest.mark.parametrize("name", ["slider-crank", "spherical-double-pendulum"])
 def test_a_method_has_the_code_that_it_has_alone(name, target):

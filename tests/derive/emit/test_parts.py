@@ -22,7 +22,8 @@ def emitted(methods, shape="straight", target="cpu"):
     return dict(generate(load("four-bar").mechanism, choices, shape, target).modules)
 
 
-@pytest.mark.fast("looped-cpu")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize(("shape", "target"), [("straight", "cpu"), ("straight", "cuda"), ("looped", "cpu")])
 def test_a_module_does_not_depend_on_what_else_is_asked_for(shape, target):
     methods = METHODS if shape == "straight" else LOOPED

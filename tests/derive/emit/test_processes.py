@@ -37,9 +37,9 @@ for name in sys.argv[1:]:
 """
 
 
-#: All methods for the first; a quarter of the others in a turn.
+#: All methods for the first; an eighth of the others in a turn.
 FIRST = "four-bar"
-CHOSEN = (FIRST, *of_turn((name for name in names() if name != FIRST), 4))
+CHOSEN = (FIRST, *of_turn((name for name in names() if name != FIRST), 8))
 
 
 def start(cwd=None, **variables):

@@ -51,6 +51,7 @@ def is_condition(node: ast.expr) -> bool:
     return any(isinstance(n, ast.Compare) for n in ast.walk(node))
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("pendulum", "rough")
 @pytest.mark.parametrize("model", MODELS)
 def test_no_operation_with_a_literal_that_changes_nothing(model):
@@ -71,7 +72,8 @@ def test_no_operation_with_a_literal_that_changes_nothing(model):
                 assert not (isinstance(node.left, ast.Constant) and isinstance(node.right, ast.Constant)), where
 
 
-@pytest.mark.slow_cases("everything", "four-bar", "n-four-bar:2")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases("everything", "four-bar", "n-four-bar:2", "driven-four-bar")
 @pytest.mark.parametrize("model", MODELS)
 def test_every_name_is_used_and_every_line_is_needed(model):
     for stem, tree in trees(model):
@@ -143,6 +145,7 @@ def test_printed_operations_are_those_counted():
             assert printed <= counted and 0.98 * counted <= printed + signs, f"{stem}.{function.name}"
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases("everything", "four-bar", "n-four-bar:2")
 @pytest.mark.parametrize("model", MODELS)
 def test_the_header_says_what_it_must(model):

@@ -82,8 +82,8 @@ def executed(sources: Mapping[str, str], folder: Path) -> None:
     assert not hasattr(builtins, "planted")
 
 
-@pytest.mark.by_turns(3)
-@pytest.mark.fast("tables", "states", "stops", "outputs")
+@pytest.mark.by_turns(6)
+@pytest.mark.fast("tables", "states", "outputs")
 @pytest.mark.parametrize("section", SECTIONS)
 def test_text_in_any_field_of_a_file_is_refused_or_harmless(section, tmp_path):
     """Every field that may hold text, by the schema, each with every way out of a docstring that is not refused."""
@@ -128,6 +128,7 @@ def unchecked(value: Any, texts: Iterator[str]) -> Any:
     return tuple(unchecked(item, texts) for item in value) if isinstance(value, tuple) else value
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("space", ["planar", pytest.param("spatial", marks=pytest.mark.slow)])
 def test_emission_is_safe_by_itself(space, tmp_path):

@@ -26,6 +26,7 @@ def pushed(force: str) -> Model:
     )
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("1 if a > 0.5 and b > 1 and t > 0.5 and not (b > 3) else 0")
 @pytest.mark.parametrize("force", FORCES)
 def test_single_runs(force):

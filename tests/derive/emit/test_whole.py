@@ -60,7 +60,7 @@ def modules_of(stem, modules):
 
 
 @pytest.mark.by_turns(3)
-@pytest.mark.fast("slider-crank", "four-bar joint")
+@pytest.mark.slow
 @pytest.mark.parametrize("model", MODELS)
 def test_functions_of_straight_code_are_those_that_run(model):
     for stem, source in emitted(model).items():

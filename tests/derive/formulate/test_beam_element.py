@@ -144,6 +144,7 @@ def pose(space: str, seed: int):
     return q, rng.standard_normal(12)
 
 
+@pytest.mark.slow_cases("planar-keys0-element_in_plane-0")
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize(
     ("space", "keys", "element"), [("planar", PLANAR, element_in_plane), ("spatial", SPATIAL, element_in_space)]

@@ -24,7 +24,8 @@ APART = ("bushing", "beam")
 KINDS = tuple(name for name, kind in FORCES.items() if "planar" in kind.SPACES and name not in APART)
 
 
-@pytest.mark.slow_cases("spring-damper")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @RANDOM
 @given(data=st.data())

@@ -83,7 +83,19 @@ def check_emitted(raw, t, q, v, compiled=False):
         close(found.coordinates[2 * k : 2 * k + 2], pair, name)
 
 
-@pytest.mark.slow_cases("coupling", "distance", "pin-in-slot")
+@pytest.mark.by_turns(4)
+@pytest.mark.slow_cases(
+    "coupling",
+    "distance",
+    "pin-in-slot",
+    "driver",
+    "knife-edge",
+    "orientation",
+    "place",
+    "rolling",
+    "rows",
+    "translational",
+)
 @pytest.mark.parametrize("kind", KINDS)
 @RANDOM
 @given(data=st.data())

@@ -90,6 +90,7 @@ ARMS = {
 }
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("where", ARMS)
@@ -102,6 +103,7 @@ def test_a_rotor_is_a_body_with_a_gear(where, coordinates):
     assert result.energy_drift_max < 1e-9
 
 
+@pytest.mark.slow
 def test_operations_of_a_rotor():
     counts = {}
     for where, (arm, _) in ARMS.items():
@@ -115,6 +117,7 @@ def test_operations_of_a_rotor():
     assert counts["space", "joint"][1] - counts["space", "joint"][0] <= 4
 
 
+@pytest.mark.slow
 def test_a_rotor_on_a_driven_joint():
     """A driver takes what the rotor asks for: J n^2 a beside the inertia of the wheel."""
     raw = {
@@ -165,7 +168,7 @@ def test_a_coupling_is_a_gear():
     np.testing.assert_allclose(end_of(coupling, "a.theta", "b.theta", "a.omega"), gear, rtol=0.0, atol=1e-13)
 
 
-@pytest.mark.slow_cases("{'integrator': 'radau5'}")
+@pytest.mark.slow_cases("{'integrator': 'radau5'}", "{'shape': 'looped'}")
 @pytest.mark.parametrize(
     "settings", [{}, {"coordinates": "joint"}, {"shape": "looped"}, {"integrator": "radau5"}], ids=str
 )
@@ -234,6 +237,7 @@ SAME = {
 }
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SAME)
 def test_joints_are_put_together_of_primitives(name):
@@ -290,6 +294,7 @@ def test_a_bushing_in_the_plane_is_three_springs_and_dampers():
     assert result.elements["held.Mz"][0] == pytest.approx(-3.0 * 0.3 - 0.2, rel=1e-12)
 
 
+@pytest.mark.slow_cases("spatial")
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_a_bushing_along_fixed_axes_is_two_forces(space):
     """Axes of the ground, whatever the first body does: a force and its opposite say it with formulas."""
@@ -390,6 +395,7 @@ def test_a_spring_of_free_length_0_has_a_stiffness_at_length_0():
     np.testing.assert_allclose(model(raw).modes(at="start").omega_squared, [9.0, 9.0], rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_start_by_the_place_of_a_point():
     raw = planar_arm("")
     raw["bodies"]["two"]["points"] = {"tip": [0.4, 0.0]}
@@ -467,6 +473,7 @@ def test_bad_rotors(keys, words):
         validate(raw, "file")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_rotor_on_a_slide_is_mass_along_it(coordinates):
     """A spindle turns n rad for 1 m: F = (m + J n^2) a, whether F is applied or a driver's."""

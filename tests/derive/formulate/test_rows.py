@@ -185,8 +185,11 @@ def rod_by_lagrange():
     return lagrangian, (x, y, a), guide
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases(
-    "{'integrator': 'dop853', 'rtol': 1e-12, 'coordinates': 'joint'}", "{'integrator': 'dop853', 'rtol': 1e-12}"
+    "{'integrator': 'dop853', 'rtol': 1e-12, 'coordinates': 'joint'}",
+    "{'integrator': 'dop853', 'rtol': 1e-12}",
+    "{'integrator': 'radau5', 'rtol': 1e-12, 'method': 'lagrange'}",
 )
 @pytest.mark.parametrize("settings", PARABOLA_RUNS, ids=str)
 def test_a_tip_on_a_moving_parabola(settings, rod_by_lagrange):
@@ -357,7 +360,7 @@ def swinging(row, space):
     return builder.joint("tie", "rows", rows=[row]).build()
 
 
-@pytest.mark.slow_cases("row2-spatial", "row3-spatial")
+@pytest.mark.slow_cases("row2-spatial", "row3-spatial", "row0-planar")
 @pytest.mark.parametrize(
     ("row", "space"),
     [

@@ -18,7 +18,8 @@ from symgen.describe.forces import FORCES
 KINDS = tuple(name for name, kind in FORCES.items() if "spatial" in kind.SPACES and name != "beam")
 
 
-@pytest.mark.slow_cases("bushing", "spring-damper", "force")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases("bushing", "spring-damper", "force", "torsional-spring-damper")
 @pytest.mark.parametrize("kind", KINDS)
 @RANDOM
 @given(data=st.data())

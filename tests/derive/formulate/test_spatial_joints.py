@@ -66,7 +66,21 @@ def check_balance(space, q, row, name):
     close([*force, *moment], np.zeros(6), f"action and reaction, {name}", 2e-11 * max(1.0, np.abs(row).max()))
 
 
-@pytest.mark.slow_cases("coupling", "gear", "perpendicular", "rack-and-pinion", "spherical")
+@pytest.mark.by_turns(4)
+@pytest.mark.slow_cases(
+    "coupling",
+    "gear",
+    "perpendicular",
+    "rack-and-pinion",
+    "spherical",
+    "constant-velocity",
+    "cylindrical",
+    "distance",
+    "driver",
+    "rolling-disc",
+    "rolling-sphere",
+    "rows",
+)
 @pytest.mark.parametrize("kind", KINDS)
 @RANDOM
 @given(data=st.data())

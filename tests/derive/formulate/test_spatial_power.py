@@ -43,7 +43,7 @@ def balance(case, seed):
     return found, space, t, q, v, d[order], nu[order]
 
 
-@pytest.mark.slow_cases("constant-velocity-rolling-disc", "gear")
+@pytest.mark.slow_cases("constant-velocity-rolling-disc", "gear", "planar-revolute-spherical")
 @pytest.mark.parametrize("case", range(len(SCLERONOMIC)), ids=["-".join(c) for c in SCLERONOMIC])
 def test_scleronomic_joints_do_no_work(case):
     found, space, t, q, v, d, nu = balance(SCLERONOMIC[case], case)

@@ -140,6 +140,7 @@ ENTRIES = (
 )
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
     "absolute-engine",
     "absolute-slider-crank",

@@ -18,6 +18,7 @@ SPATIAL_WORDS = re.compile(
 )
 
 
+@pytest.mark.slow_cases("everything")
 @pytest.mark.parametrize("description", [EVERYTHING, raw("four-bar")], ids=["everything", "four-bar"])
 def test_no_word_of_space(description):
     choices = tuple(choose_method(m, None) for m in ("lagrange", "baumgarte", "direct-correction"))

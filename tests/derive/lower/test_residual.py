@@ -48,7 +48,8 @@ def compare(found):
     assert of_rows == pytest.approx(by_rows, rel=1e-10, abs=1e-12 * np.abs(by_rows).max())
 
 
-@pytest.mark.fast("four-bar-absolute-baumgarte", "four-bar-joint-lagrange")
+@pytest.mark.by_turns(3)
+@pytest.mark.fast("four-bar-joint-lagrange")
 @pytest.mark.parametrize(
     ("name", "coordinates", "method"),
     [
@@ -76,6 +77,7 @@ def test_both_ways_have_the_same_derivatives(name, coordinates, method):
     assert inner == pytest.approx(ends @ found[0][1], rel=1e-10)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("slider-crank-absolute-0")
 @pytest.mark.parametrize(
     ("name", "coordinates", "left_out"),

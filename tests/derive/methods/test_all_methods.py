@@ -56,6 +56,7 @@ def test_methods_agree_on_the_four_bar():
     check_agreement("four-bar", SOME)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_all_methods_agree(name):
@@ -80,6 +81,7 @@ def test_the_error_of_penalty_falls_with_the_penalty():
     assert errors[1] / errors[2] == pytest.approx(10.0, rel=0.3)
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow_cases(
     "lagrange-trapezoidal",
     "index3-augmented-lagrangian-trapezoidal",
@@ -101,6 +103,8 @@ def test_the_error_of_penalty_falls_with_the_penalty():
     "lagrange-abm",
     "coordinate-partitioning-dop853",
     "lagrange-radau5",
+    "augmented-lagrangian-rk4",
+    "dependent-correction-rk4",
 )
 @pytest.mark.parametrize(
     ("method", "integrator"),
@@ -135,7 +139,7 @@ def test_order(method, integrator):
 def test_order_of_every_pair():
     from benchmarks.pairs import allowed_pairs
 
-    found = [all_orders.observe(m, i) for m, i in of_turn(allowed_pairs(), 3)]
+    found = [all_orders.observe(m, i) for m, i in of_turn(allowed_pairs(), 9)]
     missed = {(p.method, p.integrator): p.slope for p in found if not p.is_right}
     assert set(missed) <= set(all_orders.UNSEEN), missed
 
@@ -161,6 +165,7 @@ def test_constraints_hold_to_rounding_over_100_seconds(name, method):
     check_violations(name, method, 100.0, 1e-3)
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", EXACT)
 @pytest.mark.parametrize(

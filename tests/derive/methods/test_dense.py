@@ -34,7 +34,8 @@ def test_redundant_rows():
     np.testing.assert_allclose(np.asarray(result.q), robustness.parallel_motion(times), rtol=0.0, atol=1e-9)
 
 
-@pytest.mark.slow_cases("1.0", "1e-09")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", [1.0, 1e-9, 1e-15])
 def test_light_bodies_do_no_harm(factor):
     times = np.linspace(0.0, 1.0, 6)

@@ -87,6 +87,7 @@ def gain(raw, until):
     return errors[1] / errors[0]
 
 
+@pytest.mark.slow
 def test_energy_fixes_the_motion_of_one_degree_of_freedom_only():
     """The four-bar, and the same with its last pin open."""
     raw = described("four-bar")

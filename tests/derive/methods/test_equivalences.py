@@ -134,7 +134,7 @@ def test_one_law_under_many_names(name, options):
                 close(acceleration, form(e.mass, e.d, e.f, e.gamma), form.__name__, tolerance)
 
 
-@pytest.mark.slow_cases("(('solver', 'dense'),)")
+@pytest.mark.slow
 @pytest.mark.parametrize("options", SOLVERS[1:], ids=str)
 def test_forms_for_singular_mass_matrices_are_oracles_for_the_solvers_that_need_no_inverse(options):
     one = law("massless", "lagrange", *options)
@@ -148,6 +148,7 @@ def test_forms_for_singular_mass_matrices_are_oracles_for_the_solvers_that_need_
         assert np.linalg.matrix_rank(e.mass + p @ e.mass - e.mass @ p) < 9
 
 
+@pytest.mark.slow
 def test_what_inconsistent_rows_get():
     """Aghili's form and the pseudoinverse spread what cannot be had over the rows; a row that is dropped has it all."""
     q, v = next(states("redundant", 1))

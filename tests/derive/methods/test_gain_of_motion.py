@@ -54,6 +54,7 @@ def test_what_stands_keeps_its_gains():
     assert plan.method_parameters == {} and plan.notes == ("rule=motion: nothing moves, so that the gains stay",)
 
 
+@pytest.mark.slow
 def test_violations_are_near_the_least_that_gains_give():
     """The gain of least violation does not depend on the step, and is near the rate: 4.6 1/s on this mechanism."""
     model = symgen.load("four-bar")

@@ -14,6 +14,7 @@ A = ((1 / 3,), (-1.0, 2.0), (0.0, 3 / 4, 1 / 4))
 C = (0.0, 1 / 3, 1.0, 1.0)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["four-bar", "driven-four-bar", "slider-crank"])
 def test_a_step_is_the_textbooks(name):
@@ -34,7 +35,7 @@ def test_a_step_is_the_textbooks(name):
     np.testing.assert_allclose(v1, v, rtol=0.0, atol=1e-11)
 
 
-@pytest.mark.slow_cases("spatial-slider-crank-0.5-keys2", "spatial-slider-crank-0.5-keys3")
+@pytest.mark.slow_cases("spatial-slider-crank-0.5-keys2", "spatial-slider-crank-0.5-keys3", "four-bar-2.0-keys5")
 @pytest.mark.parametrize(("name", "until", "keys"), MOTIONS)
 def test_order_three_with_velocities_to_rounding(name, until, keys):
     results, errors = compared(load(name), until, method="half-explicit", max_violation=1e-4, **keys)
@@ -51,6 +52,7 @@ def test_gamma_enters_nothing_that_moves():
     assert ("nu",) in names and ("gamma",) not in names
 
 
+@pytest.mark.slow
 def test_redundant_rows_are_left_out():
     result, error = redundant("half-explicit")
     assert error < 1e-6

@@ -42,7 +42,8 @@ def test_redundant_constraints_by_every_method():
     check_redundant(tuple(m for m in METHODS.names if m not in (*FEW, *COARSE)))
 
 
-@pytest.mark.slow_cases("penalty-sdirk-1e-06", "generalized-alpha-generalized-alpha-1e-05")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases("penalty-sdirk-1e-06", "generalized-alpha-generalized-alpha-1e-05", "lagrange-radau5-1e-11")
 @pytest.mark.parametrize(
     ("method", "integrator", "tolerance"),
     [
@@ -61,6 +62,7 @@ def test_redundant_constraints_with_implicit_integrators(method, integrator, tol
     np.testing.assert_allclose(np.asarray(result.q), robustness.parallel_motion(times), rtol=0.0, atol=tolerance)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "integrator", "step", "tolerance"),
@@ -87,7 +89,7 @@ def check_light(factor, methods):
             assert row.reason
 
 
-@pytest.mark.fast("1e-06")
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", [1e-6, 1e-12])
 def test_light_bodies(factor):
     rows = robustness.light(factor, ("lagrange", "direct-correction", "coordinate-partitioning"))
@@ -95,6 +97,7 @@ def test_light_bodies(factor):
     check_light(factor, ("augmented-lagrangian",))
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("factor", [1e-3, 1e-6, 1e-9, 1e-12])
 def test_light_bodies_by_every_method(factor):
@@ -121,13 +124,14 @@ def test_singular_positions(method):
         assert set(found.statuses) == {"ok"} and np.median(found.errors) < 1e-6
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(("method", "windows"), [(method, 1 + i % 2) for i, method in enumerate(METHODS.names)])
 def test_singular_positions_by_every_method(method, windows):
     check_passages(method, windows, np.linspace(0.95e-3, 1.05e-3, 4), 10.0)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(("step", "tolerance"), [(1e-3, 1e-6), (5e-3, 1e-5), (2e-2, 1e-3)])
 def test_partitions_are_released_near_singular_positions(step, tolerance):
@@ -202,6 +206,7 @@ def test_where_nothing_has_a_mass_there_is_kinematics_but_no_run():
     np.testing.assert_allclose(found.efforts["motor"], -2.0 - np.sin(times), rtol=0.0, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_light_coupler_costs_no_accuracy_against_a_massless_one():
     """The limit of small masses is the massless coupler's motion."""
     model = load("four-bar")
@@ -253,7 +258,7 @@ def test_a_light_body_swings_as_a_heavy_one_with_implicit_integrators(integrator
         np.testing.assert_allclose(angles, angles[0], rtol=1e-13)
 
 
-@pytest.mark.slow_cases("joint")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_small_slider_crank_moves_alike_with_explicit_and_implicit_integrators(coordinates):
     """Links of 1 um and 1e-15 kg; in coordinates of joints the loop alone has rows."""

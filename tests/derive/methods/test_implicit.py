@@ -97,9 +97,8 @@ class Stage:
         return by[:, :n], by[:, n:]
 
 
-@pytest.mark.fast(
-    "compliant-constraints", "ggl", "generalized-alpha", "index3-augmented-lagrangian", "rattle", "discrete-gradient"
-)
+@pytest.mark.by_turns(3)
+@pytest.mark.fast("ggl", "generalized-alpha", "index3-augmented-lagrangian", "rattle", "discrete-gradient")
 @pytest.mark.parametrize("method", LEVELS)
 def test_tangent_is_the_derivative_of_the_residual(method):
     stage = Stage(method)
@@ -158,6 +157,7 @@ def test_generalized_alpha_without_damping_is_refused(rho):
         make_plan(load("four-bar").mechanism, settings)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "integrator", "tolerance"),
@@ -175,6 +175,7 @@ def test_steps_far_above_the_explicit_limit_of_a_stiff_case(method, integrator, 
     assert found.status == "ok" and found.error <= tolerance, found
 
 
+@pytest.mark.slow
 def test_the_reference_of_the_stiff_case_has_two_routes():
     assert stiff.reference()[1] <= 1e-11
 
@@ -203,6 +204,7 @@ def test_the_work_takes_part_in_the_error_estimate(rtol):
     assert result.energy_drift_max <= 10.0 * rtol * result.outcome.energy_scale
 
 
+@pytest.mark.slow
 def test_velocities_of_generalized_alpha_are_an_error_of_order_two_and_judged_as_one():
     model, keys = load("four-bar"), {"method": "generalized-alpha", "until": 3.0}
     runs = [model.simulate(step=step, **keys) for step in (2e-3, 1e-3, 5e-4)]
@@ -231,6 +233,7 @@ def test_other_methods_have_no_such_licence():
     ).spec.velocity_limit == pytest.approx(1e-3)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_scipy_agrees_on_the_stiff_case():
     """Radau of SciPy on independently derived equations, its Jacobian by differences: nothing is shared."""

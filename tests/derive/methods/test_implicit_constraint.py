@@ -8,6 +8,7 @@ from support.textbook import Textbook, first_step
 from symgen.api import load
 
 
+@pytest.mark.slow_cases("four-bar-1.0")
 @pytest.mark.parametrize("erp", [1.0, 0.3])
 @pytest.mark.parametrize("name", ["four-bar", "driven-four-bar", "slider-crank"])
 def test_a_step_is_one_newton_step_of_shake(name, erp):

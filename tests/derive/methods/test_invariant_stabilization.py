@@ -58,6 +58,7 @@ def test_loops_refuse_it_in_a_sentence(cli):
     assert code == 2 and "which needs rates of positions at other velocities" in said
 
 
+@pytest.mark.slow
 def test_in_space_and_in_joint_coordinates():
     times = np.linspace(0.0, 0.5, 6)
     for name, coordinates in (("heavy-top", "absolute"), ("four-bar", "joint")):

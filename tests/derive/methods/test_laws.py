@@ -68,6 +68,7 @@ def check(emitted, plain, t, q, v, method, tolerance):
     close(found.power, expected.power - multipliers @ expected.nu, f"power, {method}", tolerance)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(("method", "options"), LAWS)
 @RANDOM

@@ -14,6 +14,7 @@ RATE = math.sqrt(9.81 * math.tan(LEAN) / (RADIUS * math.sin(LEAN) / 4 + 1.5 * CI
 KEYS = {"method": "index3-augmented-lagrangian", "max_violation": 1e-9}
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases("keys1", "keys0", "keys2")
 @pytest.mark.parametrize("keys", [{}, {"shape": "looped"}, {"coordinates": "joint"}])
 def test_steady_turn_of_a_rolling_disc(keys):

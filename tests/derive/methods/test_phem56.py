@@ -46,9 +46,8 @@ def test_conditions_of_the_coefficients():
     assert b[1] == b @ a[:, 1] == pytest.approx(0.0, abs=1e-14)
 
 
-@pytest.mark.fast(
-    "spatial-slider-crank-0.4-0.00125-keys2", "spatial-slider-crank-0.4-0.0025-keys3", "heavy-top-0.5-0.0025-keys5"
-)
+@pytest.mark.by_turns(3)
+@pytest.mark.fast("heavy-top-0.5-0.0025-keys5")
 @pytest.mark.parametrize(("name", "until", "step", "keys"), MOTIONS)
 def test_order_five_with_velocities_to_rounding(name, until, step, keys):
     (times, exact), model, errors = reference(name, until), load(name), []

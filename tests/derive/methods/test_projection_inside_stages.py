@@ -50,7 +50,7 @@ def run(name, **keys):
     return load(name).simulate(method="direct-correction", options=options, **UNWATCHED, **keys)
 
 
-@pytest.mark.slow_cases("straight")
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 def test_it_is_the_scheme_with_projected_stages(shape):
     own = plain_run("four-bar", 0.02, 10)
@@ -72,6 +72,7 @@ def test_the_scheme_keeps_its_order(name, until, step):
     assert (orders > 3.8).all() and (orders < 4.7).all(), orders
 
 
+@pytest.mark.slow
 def test_states_of_trees_are_closed_too():
     keys = {"coordinates": "joint", "until": 1.0, "integrator": "dop853", "rtol": 1e-9, "atol": 1e-11}
     inside, behind = (np.array(run("four-bar", when=when, **keys).q.values[-1]) for when in ("stage", "step"))

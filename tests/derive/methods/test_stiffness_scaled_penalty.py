@@ -22,12 +22,14 @@ def test_bars_share_a_load_like_their_stiffness(stiffness):
     np.testing.assert_allclose(equal[0], MASS * GRAVITY * np.cos(0.3) / 3.0, rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_symmetric_bars_are_strained_alike():
     own, _ = tensions((1e6, 2e6, 1e6), METHOD)
     np.testing.assert_allclose(own[:, 1], 2.0 * own[:, 0], rtol=1e-9)
     np.testing.assert_allclose(own[:, 2], own[:, 0], rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_the_motion_does_not_depend_on_the_stiffness():
     _, expected = tensions(CASES[0], "direct-correction")
     for stiffness in CASES[1:3]:

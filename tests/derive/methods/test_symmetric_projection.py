@@ -55,7 +55,8 @@ def textbook_states(name, h, steps, share):
     return np.array(states)
 
 
-@pytest.mark.fast("driven-four-bar-0.0", "slider-crank-0.0")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize("share", [1.0, 0.0])
 @pytest.mark.parametrize("name", ["four-bar", "driven-four-bar", "slider-crank"])
 def test_steps_are_those_of_the_formulas(name, share):

@@ -81,6 +81,7 @@ def test_the_error_says_where_closing_stopped() -> None:
     assert (str(again), again.joints, again.q) == (str(error), error.joints, error.q)
 
 
+@pytest.mark.slow_cases("pdf", "png")
 @pytest.mark.parametrize("ending", ["svg", "png", "pdf"])
 def test_pictures_are_the_same_bytes_each_time(ending: str, tmp_path: Path) -> None:
     files = [tmp_path / f"{i}.{ending}" for i in range(2)]
@@ -107,6 +108,7 @@ def test_at_a_time_it_is_where_the_run_is(tmp_path: Path) -> None:
     assert (tmp_path / "x.svg").read_text() == model.draw(q=result.q.values[-1]).svg
 
 
+@pytest.mark.slow
 def test_what_a_run_does_not_reach_is_not_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The last output that there was stood for the time asked for, the start where a run failed."""
     text = """

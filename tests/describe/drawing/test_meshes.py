@@ -195,6 +195,7 @@ def test_a_robot_is_drawn_with_its_meshes(
     assert {tuple(p) for p in faces.reshape(-1, 3).round(6) + 0.0} == {tuple(p) for p in wanted.round(6) + 0.0}
 
 
+@pytest.mark.slow
 def test_a_page_has_the_triangles_and_a_pickle_the_folder(tmp_path: Path) -> None:
     (tmp_path / "c.stl").write_bytes(binary(CUBE))
     path = written(tmp_path, 'type = "mesh", file = "c.stl"')

@@ -25,6 +25,7 @@ def groups(text: str) -> dict[str, ET.Element]:
     return {g.attrib["id"]: g for g in ET.fromstring(text).iter(f"{SVG}g") if "id" in g.attrib}
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases("front-suspension", "stewart-platform", "flyball-governor")
 @pytest.mark.parametrize("name", NAMES)
 def test_everything_of_the_catalogue_is_drawn(name: str) -> None:

@@ -84,6 +84,7 @@ def least_visible(drawing: Drawing) -> float:
     return least
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases("front-suspension", "stewart-platform", "bricard", "flyball-governor")
 @pytest.mark.parametrize("name", ["stewart-platform", "flyball-governor", "front-suspension", "bricard"])
 def test_no_body_is_mostly_hidden(name: str) -> None:
@@ -91,6 +92,7 @@ def test_no_body_is_mostly_hidden(name: str) -> None:
     assert least_visible(load(name).draw()) > 0.75
 
 
+@pytest.mark.slow
 def test_a_body_inside_another_one_is_drawn_after_it() -> None:
     drawing = load("flyball-governor").draw()
     order = [each.item.name for each in items_on_paper(drawing.scene, np.array(drawing.q), drawing.view)]

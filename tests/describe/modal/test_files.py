@@ -82,6 +82,7 @@ def test_max_of_one_number_stays_refused(folder):
     assert said.endswith("outputs.peak: expected two arguments or more, got max() with 1")
 
 
+@pytest.mark.slow
 def test_modes_start_at_rest_and_stay_where_a_start_puts_them(folder):
     assert load(folder).simulate(until=0.01)["arm.m1"][0] == 0.0
     own = load(folder, "start = { m1 = 0.002, vm2 = 0.1 }").simulate(until=0.01)
@@ -89,6 +90,7 @@ def test_modes_start_at_rest_and_stay_where_a_start_puts_them(folder):
     assert load(folder).simulate(until=0.01, start={"arm.m1": -0.001})["arm.m1"][0] == -0.001
 
 
+@pytest.mark.slow
 def test_a_start_that_a_joint_contradicts_is_refused(folder):
     """Both ends are pinned at their distance without deformation, and the fifth mode would change it."""
     far = float(
@@ -286,6 +288,7 @@ def test_commands_take_a_modal_body(folder):
     )
 
 
+@pytest.mark.slow
 def test_a_builder_and_a_picture_take_a_modal_body(folder, monkeypatch):
     monkeypatch.chdir(folder)
     builder = symgen.MechanismBuilder("built", gravity=[0.0, -9.81])

@@ -151,6 +151,7 @@ def test_a_reduction_is_the_same_again():
     np.testing.assert_array_equal(one.shapes, two.shapes)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_ten_thousand_nodes_take_some_memory():
     """Below 2 GB, in a process of its own, whose Python and SciPy are in it."""
@@ -165,6 +166,7 @@ def test_ten_thousand_nodes_take_some_memory():
     assert int(done.stdout) < 2e6
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_ten_thousand_nodes_take_some_seconds():
     """Below 10 s of a processor; frequencies of the free body are those that eigsh finds of all unknowns."""

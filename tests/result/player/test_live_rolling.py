@@ -48,6 +48,7 @@ def bouncing() -> symgen.MechanismBuilder:
     return builder.joint("road", "rolling-sphere", **FLAT, **contact)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("name", ["coin", "ball"])

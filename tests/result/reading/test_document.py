@@ -192,7 +192,7 @@ TURNS = [(name, "absolute" if load_mechanism(name).has_modal_bodies else kind) f
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "coordinates"), of_turn(TURNS, 3))
+@pytest.mark.parametrize(("name", "coordinates"), of_turn(TURNS, 9))
 def test_documents_of_the_catalogue_compile_without_overfull_boxes(name, coordinates, tmp_path, capsys):
     symbols = ["--symbols"] if coordinates == "joint" else []
     log = set_by_an_engine(document(capsys, name, "--coordinates", coordinates, *symbols), tmp_path)

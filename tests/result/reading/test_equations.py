@@ -101,13 +101,22 @@ def test_numbers_of_every_kind_and_of_tables(raw):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "coordinates"), of_turn(in_coordinates(catalogue.all_names()), 3))
+@pytest.mark.parametrize(("name", "coordinates"), of_turn(in_coordinates(catalogue.all_names()), 9))
 def test_numbers_of_the_whole_catalogue(name, coordinates):
     mechanism = load_mechanism(name)
     agrees(mechanism_on_tree(mechanism) if coordinates == "joint" else mechanism)
 
 
-@pytest.mark.slow_cases("dry-four-bar-joint", "geneva-absolute", "geneva-joint", "slider-crank-with-clearance-absolute")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases(
+    "dry-four-bar-joint",
+    "geneva-absolute",
+    "geneva-joint",
+    "slider-crank-with-clearance-absolute",
+    "dry-four-bar-absolute",
+    "slider-crank-with-clearance-joint",
+    "woodpecker-absolute",
+)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("name", [name for name in catalogue.all_names() if load_mechanism(name).bounded])
 def test_numbers_of_mechanisms_with_dry_friction_and_stops(name, coordinates):
@@ -144,6 +153,7 @@ def test_states_of_the_file_are_arguments():
     assert compute(0.0, [0.0] * 3, [0.0] * 3, states=[0.5])[0, 0] == 1.5
 
 
+@pytest.mark.slow
 def test_shared_terms_of_a_free_body_are_not_called_as_its_velocities_are():
     """A ball that nothing carries hangs on a rod of a pendulum: its velocities are of the state."""
     inertia = [0.1, 0.1, 0.1]
@@ -180,7 +190,8 @@ def vanishes(equations, expression, seed=5):
     assert np.abs(numbers).max(initial=0.0) < 1e-12 * 100  # sums of tens of numbers of order 1 to 10
 
 
-@pytest.mark.fast("driven-four-bar", "slider-crank", "pendulum", "heavy-top", "free-rigid-body")
+@pytest.mark.by_turns(3)
+@pytest.mark.fast("pendulum", "heavy-top", "free-rigid-body")
 @pytest.mark.parametrize("name", SMALL)
 def test_sympy_itself_finds_the_same_jacobian_gamma_and_masses(name):
     e = symgen.load(name).equations
@@ -206,6 +217,7 @@ def test_symbols_have_the_names_of_the_file():
     assert symgen.load("four-bar").equations_in("joint").coordinates == "joint"
 
 
+@pytest.mark.slow
 def test_shared_terms_have_names_and_mean_what_is_written_without_them():
     e = symgen.load("spherical-double-pendulum").equations
     shared = e.shared()
@@ -308,6 +320,7 @@ force = ["push", "-0.1*fore.vy"]
 """
 
 
+@pytest.mark.slow
 def test_the_power_of_drivers_without_rows_is_what_energy_gains(tmp_path):
     """By the chain rule over T and V with v' = M^-1 f, at random states: no row, so nothing else does work."""
     path = tmp_path / "arm.toml"

@@ -200,6 +200,7 @@ def test_a_page_that_is_too_large_without_its_code_is_refused(tmp_path, monkeypa
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_a_mechanism_that_nobody_could_read_is_refused_before_it_is_derived(tmp_path, capsys):
     path = tmp_path / "page.html"
     assert main(["inspect", "n-four-bar:400", "-o", str(path)]) == 2

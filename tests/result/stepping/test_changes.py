@@ -99,6 +99,7 @@ def test_what_a_change_adds_to_the_energy_is_work(rod):
     assert abs(energy(sim)[3]) < 1e-10
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases("abm", "bdf", "picard", "rkmk4-screws")
 @pytest.mark.parametrize("integrator", INTEGRATORS.names)
 def test_schemes_keep_their_order_over_a_change(rod, integrator):

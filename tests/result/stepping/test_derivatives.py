@@ -142,6 +142,7 @@ CASES = {
 }
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_derivatives_of_a_step_are_those_of_differences(name):
@@ -180,6 +181,7 @@ EVENTS = {
 }
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", EVENTS)
 @pytest.mark.parametrize("scheme", ["rk4", "radau5"])
@@ -266,6 +268,7 @@ HORIZONS = {
 }
 
 
+@pytest.mark.slow_cases("events")
 @pytest.mark.parametrize("name", HORIZONS)
 def test_a_horizon_has_the_steps_and_the_derivatives_of_calls_one_by_one(name):
     make, settings = HORIZONS[name]

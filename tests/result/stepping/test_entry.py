@@ -36,7 +36,10 @@ def both(name, **settings):
     return sim, plain
 
 
-@pytest.mark.slow_cases("False-null-space-rk4", "True-direct-correction-bdf", "True-half-explicit-phem56")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases(
+    "False-null-space-rk4", "True-direct-correction-bdf", "True-half-explicit-phem56", "False-null-space-abm4"
+)
 @pytest.mark.parametrize(("method", "integrator"), PAIRS)
 @pytest.mark.parametrize("adaptive", [False, True])
 def test_both_ways_give_the_same_bits(method, integrator, adaptive):

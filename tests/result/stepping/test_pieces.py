@@ -37,6 +37,7 @@ def assert_end(sim, result):
     assert_same_motion(sim.state, np.concatenate([result.q.values[-1], result.v.values[-1]]))
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
     "direct-correction-rkmk4-screws",
     "generalized-alpha-generalized-alpha",
@@ -81,11 +82,8 @@ def test_adaptive_pieces_end_where_they_are_told_to(four_bar, method, integrator
     np.testing.assert_allclose(sim.q, whole.q.values[-1], atol=1e-6)  # 30 times the error of the pair that is worst
 
 
-@pytest.mark.fast(
-    "bricard-direct-correction-rk4-0.002",
-    "spherical-double-pendulum-augmented-lagrangian-rkmk4-0.001",
-    "heavy-top-ggl-radau5-0.001",
-)
+@pytest.mark.by_turns(3)
+@pytest.mark.fast("heavy-top-ggl-radau5-0.001")
 @pytest.mark.parametrize(
     ("name", "method", "integrator", "step"),
     [

@@ -75,6 +75,7 @@ def agree(name, coordinates, folder):
     return rates, corrections
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "coordinates"), QUICK)
 def test_rates_and_corrections_are_those_of_numba(name, coordinates, tmp_path):
@@ -84,7 +85,7 @@ def test_rates_and_corrections_are_those_of_numba(name, coordinates, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "coordinates"), of_turn(in_coordinates(NAMES), 3))
+@pytest.mark.parametrize(("name", "coordinates"), of_turn(in_coordinates(NAMES), 9))
 def test_the_whole_catalogue(name, coordinates, tmp_path):
     rates, corrections = agree(name, coordinates, tmp_path)
     # strains of a stiff beam are small differences of positions
@@ -99,6 +100,7 @@ def rows_of(program, *words):
     return head.split(","), np.array([row.split(",") for row in rows], dtype=float)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "coordinates"), [("four-bar", "joint"), ("slider-crank", "absolute"), ("curved-lever", "absolute")]
@@ -116,6 +118,7 @@ def test_the_program_runs_as_simulate_does(name, coordinates, tmp_path):
     np.testing.assert_allclose(rows[-1, 1:], end, rtol=1e-11, atol=1e-11)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", LOCKED)
 @pytest.mark.parametrize("step", ["1e-3", "1e-2"])
@@ -290,6 +293,7 @@ def test_long_functions_are_divided(tmp_path):
     assert max(map(len, text.split("\n\n"))) < 60_000
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["wiper", "bricard"])
 def test_bytes_do_not_depend_on_the_process(name, tmp_path):
@@ -348,6 +352,7 @@ int main(int count, char **words) {{
 """
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases("wiper-None", "pendulum-dop853", "belt-oscillator-None")
 @pytest.mark.parametrize(("name", "integrator"), [("belt-oscillator", None), ("wiper", None), ("pendulum", "dop853")])
 def test_a_step_before_the_start_is_refused(name, integrator, tmp_path):

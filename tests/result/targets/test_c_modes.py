@@ -134,6 +134,7 @@ def test_runs_with_stops_ropes_and_friction(source, until, step, coordinates, tm
     assert len(assert_same_run(model, program, until, step, coordinates)) > 2
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_clutch_locks_in_c_and_in_an_fmu_when_its_closed_form_does(tmp_path):
     """Torques -2 t and 2 t on 2 and 3 kg m^2: equal speeds of 4 rad/s where t^2 (1/2 + 1/3) = 10."""

@@ -209,6 +209,7 @@ def test_rows_of_smooth_files(source, keys, tmp_path):
     assert_same_rows(model, tmp_path / "c", **keys)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["accumulation", "slider-lock"])
 def test_runs_that_end_early_say_why(name, tmp_path):

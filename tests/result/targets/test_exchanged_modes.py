@@ -141,6 +141,7 @@ def test_stops_ropes_and_friction(source, until, coordinates, fmi, error, tmp_pa
     assert_same_motion(model, exchanged(path, until), until, error, coordinates)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_ball_comes_to_rest_when_its_flights_end_although_the_tolerance_loses_the_last_ones(tmp_path):
     """Its flights last sqrt(2 h/g) (1 + e)/(1 - e). Where e is small, few of them are left to follow the series by."""
@@ -159,6 +160,7 @@ def test_a_ball_comes_to_rest_when_its_flights_end_although_the_tolerance_loses_
             assert len(events_of(rows)) < 400
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_clutch_locks_under_a_ramp_and_opens_where_an_input_jumps(tmp_path):
     """Torques -2 t and 2 t on 2 and 3 kg m^2: equal speeds of 4 rad/s where t^2 (1/2 + 1/3) = 10."""
@@ -183,6 +185,7 @@ def press(tmp_path_factory):
     return fmu_of(symgen.load("toggle-press"), tmp_path_factory.mktemp("press") / "press.fmu", fmi=3)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_values_of_a_parameter_end_in_the_same_modes(press, tmp_path):
     """An instance is reset and goes on with another force of the piston, and each time the press rests on its die."""
@@ -311,6 +314,7 @@ def test_euler_s_method_finds_modes_behind_its_events(press):
         assert rows["upper.theta"][at] == pytest.approx(own["upper.theta"][k], abs=5e-3)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_row_that_changes_with_the_state_beside_a_stop(tmp_path):
     """Its comparison is an indicator too. The sources compile without a warning, with room for all functions."""

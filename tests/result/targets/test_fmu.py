@@ -118,6 +118,7 @@ def test_parameters_assemble_anew_and_those_that_follow_cannot_be_set(tmp_path):
         np.testing.assert_allclose(rows["energy"], own["energy"], rtol=0, atol=100 * tolerance)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
 @pytest.mark.parametrize("fmi", [2, 3])
@@ -286,6 +287,7 @@ def test_what_an_fmu_has_not_is_refused(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_friction_and_stops_in_co_simulation(tmp_path):
     model = load("toggle-press")
@@ -316,7 +318,7 @@ def test_units_are_products_of_base_units(unit, exponents):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "fmi"), of_turn([(name, 2 + i % 2) for i, name in enumerate(NAMES)], 3))
+@pytest.mark.parametrize(("name", "fmi"), of_turn([(name, 2 + i % 2) for i, name in enumerate(NAMES)], 9))
 def test_the_whole_catalogue(name, fmi, tmp_path):
     model = load(name)
     path = fmu_of(model, tmp_path / "model.fmu", fmi=fmi, coordinates="auto")

@@ -143,6 +143,7 @@ def differences(unit, t, states, inputs, h=1e-6):
     return np.array(columns).T
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.slow_cases("press-2")
 @pytest.mark.parametrize(("name", "fmi"), [(name, 2 + i % 2) for i, name in enumerate(MACHINES)])
@@ -175,6 +176,7 @@ def test_they_are_those_of_differences(name, fmi, tmp_path):
         np.testing.assert_allclose(adjoint, weights @ found, rtol=0, atol=1e-11 * np.abs(found).max())
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_a_co_simulation_has_them_at_its_points_of_communication(fmi, tmp_path):

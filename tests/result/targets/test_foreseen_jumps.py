@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from fmpy import simulate_fmu
+from support.rotation import of_turn
 
 from symgen.compile.loopcode.loop_instances import Instances
 from symgen.result.targets import Request
@@ -91,6 +92,7 @@ STOP = "stop = { lower = -2.0, upper = 0.2, restitution = 0.4 }"
 JUMPING = STOP.replace("0.2,", '"0.2 if t < begin else 0.3",')
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.parametrize("integrator", [None, "dop853"])
 @pytest.mark.parametrize(
     ("torque", "stop", "count"),
@@ -139,6 +141,7 @@ def test_files_whose_jumps_are_at_fixed_times_have_these_in_their_tables(tmp_pat
         assert "foresee_run" not in text and "0.4" in text
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("keys", [{}, {"integrator": "dop853", "rtol": 1e-11, "atol": 1e-13}])
 def test_programs_end_where_runs_with_their_parameters_do(pushed, keys, tmp_path):
@@ -174,7 +177,7 @@ def test_an_importer_is_told_the_times_that_its_parameters_give(tmp_path):
     model = loaded(text, tmp_path)
     path = fmu_of(model, tmp_path / "pushed.fmu", fmi=3)
     importer = importer_of(path, tmp_path / "fmu")
-    for begin in np.linspace(0.05, 1.4, 300):
+    for begin in of_turn(np.linspace(0.05, 1.4, 300), 6):
         rows = simulate_fmu(
             **importer, stop_time=1.5, relative_tolerance=1e-13, output_interval=0.0015,
             output=["rod.theta", "rod.omega"], start_values={"begin": begin},

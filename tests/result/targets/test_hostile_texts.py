@@ -196,8 +196,8 @@ def same_xml(one: str, other: str) -> ElementTree.Element:
 
 
 def titles(*few: str):
-    """Parameters of a test: some titles, and in the slow run the others, a third of them in a turn."""
-    others = of_turn((title for title in TITLES if title not in few), 3)
+    """Parameters of a test: some titles, and in the slow run the others, a ninth of them in a turn."""
+    others = of_turn((title for title in TITLES if title not in few), 9)
     return [
         *(pytest.param(title, id=f"title{TITLES.index(title)}") for title in few),
         *(pytest.param(title, id=f"title{TITLES.index(title)}", marks=pytest.mark.slow) for title in others),
@@ -265,7 +265,7 @@ def printed_by_c(folder: Path) -> bytes:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("title", "fmi"), of_turn([(title, str(2 + i % 2)) for i, title in enumerate(TITLES)], 3))
+@pytest.mark.parametrize(("title", "fmi"), of_turn([(title, str(2 + i % 2)) for i, title in enumerate(TITLES)], 9))
 def test_fmu(title, fmi, honest, tmp_path):
     words = ("generate", "--target", "fmu", "--fmi", fmi, "swing.fmu")
     files = [honest(*words), written(hostile_file(tmp_path, title), *words)]

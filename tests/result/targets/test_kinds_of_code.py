@@ -53,7 +53,8 @@ def test_c_and_fmus_compile_without_a_warning(kind, coordinates, tmp_path):
     assert len(compiled) == 3 and done.returncode == 0, done.stderr[:3000]
 
 
-@pytest.mark.fast("plain", "redundant rows")
+@pytest.mark.by_turns(4)
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", FILES)
 def test_printed_functions_have_names_of_their_own(kind, tmp_path):
     model = model_of(kind, "absolute", tmp_path, "fmu")
@@ -86,7 +87,8 @@ def test_names_of_templates_are_those_that_compilers_see(tmp_path):
         } <= defined_names()  # macros make some of these
 
 
-@pytest.mark.fast("state with a formula", "rotor")
+@pytest.mark.by_turns(4)
+@pytest.mark.fast("state with a formula")
 @pytest.mark.parametrize("kind", FILES)
 def test_a_page_has_emitted_names_inside_a_function(kind):
     """A second function of a name would replace the first without a word, and a constant would be an error."""
@@ -102,6 +104,7 @@ def test_a_page_has_emitted_names_inside_a_function(kind):
     assert live.code in script[begin:end]
 
 
+@pytest.mark.slow
 def test_code_that_a_compiler_refuses_is_named(tmp_path, monkeypatch):
     """The sentence of the compiler, for a printed function that has a name of the template."""
     from symgen.result.targets import TARGETS, _c_model

@@ -52,6 +52,7 @@ def run_of(model, until, **keys):
     return result, np.column_stack([result["hit"], result.q.values, result.v.values])[1:]
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("name", STRUCK)
@@ -66,6 +67,7 @@ def test_c_is_a_run(name, coordinates, tmp_path):
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", STRUCK)
 def test_a_co_simulation_is_a_run(name, tmp_path):

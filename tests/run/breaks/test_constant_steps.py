@@ -245,7 +245,8 @@ def test_schemes_keep_their_order(kind: str, scheme: str) -> None:
     assert errors[-1] < 3e-12 or min(slopes) > order - 0.3 or slopes[-1] > order - 0.3, (errors, slopes)
 
 
-@pytest.mark.slow_cases("driver-rk4", "friction-rk4", "stop-abm4", "stop-rk4", "friction-abm4")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases("driver-rk4", "friction-rk4", "stop-abm4", "stop-rk4", "friction-abm4", "driver-abm4")
 @pytest.mark.parametrize("scheme", ["rk4", "abm4"])
 @pytest.mark.parametrize("kind", ["force", "pulse", "stop", "driver", "friction"])
 def test_joint_coordinates_keep_the_order(kind: str, scheme: str) -> None:
@@ -301,7 +302,7 @@ def test_events_at_a_jump_happen_once() -> None:
         assert [event.t for event in result.events] == pytest.approx([at, at], abs=1e-12)
 
 
-@pytest.mark.slow_cases("0.1")
+@pytest.mark.slow_cases("0.1", "0.01")
 @pytest.mark.parametrize("step", [0.1, 0.01, 0.007])
 def test_no_stage_lies_behind_a_jump_at_a_point_of_the_grid(step: float) -> None:
     """Of 300 jumps at k*step, which lie on either side of a sum of steps by rounding, each is met exactly."""

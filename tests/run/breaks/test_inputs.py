@@ -228,7 +228,7 @@ def by_small_steps(push):
     return (4.0 * run(18000) - run(9000)) / 3.0
 
 
-@pytest.mark.slow_cases("cubic")
+@pytest.mark.slow_cases("cubic", "pchip")
 @pytest.mark.parametrize("how", ["linear", "cubic", "pchip"])
 def test_data_are_interpolated(model, how):
     from support.curves import curve
@@ -368,6 +368,7 @@ def test_bad_files_are_told_in_a_sentence(model, tmp_path, text, word, message):
     assert message in str(caught.value)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("push3-0.37-3.0")
 @pytest.mark.parametrize(
     ("push", "when", "late"),

@@ -123,6 +123,7 @@ def test_the_follower_of_a_cam_keeps_to_the_spline(integrator: str) -> None:
     np.testing.assert_allclose(result.v["follower.vy"], speed * spline(speed * times, 1), rtol=0.0, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_what_formulas_of_the_catalogue_pass() -> None:
     """Runs of all others are entered once."""
     every = {

@@ -197,7 +197,8 @@ def test_what_cannot_be_told_apart_is_told(tmp_path: Path, settings: dict[str, A
     assert all(expected in row[0] for row in found.warnings)
 
 
-@pytest.mark.fast("picard", "radau5")
+@pytest.mark.by_turns(3)
+@pytest.mark.fast("picard")
 @pytest.mark.parametrize("integrator", SCHEMES)
 def test_events_that_come_and_go_within_a_step_are_seen(tmp_path: Path, integrator: str) -> None:
     """Conditions of the time alone: of one that is true 500 times for 90 us `dop853` saw none."""

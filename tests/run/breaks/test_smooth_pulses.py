@@ -79,6 +79,7 @@ def test_a_pulse_is_seen_by_default_and_with_a_largest_step(tmp_path: Path, inte
     assert not bounds(asked) and found.steps < 1200
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
     "bell-radau5",
     "quotient-picard",
@@ -215,6 +216,7 @@ def test_notes_name_the_formulas(tmp_path: Path) -> None:
     assert not bounds(own) and 20 <= own.steps < 60
 
 
+@pytest.mark.slow
 def test_one_mechanism_of_the_catalogue_needs_a_bound_and_has_its_own() -> None:
     """The legs of a platform are roots of sines of sines: its file has a largest step by the period of these."""
     every = [*names_of_catalogue(), *(entry.name for entry in entries(MACHINES))]

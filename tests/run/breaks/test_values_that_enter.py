@@ -82,7 +82,8 @@ def searched(monkeypatch: pytest.MonkeyPatch) -> Iterator[Counter[str]]:
     yield count
 
 
-@pytest.mark.slow_cases("mu-reads0")
+@pytest.mark.by_turns(2)
+@pytest.mark.slow_cases("mu-reads0", "k-reads1")
 @pytest.mark.parametrize(
     ("name", "reads"), [("mu", ("3.0*mu",)), ("k", ()), ("at", ("3.0*mu", "at - t")), ("pace", ("sin(pace*t)",))]
 )
@@ -98,7 +99,8 @@ def test_only_formulas_that_a_value_enters_are_searched_again(
     assert evaluations <= 14 * 7 * ("3.0*mu" in reads)
 
 
-@pytest.mark.slow_cases("mu", "pace")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", VALUES)
 def test_rows_are_single_runs(freewheel: symgen.Model, name: str) -> None:
     """To the last bit, also where a value moves a jump."""

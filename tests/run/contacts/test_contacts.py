@@ -26,6 +26,7 @@ def times_of(result: Any, word: str) -> list[float]:
     return [event.t for event in result.events if event.name.endswith(f".{word}")]
 
 
+@pytest.mark.slow
 def test_a_disc_skids_and_rolls(tmp_path: Path) -> None:
     """Speeds at which it rolls follow from the momentum about a point of the floor."""
     text = head("skid") + body("disc", 3.0, 0.5 * 3.0 * 0.04, (0.0, 0.2), (2.0, 0.0), 4.0) + floor("disc", 0.2, 0.15)
@@ -138,6 +139,7 @@ def rocking_times(b: float, h: float, start: float) -> tuple[list[float], float]
     return hits, t
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.fast("picard")
 @pytest.mark.parametrize("integrator", ["dop853", "picard", "radau5"])
@@ -186,7 +188,7 @@ def test_impulses_of_joints_are_those_of_bodies(tmp_path: Path) -> None:
         assert np.allclose(np.array(middle) - np.array(top), one, rtol=0.0, atol=1e-11)
 
 
-@pytest.mark.slow_cases("1.0")
+@pytest.mark.slow
 @pytest.mark.parametrize("way", [1.0, -1.0])
 def test_a_rod_jams(way: float, tmp_path: Path) -> None:
     """A sliding tip has a finite force up to mu (3 sin cos) = 1 + 3 cos^2, one way."""

@@ -48,6 +48,7 @@ def test_a_bouncing_disc(until: float, tmp_path: Path) -> None:
     slopes_of(DISC, until, "disc.x", {"mu": 0.06, "e": 0.6, "height": 0.8}, tmp_path)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(("until", "known"), [(0.8, {}), (2.1, {}), (3.0, {"mu": -19.667934, "e": -0.0324622})])
 def test_a_disc_whose_derivatives_are_known(until: float, known: dict[str, float], tmp_path: Path) -> None:

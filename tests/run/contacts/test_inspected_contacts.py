@@ -36,6 +36,7 @@ def test_parts_and_forces_that_are_not_unique(tmp_path: Path) -> None:
     assert note == "forces of contacts are not unique at left, right: each has a part in proportion to its bound"
 
 
+@pytest.mark.slow_cases("absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_jamming_numbers_through_joints(coordinates: str, tmp_path: Path) -> None:
     """Two rods on a pin: the mobilities of the tip in their angles."""

@@ -26,6 +26,7 @@ def runs_of(text: str, until: float, folder: Path) -> Any:
     return run
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_geneva_wheel(tmp_path: Path) -> None:
     """It is where the pin pushes it to, and leaves the wall where the brake alone would stop it as fast."""
@@ -50,6 +51,7 @@ def test_a_geneva_wheel(tmp_path: Path) -> None:
     assert abs(abs(slows) - 0.004 / 6e-4) < 1e-6 * 0.004 / 6e-4
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("speed", [0.2, 0.3, 0.6])
 def test_a_latch_snaps_behind_its_catch(speed: float, tmp_path: Path) -> None:

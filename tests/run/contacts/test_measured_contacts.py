@@ -16,6 +16,7 @@ def settings_of(integrator: str) -> dict[str, Any]:
     return {"integrator": integrator, "verify": False, "rtol": 1e-12, "atol": 1e-12}
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("text", [CRANK, CRANK_WITH_CLEARANCE], ids=["contacts", "clearance"])
 def test_a_slider_with_play_in_its_guide(text: str, tmp_path: Path) -> None:
@@ -31,6 +32,7 @@ def test_a_slider_with_play_in_its_guide(text: str, tmp_path: Path) -> None:
     assert np.abs(angles[0] - angles[1]).max() < 1e-10
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("integrator", ["dop853", pytest.param("picard", marks=pytest.mark.slow)])
 def test_a_woodpecker_comes_down_its_pole(integrator: str, tmp_path: Path) -> None:

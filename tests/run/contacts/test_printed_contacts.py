@@ -33,6 +33,7 @@ PRINTED = {
 }
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", PRINTED)
 def test_printed_runs_with_the_same_steps(name: str, tmp_path: Path) -> None:

@@ -55,6 +55,8 @@ def test_a_hand_that_starts_smoothly_lifts_as_well(tmp_path: Path) -> None:
     assert abs(result["ball.y"][-1] - 0.03 - 0.1 * 0.8**3) < 1e-10
 
 
+@pytest.mark.by_turns(2)
+@pytest.mark.slow
 @pytest.mark.parametrize("integrator", ["dop853", pytest.param("picard", marks=pytest.mark.slow)])
 def test_a_disc_rolls_off_a_table(integrator: str, tmp_path: Path) -> None:
     """Past the end it rolls about the corner, slips and lifts, as in an integration of one's own."""
@@ -176,6 +178,7 @@ def test_uncoupled_discs_cost_as_much_as_alone(tmp_path: Path) -> None:
     assert eight["solved"][0] == 8 * one["solved"][0] and max(eight["solved"]) == 8 * max(one["solved"]) == 32
 
 
+@pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_pin_with_play_swings_against_its_hole(coordinates: str, tmp_path: Path) -> None:
     """A bar hangs on a pin with play: it falls by the play, strikes without rebound, and hangs."""

@@ -20,6 +20,7 @@ def bowl(friction: str) -> str:
     return text + friction
 
 
+@pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_disc_rolls_about_the_bottom_of_a_hole(coordinates: str, tmp_path: Path) -> None:
     """It is a pendulum with 1.6 of its mass; without friction the disc slides, and its angle is free."""

@@ -8,6 +8,7 @@ import pytest
 from tests.run.contacts.scenes import DROP, loaded, rocking_block, woodpecker
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "until", "name", "low", "high"),

@@ -68,6 +68,7 @@ def test_events_that_accumulate(tmp_path):
     assert run.reason.startswith("events of 'bounce' accumulate at t = 2.5586339655")
 
 
+@pytest.mark.slow
 def test_a_start_that_is_not_held_is_noted(tmp_path):
     settings = {"until": 0.1, "sensitivities": ("a", "m1"), "integrator": "rk4", "step": 1e-2}
     note = (

@@ -194,7 +194,7 @@ PAIRS = of_turn(
         & set(METHODS.get(method, "method").forms)
         & set(INTEGRATORS.get(integrator, "integrator").forms)
     ),
-    4,
+    8,
 )
 
 
@@ -206,6 +206,7 @@ def test_every_method(method, integrator):
     assert largest_difference("four-bar", MASSES, method, integrator, 30) < bound
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "numbers", "step", "steps", "coordinates"),

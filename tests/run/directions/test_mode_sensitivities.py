@@ -65,6 +65,7 @@ def models(tmp_path_factory):
     return {"belt": symgen.load("belt-oscillator"), **{name: model(folder, text) for name, text in texts.items()}}
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "row"), [(name, row) for name in QUANTITIES for row in range(len(CLOSED[name]))])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
@@ -105,6 +106,7 @@ def test_what_is_together_for_these_numbers_only_is_in_doubt(tmp_path, models, w
     assert two.gradient("ball.y", by=("g",), **settings | {"until": 1.0}).result.ok
 
 
+@pytest.mark.slow_cases("adjoint")
 @pytest.mark.parametrize("way", ["forward", "adjoint"])
 def test_what_rests_at_the_start_has_one_side(models, way):
     rests = "rests at the start for these numbers only: derivatives on both sides differ"
@@ -154,6 +156,7 @@ def compare_with_differences(own, quantity, names, until, changes=None, **settin
         assert expected == pytest.approx(slope, rel=1e-6, abs=1e-6)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_the_dry_four_bar(coordinates):
@@ -161,6 +164,7 @@ def test_the_dry_four_bar(coordinates):
     compare_with_differences(dry, "crank.theta", ("torque", "crank_mass", "rocker_mass"), 10.0, coordinates=coordinates)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("make", "seed", "until"),
@@ -172,6 +176,7 @@ def test_random_chains_and_loops(tmp_path, make, seed, until):
     compare_with_differences(model(tmp_path, text), "b0.theta" if make is chain else "crank.theta", used, until)
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("make", "seed", "until"),

@@ -157,6 +157,7 @@ def test_whole_numbers_and_zero_are_refused(tmp_path):
         symgen.simulate("cantilever", sensitivities="beams.rod.elements")
 
 
+@pytest.mark.slow
 def test_axes(tmp_path):
     text = """
 [mechanism]

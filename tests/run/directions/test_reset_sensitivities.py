@@ -101,6 +101,7 @@ def test_a_reset_of_a_state_of_the_file(tmp_path):
     assert run.gradient("hits").row() == pytest.approx({"h0": 0.0, "g": 1.0}, abs=1e-11)
 
 
+@pytest.mark.slow
 def test_events_that_are_together_by_chance_are_in_doubt(tmp_path):
     body, event = BALL[BALL.index("[bodies.ball]") :].split("[events.bounce]")
     other = (body + "[events.second]" + event).replace("ball", "other").replace('"h0"', '"2 - h0"')
@@ -117,6 +118,7 @@ STRUCK = (
 )
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_closed_loop_that_is_struck(tmp_path_factory, coordinates):

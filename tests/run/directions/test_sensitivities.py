@@ -120,6 +120,7 @@ def test_the_rod_on_a_pin(rod):
         assert run.gradient("rod.omega").row()[name] == pytest.approx(of_speed, rel=1e-11)
 
 
+@pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_the_time_of_an_event_that_ends_the_run(rod, coordinates):
     # the rod passes the vertical after a quarter of its period
@@ -165,7 +166,8 @@ def test_errors_fall_with_the_order_of_the_scheme(rod, integrator, order, step):
 CONSTANT = {"integrator": "rk4", "step": 1e-2, "until": 0.4, "times": [0.4]}
 
 
-@pytest.mark.fast("absolute-lean", "absolute-circle")
+@pytest.mark.by_turns(3)
+@pytest.mark.fast("absolute-circle")
 @pytest.mark.parametrize("name", ["lean", "circle", "radius"])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_rolling_disc_whose_start_is_closed_again(name, coordinates):
@@ -178,7 +180,7 @@ def test_a_rolling_disc_whose_start_is_closed_again(name, coordinates):
         assert run.gradient(quantity).row()[name] == pytest.approx(expected, rel=1e-10, abs=1e-11)
 
 
-@pytest.mark.slow_cases("crank.theta")
+@pytest.mark.slow_cases("crank.theta", "crank.omega")
 @pytest.mark.parametrize("name", ["crank.theta", "crank.omega", "rocker.omega", "D.angle"])
 def test_values_of_the_start(name):
     four_bar = symgen.load("four-bar")
@@ -189,6 +191,7 @@ def test_values_of_the_start(name):
     assert run.gradient("rocker.theta").row()[name] == pytest.approx(expected, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_parameters_of_the_method():
     four_bar = symgen.load("four-bar")
     settings = {**CONSTANT, "method": "baumgarte", "times": [0.4]}
@@ -329,6 +332,7 @@ def test_rows_of_sweeps_and_steps_from_python_have_none(four_bar):
             many()
 
 
+@pytest.mark.slow
 def test_a_length_that_destroys_mobility_is_refused(tmp_path):
     # a double parallelogram moves because three cranks are equally long
     bar = "[bodies.{0}]\nmass = 1.0\ninertia = 0.1\nposition = [{1}, 0.5]\nangle = 1.5707963267948966\n"
@@ -369,7 +373,7 @@ def test_mechanisms_of_the_catalogue(name, number, quantity, settings, coordinat
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("method", of_turn(ODE, 3))
+@pytest.mark.parametrize("method", of_turn(ODE, 9))
 def test_every_method_that_explicit_schemes_solve(method):
     four_bar = symgen.load("four-bar")
     limits = {"max_violation": 1.0, "max_energy_error": 1e3}

@@ -108,6 +108,7 @@ def test_a_tight_relative_tolerance_alone(rod):
     assert 300.0 * 1e-13 < run.sensitivities.error < 300.0 * 1e-10
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["four-bar", "slider-crank", "rolling-disc"])
 def test_ordinary_runs_are_not_in_doubt(name):

@@ -113,6 +113,7 @@ def test_a_reset_is_that_of_a_geared_flywheel(coordinates: str) -> None:
     assert run["lower.theta"][-1] == pytest.approx(geared["lower.theta"][-1], abs=1e-9)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_sweep_over_the_gear_is_right_in_every_row(coordinates: str) -> None:
@@ -167,6 +168,7 @@ def test_wheels_in_space_share_a_rotor(coordinates: str) -> None:
     assert run.events[0].work == pytest.approx(0.5 * (0.6 + 0.5 * j / (0.5 + j)), rel=1e-11)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("text", [ARM + ROTOR, ARM + ROTOR + KICK], ids=["impact", "reset and impact"])

@@ -42,6 +42,7 @@ def test_the_rates_of_many_integrals_leave_newmarks_accelerations_alone():
     check("newmark", "joint")
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("integrator", [name for name in INTEGRATORS.names if name != "newmark"])
 def test_no_scheme_needs_the_room_of_integrals_for_the_motion(integrator):

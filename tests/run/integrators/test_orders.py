@@ -15,6 +15,7 @@ def observed(model):
     return {(o.method, o.integrator): o for o in orders.observe(model, METHODS, INTEGRATORS)}
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("model", orders.MODELS)
 @pytest.mark.parametrize("method", METHODS)

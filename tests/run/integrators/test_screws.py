@@ -8,6 +8,7 @@ from symgen.api import load
 from symgen.describe.files.builder import MechanismBuilder
 
 
+@pytest.mark.slow_cases("heavy-top-keys2")
 @pytest.mark.parametrize(
     ("name", "keys"),
     [

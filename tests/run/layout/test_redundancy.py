@@ -31,12 +31,8 @@ SETTINGS = (
 )
 
 
-@pytest.mark.fast(
-    "two_pins-direct-correction rk4 looped",
-    "two_pins_tilted-lagrange rk4",
-    "two_pins_tilted-direct-correction dop853 1e-10",
-    "two_pins_tilted-direct-correction radau5",
-)
+@pytest.mark.by_turns(4)
+@pytest.mark.fast("two_pins_tilted-direct-correction dop853 1e-10", "two_pins_tilted-direct-correction radau5")
 @pytest.mark.parametrize("settings", SETTINGS, ids=lambda s: " ".join(map(str, s.values())))
 @pytest.mark.parametrize("name", ["two_pins", "two_pins_tilted"])
 def test_two_pins_of_one_turning_body(name: str, settings: dict) -> None:
@@ -173,6 +169,7 @@ def test_a_pin_held_twice_drifts_no_more_than_one_held_once(integrator: str) -> 
     np.testing.assert_allclose(again["rod.theta"][-1], once["rod.theta"][-1], rtol=0.0, atol=1e-8)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "settings",
@@ -225,6 +222,7 @@ def test_rows_kept_at_the_start_differ_in_sweeps(tmp_path: Path) -> None:
     assert found.values[0, 1] > 1e-3
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize(
@@ -246,6 +244,7 @@ def test_the_rank_is_none_of_the_order_of_elimination(name: str, rank: int, unti
     assert off(result, system, q) < 1e-7
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "settings",

@@ -77,6 +77,7 @@ def test_a_guide_and_pins(tmp_path, length):
     check_alike(tmp_path, of_catalogue("slider-crank"), length, ("q", "v", "lam"), until=1e-2, step=1e-3)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("length", [2.0**-10, 2.0**10])
 def test_redundant_rows_and_their_reactions(tmp_path, length):

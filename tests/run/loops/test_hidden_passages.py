@@ -45,6 +45,7 @@ def roots(g: Function) -> Any:
     return high
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("integrator", "settings"),

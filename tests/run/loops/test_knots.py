@@ -273,6 +273,7 @@ def test_methods_with_momenta_run_rows_without_integrals_nobody_asks_for(tmp_pat
     assert list(found.status) == ["ok", "ok"]
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast("101-linear-dop853", "101-linear-abm", "101-linear-picard", "101-linear-sdirk", "1001-pchip-dopri5")
 @pytest.mark.parametrize("integrator", ["dop853", "dopri5", "abm", "picard", "sdirk", "radau5"])
 @pytest.mark.parametrize(("points", "how"), [(101, "linear"), (1001, "pchip"), (6001, "linear")])

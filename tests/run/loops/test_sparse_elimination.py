@@ -243,7 +243,14 @@ def pattern_of(name, method):
     return Pattern(nq, nv, m, law["unknowns"], places[:, 0].copy(), places[:, 1].copy(), spins, NOTHING)
 
 
-@pytest.mark.slow_cases("ggl-bricard", "ggl-flyball-governor", "index3-augmented-lagrangian-bricard")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases(
+    "ggl-bricard",
+    "ggl-flyball-governor",
+    "index3-augmented-lagrangian-bricard",
+    "generalized-alpha-bricard",
+    "generalized-alpha-flyball-governor",
+)
 @pytest.mark.parametrize("name", ["four-bar", "n-four-bar:3", "bricard", "flyball-governor"])
 @pytest.mark.parametrize("method", ["ggl", "generalized-alpha", "index3-augmented-lagrangian"])
 def test_plans_put_numbers_where_the_formula_says(name, method):

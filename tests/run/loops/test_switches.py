@@ -195,8 +195,8 @@ reset = { "bob.vx" = "-0.8*bob.vx" }
     np.testing.assert_allclose(*found, rtol=1e-9)
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
-    "3 + 5*(1 if low < bob.x and bob.x < high else 0)-0.0-dopri5-absolute",
     "3 + 5*(1 if low < t and t < high else 0)-0.0-dopri5-joint",
     "60*max(0, 1 - abs(2*bob.x - low - high)/(high - low))-0.0-dop853-joint",
     "60*max(0, 1 - abs(2*bob.x - low - high)/(high - low))-0.0-dopri5-absolute",
@@ -276,6 +276,7 @@ def fallen(law: Callable[[float], float]) -> list[float]:
     return [float(x) for x in found.y[:2, -1]]
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
     'actuator = "-10*abs(length - 2)*(length - 2)"-abm',
     'actuator = "-10*sign(length - 2)*(length - 2)**2"-dopri5',
@@ -366,7 +367,7 @@ axis = [1, 0]
 SLIDING = '[forces.f]\ntype = "force"\nbody = "b"\nforce = ["LAW", "0"]\n'
 
 
-@pytest.mark.slow_cases("-2*sign(b.vx)-b.vx", "-2 if b.vx > 0 else 2-b.vx")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("law", "read"),
     [
@@ -448,6 +449,7 @@ torque = "-2e4*(angle - 0.02) - 20*rate if angle > 0.02 else -2e4*(angle + 0.02)
 """
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("radau5-10.0", "radau5-50.0", "dop853-2.0", "picard-2.0")
 @pytest.mark.parametrize("until", [2.0, 10.0, 50.0])
 @pytest.mark.parametrize("integrator", ["radau5", "dop853", "picard"])

@@ -106,6 +106,7 @@ def test_no_start_is_ok_and_wrong(rtol: float) -> None:
     assert found["wrong"] == 0 and found["right"] >= 23
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("rtol", [1e-6, 1e-8, 1e-10])
 def test_of_many_starts_none_is_ok_and_wrong(rtol: float) -> None:

@@ -118,6 +118,7 @@ def test_a_ramp_of_the_pressure_locks_a_clutch(steps: dict[str, Any], coordinate
         assert result["motor.omega"][-1] == pytest.approx(speed, abs=1e-10)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_rows_of_a_sweep_lock_as_runs_do(coordinates: str) -> None:
@@ -133,6 +134,7 @@ def test_rows_of_a_sweep_lock_as_runs_do(coordinates: str) -> None:
     np.testing.assert_allclose(sweep["motor.omega"][:, 0], (20.0 - 3.0 * np.array(load)) / 2.0, rtol=0.0, atol=1e-10)
 
 
+@pytest.mark.slow
 def test_constant_steps_lock_by_their_order() -> None:
     """A pressure by the speed that is left: 10 - w falls as exp(-k t) with k = 5/6, and locks by what is added."""
     clutch = model(CLUTCH.replace('"pressure"', '"2*(motor.omega - load.omega)**2/10 + 1"'))
@@ -161,7 +163,14 @@ def test_a_clutch_from_python() -> None:
 # -- bounds that change under what rests -------------------------------------------------------------------------------
 
 
-@pytest.mark.slow_cases("pressure-settings8")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases(
+    "pressure-settings8",
+    "3 - hand.omega*t-settings6",
+    "3 - hand.theta-settings3",
+    "3 - wear-settings2",
+    "3 if hand.theta < 1 else 1-settings5",
+)
 @pytest.mark.parametrize(
     ("friction", "settings"),
     [
@@ -252,7 +261,8 @@ friction = { coefficient = "0.25 + 0.1*rate", static_coefficient = "0.8 - 0.1*t"
 """
 
 
-@pytest.mark.slow_cases("absolute")
+@pytest.mark.by_turns(2)
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_coefficients_are_formulas_too(coordinates: str) -> None:
     """A block on a slope of 3 in 4 under 16 N stops by v' = -(8 + 0.8 v), and is held until 0.8 - 0.1 t is 12/16."""
@@ -304,7 +314,8 @@ torque = 2.0
 """
 
 
-@pytest.mark.fast("2 - t-2 - t/10-0.9523809523809523-absolute")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(("one", "two", "time"), [("2 - t", "2 - t/10", 1.0 / 1.05), ("3 - t", "1 - t/10", 1.5 / 1.05)])
 def test_brakes_on_both_shafts_of_a_gear_hold_together(one: str, two: str, time: float, coordinates: str) -> None:
@@ -411,7 +422,8 @@ def test_three_clutches_in_a_chain(coordinates: str) -> None:
 # -- a freewheel -------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.fast("dop853-absolute")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(
     "steps", [TIGHT, {"integrator": "picard"}, {"integrator": "rk4", "step": 0.01}], ids=["dop853", "picard", "rk4"]
@@ -485,6 +497,7 @@ torque = "t"
 """
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("steps", [TIGHT, {"integrator": "picard"}], ids=["dop853", "picard"])
 @pytest.mark.parametrize(("one", "time", "rate"), [(1.5, 2.0, 1.0), (0.0, 0.5, 1.0), ("2 - t/4", 2.0, 1.25)])

@@ -89,12 +89,13 @@ def settings_of(integrator: str) -> dict[str, object]:
     return {"integrator": integrator, "verify": False, **({"step": 1e-3} if integrator == "rk4" else {})}
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize(
     ("law", "time"), [("speed*t", 1.25), ("0.5 - 0.2*(1 - t)**3", 1.0)], ids=["at full speed", "smoothly"]
 )
-@pytest.mark.fast("at full speed-picard-absolute", "smoothly-dop853-joint")
+@pytest.mark.fast("at full speed-picard-absolute")
 def test_stops_that_meet_are_named(law: str, time: float, integrator: str, coordinates: str) -> None:
     run = squeezed(law).simulate(until=2.0, coordinates=coordinates, **settings_of(integrator))
     assert run.status == "failed" and run.t[-1] == pytest.approx(time, abs=4e-3)
@@ -104,6 +105,7 @@ def test_stops_that_meet_are_named(law: str, time: float, integrator: str, coord
     assert float(run.reason.removeprefix(sentence).removesuffix(" s")) == pytest.approx(time, abs=2e-4)
 
 
+@pytest.mark.slow
 def test_stops_that_close_at_both_ends_of_one_body_stay_closed() -> None:
     """Both gaps stay 0 while the ram stands still: nothing contradicts."""
     run = squeezed("0.5 if t > 1 else 0.5*t").simulate(until=1.0 - 1e-6, verify=False)
@@ -136,6 +138,7 @@ def braked(bound: str, push: str) -> symgen.Model:
     return symgen.Model(validate(parse_toml(text, "braked.toml"), "braked.toml"))
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(
@@ -151,6 +154,7 @@ def test_a_bound_that_becomes_undefined_is_named(bound: str, push: str, coordina
         assert float(run.reason.removeprefix(sentence).removesuffix(" s")) == pytest.approx(1.0, abs=1e-3)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.parametrize("integrator", ["picard", "rk4"])
 @pytest.mark.slow
 def test_rows_and_steps_name_a_contradiction_too(integrator: str) -> None:
@@ -168,6 +172,7 @@ def test_rows_and_steps_name_a_contradiction_too(integrator: str) -> None:
                 run.step(0.25)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("model", "time", "sentence"),

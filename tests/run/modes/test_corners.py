@@ -171,6 +171,7 @@ def test_several_corners_in_one_gap(tmp_path: Path) -> None:
     assert abs(result.events[1].v["b.vx"] - rate) < 1e-9 and abs(result["b.vx"][-1] - rate) < 1e-9
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("integrator", ["dop853", "picard", "rk4"])
@@ -197,6 +198,7 @@ def test_steps_from_python(integrator: str, tmp_path: Path) -> None:
     assert abs(run.q["disc.y"] - HEIGHT) < 1e-9
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_c_passes_corners(tmp_path: Path) -> None:
     model = loaded(YO_YO, tmp_path)
@@ -214,6 +216,7 @@ def test_c_passes_corners(tmp_path: Path) -> None:
         assert transitions_of(model.simulate(integrator="rk4", step=0.005, verify=False))[0][1] == transitions[0][1]
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_an_fmu_passes_corners(tmp_path: Path) -> None:
     model = loaded(YO_YO, tmp_path)
@@ -386,7 +389,8 @@ restitution = 0.2
 """
 
 
-@pytest.mark.slow_cases("-0.31-1.0-0.3-absolute")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(("start", "speed", "turn"), [(-0.31, 1.0, 0.3), (-0.7, 2.3, 1.1), (-0.4, 3.0, 0.2)])
 def test_a_gap_that_is_touched_beside_a_closed_one_is_not_struck(

@@ -200,6 +200,7 @@ def test_at_rest_nothing_creeps() -> None:
     np.testing.assert_allclose(ends[1][2], ends[0][2], rtol=0, atol=1e-13)
 
 
+@pytest.mark.slow_cases("dop853-1e-11")
 @pytest.mark.parametrize(("integrator", "most"), [("dop853", 1e-11), ("picard", 1e-11), ("radau5", 1e-11)])
 def test_a_block_on_a_belt_slips_and_sticks_with_its_period(integrator: str, most: float) -> None:
     count = 10
@@ -228,7 +229,7 @@ def test_constant_steps_keep_their_order() -> None:
     assert ((orders > 3.8) & (orders < 4.2)).all()
 
 
-@pytest.mark.slow_cases("absolute")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_two_blocks_with_static_bounds_above_sliding(coordinates: str) -> None:
     outcome = ready(blocks("a", "b"), 11.8, coordinates=coordinates).integrate()
@@ -328,8 +329,14 @@ OTHERS: dict[str, tuple[str, dict[str, float], float]] = {
 }
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases(
-    "generalized-alpha", "implicit-constraint", "null-space", "coordinate-partitioning", "symmetric-projection"
+    "generalized-alpha",
+    "implicit-constraint",
+    "null-space",
+    "coordinate-partitioning",
+    "symmetric-projection",
+    "dependent-correction",
 )
 @pytest.mark.parametrize("method", METHODS.names)
 def test_every_method_finds_the_rest_angle_or_says_why_not(method: str) -> None:
@@ -373,8 +380,15 @@ def rest_by_the_reaction() -> tuple[int, float]:
         angle, turns = swing.y[0, -1], turns + 1
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases(
-    "coordinate-partitioning", "adaptive-baumgarte", "generalized-alpha", "implicit-constraint", "symmetric-projection"
+    "coordinate-partitioning",
+    "adaptive-baumgarte",
+    "generalized-alpha",
+    "implicit-constraint",
+    "symmetric-projection",
+    "baumgarte",
+    "dependent-correction",
 )
 @pytest.mark.parametrize("method", METHODS.names)
 def test_every_method_rests_by_the_reaction_or_says_why_not(method: str) -> None:
@@ -394,6 +408,7 @@ def test_every_method_rests_by_the_reaction_or_says_why_not(method: str) -> None
     assert abs(outcome.states[-1][2] - angle) < most
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast("discrete-gradient", "dopri5", "euler", "half-explicit", "picard", "rk4")
 @pytest.mark.parametrize("integrator", INTEGRATORS.names)
 def test_every_integrator_turns_round(integrator: str) -> None:
@@ -451,6 +466,7 @@ def test_rows_of_a_sweep_choose_modes_in_compiled_loops(integrator: str) -> None
 _JUMPS = "piecewise(t < 0.05, late, t < 0.3, 0.5, t < 0.3 + late, 2.0, t < 1.0, 0.5, 3.0)"
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("integrator", "coordinates"), [("dop853", "absolute"), ("rk4", "absolute"), ("picard", "joint")]
@@ -523,6 +539,7 @@ def test_inspect_shows_rows_with_bounds() -> None:
     ]
 
 
+@pytest.mark.slow
 def test_starts_are_those_without_friction() -> None:
     """Rows at rest are off while a mechanism is closed and its velocities are completed."""
     raw, source = read_raw("four-bar")

@@ -36,6 +36,7 @@ def tooth_forces(result, driving, load):
     return (driving - INERTIAS[0] * rise) / RADII[0], (INERTIAS[1] * rise * RADII[0] / RADII[1] + load) / RADII[1]
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("efficiency", "forwards", "backwards"),
@@ -59,6 +60,7 @@ def test_efficiencies_are_those_at_the_ends(efficiency, forwards, backwards):
         assert (driven["mesh.mode"] == way).all() and (driving["mesh.mode"] == -way).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("efficiency", [[0.8, 0.6], 0.4])
 def test_all_power_is_motion_or_heat(efficiency):
     """Through sticking and reversals what the torques supply is found again; heat never turns back."""
@@ -71,7 +73,7 @@ def test_all_power_is_motion_or_heat(efficiency):
     assert result["heat"][-1] > 0.1
 
 
-@pytest.mark.slow_cases("joint")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_an_efficiency_may_depend_on_the_speed(coordinates):
     """As a table of losses over speed has it: beside the one equation of motion, integrated by SciPy."""
@@ -88,6 +90,7 @@ def test_an_efficiency_may_depend_on_the_speed(coordinates):
     assert result.ok and result["a.omega"][-1] == pytest.approx(expected.y[0, -1], abs=1e-9)
 
 
+@pytest.mark.slow
 def test_heat_and_motion_balance_to_rounding():
     """With constant torques all is linear in time: work, motion and heat are known to the last digits."""
     result = wheels([0.8, 0.6], 1.0, 0.3, 1.0).simulate(until=1.0, rtol=1e-12)
@@ -184,6 +187,7 @@ def jack(torque, efficiency=0.4):
     return symgen.load(builder.force("motor", "torque", joint="bearing", torque=torque).build())
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "settings", [{}, {"coordinates": "joint"}, {"shape": "looped"}, {"integrator": "radau5"}], ids=str
@@ -257,6 +261,7 @@ step = 1e-3
 """
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_pair_in_c_and_as_a_unit(tmp_path):
     (tmp_path / "pair.toml").write_text(MACHINE)
@@ -316,6 +321,7 @@ def test_what_is_wrong_is_named(joint, efficiency, sentence):
     assert sentence in str(error.value)
 
 
+@pytest.mark.slow
 def test_a_heavy_load_behind_a_gear_that_locks_jams_by_name():
     """In a worm whose load has most of the inertia, no deceleration is large enough: the run says so."""
     builder = wheels([0.4, -0.5], 0.0, 1.0, 1.0)

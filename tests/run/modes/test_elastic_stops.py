@@ -71,7 +71,7 @@ def bounces(until: float) -> tuple[list[float], float, float]:
 # -- stops that move ---------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.fast("formula-absolute", "input-joint")
+@pytest.mark.fast("formula-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(
     ("lower", "inputs"),
@@ -176,6 +176,7 @@ def test_an_elastic_stop_in_targets_and_sweeps(tmp_path: Path) -> None:
         assert peak == pytest.approx(forces.max(), rel=2e-3)
 
 
+@pytest.mark.slow
 def test_an_elastic_gap() -> None:
     """A gap of a formula with the same stiffness is the same stop."""
     limit = slide("stop = { lower = 0.0, stiffness = 1000.0, damping = 30.0 }").simulate(until=1.0, **TIGHT)

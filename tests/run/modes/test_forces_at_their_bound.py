@@ -7,7 +7,7 @@ from benchmarks.bounded.margins import RUNS, Case, cases, examined
 
 CASES = list(cases())
 #: All cases in all other kinds of runs, a fifth of them in a turn.
-OTHERS = of_turn(((case, run) for run in RUNS if run != "dop853" for case in CASES), 5)
+OTHERS = of_turn(((case, run) for run in RUNS if run != "dop853" for case in CASES), 15)
 
 
 @pytest.mark.by_turns(3)

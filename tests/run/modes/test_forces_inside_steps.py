@@ -110,6 +110,7 @@ SETTINGS = ({"integrator": "picard"}, {"integrator": "dop853", "rtol": 1e-6, "at
 SWEPT = ("picard", "dop853")
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("settings", SETTINGS)
 @pytest.mark.parametrize("count", [11, pytest.param(301, marks=pytest.mark.slow)])
@@ -190,6 +191,7 @@ JUMPS = {
 }
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("kind", [*JUMPS])

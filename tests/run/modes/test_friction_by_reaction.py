@@ -64,7 +64,7 @@ def test_a_pin_rubs_by_its_own_reaction(integrator: str, coordinates: str) -> No
     assert abs(result["crank.theta"][-1] + 2.14493122869) < 1e-10
 
 
-@pytest.mark.slow_cases("joint")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_slide_rubs_by_its_normal_force(coordinates: str) -> None:
     result = symgen.load(slider_crank({"coefficient": 0.3})).simulate(

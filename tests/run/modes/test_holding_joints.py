@@ -45,7 +45,8 @@ def swing(t0: float) -> tuple[float, float]:
     return float(found.y[0, -1]), float(found.y[1, -1])
 
 
-@pytest.mark.fast("direct-correction-dop853-1e-10-absolute", "direct-correction-dop853-1e-10-joint")
+@pytest.mark.by_turns(4)
+@pytest.mark.fast("direct-correction-dop853-1e-10-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(("method", "integrator", "most"), LAWS)
 def test_a_released_pendulum_is_a_projectile(method, integrator, most, coordinates, loaded) -> None:
@@ -133,6 +134,7 @@ def test_a_rope_takes_the_speed_along_it(loaded) -> None:
     assert np.abs(run.energy_error).max() < 1e-10
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("machine", "name", "values", "until"),
@@ -208,6 +210,7 @@ def test_wrong_keys_are_refused(old, new, sentence, loaded) -> None:
     assert sentence in str(error.value)
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(

@@ -78,6 +78,7 @@ print(json.dumps({
 """
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_all_books_follow_a_law_that_is_halved(coordinates: str) -> None:

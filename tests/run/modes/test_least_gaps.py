@@ -71,6 +71,7 @@ def test_a_ball_comes_to_rest_in_c(tmp_path: Path) -> None:
     assert [word for _, word in transitions] == ["bowl.hit", "bowl.rest", "bowl.hit"]
 
 
+@pytest.mark.slow
 def test_a_start_at_the_bottom_rests_there(tmp_path: Path) -> None:
     text = VALLEY.replace("[0.0, 1.3]", "[0.4, 0.0]")
     result = loaded(text, tmp_path).simulate(integrator="dop853", verify=False)

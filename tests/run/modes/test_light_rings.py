@@ -117,6 +117,7 @@ def shift(text: str = SHIFT) -> symgen.Model:
     return symgen.Model(validate(parse_toml(text, "shift.toml"), "shift.toml"))
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.parametrize("way", [{}, {"coordinates": "joint"}, {"integrator": "radau5"}], ids=["", "joint", "radau5"])
 @pytest.mark.slow
 def test_a_light_ring_takes_as_many_steps_as_one_without_inertia(way: dict[str, str]) -> None:

@@ -7,7 +7,9 @@ from support.locks import LOCKED, parts
 import symgen
 
 
-@pytest.mark.slow_cases("picard-None-1e-06-four-bar-lock", "picard-None-1e-06-slider-lock")
+@pytest.mark.slow_cases(
+    "picard-None-1e-06-four-bar-lock", "picard-None-1e-06-slider-lock", "dop853-None-1e-06-four-bar-lock"
+)
 @pytest.mark.parametrize("name", LOCKED)
 @pytest.mark.parametrize(
     ("integrator", "step", "tolerance"),

@@ -49,6 +49,7 @@ def with_friction(keys: str) -> symgen.Model:
     return symgen.load(described(BLOCK.replace("FRICTION", f"friction = {{ {keys} }}")))
 
 
+@pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_constant_bound_takes_its_force_times_the_path(coordinates: str) -> None:
     """Rest after half swings: the path is that between turns, which the sum of energies gives, too."""

@@ -100,7 +100,7 @@ def simulate(text: str, steps: dict[str, Any], **settings: Any) -> Any:
     return result
 
 
-@pytest.mark.slow_cases("1.0-default-joint")
+@pytest.mark.slow_cases("1.0-default-joint", "1.0-dop853-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("part", [1.0, 0.5, 0.0])
@@ -128,7 +128,7 @@ def test_a_winch_takes_a_load_along(steps: dict[str, Any]) -> None:
     np.testing.assert_allclose(result["b.vy"], [0.0, 0.5], rtol=0, atol=1e-10)
 
 
-@pytest.mark.slow_cases("default-joint")
+@pytest.mark.slow_cases("default-joint", "dop853-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 def test_a_floor_that_swings_throws_what_rests_on_it(steps: dict[str, Any], coordinates: str) -> None:
@@ -145,7 +145,7 @@ def test_a_floor_that_swings_throws_what_rests_on_it(steps: dict[str, Any], coor
     assert result.energy_drift_max < 1e-6
 
 
-@pytest.mark.slow_cases("1.0-default-joint", "1.0-default-absolute", "1.0-dop853-joint")
+@pytest.mark.slow_cases("1.0-default-joint", "1.0-default-absolute", "1.0-dop853-joint", "1.0-radau5-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("part", [1.0, 0.5, 0.0])
@@ -160,7 +160,10 @@ def test_a_wall_pushes_a_block_that_friction_holds(part: float, steps: dict[str,
     assert result.energy_drift_max < 1e-10
 
 
-@pytest.mark.slow_cases("1.0-default-absolute", "1.0-default-joint", "1.0-dop853-joint")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases(
+    "1.0-default-absolute", "1.0-default-joint", "1.0-dop853-joint", "1.0-dop853-absolute", "1.0-radau5-joint"
+)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("part", [1.0, 0.5, 0.0])
@@ -177,7 +180,10 @@ def test_a_wall_meets_a_block_that_slides(part: float, steps: dict[str, Any], co
     assert result.energy_drift_max < 1e-10
 
 
-@pytest.mark.slow_cases("1.0-default-joint", "1.0-default-absolute", "1.0-dop853-joint")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases(
+    "1.0-default-joint", "1.0-default-absolute", "1.0-dop853-joint", "1.0-dop853-absolute", "1.0-radau5-joint"
+)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("part", [1.0, 0.5, 0.0])
@@ -229,11 +235,8 @@ def test_impacts_on_a_rising_floor_accumulate() -> None:
     assert result["lost"][-1] == pytest.approx(6.25, abs=1e-9)
 
 
-@pytest.mark.fast(
-    "max(0, t - 0.3037)-1.0-radau5-absolute",
-    "max(0, t - 0.3037)-0.0-rk4-absolute",
-    "(t - 0.3037 if t > 0.3037 else 0)-0.0-default-absolute",
-)
+@pytest.mark.by_turns(4)
+@pytest.mark.fast("max(0, t - 0.3037)-0.0-rk4-absolute", "(t - 0.3037 if t > 0.3037 else 0)-0.0-default-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("part", [1.0, 0.5, 0.0])

@@ -66,6 +66,7 @@ torque = "-0.15*sin(6*t)"
     return text
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("settings", "bound"),
@@ -86,6 +87,7 @@ def test_a_ratchet_turns_one_way(settings: dict[str, Any], bound: float, tmp_pat
     assert result["wheel.theta"][-1] == pytest.approx(22.4334623, abs=bound)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("rtol", [1e-8, 1e-11])
 def test_flights_that_begin_below_zero_by_rounding_end_where_they_began(rtol: float, tmp_path: Path) -> None:
@@ -99,7 +101,7 @@ def test_flights_that_begin_below_zero_by_rounding_end_where_they_began(rtol: fl
 def test_a_ratchet_over_the_angle_at_which_it_starts(tmp_path: Path) -> None:
     """Rows of a sweep by two tolerances differ by what these allow: no start loses a hit."""
     model = loaded(ratchet(0.35), tmp_path)
-    turns = np.array(of_turn(np.linspace(-0.02, 0.02, 301), 5))
+    turns = np.array(of_turn(np.linspace(-0.02, 0.02, 301), 25))
     common = {"quantities": ("wheel.theta",), "until": 3.0, "times": (3.0,), "integrator": "dop853"}
     rough, fine = (symgen.sweep(model, {"turn": turns}, rtol=rtol, **common) for rtol in (1e-8, 1e-10))
     assert list(rough.status) == list(fine.status) == ["ok"] * len(turns)

@@ -94,12 +94,8 @@ RELEASES = [
 ]
 
 
-@pytest.mark.fast(
-    "baumgarte-dop853-1e-12-four-bar-0.8",
-    "compliant-constraints-rk4-1e-12-four-bar-0.8",
-    "penalty-rk4-1e-06-four-bar-0.8",
-    "generalized-alpha-generalized-alpha-1e-09-four-bar-0.8",
-)
+@pytest.mark.by_turns(4)
+@pytest.mark.fast("compliant-constraints-rk4-1e-12-four-bar-0.8", "penalty-rk4-1e-06-four-bar-0.8")
 @pytest.mark.parametrize(("method", "integrator", "most", "name", "until"), RELEASES)
 def test_the_motion_is_that_without_the_joint(name, until, method, integrator, most) -> None:
     whole, less, joint = catalogued(name)
@@ -131,6 +127,7 @@ def test_a_passage_without_the_joint_is_noted_as_there(integrator: str) -> None:
     np.testing.assert_allclose(tables[0][0, abi.PASSAGE_IN], tables[1][0, abi.PASSAGE_IN] + RELEASED, rtol=0, atol=2e-3)
 
 
+@pytest.mark.slow_cases("direct-correction-rk4", "lagrange-rk4")
 @pytest.mark.parametrize("integrator", EXPLICIT)
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 def test_joint_coordinates(method: str, integrator: str) -> None:

@@ -56,6 +56,7 @@ def yoke(law: str) -> symgen.Model:
     return symgen.Model(validate(parse_toml(YOKE.replace("LAW", LAWS[law]), "yoke.toml"), "yoke.toml"))
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("way", [*WAYS])
 @pytest.mark.parametrize("law", [*LAWS])

@@ -98,6 +98,7 @@ def pulled_block(size: float) -> tuple[float, list[float]]:
     return float(state[0]), slips
 
 
+@pytest.mark.slow_cases("{ forwards = 5.0, backwards = 1.5 }-holds0-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(
     ("static", "holds"), [("{ forwards = 5.0, backwards = 1.5 }", (5.0, 1.5)), ("6.0", (6.0, 6.0))]
@@ -156,6 +157,7 @@ def test_a_block_to_and_fro_in_rows(tmp_path: Path) -> None:
         np.testing.assert_allclose(rows["block.x"][:, -1], expected, rtol=0, atol=1e-8)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_block_to_and_fro_in_c_in_an_fmu_and_step_by_step(tmp_path: Path) -> None:
     model = loaded(PULLED.replace("STATIC", STATIC), tmp_path)
@@ -180,6 +182,7 @@ def test_derivatives_by_differences(tmp_path: Path) -> None:
     assert exact == pytest.approx((near[1] - near[0]) / 2e-5, rel=1e-6)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_pins_share_bounds_of_both_ways(coordinates: str, tmp_path: Path) -> None:

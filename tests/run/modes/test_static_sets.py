@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.optimize import linprog
+from support.rotation import of_turn
 
 from tests.result.targets.test_c_modes import loaded
 
@@ -60,9 +61,8 @@ def test_pins_hold_by_any_forces_within_their_bounds(coordinates: str, tmp_path:
 @pytest.mark.slow
 def test_random_bounds(tmp_path: Path) -> None:
     generator = np.random.default_rng(3)
-    for _ in range(30):
-        static = generator.uniform(0.3, 3.0, 5).round(3)
-        part = float(generator.uniform(0.3, 1.0))
+    bounds = [(generator.uniform(0.3, 3.0, 5).round(3), float(generator.uniform(0.3, 1.0))) for _ in range(30)]
+    for static, part in of_turn(bounds, 3):
         result = loaded(five_bar(static, part), tmp_path).simulate(
             integrator="dop853", until=1.2 * breakaway(static), verify=False
         )

@@ -89,6 +89,7 @@ def first_slip(result: symgen.Result) -> float:
     return next(event.t for event in result.events if event.name[0] == "p" and event.name.endswith(".slip"))
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_pins_hold_while_a_block_slides_and_rests(coordinates: str, tmp_path: Path) -> None:
@@ -117,6 +118,7 @@ def test_pins_hold_at_300_speeds_of_the_block(part: int, tmp_path: Path) -> None
         assert result.ok and first_slip(result) == pytest.approx(expected, rel=2e-9), speed
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_pins_hold_in_rows_in_c_in_an_fmu_and_step_by_step(tmp_path: Path) -> None:
     """All of them call one function; the linkage has moved by the end."""

@@ -159,6 +159,7 @@ def test_a_ball_bounces_and_rests(integrator: str, coordinates: str) -> None:
     assert outcome.happened[0].energy == pytest.approx(-2.0 * G * 0.51, rel=1e-12)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("integrator", "coordinates"),
@@ -238,7 +239,8 @@ def leg_events(until: float) -> list[tuple[float, str]]:
     return events
 
 
-@pytest.mark.slow_cases("dop853-joint", "picard-joint")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("integrator", "coordinates"), [("dop853", "joint"), ("dop853", "absolute"), ("picard", "joint")]
 )
@@ -351,6 +353,7 @@ reset = { "block.vx" = "1.0 + part" }
     return described(text)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("make", "integrator", "coordinates", "settings"),

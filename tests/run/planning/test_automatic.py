@@ -165,6 +165,7 @@ def test_two_runs_agree():
     assert any(note.startswith("verified: a run with rtol = 1e-09 agrees within") for note in result.notes)
 
 
+@pytest.mark.slow
 def test_tolerances_fall_until_two_runs_agree(monkeypatch):
     """What is reported then is as near to an independent reference as the runs are to each other."""
     from symgen.study.references.reference import reference_motion

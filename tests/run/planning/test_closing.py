@@ -62,11 +62,8 @@ def names_of(mechanism):
     return [info.velocities[j].name for j in free_velocities(mechanism)]
 
 
-@pytest.mark.fast(
-    "four-bar-free0-most0-absolute",
-    "four-bar-free0-most0-joint",
-    "andrews-free1-most1-absolute",
-)
+@pytest.mark.by_turns(3)
+@pytest.mark.fast("four-bar-free0-most0-absolute", "four-bar-free0-most0-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(
     ("name", "free", "most"),
@@ -99,7 +96,7 @@ def test_a_start_with_another_choice_has_another_module_of_the_same_model(linkag
     assert keys[0] == keys[1] != keys[2]
 
 
-@pytest.mark.slow_cases("60.0-joint")
+@pytest.mark.slow_cases("60.0-joint", "103.5-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("degrees", [60.0, 103.5])
 def test_runs_are_those_by_pivots(linkage, degrees, coordinates, monkeypatch):

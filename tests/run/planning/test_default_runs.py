@@ -86,6 +86,7 @@ def test_methods_of_another_form_keep_their_integrator(method):
     assert plan.integrator.name == METHODS.get(method).default_integrator
 
 
+@pytest.mark.slow
 def test_comparisons_and_loops_are_for_dop853():
     assert model("-block.x").simulate(until=0.1).integrator == "picard"
     assert model("-block.x if block.x > 0 else 0").simulate(until=0.1).integrator == "dop853"

@@ -334,12 +334,8 @@ def test_orders_with_a_state(method, integrator, order):
     np.testing.assert_allclose(np.log2(errors[0] / errors[1]), order, rtol=0.03)
 
 
-@pytest.mark.fast(
-    "discrete-gradient-discrete-gradient-2-joint",
-    "symmetric-projection-gauss-4-joint",
-    "half-explicit-half-explicit-3-absolute",
-    "half-explicit-phem56-5-absolute",
-)
+@pytest.mark.by_turns(4)
+@pytest.mark.fast("symmetric-projection-gauss-4-joint", "half-explicit-phem56-5-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint", "looped"])
 @pytest.mark.parametrize(("method", "integrator", "order"), SCHEMES)
 def test_schemes_with_a_state_in_a_loop(method, integrator, order, coordinates):
@@ -372,7 +368,9 @@ def test_generalized_alpha_controls_the_error_of_states():
     assert stiff.outputs["i"][-1] == pytest.approx((3.0 - 0.7 * stiff.v["wheel.omega"][-1]) / 1.2, rel=1e-5)
 
 
-@pytest.mark.slow_cases("augmented-hamiltonian-absolute", "augmented-hamiltonian-joint")
+@pytest.mark.slow_cases(
+    "augmented-hamiltonian-absolute", "augmented-hamiltonian-joint", "hamiltonian-baumgarte-absolute"
+)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("method", ["augmented-hamiltonian", "hamiltonian-baumgarte"])
 def test_methods_of_momenta_take_states(method, coordinates):
@@ -383,6 +381,7 @@ def test_methods_of_momenta_take_states(method, coordinates):
     np.testing.assert_allclose(result.v.values[-1], wanted.v.values[-1], atol=1e-11)
 
 
+@pytest.mark.slow
 def test_lanes_run_states_as_single_runs_do():
     settings = {"integrator": "rk4", "step": 1e-3, "until": 0.1, "quantities": ["i", "wheel.omega"]}
     single, lanes = (

@@ -26,7 +26,7 @@ def partitioned(mechanism):
     return run, tables, (layout, compiled_form(compiled.model.geometry), tables), (start.p, start.w.copy(), part)
 
 
-@pytest.mark.slow_cases("four-bar")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["four-bar", "bricard"])
 def test_dependent_coordinates_follow_from_the_independent_ones(name):
     run, tables, model, behind = partitioned(load(name).mechanism)

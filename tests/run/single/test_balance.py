@@ -27,6 +27,7 @@ def loaded():
     return description
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_work_of_drivers_and_losses_is_accounted_for(method):

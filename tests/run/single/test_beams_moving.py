@@ -74,6 +74,7 @@ def test_adaptive_steps_follow_the_tolerance():
     assert ends[0].steps < ends[1].steps < ends[2].steps
 
 
+@pytest.mark.slow
 def test_beam_spins_up():
     run = spin_up(8).simulate(until=15.0, step=4e-3, output_step=0.5, **ALPHA)
     assert furthest(run, [run.outputs["u"], run.outputs["w"]], SPIN_UP) <= 1e-4

@@ -76,7 +76,7 @@ def model(tmp_path_factory):
     return symgen.load(path)
 
 
-@pytest.mark.slow_cases("6.0-joint")
+@pytest.mark.slow_cases("6.0-joint", "1e-06-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("mass", [6.0, 1e-6, 1e-12])
 def test_a_driven_parallelogram_passes_its_folded_positions(model, coordinates, mass):

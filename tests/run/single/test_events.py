@@ -369,7 +369,7 @@ def euler_impacts(h):
     return found
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.parametrize(
     "integrator",
     [name if name in SAMPLED else pytest.param(name, marks=pytest.mark.slow) for name in INTEGRATORS.names],
@@ -612,6 +612,7 @@ def test_rows_that_are_rounding_take_no_impulse():
     assert not contradictory and not impulses[:2].any()
 
 
+@pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_contradictory_velocities_are_refused_with_the_nearest_that_joints_allow(coordinates):
     """Those of a four-bar are on a line through 0: the foot of the perpendicular on it is nearest."""

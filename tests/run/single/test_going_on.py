@@ -94,6 +94,7 @@ def test_in_space_with_redundant_rows_and_through_a_passage(name, method, until,
     assert found.rank_event_count == whole.rank_event_count and found.rank == whole.rank
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("ending", ["nc", "parquet", "csv"])
 def test_files(tmp_path, ending):
@@ -154,7 +155,7 @@ def test_files_of_runs_that_were_not_changed_and_others(tmp_path, capsys):
     assert "one way of saying where a run begins" in capsys.readouterr().err
 
 
-@pytest.mark.slow_cases("FRHP")
+@pytest.mark.slow
 @pytest.mark.parametrize("mark", [b"OHDR", b"FRHP", b"BTLF"])
 def test_damaged_files_are_refused_in_one_sentence(tmp_path, capsys, mark):
     """A bit of each sort of a NetCDF file's metadata is flipped; libraries raise errors of other types for each."""

@@ -102,6 +102,7 @@ def recorded() -> dict[str, Any]:
     return json.loads(RECORDED.read_text())
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases(
     "a stiff governor", "a sweep of events", "index1-augmented-lagrangian in space", "auto through singular positions"
 )

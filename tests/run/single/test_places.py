@@ -73,14 +73,8 @@ CASES = {
 }
 
 
-@pytest.mark.fast(
-    "generalized-alpha-joint",
-    "half-explicit-joint",
-    "heun-joint",
-    "rkmk4-screws-absolute",
-    "symplectic-euler-joint",
-    "trapezoidal-joint",
-)
+@pytest.mark.by_turns(4)
+@pytest.mark.fast("half-explicit-joint", "symplectic-euler-joint", "trapezoidal-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("integrator", list(INTEGRATORS))
 def test_point_masses_that_start_near_the_origin(integrator, coordinates):
@@ -139,6 +133,7 @@ def check_like(here, there):
     assert abs(there.steps - here.steps) <= 0.1 * here.steps
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", MECHANISMS)
 def test_shifted_mechanisms(name):
@@ -161,6 +156,7 @@ def test_shifted_mechanisms(name):
         assert (there.status, there.rank.rank) == ("ok", here.rank.rank), there.reason
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.fast("pendulum-9.313225746154785e-10", "slider-crank-9.313225746154785e-10", "heavy-top-1073741824.0")
 @pytest.mark.parametrize("length", [2.0**-30, 2.0**30])
 @pytest.mark.parametrize("name", MECHANISMS)

@@ -32,6 +32,7 @@ CASES = {
 }
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("case", CASES)
 def test_the_same_motion(case):

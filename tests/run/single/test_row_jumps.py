@@ -97,6 +97,7 @@ def test_rows_that_jump_or_have_kinks_end_a_run_with_their_name(scheme, coordina
         assert "row wire.row1 jumps: its" in sentence or "joints.wire.rows[0].position: expected a motion" in sentence
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(("scheme", "coordinates"), CASES)
 def test_rows_that_change_smoothly_are_followed(scheme, coordinates):
@@ -115,6 +116,7 @@ def test_rows_that_change_smoothly_are_followed(scheme, coordinates):
         assert result.q["a.y"][-1] == pytest.approx(rate.y[0, -1], abs=2e-6), wire
 
 
+@pytest.mark.slow
 def test_only_the_value_of_a_velocity_counts():
     jumping = bead("0", velocity="a.vx - (0.1 if a.y > 1 else 0)")
     assert "row wire.row1 jumps: its value changes by -0.1 m/s at t = 1 s" in ended(jumping, "dop853", "absolute")
@@ -228,6 +230,7 @@ def test_sweeps_count_turns_and_examine_rows():
         symgen.sweep(belt(CUT), vary, until=3.0, integrator="rk4", step=1e-2, target="lanes")
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases("adaptive", "constant", "joint")
 @pytest.mark.parametrize(
     "settings",

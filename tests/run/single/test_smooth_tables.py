@@ -32,7 +32,7 @@ def cam_follower(value):
     )
 
 
-@pytest.mark.slow_cases("direct-correction-rk4-straight", "ggl-radau5-straight")
+@pytest.mark.slow_cases("direct-correction-rk4-straight", "ggl-radau5-straight", "direct-correction-rk4-looped")
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize(("method", "integrator"), [("direct-correction", "rk4"), ("ggl", "radau5")])
 def test_a_cam_is_the_polynomial_that_its_points_lie_on(shape, method, integrator):
@@ -69,7 +69,7 @@ def forced(interpolation, periodic):
     )
 
 
-@pytest.mark.slow_cases("cubic-True", "cubic-False")
+@pytest.mark.slow
 @pytest.mark.parametrize(("interpolation", "periodic"), [("cubic", False), ("cubic", True), ("pchip", False)])
 def test_power_of_table_forces_is_the_change_of_energy(interpolation, periodic):
     """The block leaves the table on the right; the same motion from both shapes and another scheme."""
@@ -146,6 +146,7 @@ def on_the_wire(times):
     return solve_ivp(rate, (0.0, times[-1]), begin, "DOP853", t_eval=times, rtol=1e-12, atol=1e-13).y[0]
 
 
+@pytest.mark.slow_cases("direct-correction-radau5-looped", "direct-correction-radau5-straight")
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize(
     ("method", "integrator"),

@@ -38,6 +38,7 @@ PIECES = [
 ]
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow_cases(
     "bricard-direct-correction-rk4", "driven-four-bar-direct-correction-rk4", "four-bar-augmented-hamiltonian-rk4"
 )
@@ -108,6 +109,7 @@ def test_runs_of_another_making_take_coordinates_and_velocities(before, after, s
     np.testing.assert_allclose(second.q.values[-1], whole.q.values[-1], rtol=0.0, atol=1e-8)
 
 
+@pytest.mark.slow
 def test_another_tree_takes_coordinates_and_velocities():
     described = raw("slider-crank")
     trees = []

@@ -122,7 +122,7 @@ def both(model, **settings):
 STRUCK = {"cart-pole": "pole.omega", "bricard": "rod3.wy", "rolling-disc": "disc.wz", "spatial-slider-crank": "rod.vx"}
 
 
-@pytest.mark.slow_cases("bricard")
+@pytest.mark.slow_cases("bricard", "rolling-disc", "spatial-slider-crank")
 @pytest.mark.parametrize("name", STRUCK)
 def test_the_blow_is_that_of_the_coordinates_of_bodies(name):
     """At the first instant, where both are in one state, and the motions behind it within the integrator's error."""
@@ -149,6 +149,8 @@ def test_the_blow_is_that_of_the_coordinates_of_bodies(name):
         np.testing.assert_allclose(y, x, rtol=0.0, atol=1e-8 * max(1.0, np.abs(x).max()))
 
 
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "integrator"),
     [

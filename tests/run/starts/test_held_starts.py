@@ -88,6 +88,7 @@ def test_what_is_held_is_the_first_output_to_the_last_bit():
     assert_same_motion(swept["arm.theta"][0], found["arm.theta"][:1])
 
 
+@pytest.mark.slow
 def test_what_the_file_holds_a_sweep_holds():
     tables = raw()
     tables["bodies"]["crank"]["hold"] = "angle"
@@ -193,6 +194,7 @@ def turn(axis: int, angle: float):
     return m
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "shape"), [("lagrange", "straight"), ("direct-correction", "straight"), ("lagrange", "looped")]

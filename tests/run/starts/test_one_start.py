@@ -68,6 +68,7 @@ def all_at_once(compiled, rows, p, targets, held):
     return *now, asked.summary
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("planar-3-True", "planar-4-False")
 @pytest.mark.parametrize("holds", [False, True])
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case[1]}-{case[0]}")
@@ -90,6 +91,7 @@ def test_every_bit_is_that_of_a_sweep(monkeypatch, case, holds):
         np.testing.assert_array_equal(sweep[0][:2, 2], targets[:2, 0])
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_both_shapes_have_the_same_start():
     """On random mechanisms, in a process in which nothing is compiled: straight, looped, and by sparse algebra."""
@@ -204,7 +206,7 @@ def test_a_massless_body_that_nothing_holds_is_a_failed_row():
 # -- what is evaluated before what -------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow_cases("looped")
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 def test_nothing_is_read_that_was_not_evaluated_before(monkeypatch, shape):
     """With nan in all of the scratch array that ``geometry`` fills, starts are the same: it comes before the rest."""
@@ -229,7 +231,8 @@ def test_nothing_is_read_that_was_not_evaluated_before(monkeypatch, shape):
             np.testing.assert_array_equal(compiled.section(found.w, section), compiled.section(expected.w, section))
 
 
-@pytest.mark.slow_cases("2-joint", "3-absolute", "3-joint")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_the_sentence_on_a_massless_node_between_springs_has_the_rows_that_hold_it(dimension, coordinates):

@@ -65,6 +65,7 @@ def test_a_driver_may_start_whole_turns_away(value, described):
     assert moved == pytest.approx(abs(math.remainder(value - described, math.tau)), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_gears_and_racks_follow_a_driver_over_whole_turns():
     """A at 7 rad turns B by way of 2 A + B = 31 and the rack by 0.1 B; all described near where they belong."""
     b = 31.0 - 14.0

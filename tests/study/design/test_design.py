@@ -9,6 +9,7 @@ import time
 import numpy as np
 import pytest
 from analyses.rods import of_raw
+from support.rotation import of_turn
 
 import symgen
 from study.design.machines import (
@@ -37,7 +38,7 @@ def machine():
 # -- closed forms ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow_cases("integral(fx**2 + fy**2)")
+@pytest.mark.slow
 @pytest.mark.parametrize("aim", ["rms(shaking)", "integral(fx**2 + fy**2)"])
 def test_a_counterweight_is_that_of_the_closed_form(aim):
     found = of_raw(compressor()).design({"cw": (0.0, 6.0)}, aim)
@@ -45,6 +46,7 @@ def test_a_counterweight_is_that_of_the_closed_form(aim):
     assert found.values["cw"] == pytest.approx(best_counterweight(), abs=1e-10)
 
 
+@pytest.mark.slow
 def test_the_least_peak_of_a_force_is_found_between_samples():
     # m w^2 times the distance of the masses from the pin: a grid over the counterweight
     machine = of_raw(compressor())
@@ -126,6 +128,7 @@ def test_limits_that_contradict_each_other_are_named(machine):
     assert missed == pytest.approx([0.015, 0.015], rel=0.05)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_press_needs_less_than_half_of_its_torque(machine, tmp_path):
     found = machine.design(PRESS_BOX, AIM, PRESS_KEEP, starts=8)
@@ -144,7 +147,8 @@ def test_a_press_needs_less_than_half_of_its_torque(machine, tmp_path):
 def test_an_answer_is_never_worse_than_a_file_within_limits(tmp_path):
     (tmp_path / "shaker.toml").write_text(TEXT)
     model, worse = symgen.load(tmp_path / "shaker.toml"), []
-    for seed in range(100):
+    seeds = of_turn(range(100), 5)
+    for seed in seeds:
         rng = np.random.default_rng(seed)
         begin = {"r": rng.uniform(0.02, 0.08), "m": rng.uniform(2.0, 6.0)}
         stroke, turn = 1000.0 * begin["r"] * rng.uniform(0.8, 1.0), rng.uniform(0.0, 5.0)
@@ -153,7 +157,7 @@ def test_an_answer_is_never_worse_than_a_file_within_limits(tmp_path):
         vary = {"r": (0.02, 0.08), "m": (2.0, 6.0)}
         found = model.design(vary, aim, keep, starts=1 + seed % 2, seed=seed, parameters=begin)
         worse.append(not found.ok or found.after > found.before)
-    assert len(worse) == 100 and not any(worse)
+    assert len(worse) == len(seeds) and not any(worse)
 
 
 @pytest.mark.slow
@@ -382,6 +386,7 @@ REFUSED = {
 }
 
 
+@pytest.mark.slow_cases("an aim that nothing changes")
 @pytest.mark.parametrize("what", REFUSED)
 def test_bad_input_has_one_sentence(machine, what):
     arguments, sentence = REFUSED[what]
@@ -397,6 +402,7 @@ def test_a_model_without_its_file_is_refused_before_the_search(machine):
         copied.design(SMALL, AIM)
 
 
+@pytest.mark.slow
 def test_a_file_that_does_not_move_is_refused_with_the_number_of_those_that_do(machine):
     with pytest.raises(InputError) as error:
         machine.design({"r": (0.04, 0.4)}, AIM, parameters={"r": 0.39})
@@ -414,6 +420,7 @@ def test_remarks_say_how_an_aim_was_met(machine):
     assert "the motion no longer passes a kink of the file, where -0.58 - ram.y = 0" in "; ".join(low.notes)
 
 
+@pytest.mark.slow
 def test_a_point_that_moves_alone_is_noted_and_signs_are_compared(tmp_path):
     (tmp_path / "shaker.toml").write_text(TEXT)
     model = symgen.load(tmp_path / "shaker.toml")

@@ -59,6 +59,7 @@ def compiled(tmp_path_factory):
     return out
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("case", CASES)
 def test_the_same_operations_in_the_same_order(case, interpreted):
@@ -68,6 +69,7 @@ def test_the_same_operations_in_the_same_order(case, interpreted):
         np.testing.assert_array_equal(found[f"cuda_{name}"], found[f"cpu_{name}"], err_msg=name)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("case", COMPILED)
 def test_compiled_runs_to_rounding(case, compiled):
@@ -165,6 +167,7 @@ def test_a_target_that_does_not_exist():
         symgen.sweep("pendulum", {"bob_mass": [1.0]}, target="cud")
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_run_too_large_for_a_thread():
     settings = Settings(method="lagrange", options={"method.solver": "dense"}, until=0.01)

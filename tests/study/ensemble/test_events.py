@@ -31,6 +31,7 @@ def ball(**events):
     return symgen.load(mechanism_of({**copy.deepcopy(BALL), "events": events}))
 
 
+@pytest.mark.slow
 def test_runs_end_where_their_balls_land_and_show_the_state_there():
     """A fall from h takes sqrt(2 h / g) and ends at sqrt(2 g h): where only the end is kept, that is the end."""
     heights = np.array([0.5, 1.0, 3.0])
@@ -71,6 +72,7 @@ def test_outputs_that_were_asked_for_end_with_their_run():
         found["event.ball.y < 0.frst"]
 
 
+@pytest.mark.slow
 def test_balls_bounce_each_with_its_own_restitution_until_their_impacts_accumulate():
     """Impacts of a ball stand at T + 2 T (e + e^2 + ...), T the time of its fall, and gather at T (1 + e) / (1 - e)."""
     values = np.array([0.5, 0.7])

@@ -80,6 +80,7 @@ def test_runs_together_have_one_dimension():
         assert grid["crank.theta"][i, i, 0] == found["crank.theta"][i, 0]
 
 
+@pytest.mark.slow
 def test_names_of_a_mechanism_give_way_to_those_that_every_data_set_has(tmp_path):
     """x = t + w t^3/6; a parameter and an output are called as numbers of every run are, a parameter as a dimension."""
     times = np.array([0.1, 0.3])
@@ -368,6 +369,7 @@ def wait_for_chunks(log, count, process):
     raise AssertionError(f"no {count} chunks: {process.communicate()}")
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.skipif(os.name != "posix", reason="signals")
 @pytest.mark.slow
 @pytest.mark.parametrize("kill", [signal.SIGKILL, signal.SIGINT])

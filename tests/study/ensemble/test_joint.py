@@ -23,7 +23,8 @@ CASES = [
 FURTHER = ("q", "v", "energy", "violations", "smallest_pivot")
 
 
-@pytest.mark.fast("four-bar", "slider-crank", "driven-four-bar")
+@pytest.mark.by_turns(3)
+@pytest.mark.fast("four-bar")
 @pytest.mark.parametrize(("name", "varies", "values", "how"), CASES, ids=[case[0] for case in CASES])
 def test_rows_are_single_runs(name, varies, values, how):
     model, asked = symgen.load(name), {"until": 0.1, "times": (0.0, 0.051, 0.1), "coordinates": "joint"}
@@ -72,6 +73,7 @@ def test_whatever_else_is_kept_is_that_of_single_runs():
     assert_rows(found, model, **asked)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "steps", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 1e-3}], ids=["dop853", "rk4"]

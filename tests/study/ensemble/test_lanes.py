@@ -30,6 +30,7 @@ def scale(values):
     return np.maximum(1.0, np.nanmax(np.abs(values)))
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow_cases("lagrange-options0", "direct-correction-options1")
 @pytest.mark.parametrize(
     ("method", "options"),
@@ -73,6 +74,7 @@ def test_every_tableau_takes_the_same_steps(integrator):
     np.testing.assert_allclose(lanes.values, single.values, rtol=0, atol=1e-12)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", [pytest.param("lagrange", marks=pytest.mark.slow), "direct-correction"])
 def test_spatial_rows_are_those_of_single_runs(method):
@@ -142,6 +144,7 @@ def test_runs_that_choose_rows_anew_are_left_to_single_runs():
     assert pivots[0, 1] > 0.05
 
 
+@pytest.mark.slow
 def test_results_do_not_depend_on_the_neighbours():
     """A row has the same bits whatever stands in the other lanes."""
     chosen = {"method": "direct-correction", "integrator": "rk4", "step": 1e-3, "until": 0.1, "target": "lanes"}
@@ -194,6 +197,7 @@ def test_places_in_the_array_of_lanes_do_not_overlap():
     assert not array.any()
 
 
+@pytest.mark.slow_cases("sin(w*a.theta)")
 @pytest.mark.parametrize("torque", ["sin(w*a.theta)", "max(0, sin(a.x*w + t))"])
 def test_sines_of_large_arguments_are_those_of_single_runs(torque):
     """The sines of lanes lose digits beyond 4e5 and are of another angle beyond 1e15: such rows are done alone."""

@@ -144,7 +144,7 @@ def test_light_bodies_get_the_other_solver_where_they_are_light():
     assert_rows(found, model, **settings)
 
 
-@pytest.mark.slow_cases("direct-correction")
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["direct-correction", "lagrange"])
 def test_singular_passages_are_judged_as_single_runs_are(method):
     description = n_four_bar.KIND.build(1)
@@ -342,6 +342,7 @@ def pushed(formula: str) -> Mechanism:
     return mechanism_of(text)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "steps", [{"step": 2e-3}, {"integrator": "dopri5", "rtol": 1e-9}], ids=["constant", "adaptive"]
@@ -375,7 +376,8 @@ def test_a_jump_to_where_a_formula_is_undefined_ends_a_run_with_its_reason(shape
         assert found.reason.tolist() == [one.reason] * 2
 
 
-@pytest.mark.slow_cases("record_when-constant", "record_when-adaptive")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases("record_when-constant", "record_when-adaptive", "stop_when-constant")
 @pytest.mark.parametrize(
     "steps", [{"step": 2e-3}, {"integrator": "dopri5", "rtol": 1e-9}], ids=["constant", "adaptive"]
 )

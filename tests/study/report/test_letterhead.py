@@ -59,6 +59,7 @@ def test_the_page_that_is_signed_is_last_and_says_what_is_accepted():
     assert "acceptance" not in html_report(document())
 
 
+@pytest.mark.slow
 def test_the_command_takes_them(cli, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "logo.png").write_bytes(PIXEL)

@@ -107,6 +107,7 @@ def test_a_pdf_is_drawn_where_no_browser_is(driven, tmp_path):
     assert drawn == len(document.pictures())
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.usefixtures("no_browser")
 def test_long_words_and_wide_tables_stay_on_the_paper(tmp_path):

@@ -151,6 +151,7 @@ def test_the_page_says_what_it_was_made_with_and_words_are_escaped(text, page):
     assert "<with>" not in text and any(t.strip() == "10⁻¹³ * ^" for t in page.text)
 
 
+@pytest.mark.slow
 def test_every_row_stands_in_the_tables(page):
     whole = "\n".join(page.text)
     for title in ("All rows of four-bar", "All rows of pendulum"):
@@ -260,6 +261,7 @@ def test_markdown_says_the_same_with_pictures_beside_it(document, tmp_path):
     assert "\\|Φ\\|" in content  # bars within a cell
 
 
+@pytest.mark.slow_cases("- no list")
 @pytest.mark.parametrize(
     "title",
     [

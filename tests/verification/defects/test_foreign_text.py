@@ -18,6 +18,7 @@ def code_of(module: ast.Module) -> str:
     return ast.dump(module)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["inject_unit", "emitted_not_python"])
 def test_units_stay_text(name: str, tmp_path: Path) -> None:

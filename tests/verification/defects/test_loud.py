@@ -116,6 +116,7 @@ def test_stabilised_index_2_with_a_redundant_bar(tmp_path: Path) -> None:
     assert off(result, system, q) < 1e-5
 
 
+@pytest.mark.slow
 def test_auto_is_honest_about_a_damper_of_1e10(tmp_path: Path) -> None:
     made = catalogue("driven-four-bar")
     body = next(iter(made["bodies"]))

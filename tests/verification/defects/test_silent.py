@@ -25,7 +25,7 @@ def run(name: str, **settings):
 # -- B4: turns of angles in space --------------------------------------------------------------------------------------
 
 
-@pytest.mark.fast("looped_turns_torsion-looped", "looped_turns_screw-straight")
+@pytest.mark.fast("looped_turns_screw-straight")
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("name", ["looped_turns_torsion", "looped_turns_screw"])
 def test_angles_in_space_start_on_the_turn_that_is_described(name: str, shape: str) -> None:
@@ -48,7 +48,8 @@ def test_check_and_run_agree_on_a_start_in_space(tmp_path: Path) -> None:
 # -- B5: units ---------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.fast("dopri5-1 km")
+@pytest.mark.by_turns(4)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in SIZES if name != "1 m"])
 @pytest.mark.parametrize("integrator", ["dop853", "dopri5"])
 def test_a_four_bar_of_any_size_is_the_same_mechanism(name: str, integrator: str, tmp_path: Path) -> None:
@@ -67,6 +68,7 @@ def test_a_four_bar_of_any_size_is_the_same_mechanism(name: str, integrator: str
         assert abs(result.q["crank.theta"][-1] - q[k, 2]) < 1e-8
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["direct-correction", "lagrange", "auto"])
 def test_a_four_bar_of_a_micrometre_keeps_its_rows(method: str) -> None:
@@ -170,6 +172,7 @@ def test_what_is_no_number_does_not_become_one(formula: str, shape: str, tmp_pat
 COUPLER, ROCKER = "angle = 0.30823360485921275", "angle = 1.5966280632474863"
 
 
+@pytest.mark.slow_cases("changes0-warnings")
 @pytest.mark.parametrize(
     ("changes", "table"),
     [({COUPLER: "angle = -1.1", ROCKER: "angle = 0.6"}, "warnings"), ({ROCKER: "angle = 1.5967"}, "notes")],

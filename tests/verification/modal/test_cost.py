@@ -33,6 +33,7 @@ def ratio(model, other):
     return min(own for own, _ in turns) / min(beside for _, beside in turns)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_modes_cost_less_than_beam_elements_up_to_eight(tmp_path):
     """Within 1.2 times the shares of eight beam elements."""

@@ -29,6 +29,7 @@ START = {"a.wx": 20.0, "a.wy": 30.0, "a.wz": -10.0, "a.vm1": 3.0, "a.vx": 1.0, "
 KINDS = {"spherical": "", "revolute": "axis = [0.0, 0.6, 0.8]", "rigid": ""}
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 @pytest.mark.parametrize("kind", KINDS)
@@ -76,6 +77,7 @@ def skew(a):
     return np.array([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]])
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_ball_joint_holds_as_multipliers_on_all_nodes_do(tmp_path):
     """The tip to 1e-11 m."""
@@ -101,6 +103,7 @@ def test_a_ball_joint_holds_as_multipliers_on_all_nodes_do(tmp_path):
         np.testing.assert_allclose(own, place, atol=1e-11)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_another_floating_frame_is_off_by_the_second_order_of_the_deformation(tmp_path):
     """The frame is held in the pinned interface, over the same space of shapes: 1e-7 m, falling with 1 / E^2.

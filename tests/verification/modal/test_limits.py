@@ -37,6 +37,7 @@ def spin_up(folder, count):
     return model.simulate(**settings)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_the_spin_up_converges_and_one_body_is_not_ok(tmp_path):
     """Order 2 in the number of bodies against exact beams; with 8 the lag at 6.5 s is that of two discretisations."""
@@ -128,6 +129,7 @@ def bend(result, ends):
     return -s * (u - x) + c * (w - y)
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", TEN)
 def test_no_run_with_an_error_above_three_percent_is_ok(name, tmp_path):

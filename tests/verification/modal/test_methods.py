@@ -43,6 +43,7 @@ def distance(result, exact):
     return max(np.abs(result[f"arm.tip.{x}"] - exact[f"arm.tip.{x}"]).max() for x in "xy")
 
 
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS.names)
 def test_every_method_moves_the_tip_alike(model, exact, method):
