@@ -40,6 +40,19 @@ def test_a_scene_ends_alike_by_both_or_what_one_of_them_says_is_told(other, end)
     assert end_of(found) == end and (found["own"], found["numba"]) == (1.0, 9.0)
 
 
+def test_rounding_is_what_other_last_digits_of_parameters_make():
+    own, far, moved = [[[1.0]]], [[[1.0 + 6e-9]]], [[[1.0 + 4e-9]]]
+
+    class Sensitive(Answer):
+        def computed(self, name, kind):
+            return Computed(1.0, moved if kind == "moved" else own, "ok")
+
+    found = apart("curved-lever", "run", Sensitive(1.0, own), Answer(9.0, far))
+    assert found["difference"] == pytest.approx(6e-9) and found["moved"] == pytest.approx(4e-9)
+    assert end_of(found) == "ok" and end_of(found | {"moved": 1e-9}) == "states differ"
+    assert "moved" not in apart("curved-lever", "run", Sensitive(1.0, own), Answer(9.0, [[[1.0 + 1e-10]]]))
+
+
 def test_the_page_names_differences_times_and_what_is_missing(tmp_path, monkeypatch):
     monkeypatch.setattr("benchmarks.records.FOLDER", tmp_path)
     monkeypatch.setattr(by_numba, "all_names", lambda: ("four-bar", "pendulum", "wiper"))
