@@ -15,10 +15,10 @@ that have run others before, as the loops of all scenes are the same, and a few 
 from __future__ import annotations
 
 import argparse
-import functools
 import json
 import os
 import random
+import signal
 import subprocess
 import sys
 import tempfile
@@ -30,14 +30,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from rich.table import Table
 
-from benchmarks.page_tables import PageTable, list_of, number, print_tables
+from benchmarks.page_tables import PageTable, list_of, number, print_tables, two_digits
 from benchmarks.records import Line, Pair, Record
 from benchmarks.show import show
 from symgen.describe.catalogue import all_names, names
 
 PAGE = "docs/measured/numba.md"
 #: Processor time of a process at most [s].
-PATIENCE = 600
+PATIENCE = 600.0
 #: Largest difference of states over their largest value that is rounding, amplified by the motion.
 ROUNDING = 1e-9
 #: Larger ones are rounding as well if they are at most so many times that of a run with moved parameters.
@@ -107,7 +107,7 @@ class Compiler:
     def __init__(self, name: str, *cache: str) -> None:
         self.name = name
         self.process = subprocess.Popen(
-            [sys.executable, "-c", MEASURED, str(PATIENCE), str(MOVED), *cache],
+            [sys.executable, "-c", MEASURED, str(int(PATIENCE)), str(MOVED), *cache],
             env={**os.environ, "SYMGEN_COMPILER": name},
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -131,7 +131,8 @@ class Compiler:
             if answer is not None:
                 assert answer[3] == (self.name == "numba"), "the compiler that was asked for"
                 return Computed(*answer[:3])
-        return Computed(0.0, None, f"signal {-self.process.wait()}")
+        code = -self.process.wait()
+        return Computed(PATIENCE, None, "too slow") if code == signal.SIGXCPU else Computed(0.0, None, f"signal {code}")
 
     def __enter__(self) -> Compiler:
         return self
@@ -140,10 +141,15 @@ class Compiler:
         self.process.communicate()
 
 
-@functools.cache
+#: Processes that the scenes of a record share, by compiler.
+LASTING = dict[str, Compiler]()
+
+
 def lasting(name: str) -> Compiler:
-    """Return the process of a compiler that all scenes of a record share; it ends with this one."""
-    return Compiler(name)
+    """Return the process of a compiler that all scenes of a record share, a new one where a scene has ended it."""
+    if name not in LASTING or LASTING[name].process.poll() is not None:
+        LASTING[name] = Compiler(name)
+    return LASTING[name]
 
 
 def alone(name: str, compiler: str, cache: str) -> float:
@@ -217,8 +223,8 @@ def page_table() -> PageTable:
     def cells(model: str) -> Iterator[str]:
         line = lines[model]
         yield number(line["difference"]) if line.get("difference") is not None else end_of(line)
-        yield from (f"{line[name]:.2g}" if name in line else "" for name in ("own", "numba"))
-        yield from (f"{seconds:.2g}" for seconds in line.get("alone", ()))
+        yield from (two_digits(line[name]) if name in line else "" for name in ("own", "numba"))
+        yield from map(two_digits, line.get("alone", ()))
         yield from [""] * (3 - len(line.get("alone", ())))
 
     rows = tuple(((f"`{job.model}`",), partial(list_of, cells, job.model)) for job in jobs() if job.model in lines)

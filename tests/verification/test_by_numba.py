@@ -2,6 +2,7 @@
 
 import json
 import math
+import signal
 
 import pytest
 
@@ -80,6 +81,10 @@ def test_a_process_has_the_compiler_that_is_asked_for_and_says_why_it_has_no_sta
         first, second = own.computed("pendulum", "run"), own.computed("pendulom", "run")
         assert first.status == "ok" and len(first.states) == 2 and first.seconds > 0.0
         assert second.states is None and "'pendulom'" in second.status
+        own.process.send_signal(signal.SIGXCPU)  # as the system does after so much time
+        own.process.wait()
+        assert own.computed("pendulum", "run") == Computed(600.0, None, "too slow")
+    with Compiler("") as own:
         own.process.kill()
         assert own.computed("pendulum", "run").status == "signal 9"
     assert own.process.returncode == -9
