@@ -13,7 +13,7 @@ from __future__ import annotations
 import random
 import sys
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -25,6 +25,7 @@ from symgen.run.integrators import INTEGRATORS as KINDS
 from symgen.study.comparison.compare_models import compare
 from symgen.study.journal import Journal
 from symgen.study.report.comparison_findings import WRONG
+from symgen.study.yardstick import YARDSTICK
 
 MECHANISMS = ("four-bar", "spatial-slider-crank", "bricard", "front-suspension", "n-four-bar:2")
 INTEGRATORS = ("rk4", "dop853", "picard")
@@ -63,14 +64,34 @@ def suitable(method: str) -> tuple[str, ...]:
 
 def examine(job: Job, methods: Sequence[str] = METHODS.names) -> dict[str, Any]:
     """Return the runs of methods on a mechanism."""
-    runs: dict[str, list[Run]] = {method: [] for method in methods}
+    rows = list[dict[str, Any]]()
     journal = Journal()  # has the reference, which takes longer than the runs of a method
     for integrators in dict.fromkeys(map(suitable, methods)):
         chosen = [method for method in methods if suitable(method) == integrators]
-        for row in compare(job.mechanism, chosen, integrators, journal=journal).to_json()["rows"]:
-            setting = row["step"] or row["rtol"]
-            runs[row["method"]].append(Run(row["integrator"], setting, row["status"], row["error"], row["run_seconds"]))
+        rows += compare(job.mechanism, chosen, integrators, journal=journal).to_json()["rows"]
+    runs: dict[str, list[Run]] = {method: [] for method in methods}
+    for row, seconds in zip(rows, times_by_turns(rows), strict=True):
+        setting = row["step"] or row["rtol"]
+        runs[row["method"]].append(Run(row["integrator"], setting, row["status"], row["error"], seconds))
     return {"runs": runs}
+
+
+def times_by_turns(rows: Sequence[Mapping[str, Any]]) -> list[float]:
+    """Return the times of rows [s]: ratios in turns times the time of the yardstick, which other work has changed once.
+
+    Rows without a ratio, whose yardstick fails or does not take the integrator, have their own processor time.
+    """
+
+    def setting(row: Mapping[str, Any]) -> tuple[Any, ...]:
+        return row["integrator"], row["step"], row["rtol"]
+
+    yardsticks = {setting(row): row["run_seconds"] for row in rows if row["method"] == YARDSTICK and row["cost_ratio"]}
+
+    def seconds(row: Mapping[str, Any]) -> float:
+        yardstick, ratio = yardsticks.get(setting(row)), row["cost_ratio"]
+        return float(yardstick * ratio if yardstick and ratio else row["run_seconds"])
+
+    return list(map(seconds, rows))
 
 
 def again(stored: Line, dice: random.Random) -> Iterator[Pair]:

@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from benchmarks.against_peers import ROOT, TARGET, peers, rows
-from benchmarks.page_tables import DECADE, KEPT, PageTable, list_of, print_tables
+from benchmarks.page_tables import DECADE, KEPT, PageTable, list_of, print_tables, two_digits
 from benchmarks.peers import models
 from benchmarks.peers.measure import Row
 from benchmarks.records import Line, Pair, Record
@@ -129,11 +129,6 @@ def fastest(mechanism: str, tool: str, error: float = TARGET, text: str = "", ke
     """Return the fastest run of a front within an error whose setting contains a text."""
     good = (run for run in runs_of(mechanism, tool, key) or () if run.error <= error and text in run.setting)
     return next(good, None)
-
-
-def two_digits(ratio: float) -> str:
-    """Return a ratio to two digits, without an exponent."""
-    return f"{float(f'{ratio:.1e}'):.15g}"
 
 
 def cells(tools: Iterable[str], settings: bool, mechanism: str) -> Iterator[str]:

@@ -6,17 +6,19 @@
 
 Each compiler has a process with ``SYMGEN_COMPILER=numba`` or without it and an empty cache: processor time to the
 result, and the largest difference of states over their largest value. A run is the first tenth of a scene with the
-settings of ``symgen run``. The record has a run of every scene: in processes that have run others before, as the loops
-of all scenes are the same, and a few in processes of their own, where ``again`` is a second one with the same cache.
+settings of ``symgen run``. Where states differ by more than 1e-9, symgen's own compiler repeats it with parameters that
+have other last digits: what amplifies rounding answers that as well. The record has a run of every scene: in processes
+that have run others before, as the loops of all scenes are the same, and a few in processes of their own, where
+``again`` is a second one with the same cache.
 """
 
 from __future__ import annotations
 
 import argparse
-import functools
 import json
 import os
 import random
+import signal
 import subprocess
 import sys
 import tempfile
@@ -28,16 +30,20 @@ from typing import Any, NamedTuple
 import numpy as np
 from rich.table import Table
 
-from benchmarks.page_tables import PageTable, list_of, number, print_tables
+from benchmarks.page_tables import PageTable, list_of, number, print_tables, two_digits
 from benchmarks.records import Line, Pair, Record
 from benchmarks.show import show
 from symgen.describe.catalogue import all_names, names
 
 PAGE = "docs/measured/numba.md"
 #: Processor time of a process at most [s].
-PATIENCE = 600
+PATIENCE = 600.0
 #: Largest difference of states over their largest value that is rounding, amplified by the motion.
 ROUNDING = 1e-9
+#: Larger ones are rounding as well if they are at most so many times that of a run with moved parameters.
+AS_MOVED = 3.0
+#: By how much the parameters of that run are moved, over their values.
+MOVED = 2e-15
 #: Scenes that have processes of their own as well, where Numba compiles the loops anew.
 ALONE = ("andrews", "pendulum")
 #: What a process computes, by kind; `run` has the settings of the scene, the others few constant steps.
@@ -45,14 +51,16 @@ KINDS = ("run", "looped", "sweep")
 MEASURED = """
 import contextlib, json, os, resource, sys, tempfile, time
 resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-folder = contextlib.nullcontext(sys.argv[2]) if sys.argv[2:] else tempfile.TemporaryDirectory()
+folder = contextlib.nullcontext(sys.argv[3]) if sys.argv[3:] else tempfile.TemporaryDirectory()
 os.environ["SYMGEN_CACHE_DIR"] = folder.__enter__()
 from symgen.api import load
 
 def computed(name, kind):
     model = load(name)
-    if kind == "run":
-        result = model.simulate(until=0.1 * model.mechanism.defaults.until)
+    if kind in ("run", "moved"):
+        by = float(sys.argv[2]) if kind == "moved" else 0.0
+        parameters = {name: (1.0 + by) * value for name, value in model.parameters().items() if by and value}
+        result = model.simulate(until=0.1 * model.mechanism.defaults.until, parameters=parameters)
         return [result.q.values.tolist(), result.v.values.tolist()], result.status
     step = model.mechanism.defaults.step or 1e-3
     settings = {"method": "direct-correction", "integrator": "rk4", "step": step, "until": 50 * step}
@@ -99,7 +107,7 @@ class Compiler:
     def __init__(self, name: str, *cache: str) -> None:
         self.name = name
         self.process = subprocess.Popen(
-            [sys.executable, "-c", MEASURED, str(PATIENCE), *cache],
+            [sys.executable, "-c", MEASURED, str(int(PATIENCE)), str(MOVED), *cache],
             env={**os.environ, "SYMGEN_COMPILER": name},
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -123,7 +131,8 @@ class Compiler:
             if answer is not None:
                 assert answer[3] == (self.name == "numba"), "the compiler that was asked for"
                 return Computed(*answer[:3])
-        return Computed(0.0, None, f"signal {-self.process.wait()}")
+        code = -self.process.wait()
+        return Computed(PATIENCE, None, "too slow") if code == signal.SIGXCPU else Computed(0.0, None, f"signal {code}")
 
     def __enter__(self) -> Compiler:
         return self
@@ -132,10 +141,15 @@ class Compiler:
         self.process.communicate()
 
 
-@functools.cache
+#: Processes that the scenes of a record share, by compiler.
+LASTING = dict[str, Compiler]()
+
+
 def lasting(name: str) -> Compiler:
-    """Return the process of a compiler that all scenes of a record share; it ends with this one."""
-    return Compiler(name)
+    """Return the process of a compiler that all scenes of a record share, a new one where a scene has ended it."""
+    if name not in LASTING or LASTING[name].process.poll() is not None:
+        LASTING[name] = Compiler(name)
+    return LASTING[name]
 
 
 def alone(name: str, compiler: str, cache: str) -> float:
@@ -146,8 +160,8 @@ def alone(name: str, compiler: str, cache: str) -> float:
 
 def difference(one: list[Any], other: list[Any]) -> float:
     """Return the largest difference of positions or velocities over their largest value; infinite if not numbers."""
-    worst = 0.0
-    for a, b in zip(map(np.array, one), map(np.array, other), strict=True):
+    worst = 0.0 if len(one) == len(other) else float("inf")
+    for a, b in zip(map(np.array, one), map(np.array, other), strict=False):
         if a.shape != b.shape or not (np.isfinite(a).all() and np.isfinite(b).all()):
             return float("inf")
         worst = max(worst, float(np.max(np.abs(a - b)) / (np.max(np.abs(a)) or 1.0)))
@@ -155,12 +169,20 @@ def difference(one: list[Any], other: list[Any]) -> float:
 
 
 def apart(name: str, kind: str, one: Compiler, other: Compiler) -> dict[str, Any]:
-    """Return processor times by both compilers [s], and the difference of states or what one of them said."""
+    """Return processor times by both compilers [s], and the difference of states or what one of them said.
+
+    A run whose states differ by more than `ROUNDING` has that of a run with moved parameters as well.
+    """
     own, judge = one.computed(name, kind), other.computed(name, kind)
     found: dict[str, Any] = {"own": own.seconds, "numba": judge.seconds}
     if own.states is None or judge.states is None or own.status != judge.status:
         return found | {"says": own.status if own.status == judge.status else f"{own.status}; Numba: {judge.status}"}
-    return found | {"status": own.status, "difference": difference(own.states, judge.states)}
+    found |= {"status": own.status, "difference": difference(own.states, judge.states)}
+    if kind == "run" and found["difference"] > ROUNDING:
+        moved = one.computed(name, "moved")
+        answered = difference(own.states, moved.states or [])
+        found |= {"moved": answered} if np.isfinite(answered) else {}
+    return found
 
 
 def jobs() -> Iterator[Job]:
@@ -186,7 +208,7 @@ def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
 
 def near(line: Line) -> bool:
     """Whether states of both compilers differ by rounding."""
-    return line.get("difference") is not None and line["difference"] <= ROUNDING
+    return line.get("difference") is not None and line["difference"] <= max(ROUNDING, AS_MOVED * line.get("moved", 0.0))
 
 
 def end_of(line: Line) -> str:
@@ -201,8 +223,8 @@ def page_table() -> PageTable:
     def cells(model: str) -> Iterator[str]:
         line = lines[model]
         yield number(line["difference"]) if line.get("difference") is not None else end_of(line)
-        yield from (f"{line[name]:.2g}" if name in line else "" for name in ("own", "numba"))
-        yield from (f"{seconds:.2g}" for seconds in line.get("alone", ()))
+        yield from (two_digits(line[name]) if name in line else "" for name in ("own", "numba"))
+        yield from map(two_digits, line.get("alone", ()))
         yield from [""] * (3 - len(line.get("alone", ())))
 
     rows = tuple(((f"`{job.model}`",), partial(list_of, cells, job.model)) for job in jobs() if job.model in lines)
@@ -215,6 +237,10 @@ def claims() -> Iterator[str]:
     lines = RECORD.lines()
     largest = number(max((line["difference"] for line in lines if near(line)), default=0.0))
     yield f"{sum(map(near, lines))} of {len(lines)} scenes agree to rounding, the largest difference being {largest}."
+    for line in lines:
+        if near(line) and "moved" in line:
+            far, moved = number(line["difference"]), number(line["moved"])
+            yield f"`{line['model']}` amplifies rounding: {far} by compilers, {moved} by parameters moved by {MOVED:g}."
     ended = [line for line in lines if "difference" in line]
     if ended:
         own, other = (median(line[name] for line in ended) for name in ("own", "numba"))

@@ -2,9 +2,12 @@
 
     python -m benchmarks.checkouts OTHER [MODEL ...] [--integrator rk4] [--method NAME] [--coordinates joint]
                                 [--shape looped]
+    python -m benchmarks.checkouts OTHER [MODEL ...] --operations [--method NAME] [--coordinates joint]
 
 Each measurement is a process of its own, which imports symgen from its checkout; the smallest time of some runs counts,
-and of several rounds in turns the least ratio of this checkout to the other, as other work only adds to either.
+and of several rounds in turns the least ratio of this checkout to the other, as other work only adds to either. With
+--operations nothing runs: the emitted functions say how many operations a right-hand side takes, and what follows an
+accepted step with one round of its correction.
 """
 
 from __future__ import annotations
@@ -14,7 +17,9 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from rich.table import Table
@@ -44,6 +49,40 @@ digest = hashlib.sha256(states).hexdigest()
 print(json.dumps([min(run.outcome.cpu_seconds for run in runs), digest, runs[0].status]))
 """
 
+#: What a process counts: operations of a right-hand side and of `accept`, each with the functions that it calls once.
+COUNTED = r"""
+import json, re, sys, tempfile
+from pathlib import Path
+from symgen.api import load
+name, method, coordinates = sys.argv[1:]
+own, calls = {}, {}
+with tempfile.TemporaryDirectory() as folder:
+    load(name).generate(folder, [method], coordinates=coordinates)
+    for module in ("model", method.replace("-", "_")):
+        text = Path(folder, module + ".py").read_text(encoding="utf-8")
+        for function, body in re.findall(r"^def (\w+)\(.*?\):\n(.*?)(?=^\S|\Z)", text, re.M | re.S):
+            says = re.search(r": (\d+) operations", body)
+            own[function] = int(says[1]) if says else 0
+            calls[function] = re.findall(r"^(?! *#).*?\b(\w+)\(", body, re.M)
+def total(function):
+    return own.get(function, 0) + sum(map(total, calls.get(function, ())))
+print(json.dumps([total("rhs"), total("accept")]))
+"""
+
+
+def counted(checkout: Path, name: str, method: str, coordinates: str) -> tuple[int, int]:
+    """Return the operations of a right-hand side, and those after an accepted step, of a checkout's emitted code."""
+    rhs, accept = answer(checkout, COUNTED, name, method, coordinates)
+    return rhs, accept
+
+
+def answer(checkout: Path, script: str, *words: str) -> Any:
+    """Return what a script prints last in a process of its own that imports symgen from a checkout."""
+    command = [sys.executable, "-c", script, *words]
+    environment = {**os.environ, "PYTHONPATH": str(checkout)}
+    done = subprocess.run(command, env=environment, cwd=checkout, capture_output=True, text=True, check=True)
+    return json.loads(done.stdout.splitlines()[-1])
+
 
 def measure(checkout: Path, name: str, *how: str) -> tuple[float, str, str]:
     """Return processor time [s], digest of the states and status of a run in a checkout.
@@ -57,12 +96,17 @@ def measure(checkout: Path, name: str, *how: str) -> tuple[float, str, str]:
     *how : str
         Method, integrator, coordinates and shape of the code.
     """
-    numbers = STEPS.get(name, 1e-3), COUNT, REPEATS
-    words = [sys.executable, "-c", MEASURED, name, *how, *map(str, numbers)]
-    environment = {**os.environ, "PYTHONPATH": str(checkout)}
-    done = subprocess.run(words, env=environment, cwd=checkout, capture_output=True, text=True, check=True)
-    seconds, digest, status = json.loads(done.stdout.splitlines()[-1])
+    seconds, digest, status = answer(checkout, MEASURED, name, *how, *map(str, (STEPS.get(name, 1e-3), COUNT, REPEATS)))
     return seconds, digest, status
+
+
+def operations(other: Path, models: Sequence[str], method: str, coordinates: str) -> Table:
+    """Return the table of operations in both checkouts."""
+    table = Table("model", "rhs, other", "this", "accept, other", "this")
+    for name in models:
+        pairs = zip(*(counted(checkout, name, method, coordinates) for checkout in (other, ROOT)), strict=True)
+        table.add_row(name, *(str(number) for pair in pairs for number in pair))
+    return table
 
 
 def main(arguments: list[str]) -> None:
@@ -74,7 +118,11 @@ def main(arguments: list[str]) -> None:
     parser.add_argument("--method", default="direct-correction")
     parser.add_argument("--coordinates", default="auto")
     parser.add_argument("--shape", default="auto", choices=("auto", "straight", "looped"))
+    parser.add_argument("--operations", action="store_true")
     given = parser.parse_args(arguments)
+    if given.operations:
+        show(operations(given.other.resolve(), given.models or MODELS, given.method, given.coordinates))
+        return
     how = given.method, given.integrator, given.coordinates, given.shape
     table = Table("model", "other [ms]", "this [ms]", "ratio", "bits")
     ratios = list[float]()

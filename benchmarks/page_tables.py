@@ -91,6 +91,11 @@ def markdown(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str
     return [re.sub(r"\|  (?=\|)", "| ", "| " + " | ".join(line) + " |") for line in lines]
 
 
+def two_digits(value: float) -> str:
+    """Return a number to two digits, without an exponent."""
+    return f"{float(f'{value:.1e}'):.15g}"
+
+
 def number(x: float) -> str:
     """Return a number with two digits, one where it is rounding."""
     text = f"{x:.0e}" if abs(x) < ROUNDING else f"{x:.1e}"

@@ -3,8 +3,8 @@
     python -m benchmarks.space [rhs] [methods] [peers] [--peers-python .bench-venv/bin/python] [--json FILE]
 
 Errors are the largest distance [m] of the joints P1 to P4 over 101 times of 10 s, from a motion that symgen's second
-derivation (`symgen.study.references.independent`) and SciPy give, good to 1e-12. On a shared machine short loops
-find quiet moments and long ones do not, so peers are counted with their processor time, symgen with the wall clock.
+derivation (`symgen.study.references.independent`) and SciPy give, good to 1e-12. All times are processor time: on a
+shared machine short loops find quiet moments on the wall clock, and long ones do not.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from benchmarks import all_methods
-from benchmarks.all_methods import Job, ends, examine, shortest, suitable, times
+from benchmarks.all_methods import Job, ends, examine, shortest, suitable, times, times_by_turns
 from benchmarks.records import shortened
 
 
@@ -22,6 +22,22 @@ def test_methods_are_ranked_by_the_fastest_run_within_an_error(tmp_path, monkeyp
     assert times().measured() == [["`lagrange`", "1"], ["`baumgarte`", "3"]]
     assert ends().measured() == [["`pendulum`", "5", "4", "0", "1", "1 with `rk4`; at most 1.0e-2 m"]]
     assert any("`penalty`" in claim and "`lagrange`" not in claim for claim in times().claims())
+
+
+def test_times_are_ratios_in_turns_times_that_of_the_yardstick():
+    """While the row was measured, other work made it and its yardstick 1.9 times slower."""
+
+    def row(method, seconds, ratio, step=1e-3):
+        setting = {"integrator": "rk4", "step": step, "rtol": None}
+        return {"method": method, "run_seconds": seconds, "cost_ratio": ratio, **setting}
+
+    rows = [
+        row("lagrange", 1.0, 1.0),
+        row("baumgarte", 2.09, 1.1),
+        row("ggl", 9.0, None),
+        row("penalty", 3.0, 1.5, 2.0),
+    ]
+    assert times_by_turns(rows) == pytest.approx([1.0, 1.1, 9.0, 3.0])
 
 
 @pytest.mark.slow

@@ -2,6 +2,7 @@
 
 import json
 import math
+import signal
 
 import pytest
 
@@ -40,6 +41,19 @@ def test_a_scene_ends_alike_by_both_or_what_one_of_them_says_is_told(other, end)
     assert end_of(found) == end and (found["own"], found["numba"]) == (1.0, 9.0)
 
 
+def test_rounding_is_what_other_last_digits_of_parameters_make():
+    own, far, moved = [[[1.0]]], [[[1.0 + 6e-9]]], [[[1.0 + 4e-9]]]
+
+    class Sensitive(Answer):
+        def computed(self, name, kind):
+            return Computed(1.0, moved if kind == "moved" else own, "ok")
+
+    found = apart("curved-lever", "run", Sensitive(1.0, own), Answer(9.0, far))
+    assert found["difference"] == pytest.approx(6e-9) and found["moved"] == pytest.approx(4e-9)
+    assert end_of(found) == "ok" and end_of(found | {"moved": 1e-9}) == "states differ"
+    assert "moved" not in apart("curved-lever", "run", Sensitive(1.0, own), Answer(9.0, [[[1.0 + 1e-10]]]))
+
+
 def test_the_page_names_differences_times_and_what_is_missing(tmp_path, monkeypatch):
     monkeypatch.setattr("benchmarks.records.FOLDER", tmp_path)
     monkeypatch.setattr(by_numba, "all_names", lambda: ("four-bar", "pendulum", "wiper"))
@@ -67,6 +81,10 @@ def test_a_process_has_the_compiler_that_is_asked_for_and_says_why_it_has_no_sta
         first, second = own.computed("pendulum", "run"), own.computed("pendulom", "run")
         assert first.status == "ok" and len(first.states) == 2 and first.seconds > 0.0
         assert second.states is None and "'pendulom'" in second.status
+        own.process.send_signal(signal.SIGXCPU)  # as the system does after so much time
+        own.process.wait()
+        assert own.computed("pendulum", "run") == Computed(600.0, None, "too slow")
+    with Compiler("") as own:
         own.process.kill()
         assert own.computed("pendulum", "run").status == "signal 9"
     assert own.process.returncode == -9
