@@ -47,7 +47,7 @@ def test_a_woodpecker_comes_down_its_pole(integrator: str, tmp_path: Path) -> No
 
 @pytest.mark.slow
 def test_the_time_at_which_a_beak_sticks_is_that_of_steps_that_converge(tmp_path: Path) -> None:
-    """Attempts of `picard` inside a step may not converge: with those its search was up to 7e-4 s late, or failed."""
+    """Attempts of `picard` inside a step may not converge: with those its search was up to 9e-4 s late, or failed."""
     model = loaded(woodpecker(), tmp_path)
     for rtol in (1e-12, 1e-10, 1e-8):
         for atol in (2e-13, 1e-13, 5e-14, 1e-14):
