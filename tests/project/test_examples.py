@@ -71,6 +71,7 @@ def test_a_file_runs_as_it_is(path: Path, tmp_path: Path) -> None:
     assert result["final"]["t"] == 0.5
 
 
+@pytest.mark.slow_cases("sources_study.py", "emitted_code_under_scipy.py")
 @pytest.mark.parametrize("name", PRINTED)
 def test_a_script_prints_what_is_right_and_writes_its_files(name: str, tmp_path: Path) -> None:
     expected, written = PRINTED[name]
