@@ -33,6 +33,8 @@ LONGEST, MOST, _GAIN = 4e-3, 1000, 1e-9
 
 #: Rates after impacts below which a series is looked for [m/s], and difference of its sums by one flight and by two.
 _LAST, _SAME = 2e-6, 1e-9
+#: Depth of a gap that is no rounding [m].
+_DEEP = 1e-7
 #: Rates of gaps behind a series that are rounding [m/s].
 _STILL = 1e-8
 
@@ -96,12 +98,17 @@ def run(scene: Scene, q: Array, v: Array, times: list[float], rtol: float = 1e-1
     for _ in range(MOST):
         answer = choose(scene, q, v, closed, forced, loose)
         problem = Problem(scene, q, v)
+        if pulled := _pulled(scene, problem, answer):
+            closed = sorted({*closed, *pulled})
+            answer = choose(scene, q, v, closed, forced, loose)
         rates, opens = problem.slip @ v, problem.gap @ v
         loose = {i for i, mode in answer.modes.items() if mode != REST}
-        left = {i for i in _touching(scene, q) if i not in answer.modes and opens[i] < STILL}
+        left = {i for i in _touching(scene, q) if i not in answer.modes and abs(opens[i]) < STILL}
         friction = np.array([contact.sliding for contact in scene.contacts])
         phase = Phase(answer.modes, friction, left | {-1 - i for i in loose if abs(rates[i]) <= STILL})
         t, q, v, what, i = _until_event(scene, phase, t, q, v, pending, motion, rtol)
+        if scene.gaps(q).min() < -_DEEP:
+            raise Ended("a gap is penetrated")
         if what == "end":
             return motion
         motion.events.append((t, what, i))
@@ -152,6 +159,15 @@ def _ended(past: list[Impact]) -> Impact | None:
 def _between(one: Impact, other: Impact) -> Callable[[float], Array]:
     """Return the places between two impacts that are close, as a function of time."""
     return lambda t: one.q + (t - one.t) / max(other.t - one.t, 1e-300) * (other.q - one.q)
+
+
+def _pulled(scene: Scene, problem: Problem, answer: Answer) -> list[int]:
+    """Return the open gaps that touch without a rate and close: at the top of a flight that is too low to be seen."""
+    gained = problem.gained[problem.joints : problem.joints + problem.n]
+    pull, opens = answer.rates[: problem.n] + gained, problem.gap @ problem.v
+    least = -1e-6 * (1.0 + np.abs(pull).max())
+    touching = [i for i in _touching(scene, problem.q) if i not in answer.modes]
+    return [i for i in touching if abs(opens[i]) < STILL and pull[i] < least]
 
 
 def _touching(scene: Scene, q: Array) -> list[int]:

@@ -53,6 +53,16 @@ def test_what_is_left_out_at_rest_rubs_at_all_contacts(kind: str, seed: int) -> 
 
 @pytest.mark.by_turns(2)
 @pytest.mark.slow
+def test_the_simulation_sees_flights_that_are_lower_than_what_touches() -> None:
+    """A disc in a corner sticks to the wall while it flies over the floor: the simulation fell through the floor."""
+    scene = drawn("corner", 3)
+    against = reference(scene, 1.0)
+    assert min(scene.scene.gaps(q).min() for q in against.places) > -1e-9
+    verdict = compared("dop853", scene, against)
+    assert verdict.outcome == "right" and verdict.error < 1e-10
+
+
+@pytest.mark.slow
 def test_contacts_slip_between_impacts_that_accumulate() -> None:
     """Two discs on a floor meet ever faster; both skid after each impact, and roll before the next one.
 
