@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import ModuleType
 from typing import Any, final
@@ -92,7 +92,7 @@ class LoopedModel(CompiledModel):
 MOST_INTERPRETED = 400
 
 
-def _call_exactly(function: Any, turns: int, *arguments: Any) -> int:
+def _call_exactly(function: Callable[..., object], turns: int, *arguments: Any) -> int:
     """Call an exact function in the form that is sooner done."""
     form = plain_form if turns <= MOST_INTERPRETED else compiled_form
     return int(form(function)(*arguments))
