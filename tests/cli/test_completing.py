@@ -77,7 +77,7 @@ def test_every_model_method_and_integrator_is_offered(folder):
     assert {*offered("run", "four-bar", "--integrator", "")} == {"auto", *INTEGRATORS.names}
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.fast("pendulum", "rolling-disc")
 @pytest.mark.parametrize(
     "name", ["toggle-press", "scissor-lift", "wiper", "pendulum", "front-suspension", "rolling-disc"]

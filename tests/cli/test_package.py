@@ -302,7 +302,7 @@ def test_packages_of_the_catalogue_give_the_numbers_of_runs(name, alone, tmp_pat
     agrees(name, alone, tmp_path)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["bricard", "cam-follower", "flyball-governor", "scissor-lift", "spatial-slider-crank"]

@@ -48,6 +48,7 @@ def looped(tmp_path: Path, closing: str) -> Import:
     return imported(tmp_path, text, "loop.urdf")
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("pose", ["<pose>1 0 0 0 0 0</pose>", '<pose relative_to="b">0 0 1 0 0.4 0</pose>'])
 def test_a_joint_in_gazebo_closes_a_loop(tmp_path: Path, pose: str) -> None:

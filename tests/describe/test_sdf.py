@@ -303,6 +303,7 @@ def test_a_gearbox_without_joints_of_its_wheels_is_refused(tmp_path: Path) -> No
         imported(tmp_path, re.sub("<gearbox_reference_body>.*</gearbox_reference_body>", "", text))
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_two_axes_in_a_row_move_as_two_hinges_in_mjcf(coordinates: str, tmp_path: Path) -> None:

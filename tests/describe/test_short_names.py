@@ -102,7 +102,7 @@ def same_motion(names: dict[str, str], settings: dict[str, str]) -> None:
         np.testing.assert_array_equal(getattr(found, table).values, getattr(expected, table).values)
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.fast("pin=s drive=rate point=s-{'shape': 'looped'}", "out=s event=rate spring=rate-{'shape': 'looped'}")
 @pytest.mark.parametrize("settings", [{"shape": "straight"}, {"shape": "looped"}, {"coordinates": "joint"}], ids=str)
 @pytest.mark.parametrize(

@@ -36,6 +36,7 @@ def test_all_elements_share_a_kernel_however_many(make):
     assert len(kernels(make(40, clamp=""))) == 1
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_both_shapes_move_alike(space):

@@ -61,7 +61,7 @@ def both_shapes(model: Any, **settings: Any) -> list[Any]:
     return [straight, looped]
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_both_shapes_agree(name: str, tmp_path: Path) -> None:
@@ -72,7 +72,7 @@ def test_both_shapes_agree(name: str, tmp_path: Path) -> None:
         np.testing.assert_allclose(b, a, rtol=0.0, atol=1e-7 * (1.0 + np.abs(a).max()))
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "until"), [("rocking-block", 1.5), ("slider-crank-with-clearance", 0.02)])
 @pytest.mark.parametrize(

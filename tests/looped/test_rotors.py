@@ -89,7 +89,7 @@ METHODS = (
 )
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize("last", [(), (0.22, 0.05)], ids=["chain", "loop"])
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from symgen.describe.files.load import parse_toml
 from symgen.run.compiling.folders import generator_digest
 
 #: A table takes minutes: at each state of the sources another one of so many parts is computed again.
-TURNS = 144
+TURNS = 288
 #: Keys that at least so many kinds of joints share are features, but for those that place and begin any joint.
 SHARED, PLACING = 10, {"type", "between", "at", "axis", "axes", "angle", "start", "cut", "reference"}
 

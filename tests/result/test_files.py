@@ -203,7 +203,7 @@ SIZES = {
 }
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SIZES)
 def test_tables_of_other_sizes_are_refused(saved, tmp_path, name):

@@ -31,7 +31,7 @@ def of_page(page):
     return {name for group in data["motions"][0]["groups"] for name in group["names"]}, data["note"]
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.fast(
     "driven-four-bar",
     "four-bar",

@@ -34,7 +34,7 @@ def all_reactions(name: str, folder: Path) -> tuple[Model, list[str]]:
     return reporting(name, folder, "".join(lines)), names
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.fast("absolute-four-bar")
 @pytest.mark.parametrize("name", ["four-bar", "bricard", "spatial-slider-crank"])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])

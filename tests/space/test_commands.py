@@ -16,6 +16,7 @@ def test_inspect(capsys):
     assert not any("gyroscopic" in str(line) for line in found["left_out"])
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["chain:3", pytest.param("front-suspension", marks=pytest.mark.slow)])
 def test_generate(name, capsys, tmp_path):

@@ -87,7 +87,7 @@ def test_energy_and_momentum_about_the_vertical_stay(name, until):
     assert np.abs(whole - whole[0]).max() < 1e-10 * scale
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "until"),

@@ -223,7 +223,7 @@ def test_rows_as_a_file_and_as_a_frame(study, tmp_path):
     assert len(study.plot(over="evaluations").figure.axes) == 1
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["pendulum", "four-bar", "slider-crank", "andrews", "driven-four-bar", "n-four-bar:2"])
 def test_the_whole_catalogue_can_be_compared(name):

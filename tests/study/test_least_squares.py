@@ -9,7 +9,7 @@ from symgen.study.references.least_squares import minimum_norm
 SIZES = [(1, 1, 1), (3, 5, 3), (9, 9, 9), (9, 9, 7), (12, 9, 9), (12, 9, 5), (4, 9, 2), (6, 6, 0), (20, 15, 13)]
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow_cases("1.0-1-1-1", "1.0-3-5-3", "1.0-9-9-9", "1.0-9-9-7")
 @pytest.mark.parametrize(("m", "n", "rank"), SIZES)
 @pytest.mark.parametrize("size", [1.0, 1e-120, 1e120])

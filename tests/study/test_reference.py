@@ -299,7 +299,7 @@ def test_references_of_stress_studies_see_a_short_push_as_well(tmp_path):
     assert off < 10.0 * found.estimated_error + 1e-10 and found.estimated_error < 1e-6
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("solver", "w", "max_step"),

@@ -5,7 +5,7 @@ import pytest
 from benchmarks.bounded.machines import MACHINES, SETTINGS, examined
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("name", MACHINES)
@@ -15,7 +15,7 @@ def test_rows_leave_at_one_smooth_time(name: str, coordinates: str) -> None:
     assert found.differences < 1e-12 and found.span > 1e-2
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize("integrator", SETTINGS)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])

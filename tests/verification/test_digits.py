@@ -14,7 +14,7 @@ ENTRIES = (
 MOST = 1000.0
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("name", ENTRIES)

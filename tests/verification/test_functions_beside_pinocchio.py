@@ -18,7 +18,7 @@ ROBOTS = {
 
 
 @pytest.mark.slow
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.parametrize("name", [x if x == "chain" else pytest.param(x, marks=pytest.mark.slow) for x in ROBOTS])
 def test_robots_are_pinocchios(name, tmp_path):
     limbs = random_robot(sum(map(ord, name)), *ROBOTS[name])

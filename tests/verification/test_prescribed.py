@@ -129,7 +129,7 @@ def spatial(flip: bool) -> dict:
     }
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow_cases("planar-True", "planar-False")
 @pytest.mark.parametrize("flip", [False, True])
 @pytest.mark.parametrize("make", [planar, pytest.param(spatial, marks=pytest.mark.slow)])
@@ -150,7 +150,7 @@ def test_driven_trees_move_as_bodies_with_rows_do(make, flip, tmp_path):
     assert abs(in_tree[own.work]) > 1.0, "the motors do work"
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.parametrize(
     "method",
     [

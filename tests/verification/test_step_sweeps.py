@@ -10,7 +10,7 @@ from benchmarks.step_sweeps import MACHINES, examined
 ROWS = 5
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", MACHINES)
 def test_derivatives_of_steps_are_smooth_in_a_parameter(name: str) -> None:

@@ -116,7 +116,7 @@ STEPS = {
 }
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.fast("cart-pole")
 @pytest.mark.parametrize("name", STEPS)
 def test_derivatives_of_a_step_are_those_of_50_digits(name):
@@ -267,7 +267,7 @@ PASSED = {
 IMPLICIT = "cart strikes", "pin turns back", "cart turns back", "press rests", "press leaves", "press strikes"
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "scheme"), [(name, "rk4") for name in PASSED] + [(name, "trapezoidal") for name in IMPLICIT]

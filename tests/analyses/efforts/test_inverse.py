@@ -213,6 +213,7 @@ def test_data_of_a_recorded_motion_are_asked_for_again(pendulum):
     assert np.abs(again.efforts["held"] - run["held.torque"]).max() < 1e-9
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("push", ["4*abs(t - 0.23)", {"t": [0.0, 0.23, 0.5], "u": [0.92, 0.0, 1.08]}])
 def test_inputs_with_kinks_are_what_they_are_at_each_time(pendulum, push):

@@ -34,7 +34,7 @@ def largest_difference(model, quantity, by, **settings):
     return max(abs(one.by[name] - other.by[name]) / abs(other.by[name]) for name in by)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
@@ -85,7 +85,7 @@ def test_schemes(four_bar, method, integrator, options):
     )
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])

@@ -67,6 +67,7 @@ def swung(m, k, until):
     return solve_ivp(rates, (0.0, until), y, method="DOP853", rtol=1e-12, atol=1e-12).y[0, -1]
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", pytest.param("joint", marks=pytest.mark.slow)])
 def test_a_rod_without_mass_between_a_crank_and_a_slider(coordinates):

@@ -215,6 +215,7 @@ def test_a_motion_has_the_system_of_the_instant_if_it_is_asked_for():
     assert_allclose(found.A, [[0.0, 1.0], [14.715 * math.sin(own.y[0, -1]), 0.0]], rtol=1e-9, atol=1e-12)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(("at", "zeros"), [("equilibrium", 2), ("steady", 1)])
 def test_what_a_cyclic_coordinate_leaves_free_is_exactly_zero(at, zeros):

@@ -41,7 +41,7 @@ def turned(result, body, i):
     return Rotation.from_quat([result[f"{body}.e{k}"][i] for k in (1, 2, 3, 0)])
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow_cases(
     "joint-zyx",
     "looped-zyx",

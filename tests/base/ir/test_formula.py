@@ -130,7 +130,7 @@ def routes() -> dict[str, Any]:
     return found
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.fast("0.5-0.05-SymPy", "3.0-0.0-formula")
 @pytest.mark.parametrize("route", ["formula", "SymPy"])
 @pytest.mark.parametrize("a, b", STATES)

@@ -22,7 +22,7 @@ def library(tmp_path_factory):
     return printed.Library(functions, tmp_path_factory.mktemp("printed"))
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(("m", "n", "rank"), [(8, 9, 8), (8, 9, 5), (9, 4, 2), (1, 6, 1), (30, 30, 29)])
 def test_shortest_solutions(library, m, n, rank):

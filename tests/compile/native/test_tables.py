@@ -26,6 +26,7 @@ HANDED = {
 }
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("model", LOOPED)
 def test_looped_code_is_in_the_language(model, tmp_path):

@@ -77,7 +77,7 @@ def change(path):
     return text
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("place", [*PLACES, "templates"])
 def test_one_character_in_any_room_makes_other_results(place, package, unchanged):

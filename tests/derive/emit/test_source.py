@@ -51,7 +51,7 @@ def is_condition(node: ast.expr) -> bool:
     return any(isinstance(n, ast.Compare) for n in ast.walk(node))
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.fast("pendulum", "rough")
 @pytest.mark.parametrize("model", MODELS)
 def test_no_operation_with_a_literal_that_changes_nothing(model):

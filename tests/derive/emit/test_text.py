@@ -82,7 +82,7 @@ def executed(sources: Mapping[str, str], folder: Path) -> None:
     assert not hasattr(builtins, "planted")
 
 
-@pytest.mark.by_turns(6)
+@pytest.mark.by_turns(12)
 @pytest.mark.fast("tables", "states", "outputs")
 @pytest.mark.parametrize("section", SECTIONS)
 def test_text_in_any_field_of_a_file_is_refused_or_harmless(section, tmp_path):

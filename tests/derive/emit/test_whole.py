@@ -59,7 +59,7 @@ def modules_of(stem, modules):
     return found
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("model", MODELS)
 def test_functions_of_straight_code_are_those_that_run(model):
@@ -68,6 +68,7 @@ def test_functions_of_straight_code_are_those_that_run(model):
         assert functions(source) == sorted(f for part in parts for f in functions(part)), stem
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("model", LOOPED)
 def test_functions_of_looped_code_are_those_that_run(model):

@@ -337,6 +337,7 @@ def ball(spring, start):
     }
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow_cases("absolute", "joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_stiffness_and_damping_of_a_ball(coordinates):

@@ -96,7 +96,7 @@ def test_friction_in_motion_is_a_torque(coordinates: str) -> None:
         np.testing.assert_allclose(mine, other, rtol=1e-12, atol=1e-12 * np.abs(other).max())
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("pins", "radius", "doubtful", "method"),

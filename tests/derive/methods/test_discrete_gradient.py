@@ -53,7 +53,7 @@ def test_order_two_with_positions_on_their_constraints(name, until, keys):
     np.testing.assert_allclose(orders(errors), 2.0, atol=0.1)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "step"), [("four-bar", 5e-3), ("bricard", 1e-2), ("spherical-double-pendulum", 5e-3), ("heavy-top", 2e-3)]

@@ -97,7 +97,7 @@ def test_light_bodies(factor):
     check_light(factor, ("augmented-lagrangian",))
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("factor", [1e-3, 1e-6, 1e-9, 1e-12])
 def test_light_bodies_by_every_method(factor):
@@ -124,7 +124,7 @@ def test_singular_positions(method):
         assert set(found.statuses) == {"ok"} and np.median(found.errors) < 1e-6
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize(("method", "windows"), [(method, 1 + i % 2) for i, method in enumerate(METHODS.names)])
 def test_singular_positions_by_every_method(method, windows):

@@ -82,7 +82,7 @@ class Stage:
         return by[:, :n], by[:, n:]
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "case",

@@ -8,7 +8,7 @@ from tests.result.player.test_live_rolling import state_of_page
 from tests.result.targets.test_c_modes import loaded
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "coordinates", "changed"),

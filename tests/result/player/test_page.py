@@ -188,7 +188,7 @@ def test_the_live_part_has_the_inputs_of_its_run(tmp_path: Path) -> None:
         assert not found.live and why in data_of(found.html)["note"]
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("event", "does"),

@@ -107,7 +107,7 @@ def test_numbers_of_the_whole_catalogue(name, coordinates):
     agrees(mechanism_on_tree(mechanism) if coordinates == "joint" else mechanism)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow_cases(
     "dry-four-bar-joint",
     "geneva-absolute",

@@ -36,7 +36,7 @@ def both(name, **settings):
     return sim, plain
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow_cases(
     "False-null-space-rk4", "True-direct-correction-bdf", "True-half-explicit-phem56", "False-null-space-abm4"
 )
@@ -86,6 +86,7 @@ def test_rows_are_chosen_anew_on_the_way(integrator, monkeypatch):
     assert_same(sim, plain)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("integrator", ["radau5", "sdirk"])
 def test_room_for_factors_is_made_on_the_way(integrator):

@@ -75,7 +75,7 @@ def agree(name, coordinates, folder):
     return rates, corrections
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "coordinates"), QUICK)
 def test_rates_and_corrections_are_those_of_numba(name, coordinates, tmp_path):

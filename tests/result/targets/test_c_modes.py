@@ -117,7 +117,7 @@ def test_impacts_of_a_ball_accumulate(tmp_path):
     assert transitions[-1][0] == pytest.approx(fall * (1.0 + 0.7) / (1.0 - 0.7), abs=1e-5)
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("source", "until", "step", "coordinates"),

@@ -161,7 +161,7 @@ def test_integrators_that_are_not_printed_are_refused(keys, sentence, tmp_path):
     assert sentence in str(error.value)
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("source", "until", "step", "coordinates"),
@@ -191,7 +191,7 @@ def test_transitions_are_those_of_runs(source, until, step, coordinates, tmp_pat
     np.testing.assert_allclose([t for t, _ in transitions], [t for t, _ in expected], rtol=0, atol=1e-9)
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("source", "keys"),

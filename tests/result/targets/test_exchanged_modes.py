@@ -123,7 +123,7 @@ def test_a_block_on_a_belt_sticks_and_slips(tmp_path):
     assert words == ["contact.slip", "contact.stick"] * 2
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("source", "until", "coordinates", "fmi", "error"),

@@ -118,7 +118,7 @@ def test_parameters_assemble_anew_and_those_that_follow_cannot_be_set(tmp_path):
         np.testing.assert_allclose(rows["energy"], own["energy"], rtol=0, atol=100 * tolerance)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
 @pytest.mark.parametrize("fmi", [2, 3])

@@ -143,7 +143,7 @@ def differences(unit, t, states, inputs, h=1e-6):
     return np.array(columns).T
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.slow_cases("press-2")
 @pytest.mark.parametrize(("name", "fmi"), [(name, 2 + i % 2) for i, name in enumerate(MACHINES)])

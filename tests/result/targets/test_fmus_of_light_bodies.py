@@ -26,7 +26,7 @@ def made(request, kind, tmp_path_factory):
     return path, mechanism
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("simulated", "run"),

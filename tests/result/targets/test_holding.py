@@ -15,7 +15,7 @@ def away_from_events(result, times):
     return np.all([np.abs(times - event.t) > 1e-9 for event in result.events], axis=0)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "coordinates"), [("clutch", "absolute"), ("rope", "absolute"), ("link", "joint"), ("pendulum", "joint")]

@@ -53,7 +53,7 @@ def test_c_and_fmus_compile_without_a_warning(kind, coordinates, tmp_path):
     assert len(compiled) == 3 and done.returncode == 0, done.stderr[:3000]
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", FILES)
 def test_printed_functions_have_names_of_their_own(kind, tmp_path):

@@ -52,7 +52,7 @@ def run_of(model, until, **keys):
     return result, np.column_stack([result["hit"], result.q.values, result.v.values])[1:]
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("name", STRUCK)

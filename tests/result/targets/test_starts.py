@@ -11,7 +11,7 @@ from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("name", ["four-bar", "driven-four-bar", "spatial-slider-crank", "rolling-disc", "wiper"])

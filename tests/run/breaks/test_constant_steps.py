@@ -223,7 +223,7 @@ def error_of(kind: str, step: float, **settings: Any) -> float:
     return float(np.abs(found - reference(kind)).max())
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.fast(
     "force-abm4",
     "square wave-sdirk",
@@ -254,7 +254,7 @@ def test_joint_coordinates_keep_the_order(kind: str, scheme: str) -> None:
     assert errors[1] < 3e-8 and np.log2(errors[0] / errors[1]) > 3.6
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("at", [0.3137, 0.31, 0.0])
 @pytest.mark.parametrize("kind", ["force", "stop", "friction"])

@@ -41,6 +41,7 @@ def slopes_of(
     return dict(zip(by, map(float, slopes), strict=True))
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow_cases("0.6")
 @pytest.mark.parametrize("until", [0.6, 1.6, pytest.param(2.6, marks=pytest.mark.slow)])
 def test_a_bouncing_disc(until: float, tmp_path: Path) -> None:

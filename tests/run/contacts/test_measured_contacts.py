@@ -104,6 +104,7 @@ def test_five_contacts_of_one_body_are_refused(tmp_path: Path) -> None:
         loaded(text, tmp_path).simulate(until=0.1)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_block_with_play_on_a_slope(coordinates: str, tmp_path: Path) -> None:

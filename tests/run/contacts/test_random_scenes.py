@@ -27,7 +27,7 @@ def test_the_simulation_knows_a_bouncing_disc() -> None:
     assert abs(motion.q[-1][0] + mu * 1.6 * down * (0.5 - first)) < 1e-12
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_random_scenes(kind: str) -> None:
@@ -38,7 +38,7 @@ def test_random_scenes(kind: str) -> None:
     assert {name: verdict.outcome for name, verdict in verdicts.items()} == dict.fromkeys(RUNS, "right"), verdicts
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(("kind", "seed"), [("block", 5), ("block", 1), ("block", 4)])
 def test_what_is_left_out_at_rest_rubs_at_all_contacts(kind: str, seed: int) -> None:

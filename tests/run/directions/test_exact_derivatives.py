@@ -206,7 +206,7 @@ def test_every_method(method, integrator):
     assert largest_difference("four-bar", MASSES, method, integrator, 30) < bound
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "numbers", "step", "steps", "coordinates"),

@@ -65,7 +65,7 @@ def models(tmp_path_factory):
     return {"belt": symgen.load("belt-oscillator"), **{name: model(folder, text) for name, text in texts.items()}}
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "row"), [(name, row) for name in QUANTITIES for row in range(len(CLOSED[name]))])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
@@ -164,7 +164,7 @@ def test_the_dry_four_bar(coordinates):
     compare_with_differences(dry, "crank.theta", ("torque", "crank_mass", "rocker_mass"), 10.0, coordinates=coordinates)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("make", "seed", "until"),
@@ -176,7 +176,7 @@ def test_random_chains_and_loops(tmp_path, make, seed, until):
     compare_with_differences(model(tmp_path, text), "b0.theta" if make is chain else "crank.theta", used, until)
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("make", "seed", "until"),

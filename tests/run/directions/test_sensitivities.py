@@ -351,7 +351,7 @@ def test_a_length_that_destroys_mobility_is_refused(tmp_path):
 ODE = [name for name in METHODS.names if {"ode", "one-step"} & set(METHODS.get(name, "method").forms)]
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(

@@ -38,7 +38,7 @@ def hammer():
     return symgen.load(mechanism_of(raw))
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("settings", SETTINGS, ids=str)
 @pytest.mark.parametrize("inputs", [{}, {"push": "0.4 if t < 0.711 else 0"}], ids=["plain", "jump"])

@@ -86,6 +86,7 @@ def test_unknown_rates_leave_out_coordinates_whose_rate_is_a_velocity():
                 assert q.rpartition(".")[0] == v.rpartition(".")[0]
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["joint", "absolute"])
 def test_order_is_at_least_14(coordinates):

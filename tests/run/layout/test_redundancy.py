@@ -145,6 +145,7 @@ def test_errors_of_kept_rows_are_not_enlarged_in_the_others(seed: int) -> None:
     assert np.abs(factors).max() <= 2.0 ** (left_out - 1) + 1e-9
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("integrator", ["rk4", "dop853"])
 def test_a_pin_held_twice_drifts_no_more_than_one_held_once(integrator: str) -> None:
@@ -222,7 +223,7 @@ def test_rows_kept_at_the_start_differ_in_sweeps(tmp_path: Path) -> None:
     assert found.values[0, 1] > 1e-3
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize(

@@ -45,7 +45,7 @@ def roots(g: Function) -> Any:
     return high
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("integrator", "settings"),

@@ -195,7 +195,7 @@ reset = { "bob.vx" = "-0.8*bob.vx" }
     np.testing.assert_allclose(*found, rtol=1e-9)
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.fast(
     "3 + 5*(1 if low < t and t < high else 0)-0.0-dopri5-joint",
     "60*max(0, 1 - abs(2*bob.x - low - high)/(high - low))-0.0-dop853-joint",

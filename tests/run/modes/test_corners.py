@@ -171,7 +171,7 @@ def test_several_corners_in_one_gap(tmp_path: Path) -> None:
     assert abs(result.events[1].v["b.vx"] - rate) < 1e-9 and abs(result["b.vx"][-1] - rate) < 1e-9
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("integrator", ["dop853", "picard", "rk4"])
@@ -350,6 +350,7 @@ value = "{start} - 2.0*t"
     return text
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "settings", [{}, {"integrator": "radau5", "rtol": 1e-7, "verify": False}], ids=["own", "radau5"]
@@ -389,7 +390,7 @@ restitution = 0.2
 """
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(("start", "speed", "turn"), [(-0.31, 1.0, 0.3), (-0.7, 2.3, 1.1), (-0.4, 3.0, 0.2)])

@@ -234,7 +234,7 @@ def reference(kind: type[Chain], seed: int, moving: bool) -> tuple[np.ndarray, i
     return kind.random(seed, moving).run(1.0)
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.fast("Chain-4-True-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(

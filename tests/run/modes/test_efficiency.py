@@ -36,7 +36,7 @@ def tooth_forces(result, driving, load):
     return (driving - INERTIAS[0] * rise) / RADII[0], (INERTIAS[1] * rise * RADII[0] / RADII[1] + load) / RADII[1]
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("efficiency", "forwards", "backwards"),
@@ -187,7 +187,7 @@ def jack(torque, efficiency=0.4):
     return symgen.load(builder.force("motor", "torque", joint="bearing", torque=torque).build())
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "settings", [{}, {"coordinates": "joint"}, {"shape": "looped"}, {"integrator": "radau5"}], ids=str

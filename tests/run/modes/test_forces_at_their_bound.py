@@ -10,7 +10,7 @@ CASES = list(cases())
 OTHERS = of_turn(((case, run) for run in RUNS if run != "dop853" for case in CASES), 15)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.fast(
     "start/constant/linear",
     "start/constant/falling",

@@ -79,6 +79,7 @@ def test_a_gap_that_nothing_presses_is_left(coordinates: str) -> None:
     assert not any("put to 0" in note for note in run.notes)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_arms_in_space_are_laid_down_with_their_joints_closed(coordinates: str) -> None:

@@ -134,7 +134,7 @@ def test_a_rope_takes_the_speed_along_it(loaded) -> None:
     assert np.abs(run.energy_error).max() < 1e-10
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("machine", "name", "values", "until"),
@@ -210,7 +210,7 @@ def test_wrong_keys_are_refused(old, new, sentence, loaded) -> None:
     assert sentence in str(error.value)
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(

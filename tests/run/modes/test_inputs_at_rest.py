@@ -134,7 +134,7 @@ WAYS: dict[str, Callable[[symgen.Model, float], tuple[float, float]]] = {
 }
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.parametrize("count", [4, pytest.param(60, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.fast(*(f"{way}-4" for way in WAYS))

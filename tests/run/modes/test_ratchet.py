@@ -66,7 +66,7 @@ torque = "-0.15*sin(6*t)"
     return text
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("settings", "bound"),

@@ -94,7 +94,7 @@ RELEASES = [
 ]
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.fast("compliant-constraints-rk4-1e-12-four-bar-0.8", "penalty-rk4-1e-06-four-bar-0.8")
 @pytest.mark.parametrize(("method", "integrator", "most", "name", "until"), RELEASES)
 def test_the_motion_is_that_without_the_joint(name, until, method, integrator, most) -> None:

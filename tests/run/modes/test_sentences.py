@@ -72,7 +72,7 @@ FAULTS = {
 COORDINATES = "absolute", "joint"
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.parametrize("coordinates", COORDINATES)
 @pytest.mark.parametrize("fault", [*FAULTS])
 @pytest.mark.fast("a gap-absolute")
@@ -88,7 +88,7 @@ def test_a_row_of_a_sweep_says_what_a_run_says(fault: str, coordinates: str) -> 
     assert list(rows.reason) == ["", str(refused.value)]
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize("integrator", ["rk4", "dop853"])
 @pytest.mark.parametrize("fault", [*FAULTS])

@@ -49,6 +49,7 @@ def breakaway(static: np.ndarray) -> float:
     return float(found.x[-1])
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_pins_hold_by_any_forces_within_their_bounds(coordinates: str, tmp_path: Path) -> None:

@@ -62,7 +62,7 @@ def names_of(mechanism):
     return [info.velocities[j].name for j in free_velocities(mechanism)]
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.fast("four-bar-free0-most0-absolute", "four-bar-free0-most0-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(

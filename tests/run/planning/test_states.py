@@ -136,6 +136,7 @@ def driven_four_bar():
     )
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_eigenvalues_of_a_four_bar_with_its_motor(coordinates):

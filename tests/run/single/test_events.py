@@ -369,7 +369,7 @@ def euler_impacts(h):
     return found
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.parametrize(
     "integrator",
     [name if name in SAMPLED else pytest.param(name, marks=pytest.mark.slow) for name in INTEGRATORS.names],

@@ -66,7 +66,7 @@ def stepped(model: symgen.Model, lengths: tuple[float, ...], **settings: Any) ->
     return run.result()
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("kind", [*KINDS])
 @pytest.mark.slow
@@ -77,7 +77,7 @@ def test_a_run_in_steps_whose_ends_are_events_is_the_run(kind: str, coordinates:
         assert result["a.theta"][-1] == pytest.approx(end, abs=2e-6), (settings, lengths)
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("kind", [*KINDS])
 @pytest.mark.slow

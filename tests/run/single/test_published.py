@@ -83,7 +83,7 @@ def test_n_four_bar_through_its_singular_positions(windows, weight):
     assert outcome.energy_drift_max <= 1e-6
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("windows", "weight", "median", "worst", "beyond"),

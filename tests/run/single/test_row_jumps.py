@@ -87,7 +87,7 @@ def ended(mechanism, scheme, coordinates, **settings):
     return result.reason if result.status == "failed" else None
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(("scheme", "coordinates"), CASES)
 def test_rows_that_jump_or_have_kinks_end_a_run_with_their_name(scheme, coordinates):

@@ -83,7 +83,7 @@ ALL = {*pairs(METHODS.names, ("rk4", "radau5")), *pairs(("lagrange", "generalize
 
 
 @pytest.mark.slow_cases("four-bar-null-space-rk4", "four-bar-coordinate-partitioning-rk4")
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.parametrize(
     ("name", "method", "integrator"),
     [

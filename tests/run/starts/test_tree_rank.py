@@ -29,7 +29,7 @@ def run(tmp_path, text, units, until, method):
     return symgen.load(path).simulate(method=method, coordinates="joint", integrator="rk4", **times)
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "size", "until", "method", "rank", "events"),

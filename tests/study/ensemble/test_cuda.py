@@ -59,7 +59,7 @@ def compiled(tmp_path_factory):
     return out
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize("case", CASES)
 def test_the_same_operations_in_the_same_order(case, interpreted):

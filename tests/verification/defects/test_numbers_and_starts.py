@@ -96,6 +96,7 @@ def test_a_chain_of_joints_ends_in_sentences(tmp_path: Path) -> None:
     assert all("expected joints that refer to each other in at most" in line for line in lines)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("lines", ["p{0} = {0}.0\n", "[a.a.a.a{0}]\n"], ids=["parameters", "headers"])
 def test_long_files_take_little_memory(lines: str, tmp_path: Path) -> None:

@@ -48,7 +48,7 @@ def test_check_and_run_agree_on_a_start_in_space(tmp_path: Path) -> None:
 # -- B5: units ---------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in SIZES if name != "1 m"])
 @pytest.mark.parametrize("integrator", ["dop853", "dopri5"])

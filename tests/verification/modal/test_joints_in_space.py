@@ -29,7 +29,7 @@ START = {"a.wx": 20.0, "a.wy": 30.0, "a.wz": -10.0, "a.vm1": 3.0, "a.vx": 1.0, "
 KINDS = {"spherical": "", "revolute": "axis = [0.0, 0.6, 0.8]", "rigid": ""}
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 @pytest.mark.parametrize("kind", KINDS)
