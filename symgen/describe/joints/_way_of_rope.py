@@ -140,7 +140,7 @@ def _check_planes(scope: Scope, a: _Placed, b: _Placed) -> None:
 
 
 def _across(here: _Placed, a: _Placed, b: _Placed) -> tuple[Expr, float]:
-    """Return by how much the signed radius of `b` is larger than that of `a`, as `here` sees both: formula and number.
+    """Return the signed radius of `b` without the one of `a`, as `here` sees both: formula and number.
 
     The axes of two sheaves may point against each other.
     """
