@@ -82,6 +82,18 @@ def place(chromium: Chromium, point: list[float]) -> tuple[float, float]:
     return box[0] + x, box[1] + y
 
 
+def place_at_rest(chromium: Chromium) -> list[float]:
+    """Where the held point comes to rest: between frames it is drawn on a chord while it moves."""
+    ends, at, moved = time.monotonic() + PATIENCE, chromium.run("symgen.hand.at"), math.inf
+    while moved > 1e-6:
+        assert time.monotonic() < ends, f"never at rest: {at}; {chromium.said}"
+        for _ in range(20):
+            chromium.frame()
+        before, at = at, chromium.run("symgen.hand.at")
+        moved = math.dist(at, before)
+    return list(at)
+
+
 def test_a_drag_while_it_plays_pulls_the_body_to_the_pointer(chromium: Chromium, tmp_path: Path) -> None:
     chromium.open(load("pendulum").simulate(until=2.0).view().save(tmp_path / "page.html"))
     recorded = chromium.run("symgen.q.at(-1)")
@@ -110,10 +122,7 @@ def test_a_drag_while_it_plays_pulls_the_body_to_the_pointer(chromium: Chromium,
         "document.getElementById('speed').dispatchEvent(new Event('change'))"
     )
     # the bob stays on its circle and comes to rest where spring and weight are in balance
-    for _ in range(200):
-        chromium.frame()
-    hand = chromium.run("symgen.hand")
-    at = hand["at"]
+    at = place_at_rest(chromium)
     assert math.hypot(*at) == pytest.approx(1.0, abs=1e-6)
     assert at[1] > 0.0  # above the pin
     words = chromium.run("document.getElementById('hint').textContent")
