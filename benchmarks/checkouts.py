@@ -77,7 +77,7 @@ def counted(checkout: Path, name: str, method: str, coordinates: str) -> tuple[i
 
 
 def answer(checkout: Path, script: str, *words: str) -> Any:
-    """Return what a script prints last in a process of its own that imports symgen from a checkout."""
+    """Return the last line of a script's output as JSON; its process imports symgen from a checkout."""
     command = [sys.executable, "-c", script, *words]
     environment = {**os.environ, "PYTHONPATH": str(checkout)}
     done = subprocess.run(command, env=environment, cwd=checkout, capture_output=True, text=True, check=True)

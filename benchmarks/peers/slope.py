@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import tempfile
 import time
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import mujoco
@@ -53,10 +55,10 @@ def in_mujoco(cone: str, springs: str) -> tuple[float, float]:
 
 def main() -> None:
     """Print a line for each way."""
-    ways = {"symgen": in_symgen}
+    ways: dict[str, Callable[[], tuple[float, float]]] = {"symgen": in_symgen}
     for cone in ("elliptic", "pyramidal"):
         for name, springs in SPRINGS.items():
-            ways[f"MuJoCo {mujoco.__version__}, {cone}, {name}"] = lambda c=cone, s=springs: in_mujoco(c, s)  # type: ignore[misc]
+            ways[f"MuJoCo {mujoco.__version__}, {cone}, {name}"] = partial(in_mujoco, cone, springs)
     for name, way in ways.items():
         began = time.process_time()
         first, last = way()

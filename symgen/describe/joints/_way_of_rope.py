@@ -172,7 +172,7 @@ def _leaving(i: int, here: _Placed, a: _Placed, b: _Placed) -> _Leaving:
     name, start, end, beyond = f"rope{i}.", a, b, 0.0
     if here.stop.triad is None:
         x, y = axes(GROUND, 2)
-    else:  # bearings in space are of what the sheave sees: one that the rope comes from is behind
+    else:  # bearings in space start at the sheave: the rope runs against the one to where it comes from
         x, y = here.stop.triad.first, here.stop.triad.second
         name += "to." if here is a else "from."
         start, end, beyond = (a, b, 0.0) if here is a else (b, a, math.pi)

@@ -88,8 +88,8 @@ def serving_function(modes: bool, effects: bool, turning: tuple[str, ...]) -> tu
         source = serve_modes if modes else serve_resets
         name_of_loop = f"compiled_{name}"  # it is found by its name, as all loops are
         # a turn is entered at events alone: passes over its text would take longer than the events of any run
-        made = compiled_loop(__name__, name_of_loop, source, signature, once=True, **meanings)
-        _loops[name] = globals()[name_of_loop] = made
+        loop = compiled_loop(__name__, name_of_loop, source, signature, once=True, **meanings)
+        _loops[name] = globals()[name_of_loop] = loop
     return _loops[name], signature
 
 

@@ -111,6 +111,7 @@ def test_past_its_end_a_disc_rolls_about_the_corner(integrator: str, tmp_path: P
     def slips(_: float, y: np.ndarray) -> float:
         return mu * (G * math.cos(y[0]) - r * y[1] ** 2) - G * math.sin(y[0]) / 3.0
 
+    # SciPy reads an attribute of the function
     ends.terminal = slips.terminal = True  # type: ignore[attr-defined]
     tight = {"rtol": 1e-12, "atol": 1e-14, "method": "DOP853"}
     one = solve_ivp(about(far), (0.0, 2.0), [start, 0.0], events=ends, **tight)
