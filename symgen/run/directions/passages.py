@@ -27,8 +27,11 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
+#: Series of impacts that come to rest: ``impacts``, ``rates`` and ``rests`` of
+#: `symgen.run.modes.impact_memory.ImpactMemory`.
+KeptSeries = tuple[Array, Array, Array]
 #: What an impact of contacts is tied to.
-KeptTies = tuple[NDArray[np.int64], Array, NDArray[np.int64], Array]
+KeptTies = tuple[NDArray[np.int64], Array, NDArray[np.int64], Array, KeptSeries | None]
 
 
 @dataclass(frozen=True)
@@ -43,7 +46,8 @@ class Struck:
         The state before them.
     ties : tuple or None
         Of contacts, which velocities impulses hold, signs of multiples, and what velocities are parts of, see
-        ``held``, ``ways``, ``leads`` and ``parts`` of `symgen.run.effects.pushing.Ties`.
+        ``held``, ``ways``, ``leads`` and ``parts`` of `symgen.run.effects.pushing.Ties`; and the series that these
+        parts follow from, None without any.
     """
 
     numbers: tuple[int, ...]

@@ -250,7 +250,8 @@ class TurnOfRun:
         """Effects of the latest turn in their order.
 
         Numbers of events, state before, scratch after each, and of contacts which impulses held velocities, the signs
-        of the multiples that others were, and what velocities are parts of; else None.
+        of the multiples that others were, what velocities are parts of, and the series that these follow from; else
+        None.
         """
         resets = self._resets
         found: list[Any] = [(resets.kept, np.flatnonzero(resets.chosen), resets.kept.w, None)]
@@ -259,9 +260,12 @@ class TurnOfRun:
             active, ties = np.flatnonzero(strikes.active), strikes.ties
             w = strikes.rested.w.copy()  # the formulas of rows that come to rest read their signs
             w[choice.first + MODE_NUMBERS * active + SIGN] = 1.0
-            none = np.full_like(ties.leads, -1), np.zeros_like(ties.parts)
+            none = np.full_like(ties.leads, -1), np.zeros_like(ties.parts), None
             struck = ties.kept.copy(), ties.kept_ways.copy(), *none
-            rested = ties.held.copy(), ties.ways.copy(), ties.leads.copy(), ties.parts.copy()
+            memory, series = strikes.memory, None
+            if np.any(ties.leads >= 0):
+                series = memory.impacts.copy(), memory.rates.copy(), memory.rests.copy()
+            rested = ties.held.copy(), ties.ways.copy(), ties.leads.copy(), ties.parts.copy(), series
             both = (struck, rested) if self.rows.contacts else (None, None)
             found += [(strikes.struck, strikes.events[active], strikes.struck.w, both[0])]
             found += [(strikes.rested, strikes.events[active], w, both[1])]
