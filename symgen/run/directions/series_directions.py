@@ -27,8 +27,9 @@ from symgen.run.modes.impact_memory import AT, HEAD, RATE, REMEMBERED
 
 Array = NDArray[np.float64]
 
-#: Part of what is left out to which it is found again, as it was when accelerations were those of a trial.
-_AGREES = 1e-4
+#: Part of what is left out to which it is found again, as it was when accelerations were those of a trial; what is no
+#: more than rounding, over the rate that remains.
+_AGREES, _ROUNDING = 1e-4, 1e-9
 
 
 class Rated(NamedTuple):
@@ -204,6 +205,6 @@ class SeriesDirections:
                 changes = left_over(Rated(float(self.rates[row]), rates[row]), u, numbers)
                 part += changes.value
                 found[j] += changes.slopes
-            if not abs(part - self.parts[j]) <= _AGREES * (abs(part) + abs(rests[row] * lasts.value)):
+            if not abs(part - self.parts[j]) <= _AGREES * (abs(part) + abs(rests[row] * lasts.value)) + _ROUNDING:
                 return None
         return found
