@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.run.directions.moments import Moment
+from symgen.run.effects.pushing import KeptTies
 from symgen.run.layout import abi
 from symgen.run.single.simulation import Simulation
 
@@ -27,13 +28,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-#: Series of impacts that come to rest: ``impacts``, ``rates`` and ``rests`` of
-#: `symgen.run.modes.impact_memory.ImpactMemory`.
-KeptSeries = tuple[Array, Array, Array]
-#: What an impact of contacts is tied to.
-KeptTies = tuple[NDArray[np.int64], Array, NDArray[np.int64], Array, KeptSeries | None]
-
-
 @dataclass(frozen=True)
 class Struck:
     """Effects of events on a state.
@@ -44,10 +38,8 @@ class Struck:
         Their numbers.
     at : Moment
         The state before them.
-    ties : tuple or None
-        Of contacts, which velocities impulses hold, signs of multiples, and what velocities are parts of, see
-        ``held``, ``ways``, ``leads`` and ``parts`` of `symgen.run.effects.pushing.Ties`; and the series that these
-        parts follow from, None without any.
+    ties : KeptTies or None
+        Of contacts, what the impact was tied to.
     """
 
     numbers: tuple[int, ...]

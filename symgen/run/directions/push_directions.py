@@ -18,11 +18,10 @@ from symgen.base.errors import InputError
 from symgen.compile.loopcode.exact import compiled_form
 from symgen.describe.bounds.bounded_modes import HIT
 from symgen.run.directions.moments import Moment
-from symgen.run.directions.passages import KeptTies
 from symgen.run.directions.reset_directions import ResetDirections
 from symgen.run.effects.applying import EffectWork
 from symgen.run.effects.effects import Effects, Impact
-from symgen.run.effects.pushing import Ties, new_ties, push_contacts
+from symgen.run.effects.pushing import KeptTies, Ties, new_ties, push_contacts
 from symgen.run.layout.start_records import Instant
 from symgen.run.loops.run_spec import Watched
 
@@ -42,7 +41,7 @@ def tied_impact(watched: Watched, kept: KeptTies, now: Moment) -> Ties:
     """Return the ties of an impact: what is held, and multiples by the coefficients of friction at its state."""
     rows, effects = watched.bounded, watched.effects
     assert rows is not None, "a run with contacts"
-    ties: Ties = new_ties(len(kept[0]), effects.compiled.info.nv, effects.compiled.info.m)
+    ties: Ties = new_ties(len(kept.held), effects.compiled.info.nv, effects.compiled.info.m)
     k, dry = len(rows.names), rows.dry
     width = len(now.y)
     values = rows.state(now.t, now.y.copy(), now.p.copy(), now.w.copy(), np.zeros(width))

@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.describe.bounds.bounded_modes import HIT
-from symgen.run.directions.passages import KeptTies
 from symgen.run.directions.push_directions import rows_of_velocities
+from symgen.run.effects.pushing import KeptTies
 from symgen.run.loops.run_spec import Watched
 from symgen.run.modes.contact_series import SAME_MODES
 from symgen.run.modes.impact_memory import AT, HEAD, RATE, REMEMBERED
@@ -161,9 +161,9 @@ class SeriesDirections:
     """
 
     def __init__(self, watched: Watched, kept: KeptTies, impacts: ImpactDirections) -> None:
-        rows, series = watched.bounded, kept[4]
+        rows, series = watched.bounded, kept.series
         assert rows is not None and series is not None, "a series of impacts of contacts"
-        self.k, self.leads, self.parts, self.impacts = len(rows.names), kept[2].tolist(), kept[3], impacts
+        self.k, self.leads, self.parts, self.impacts = len(rows.names), kept.leads.tolist(), kept.parts, impacts
         self.memory, self.rates, self.rests = series
         self.hits, self.along = watched.events_of_rows(HIT, self.k), rows_of_velocities(watched)
         assert watched.effects is not None, "a run with impacts"

@@ -130,7 +130,7 @@ class Transfer:
         known, here = len(self.doubts), Directions(self._with(y), self._with(later), self._with(modes))
         changed = self._through_effects(passage, here, None)
         found = self._modes(passage, before, after, changed, free)
-        if any(struck.ties is not None and struck.ties[4] is not None for struck in passage.effects):
+        if any(struck.ties is not None and struck.ties.series is not None for struck in passage.effects):
             # what is left out of a series reads accelerations at rest, whose directions need those of the state there
             del self.doubts[known:]
             rows = self._rows_with_bounds
@@ -260,8 +260,8 @@ class Transfer:
         """Return the directions of what velocities have of a series that is left out, zero without one."""
         watched, kept = self.watched, struck.ties
         assert watched is not None and kept is not None, "an impact of contacts"
-        if kept[4] is None:
-            return np.zeros((len(kept[0]), by.y.shape[1]))
+        if kept.series is None:
+            return np.zeros((len(kept.held), by.y.shape[1]))
         rows, k = self._rows_with_bounds, len(self._rows_with_bounds.names)
         _, slopes = self.moments.evaluate_moment(rows.state.function, rows.values, now, by)
         series = SeriesDirections(watched, kept, self.impacts)
@@ -269,10 +269,10 @@ class Transfer:
         if parts is None:
             names = " and ".join(rows.names[series.hits.index(event)] for event in struck.numbers)
             self.doubts.append(
-                f"{names} rest from t = {now.t:.6g} s on after impacts that are left out, and whose derivatives do not "
-                "follow from those before them"
+                f"what is left out of impacts that accumulate at {names} at t = {now.t:.6g} s does not follow from the "
+                "impacts before, so that its derivatives are unknown; take differences"
             )
-            return np.zeros((len(kept[0]), by.y.shape[1]))
+            return np.zeros((len(kept.held), by.y.shape[1]))
         return self._with(parts)
 
     def _remember(self, passage: RunPassage, after: Moment, by: Directions) -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from benchmarks.bounded.touch.kinds import drawn
 from benchmarks.mechanisms.toml import text as toml_text
-from symgen.run.directions.series_directions import ImpactsAhead, Rated, left_over
+from symgen.run.directions.series_directions import ImpactDirections, ImpactsAhead, Rated, left_over
 from tests.run.contacts.scenes import DROP, LIGHT, body, floor, head, loaded, rods
 
 #: A spinning disc that bounces, rests and rolls.
@@ -73,7 +73,7 @@ def test_rods_that_hit_the_floor(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_contacts_that_slip_between_impacts_that_accumulate(tmp_path: Path) -> None:
+def test_contacts_that_slip_between_impacts_that_accumulate(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Two discs meet on a floor; what is left out follows from earlier impacts, which the way back comes to later.
 
     With the ratio of the series as a constant, derivatives by mu are off by 2e-3, and by e by 4e-6.
@@ -89,6 +89,10 @@ def test_contacts_that_slip_between_impacts_that_accumulate(tmp_path: Path) -> N
     assert forward.result.ok and (forward.way, back.way) == ("forward", "adjoint")
     for name in values:  # in the same steps
         assert back.by[name] == pytest.approx(forward.by[name], rel=1e-11)
+    monkeypatch.setattr(ImpactDirections, "remember", lambda *impact: None)
+    for way in ("forward", "adjoint"):
+        forgotten = model.gradient("two.theta", way=way, **settings).result
+        assert forgotten.status == "unverified" and "accumulate at c1 and c2 and c3 at t = 0.4695" in forgotten.reason
 
 
 def test_what_is_left_out_of_a_geometric_series() -> None:
