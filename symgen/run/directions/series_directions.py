@@ -49,12 +49,12 @@ class Rated(NamedTuple):
 
 @dataclass
 class ImpactDirections:
-    """Directions of the latest impacts of each event: those of their times, then of the rates of all rows after them.
+    """Directions of the latest impacts of each event: of the time, then of the rates of all rows after an impact.
 
     Attributes
     ----------
     kept : dict
-        By the number of the event, the latest impacts: their times, and directions of shape (1 + rows, k).
+        By the number of the event, times of the latest impacts with directions, shape (1 + rows, k).
     """
 
     kept: dict[int, list[tuple[float, Array]]] = field(default_factory=dict)
