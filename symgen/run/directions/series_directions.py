@@ -202,7 +202,11 @@ class SeriesDirections:
             part = -rests[row] * lasts.value
             found[j] = -by_rests[row] * lasts.value - rests[row] * lasts.slopes
             if self.along[j] >= 0:
-                changes = left_over(Rated(float(self.rates[row]), rates[row]), u, numbers)
+                z = Rated(float(self.rates[row]), rates[row])
+                own = Rated(-z.value / u.value, (z.value / u.value * u.slopes - z.slopes) / u.value)
+                # its sum by earlier impacts, or its own end where it ends with the series, as the run has taken it
+                forms = left_over(z, u, numbers), own
+                changes = min(forms, key=lambda form: abs(part + form.value - self.parts[j]))
                 part += changes.value
                 found[j] += changes.slopes
             if not abs(part - self.parts[j]) <= _AGREES * (abs(part) + abs(rests[row] * lasts.value)) + _ROUNDING:
