@@ -26,6 +26,7 @@ from symgen.run.directions.directed_model import DirectedModel, Seeds, form_for_
 from symgen.run.directions.kept_run import KeptRun, reason_against_adjoint
 from symgen.run.directions.moments import Moments
 from symgen.run.directions.passages import RunPassage
+from symgen.run.directions.series_directions import ImpactsAhead
 from symgen.run.directions.transfer import Transfer
 from symgen.run.layout import abi
 from symgen.run.modes.bounded_rows import CONSTANT, LIMIT
@@ -271,8 +272,10 @@ class WayBack:
             c, count = len(own), len(own) + n + len(self._places)
             y, modes = np.zeros((self.run.sizes.ny, count)), np.zeros((place.stop - place.start, count))
             y[own, np.arange(c)] = modes[self._places, np.arange(c + n, count)] = 1.0
-            after, after_modes = self._transfer.transfer_through(passage, y, modes)
-            by = self._y[: len(y)] @ after + self._w[place] @ after_modes
+            transfer, impacts = self._transfer, self._impacts
+            by = self._along(transfer.transfer_through(passage, y, modes)) + impacts.derivatives_here(count)
+            for units in impacts.units_of_asked(count, [*range(c), *range(c + n, count)]):
+                impacts.add(units, self._along(transfer.transfer_impacts_alone(passage, y, modes)))
             self._y[own], self._w[place] = by[:c], 0.0
             self._found += by[c : c + n]
             self._w[place][self._places] = by[c + n :]
@@ -281,6 +284,16 @@ class WayBack:
             self._take_parameters()
             p[:] = before.p
         w[:] = before.w
+
+    def _along(self, after: tuple[Array, Array]) -> Array:
+        """Return the derivatives of the number along directions of state and modes after a passage."""
+        y, modes = after
+        return np.asarray(self._y[: len(y)] @ y + self._w[self._transfer.moments.place_of_modes()] @ modes)
+
+    @functools.cached_property
+    def _impacts(self) -> ImpactsAhead:
+        """Impacts that the rest of later ones depends on."""
+        return ImpactsAhead()
 
     @functools.cached_property
     def _elements(self) -> list[int]:
@@ -301,7 +314,7 @@ class WayBack:
         run, n, c = self.run, self.seeds.count, len(self._elements)
         columns = np.zeros((len(self.seeds.p), c + n + len(self._places) + 1))
         columns[:, c : c + n] = self.seeds.p
-        return Transfer(Moments(run.compiled, columns), run.spec, False)
+        return Transfer(Moments(run.compiled, columns), run.spec, False, impacts=self._impacts)
 
     # -- numbers -------------------------------------------------------------------------------------------------------
 

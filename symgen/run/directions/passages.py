@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.run.directions.moments import Moment
+from symgen.run.effects.pushing import KeptTies
 from symgen.run.layout import abi
 from symgen.run.single.simulation import Simulation
 
@@ -27,10 +28,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-#: What an impact of contacts is tied to.
-KeptTies = tuple[NDArray[np.int64], Array, NDArray[np.int64], Array]
-
-
 @dataclass(frozen=True)
 class Struck:
     """Effects of events on a state.
@@ -41,9 +38,8 @@ class Struck:
         Their numbers.
     at : Moment
         The state before them.
-    ties : tuple or None
-        Of contacts, which velocities impulses hold, signs of multiples, and what velocities are parts of, see
-        ``held``, ``ways``, ``leads`` and ``parts`` of `symgen.run.effects.pushing.Ties`.
+    ties : KeptTies or None
+        Of contacts, what the impact was tied to.
     """
 
     numbers: tuple[int, ...]

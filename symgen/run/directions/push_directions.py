@@ -18,11 +18,10 @@ from symgen.base.errors import InputError
 from symgen.compile.loopcode.exact import compiled_form
 from symgen.describe.bounds.bounded_modes import HIT
 from symgen.run.directions.moments import Moment
-from symgen.run.directions.passages import KeptTies
 from symgen.run.directions.reset_directions import ResetDirections
 from symgen.run.effects.applying import EffectWork
 from symgen.run.effects.effects import Effects, Impact
-from symgen.run.effects.pushing import Ties, new_ties, push_contacts
+from symgen.run.effects.pushing import KeptTies, Ties, new_ties, push_contacts
 from symgen.run.layout.start_records import Instant
 from symgen.run.loops.run_spec import Watched
 
@@ -42,11 +41,11 @@ def tied_impact(watched: Watched, kept: KeptTies, now: Moment) -> Ties:
     """Return the ties of an impact: what is held, and multiples by the coefficients of friction at its state."""
     rows, effects = watched.bounded, watched.effects
     assert rows is not None, "a run with contacts"
-    ties: Ties = new_ties(len(kept[0]), effects.compiled.info.nv, effects.compiled.info.m)
+    ties: Ties = new_ties(len(kept.held), effects.compiled.info.nv, effects.compiled.info.m)
     k, dry = len(rows.names), rows.dry
     width = len(now.y)
     values = rows.state(now.t, now.y.copy(), now.p.copy(), now.w.copy(), np.zeros(width))
-    ties.held[:], ties.ways[:], ties.leads[:], ties.parts[:] = kept
+    ties.held[:], ties.ways[:], ties.leads[:], ties.parts[:] = kept[:4]
     for j, row in enumerate(rows_of_velocities(watched)):
         if row >= 0:
             ties.ratio[j] = ties.ways[j] * values[2 * k + dry + row]
@@ -101,10 +100,12 @@ class PushDirections(ResetDirections):
         What impulses hold, and what they are multiples of.
     watched : Watched
         Switching functions of the run.
+    parts : Array, shape (count, L)
+        Directions of the parts of ``ties``.
     """
 
     def __init__(self, *given: Any) -> None:
-        *others, self.ties, self.watched = given
+        *others, self.ties, self.watched, self.parts = given
         super().__init__(*others)
         if self.losses:
             raise InputError("derivatives", "outputs without the energy that contacts take", "one that reads it")
@@ -114,6 +115,7 @@ class PushDirections(ResetDirections):
         info, ties, impulse, n = self.info, self.ties, self.work.impulse, self.info.nv
         rates = self._evaluate_reset(self.effects.formulas, len(self.work.out), self.y)[: len(ties.held)]
         values = targets_of(ties, rows_of_velocities(self.watched), rates, values)
+        values += self.parts * self._values[np.maximum(ties.leads, 0), np.newaxis]
         held = [k for k in struck if ties.held[k] > 0]
         slides = [k for k in struck if ties.held[k] < 0]
         joints, mass = impulse.rows[: info.m * n].reshape(info.m, n), impulse.mass.reshape(n, n)

@@ -20,13 +20,14 @@ from symgen.run.directions.free_directions import TOGETHER, Free, constraint_dir
 from symgen.run.directions.moments import Directions, Moment, Moments, modes_of_moment
 from symgen.run.directions.push_directions import PushDirections, push_state, rows_of_velocities, tied_impact
 from symgen.run.directions.reset_directions import ResetDirections
+from symgen.run.directions.series_directions import ImpactDirections, Rated, SeriesDirections
 from symgen.run.layout import abi
 from symgen.run.modes.bounded_rows import CONSTANT, EFFORT, HELD, LIMIT, SIGN, STILL
 
 if TYPE_CHECKING:
     from symgen.run.directions.passages import RunPassage, Struck
     from symgen.run.layout.compiled import CompiledModel
-    from symgen.run.loops.run_spec import RunSpec, Watched
+    from symgen.run.loops.run_spec import BoundedRows, RunSpec, Watched
 
 Array = NDArray[np.float64]
 
@@ -58,18 +59,22 @@ class Transfer:
     ----------
     doubts : list of str
         What is in doubt of the directions.
+    impacts : ImpactDirections
+        Directions of the latest impacts of contacts.
     """
 
     moments: Moments
     spec: RunSpec
     consistent: bool = True
     doubts: list[str] = field(default_factory=list)
+    impacts: ImpactDirections = field(default_factory=ImpactDirections)
     _last: tuple[RunPassage, Array] | None = None
 
     def begin_anew(self) -> None:
         """Forget the last passage and all doubts."""
         self._last = None
         self.doubts.clear()
+        self.impacts.kept.clear()
 
     @property
     def watched(self) -> Watched | None:
@@ -97,6 +102,14 @@ class Transfer:
             y = y - np.outer(self.moments.rates(self._plain(passage.after)), later)
         return y, modes
 
+    def transfer_impacts_alone(self, passage: RunPassage, y: Array, modes: Array) -> tuple[Array, Array]:
+        """Return the directions after a passage whose state before has none, but earlier impacts; shapes are given."""
+        last, known = self._last, len(self.doubts)
+        after = self.transfer_through(passage, np.zeros_like(y), np.zeros_like(modes))
+        self._last = last
+        del self.doubts[known:]
+        return after
+
     def transfer_at_event(self, passage: RunPassage, y: Array, modes: Array, rate: Array) -> tuple[Array, Array, Array]:
         """Return the directions of state, modes and time of a passage after it, at its own time.
 
@@ -114,10 +127,19 @@ class Transfer:
             later = self._later(passage, before, y, modes, rate, free)
             y = y + np.outer(rate, later)
         self._compare(passage, later, free)
-        for struck in passage.effects:
-            y = self._through_effects(struck, self._plain(struck.at), y, later)
-        here = Directions(self._with(y), self._with(later), self._with(modes))
-        return y, self._modes(passage, before, after, here, free), later
+        known, here = len(self.doubts), Directions(self._with(y), self._with(later), self._with(modes))
+        changed = self._through_effects(passage, here, None)
+        found = self._modes(passage, before, after, changed, free)
+        if any(struck.ties is not None and struck.ties.series is not None for struck in passage.effects):
+            # what is left out of a series reads accelerations at rest, whose directions need those of the state there
+            del self.doubts[known:]
+            rows = self._rows_with_bounds
+            by = changed._replace(modes=self._with(found))
+            values, slopes = self.moments.observe(rows.accelerations.function, len(rows.names), after, by)
+            changed = self._through_effects(passage, here, (values, slopes[:, :-1]))
+            found = self._modes(passage, before, after, changed, free)
+        self._remember(passage, after, changed)
+        return changed.y[:, :-1], found, later
 
     def _plain(self, x: Moment) -> Moment:
         """Return a state without the directions after its arrays."""
@@ -197,26 +219,69 @@ class Transfer:
 
     # -- what events change --------------------------------------------------------------------------------------------
 
-    def _through_effects(self, struck: Struck, now: Moment, y: Array, later: Array) -> Array:
-        """Return the directions of the state after the effects of events."""
-        watched, numbers = self.watched, struck.numbers
+    def _through_effects(self, passage: RunPassage, by: Directions, rests: tuple[Array, Array] | None) -> Directions:
+        """Return the directions after the effects of events in their order; `rests` as of `SeriesDirections.slopes`."""
+        for struck in passage.effects:
+            by = by._replace(y=self._with(self._through_effect(struck, self._plain(struck.at), by, rests)))
+        return by
+
+    def _through_effect(
+        self, struck: Struck, now: Moment, here: Directions, rests: tuple[Array, Array] | None
+    ) -> Array:
+        """Return the directions of the state after an effect of events."""
+        watched, numbers, width = self.watched, struck.numbers, here.y.shape[1]
         assert watched is not None, "the run has events"
         effects = watched.effects
         work = effects.memory(len(now.y), len(now.w))
         state, scratch = now.y.copy(), now.w.copy()
+        by, lanes = here._replace(modes=np.zeros((self._count, width))), self.moments.model.lanes
         if struck.ties is None:
             impact, ties = effects.apply_to_state(numbers, now.t, state, now.p.copy(), scratch, work), None
         else:
             ties = tied_impact(watched, struck.ties, now)
             tied = ties, rows_of_velocities(watched)
+            parts = np.pad(self._slopes_of_parts(struck, now, by, rests), ((0, 0), (0, lanes)))
             impact = push_state(effects, numbers, now, (state, scratch), work, tied)
-        by = Directions(self._with(y), self._with(later), self._with(np.zeros((self._count, y.shape[1]))))
         chosen, columns = effects.chosen(numbers), list[Array]()
-        for _, own, p, w in self.moments.chunks_of_states(now, by):
+        for first, own, p, w in self.moments.chunks_of_states(now, by):
             given = effects, self.moments.model, chosen, now.t, own, p, w, work, impact, self._losses
-            reset = ResetDirections(*given) if ties is None else PushDirections(*given, ties, watched)
-            columns.append(reset.directions())
-        return np.concatenate(columns, axis=1)[:, : y.shape[1]]
+            if ties is None:
+                columns.append(ResetDirections(*given).directions())
+            else:
+                columns.append(PushDirections(*given, ties, watched, parts[:, first : first + lanes]).directions())
+        return np.concatenate(columns, axis=1)[:, : width - 1]
+
+    @property
+    def _rows_with_bounds(self) -> BoundedRows:
+        assert self.watched is not None and self.watched.bounded is not None, "a run with contacts"
+        return self.watched.bounded
+
+    def _slopes_of_parts(self, struck: Struck, now: Moment, by: Directions, rests: tuple[Array, Array] | None) -> Array:
+        """Return the directions of what velocities have of a series that is left out, zero without one."""
+        watched, kept = self.watched, struck.ties
+        assert watched is not None and kept is not None, "an impact of contacts"
+        if kept.series is None:
+            return np.zeros((len(kept.held), by.y.shape[1]))
+        rows, k = self._rows_with_bounds, len(self._rows_with_bounds.names)
+        _, slopes = self.moments.evaluate_moment(rows.state.function, rows.values, now, by)
+        series = SeriesDirections(watched, kept, self.impacts)
+        parts = series.slopes(Rated(now.t, by.t[:-1]), slopes[k : 2 * k, :-1], rests)
+        if parts is None:
+            names = " and ".join(rows.names[series.hits.index(event)] for event in struck.numbers)
+            self.doubts.append(
+                f"what is left out of impacts that accumulate at {names} at t = {now.t:.6g} s does not follow from the "
+                "impacts before, so that its derivatives are unknown; take differences"
+            )
+            return np.zeros((len(kept.held), by.y.shape[1]))
+        return self._with(parts)
+
+    def _remember(self, passage: RunPassage, after: Moment, by: Directions) -> None:
+        """Remember the directions of an impact of contacts."""
+        events = sorted({event for struck in passage.effects if struck.ties is not None for event in struck.numbers})
+        if events:
+            rows, k = self._rows_with_bounds, len(self._rows_with_bounds.names)
+            _, slopes = self.moments.evaluate_moment(rows.state.function, rows.values, after, by)
+            self.impacts.remember(events, after.t, np.vstack([by.t[:-1], slopes[k : 2 * k, :-1]]))
 
     @property
     def _losses(self) -> dict[int, int]:

@@ -8,7 +8,7 @@ along W_T and for one unit of each of them, and a small system has the multiples
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -79,6 +79,38 @@ class Ties(Record):
     kept_ways: Array
     leads: Integers
     parts: Array
+
+
+class KeptSeries(NamedTuple):
+    """What a series of impacts that comes to rest follows from, see `symgen.run.modes.impact_memory.ImpactMemory`.
+
+    Attributes
+    ----------
+    impacts, rates, rests : Array
+        Copies of these arrays.
+    """
+
+    impacts: Array
+    rates: Array
+    rests: Array
+
+
+class KeptTies(NamedTuple):
+    """What an impact was tied to, for derivatives.
+
+    Attributes
+    ----------
+    held, ways, leads, parts : Array of int64, Array, Array of int64, Array
+        Copies of arrays of `Ties`.
+    series : KeptSeries or None
+        What ``parts`` follow from; None where no velocity is left at a part of another one.
+    """
+
+    held: Integers
+    ways: Array
+    leads: Integers
+    parts: Array
+    series: KeptSeries | None = None
 
 
 def new_ties(count: int, n: int, m: int) -> Any:

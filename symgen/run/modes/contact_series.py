@@ -27,7 +27,7 @@ from symgen.run.modes.strikes import Strikes, accelerate_in_force
 #: Rates below this part of what is left out of them end with the series.
 _ENDS = 0.02
 #: Sums by one flight and by two that differ by less than this part are of the same modes.
-_SAME_MODES = 0.02
+SAME_MODES = 0.02
 #: Rates that differ by less than this part of those that remain are the same sum.
 _SAME_SUM = 5e-3
 
@@ -66,7 +66,7 @@ def is_geometric(t: float, c: Choice, s: Strikes, i: int) -> bool:
     before = at + HEAD + c.count
     one = (t - impacts[at + AT]) / (impacts[at + RATE] - u)
     two = (t - impacts[before + AT]) / (impacts[before + RATE] - u)
-    return bool(abs(two - one) <= _SAME_MODES * one)
+    return bool(abs(two - one) <= SAME_MODES * one)
 
 
 @exact()
@@ -97,7 +97,7 @@ def left_over(c: Choice, s: Strikes, i: int, place: int, now: float) -> float:
     at, u = REMEMBERED * size * i, s.asked[i]
     one = (now - s.memory.impacts[at + place]) / (s.memory.impacts[at + RATE] - u)
     two = (now - s.memory.impacts[at + size + place]) / (s.memory.impacts[at + size + RATE] - u)
-    return float(two if abs(two - one) <= _SAME_MODES * abs(one) else one)
+    return float(two if abs(two - one) <= SAME_MODES * abs(one) else one)
 
 
 @exact()

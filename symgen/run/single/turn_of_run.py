@@ -22,6 +22,7 @@ from symgen.describe.bounds.bounded_modes import HIT, MODE, REST
 from symgen.describe.parts.event_sections import RESET, STOP
 from symgen.run.effects.accumulation import Past, add_resets
 from symgen.run.effects.applying import NO_VALUES, NO_VELOCITIES
+from symgen.run.effects.pushing import KeptSeries, KeptTies
 from symgen.run.effects.resets import KEEPING, KeptEffect, OfEffects
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
@@ -249,8 +250,7 @@ class TurnOfRun:
     def effects_in_order(self) -> list[tuple[tuple[int, ...], Array, Array, Any]]:
         """Effects of the latest turn in their order.
 
-        Numbers of events, state before, scratch after each, and of contacts which impulses held velocities, the signs
-        of the multiples that others were, and what velocities are parts of; else None.
+        Numbers of events, state before, scratch after each, and of contacts what it was tied to; else None.
         """
         resets = self._resets
         found: list[Any] = [(resets.kept, np.flatnonzero(resets.chosen), resets.kept.w, None)]
@@ -260,8 +260,12 @@ class TurnOfRun:
             w = strikes.rested.w.copy()  # the formulas of rows that come to rest read their signs
             w[choice.first + MODE_NUMBERS * active + SIGN] = 1.0
             none = np.full_like(ties.leads, -1), np.zeros_like(ties.parts)
-            struck = ties.kept.copy(), ties.kept_ways.copy(), *none
-            rested = ties.held.copy(), ties.ways.copy(), ties.leads.copy(), ties.parts.copy()
+            struck = KeptTies(ties.kept.copy(), ties.kept_ways.copy(), *none)
+            rested = KeptTies(*(x.copy() for x in (ties.held, ties.ways, ties.leads, ties.parts)))
+            if np.any(ties.leads >= 0):
+                memory = strikes.memory
+                series = KeptSeries(memory.impacts.copy(), memory.rates.copy(), memory.rests.copy())
+                rested = rested._replace(series=series)
             both = (struck, rested) if self.rows.contacts else (None, None)
             found += [(strikes.struck, strikes.events[active], strikes.struck.w, both[0])]
             found += [(strikes.rested, strikes.events[active], w, both[1])]
