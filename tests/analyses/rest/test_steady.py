@@ -39,6 +39,7 @@ def test_a_bicycle_rides(v):
     assert_allclose(found.B[2:, 0], np.linalg.inv(mass)[:, 1], rtol=1e-12)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_weave_and_capsize_speeds(tmp_path):
     asked = {"at": "start", "states": ["lean", "steer"]}

@@ -152,6 +152,7 @@ def test_the_live_part_of_a_file_is_that_of_its_run(tmp_path: Path, result: Any)
     assert "q[0] =" in result.view().html
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_the_live_part_has_the_inputs_of_its_run(tmp_path: Path) -> None:
     pushed = {
