@@ -498,6 +498,7 @@ def test_pairs_of_methods_and_integrators():
     assert method_pairs("auto") == (("auto", "auto"),) and method_pairs("auto", constant_steps=True) == ()
 
 
+@pytest.mark.slow
 def test_a_reference_does_with_less_where_rounding_forbids_more(monkeypatch):
     from symgen.study.references import motion as compiled
 

@@ -114,6 +114,7 @@ def test_view_of_a_model_and_of_a_file(tmp_path: Path, capsys: pytest.CaptureFix
     assert data_of((tmp_path / "b.html").read_text())["live"] is not None
 
 
+@pytest.mark.slow_cases("ggl-direct-correction-gains1")
 @pytest.mark.parametrize(
     ("method", "live", "gains"),
     [("baumgarte", "baumgarte", ["method.alpha", "method.beta"]), ("ggl", "direct-correction", [])],
