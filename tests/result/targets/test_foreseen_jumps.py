@@ -99,7 +99,7 @@ JUMPING = STOP.replace("0.2,", '"0.2 if t < begin else 0.3",')
     [
         ("1 if t > begin else 0", STOP, 300), ("1 if 2*t + begin > 9*span else 0", STOP, 300),
         ("max(t - begin, span)", STOP, 300), ("max(t - begin, 0) if t > begin else -1", JUMPING, 300),
-        ("1 if sin(pace*t) > 0.2 else 0", STOP, 8),
+        pytest.param("1 if sin(pace*t) > 0.2 else 0", STOP, 8, marks=pytest.mark.slow),
         pytest.param("1 if sin(pace*t)*t > 0.3*begin else 0", STOP, 8, marks=pytest.mark.slow),
         pytest.param("abs(begin*t - t*t) + (1 if begin*t - t*t > 0 else 0)", STOP, 8, marks=pytest.mark.slow),
         ("1 if t > begin and t < begin + span else max(t - begin, 0)", "", 300),
