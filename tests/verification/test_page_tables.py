@@ -168,9 +168,9 @@ def test_a_table_is_what_is_written():
     assert lines[0] == "| a | b |" and [cells_of(line) for line in lines[2:]] == [["", r"\|Phi\|"], ["x", "2"]]
 
 
-@pytest.mark.slow  # measures: a row in a turn, which takes half a minute
+@pytest.mark.slow  # measures: a row or two in a turn
 def test_some_of_the_cells_are_measured_again():
-    chosen = drawn(MEASURED, 1 / 300, number_of_turn())
+    chosen = drawn(MEASURED, 1 / 150, number_of_turn())
     assert chosen
     found = []
     for table, number in chosen:
