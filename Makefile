@@ -56,7 +56,7 @@ test: $(INSTALLED)  ## run the tests, except slow ones
 	@"$(BIN)/python" -m pytest -n $(WORKERS) --dist worksteal
 
 slow: $(INSTALLED)  ## run the slow tests
-	@"$(BIN)/python" -m pytest -n $(WORKERS) --dist worksteal -m slow
+	@"$(BIN)/python" -m pytest -n $(WORKERS) --dist worksteal -m "slow and not browser"
 
 browser: $(INSTALLED)  ## run the tests of pages in Chromium, which is installed where it is missing and apt-get can
 	@command -v chromium chromium-browser google-chrome chrome >/dev/null || test -n "$$SYMGEN_BROWSER" \

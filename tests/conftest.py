@@ -115,7 +115,7 @@ def _take_turns(config: pytest.Config, items: list[pytest.Item]) -> None:
         if len(own) == 1:
             others.update(() if has_turn(place, turns) else own)
         else:
-            others.update(set(own) - set(of_turn(own, turns)))
+            others.update(set(own) - set(of_turn(own, turns, place)))
     if others:
         config.hook.pytest_deselected(items=[item for item in items if item in others])
         items[:] = [item for item in items if item not in others]

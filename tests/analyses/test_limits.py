@@ -142,6 +142,7 @@ def test_a_formula_of_numbers_is_in_the_unit_of_its_parameter():
     assert (width.smallest, width.largest) == (Number(0.02), Number(0.03))
 
 
+@pytest.mark.by_turns(5)
 @pytest.mark.slow
 def test_the_room_changes_smoothly_with_a_length(swung):
     """Over 300 lengths of the crank, beside the closed form: crank and coupler are in line."""

@@ -104,6 +104,7 @@ def links(count, length):
     return rods.model(bodies, joints, gravity=[0.0, -rods.GRAVITY * length])
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow  # looped code of an implicit law is compiled
 def test_sparse_matrices_know_no_unit_of_length():
     """Gaps were divided by a metre at least, steps measured in metres; a turning table was left where it is open."""
@@ -124,7 +125,7 @@ STEADY = {
 }
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("entry", STEADY)
 def test_steady_motions_are_found_in_all_units(entry, tmp_path):

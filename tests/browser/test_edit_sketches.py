@@ -292,6 +292,8 @@ def column(page: Page, name: str) -> Any:
     return np.array(page.run(f"window.symgen.column({json.dumps(name)}).values"))
 
 
+@pytest.mark.by_turns(3)
+@pytest.mark.fast("pendulum-6-1-1-keys", "four_bar-14-3-0-mouse")
 @pytest.mark.parametrize("keys", [False, True], ids=["mouse", "keys"])
 @pytest.mark.parametrize(
     ("draw", "actions", "bodies", "freedoms"),

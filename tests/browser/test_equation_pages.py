@@ -33,6 +33,8 @@ def settled(chromium: Chromium) -> float:
     return float(chromium.run(painted))
 
 
+@pytest.mark.by_turns(4)
+@pytest.mark.fast("four-bar-absolute", "spatial-slider-crank-joint")
 @pytest.mark.parametrize(("name", "coordinates"), in_coordinates(sorted(catalogue.all_names())))
 def test_pages_of_the_catalogue(name: str, coordinates: str, chromium: Chromium, tmp_path: Path) -> None:
     """Nothing is said on the console, nothing asked of a network; all that is folded can be opened."""

@@ -50,6 +50,8 @@ def note(what: str, figures: object) -> None:
             file.write(json.dumps([what, figures]) + "\n")
 
 
+@pytest.mark.by_turns(3)
+@pytest.mark.fast("four-bar", "spatial-slider-crank")
 @pytest.mark.parametrize("name", NAMES)
 def test_pages_of_the_catalogue(
     name: str, chromium: Chromium, pages: dict[str, Path], tmp_path_factory: pytest.TempPathFactory
@@ -167,6 +169,8 @@ def uncontracted() -> Iterator[Uncontracted]:
         yield process
 
 
+@pytest.mark.by_turns(4)
+@pytest.mark.fast("four-bar-absolute", "spatial-slider-crank-joint")
 @pytest.mark.parametrize(("name", "coordinates"), in_coordinates(NAMES))
 def test_rates_are_those_of_the_compiled_code(
     name: str, coordinates: str, chromium: Chromium, uncontracted: Uncontracted, tmp_path: Path

@@ -32,6 +32,8 @@ def functions():
     return printed_starts.functions()
 
 
+@pytest.mark.by_turns(2)
+@pytest.mark.fast("('four-bar', {}, {})", "((1, 'spatial', True, False), {}, {})")
 @pytest.mark.parametrize("case", [*FEW, *MANY], ids=str)
 def test_starts(case, functions, chromium: Chromium, monkeypatch: pytest.MonkeyPatch) -> None:
     def compare(arguments, done, after):

@@ -23,7 +23,7 @@ SMALL = ("--methods", "lagrange,direct-correction", "--integrators", "rk4", "--s
 WITHIN = ("--methods", "velocity-projection,direct-correction", *SMALL[2:])
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("ending", ["html", pytest.param("md", marks=pytest.mark.slow)])
 def test_a_report_is_written_beside_the_table(cli, tmp_path, ending):
@@ -51,6 +51,7 @@ def test_json_stays_alone_on_standard_output(cli, tmp_path):
     assert all(row["run_seconds_spread"] is None and row["cost_ratio_spread"] is None for row in found["rows"])
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_one_run_has_no_spread(cli, tmp_path):
     report = tmp_path / "report.html"
@@ -69,6 +70,7 @@ def test_a_file_that_is_no_journal_is_refused_and_left_alone(cli, tmp_path):
     assert path.read_text() == "my notes\n"
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_an_interrupted_study_writes_the_report_of_what_is_done(cli, tmp_path, monkeypatch):
     calls = interrupt(monkeypatch, module, "time_in_turns", 3)

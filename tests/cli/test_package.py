@@ -311,6 +311,7 @@ def test_packages_in_joint_coordinates_give_the_numbers_of_runs(name, alone, tmp
     agrees(name, alone, tmp_path, "joint")
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_package_is_compiled_by_numba_alone(alone, tmp_path):
     agrees("pendulum", alone, tmp_path, compiled=True)

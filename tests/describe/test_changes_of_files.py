@@ -451,7 +451,17 @@ def test_a_parameter_goes_with_its_line_unless_it_is_needed() -> None:
 
 
 @pytest.mark.by_turns(3)
-@pytest.mark.slow_cases("jansen-leg", "scissor-lift", "geneva", "klann-leg")
+@pytest.mark.slow_cases(
+    "jansen-leg",
+    "scissor-lift",
+    "geneva",
+    "klann-leg",
+    "shaper",
+    "engine",
+    "toggle-press",
+    "flexible-slider-crank",
+    "dry-four-bar",
+)
 @pytest.mark.parametrize("name", [*catalogue.names(catalogue.MACHINES), "four-bar", "andrews", "flyball-governor"])
 def test_every_body_and_joint_of_the_catalogue_can_be_renamed(name: str) -> None:
     text, source = text_of(name), Source.of_file(catalogue.file_of_entry(name))

@@ -132,6 +132,7 @@ GROWING = {
 }
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("build", GROWING.values(), ids=GROWING)
 def test_reading_takes_work_in_proportion_to_the_size(build):

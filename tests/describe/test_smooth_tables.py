@@ -28,7 +28,7 @@ def points(seed, n, periodic):
     return tuple(x.tolist()), tuple(y.tolist())
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize(("how", "periodic"), KINDS)
 @pytest.mark.parametrize("n", [4, 5, 40])

@@ -35,7 +35,7 @@ FAST = "slider-crank"
 OWN = ("four-bar", "spatial-slider-crank", "chain:3", "everything", "geared", "reading", "rough", "parallelogram")
 OWN += ("spatial", "spatial-geared")
 OTHERS = (*OWN, "n-four-bar:3", *(name for name in catalogue.names() if name not in (FAST, *OWN)))
-OF_TURN = of_turn(OTHERS, 6)
+OF_TURN = of_turn(OTHERS, 12)
 MECHANISMS = [FAST, *(pytest.param(name, marks=pytest.mark.slow) for name in OF_TURN)]
 
 

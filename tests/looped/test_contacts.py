@@ -82,12 +82,14 @@ def test_machines_of_the_catalogue_agree(name: str, until: float, method: str, i
     both_shapes(symgen.load(name), until=until, method=method, integrator=integrator, rtol=1e-11, atol=1e-12)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "until"), [("skidding-wheel", 4.0), ("woodpecker", 0.3), ("geneva", 1.0)])
 def test_others_of_the_catalogue_agree(name: str, until: float) -> None:
     both_shapes(symgen.load(name), until=until, method="lagrange", integrator="dop853")
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_skid_over_300_coefficients(tmp_path: Path) -> None:
     """Friction takes the slip at mu g (1 + m r^2 / J), and the disc rolls on from there."""

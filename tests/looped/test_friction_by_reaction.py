@@ -89,6 +89,7 @@ def test_a_spatial_slider_crank_whose_hinge_and_guide_rub():
     np.testing.assert_allclose(looped.q.values, straight.q.values, rtol=0.0, atol=1e-9)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_slider_crank_that_rubs_over_300_coefficients():
     """Slide and pins rub by their reactions: ends and events of straight code, in constant steps."""

@@ -83,6 +83,7 @@ def test_planar_mechanisms(joints, seed, data):
     assert len(info["dropped_rows"]) >= again, "all rows of a joint that stands there twice are dropped"
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @SLOW
 @given(st.lists(st.sampled_from(SPATIAL), min_size=1, max_size=3), st.integers(0, 10**6))

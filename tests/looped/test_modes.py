@@ -138,7 +138,7 @@ def parallel_bars():
     return symgen.load(builder.build())
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("count", [3, pytest.param(300, marks=pytest.mark.slow)], ids=["3", "300"])
 def test_reactions_that_are_not_unique_are_those_of_straight_code(count):

@@ -26,6 +26,7 @@ friction = 0.15
 """
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_disc_skids_and_then_rolls(tmp_path):
     (tmp_path / "skidding.toml").write_text(SKIDDING, encoding="utf-8")

@@ -43,6 +43,7 @@ friction = { coefficient = 0.3 }
 """
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_both_shapes_run_alike(tmp_path):
     (tmp_path / "machine.toml").write_text(MACHINE)

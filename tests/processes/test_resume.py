@@ -16,6 +16,7 @@ COMPARED = (
 )
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_comparison_goes_on_where_it_was_killed(tmp_path):
     journal = tmp_path / "rows"
@@ -34,6 +35,7 @@ def test_a_comparison_goes_on_where_it_was_killed(tmp_path):
     assert after[: len(before)] == before and len(after) == len({*after}) == 13  # the reference as well
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_sweep_goes_on_where_it_was_killed(tmp_path):
     command = command_of("sweeps.md", 'symgen sweep four-bar --vary "crank_mass=lin(1,3,50)" --until 0.5 -o folder')
@@ -51,6 +53,7 @@ def test_a_sweep_goes_on_where_it_was_killed(tmp_path):
     assert len(before) < len(after) == len({*after}) and after[: len(before)] == before
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_sweep_of_other_code_is_refused_and_left(tmp_path):
     """One character of a room that no loop imports by itself, in a copy of the package."""

@@ -50,7 +50,7 @@ class Cluster:
         self.sweep = [*(word.replace("100000", str(ROWS)) for word in sweep[:-1]), "folder"]
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 def test_no_row_is_lost_or_computed_twice_by_a_lost_worker_and_a_lost_scheduler(tmp_path):
     folder = tmp_path / "folder"

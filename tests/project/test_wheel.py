@@ -46,6 +46,7 @@ def test_the_wheel_holds_templates_and_catalogue(wheel: Path) -> None:
     assert any(name.endswith("licenses/LICENSE") for name in names)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_the_wheel_works_on_its_own(wheel: Path, tmp_path: Path) -> None:
     """In a fresh environment that sees this one's libraries, but not this checkout."""

@@ -33,7 +33,6 @@ def of_page(page):
 
 @pytest.mark.by_turns(8)
 @pytest.mark.fast(
-    "driven-four-bar",
     "four-bar",
     "free-rigid-body",
     "heavy-top",

@@ -44,6 +44,7 @@ def test_compare():
         assert 12.0 < coarse.error / fine.error < 20.0, "of fourth order"
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_compare_with_a_reduced_model():
     study = symgen.compare("flyball-governor", ["direct-correction"], ["rk4"], [2e-4], until=0.1, repeat=1)

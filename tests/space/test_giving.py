@@ -150,6 +150,7 @@ def test_a_ball_on_a_turntable_goes_round_at_two_sevenths_of_its_rate():
     np.testing.assert_allclose(place, circle, atol=1e-8)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_ball_that_gives_way_is_caught_by_the_turntable():
     """Once it rolls, it goes round at the same rate; the table takes the opposite of what the ball feels."""
@@ -311,7 +312,7 @@ CONTACTS = {
 }
 
 
-@pytest.mark.by_turns(5)
+@pytest.mark.by_turns(10)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "contact"),

@@ -55,7 +55,7 @@ def test_a_flat_road_moves_both_sides_alike():
     np.testing.assert_allclose(result["chassis.x"], 0.97, atol=1e-12)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 def test_independent_equations_lead_the_same_way():
     times = np.linspace(0.0, 1.0, 21)

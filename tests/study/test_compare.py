@@ -78,7 +78,7 @@ def test_a_failed_run_stays_a_row():
     assert not study.failed
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 def test_a_run_that_exceeds_its_limits_is_measured_to_its_end(capsys):
     """The standard method at the settings of the source: one that stopped would leave all rows without a ratio."""
@@ -208,6 +208,7 @@ def test_progress_counts_rows_and_compilation(tmp_path):
     assert again[-1] == ("baumgarte, euler", 8.0 + 2.0 * share, 9.0 + 2.0 * share)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_rows_as_a_file_and_as_a_frame(study, tmp_path):
     with study.save(tmp_path / "rows.csv").open(newline="") as file:
@@ -388,6 +389,7 @@ def test_several_models_are_checked_before_anything_runs(monkeypatch):
         whole.compare_all(["pendulum", "four-bra"], symgen.Settings(until=0.1), Combinations())
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_preparation_on_several_processes_changes_no_row(study, monkeypatch, tmp_path):
     """Everything goes to processes of its own, the first task too; the cache is a new one, so that they have work."""

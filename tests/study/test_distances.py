@@ -68,6 +68,7 @@ def test_velocities_of_points_are_the_slopes_of_their_places():
     assert still == pytest.approx(points.distances_over_time(after, before) / (2.0 * h), rel=1e-5)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_only_determined_reactions_are_compared():
     """Bricard's mechanism has one row too many, and every joint takes part in it."""

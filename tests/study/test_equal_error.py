@@ -64,6 +64,7 @@ def test_the_front_is_what_none_surpasses():
     assert pareto_front([made.row("a", 1e-3, None, 0.1, status="failed", reason="")], 1e-8) == frozenset()
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_study_interpolates_times_of_all_its_lines(tmp_path, capsys):
     """The second study reads all rows and rounds from the journal, and so has the same times."""

@@ -54,6 +54,7 @@ def regular(joints, forces):
     raise AssertionError("no seed gives independent rows")
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(("joints", "forces"), of_turn(GROUPS, 9), ids=lambda kinds: "-".join(kinds) or "none")
 def test_rows_and_accelerations_are_those_emitted(joints, forces):

@@ -320,7 +320,7 @@ def test_references_see_a_smooth_pulse(solver, w, max_step, tmp_path):
     assert off < 10.0 * found.estimated_error + 1e-11 and found.estimated_error < 1e-7
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "solver",

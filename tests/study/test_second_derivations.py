@@ -78,7 +78,7 @@ def test_states_of_a_file_have_a_second_derivation(tmp_path):
     assert row.status == "ok" and row.error < 1e-10
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("where", ["plane", "space"])
 def test_rotors_have_a_second_derivation(where):

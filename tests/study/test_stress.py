@@ -111,7 +111,7 @@ def test_interpreted_equations_are_the_compiled_ones_and_undefined_where_these_a
     assert np.isnan(pair[1].evaluate(0.2, np.full(9, np.inf), v)[0]).any()
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 def test_attempts_of_a_search_on_a_driven_cart_compile_nothing_anew(tmp_path):
     """Steps, parameters and starts are arguments of the code of one formulation."""
@@ -483,6 +483,7 @@ def test_a_journal_keeps_cells_and_changes_nothing(tmp_path):
     assert journal.read_bytes().startswith(lines)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_several_processes_find_the_same():
     alone = stress(["pendulum"], ["gravity"], ["lagrange", "penalty"], quick=True)
@@ -497,6 +498,7 @@ def test_pairs_of_methods_and_integrators():
     assert method_pairs("auto") == (("auto", "auto"),) and method_pairs("auto", constant_steps=True) == ()
 
 
+@pytest.mark.slow
 def test_a_reference_does_with_less_where_rounding_forbids_more(monkeypatch):
     from symgen.study.references import motion as compiled
 

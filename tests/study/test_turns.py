@@ -120,6 +120,7 @@ def test_the_interval_holds_the_median_as_often_as_it_says(n):
 BUSY = "while True: sum(range(1000))"
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_ratios_beside_three_busy_processes_are_those_alone():
     """A third of the machine is left on two processors: the wall clock counts twice and three times the time."""

@@ -11,7 +11,7 @@ Case = TypeVar("Case")
 TURN = "SYMGEN_TEST_TURN"
 
 
-def of_turn(cases: Iterable[Case], turns: int) -> list[Case]:
+def of_turn(cases: Iterable[Case], turns: int, name: str = "") -> list[Case]:
     """Return the cases of the turn.
 
     Parameters
@@ -19,15 +19,21 @@ def of_turn(cases: Iterable[Case], turns: int) -> list[Case]:
     cases : iterable
         All cases, in an order that does not change.
     turns : int
-        In so many turns each case has its own.
+        In so many turns each case has its own; of fewer cases than turns, some turns have none.
+    name : str
+        Whose cases these are: turns of others begin elsewhere, so that all turns take about as long.
     """
     listed, turn = list(cases), os.environ[TURN]
-    return listed if turn == "all" else listed[number_of_turn() % turns :: turns]
+    return listed if turn == "all" else listed[(number_of_turn() - _phase(name)) % turns :: turns]
 
 
 def has_turn(name: str, turns: int) -> bool:
     """Whether a test without further cases runs in this turn: its name decides, so that turns take about as long."""
-    return os.environ[TURN] == "all" or (zlib.crc32(name.encode()) - number_of_turn()) % turns == 0
+    return os.environ[TURN] == "all" or (_phase(name) - number_of_turn()) % turns == 0
+
+
+def _phase(name: str) -> int:
+    return zlib.crc32(name.encode())
 
 
 def number_of_turn() -> int:

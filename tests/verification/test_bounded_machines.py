@@ -15,7 +15,7 @@ def test_rows_leave_at_one_smooth_time(name: str, coordinates: str) -> None:
     assert found.differences < 1e-12 and found.span > 1e-2
 
 
-@pytest.mark.by_turns(8)
+@pytest.mark.by_turns(16)
 @pytest.mark.slow
 @pytest.mark.parametrize("integrator", SETTINGS)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])

@@ -27,7 +27,7 @@ def test_stops_are_left(file: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("method", of_turn(METHODS.names, 9))
+@pytest.mark.parametrize("method", of_turn(METHODS.names, 15))
 def test_stops_are_left_by_all_methods(method: str) -> None:
     lines = examine([method], [], [])
     assert lines

@@ -27,6 +27,7 @@ def test_a_hard_chain() -> None:
     assert verdict.outcome in ("right", "coarse"), verdict
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_short_sticks_are_found_in_long_steps() -> None:
     """Rest of 40 ms between two slips lay inside one step of `picard`: off by 2e-3, and `ok`."""
@@ -45,6 +46,7 @@ def test_friction_goes_on_where_a_rate_passes_zero_beside_one_at_rest() -> None:
     assert len(verdicts) == 3
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", of_turn(HARD, 5))
 def test_hard_chains_in_all_kinds_of_runs(name: str) -> None:
@@ -54,7 +56,7 @@ def test_hard_chains_in_all_kinds_of_runs(name: str) -> None:
     assert len(verdicts) == len(ALL)
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_random_mechanisms(kind: str) -> None:

@@ -151,6 +151,7 @@ def three_rods() -> Tree:
     return Tree(links, [], DOWN)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_joint_that_leaves_its_stop_and_slips() -> None:
     """Times and angles of another simulation of the same chain."""

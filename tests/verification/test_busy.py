@@ -23,6 +23,7 @@ def test_a_change_is_that_of_a_median_and_an_interval_holds_the_middle_of_all_ra
     assert found.load == pytest.approx(2.5)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_all_methods_but_the_yardstick_have_ratios_alone_and_beside():
     found = measure("pendulum", 1, 1)

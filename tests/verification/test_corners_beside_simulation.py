@@ -47,7 +47,7 @@ def test_the_simulation_hits_the_foot_of_a_ramp() -> None:
     assert motion.u[1][0] == pytest.approx(1.0 + 0.1 - 0.25 * 9.81 * 0.01, abs=1e-11)
 
 
-@pytest.mark.by_turns(6)
+@pytest.mark.by_turns(12)
 @pytest.mark.slow
 @pytest.mark.parametrize(("kind", "seed"), [("chain", 5), ("loop", 3), ("chain", 1), ("loop", 7)])
 def test_random_mechanisms_over_corners(kind: str, seed: int) -> None:

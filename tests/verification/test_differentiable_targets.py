@@ -145,7 +145,7 @@ def alone(function, *arguments):
     assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 def test_jax_functions_are_the_compiled_ones(tmp_path):
     alone(compare_jax, tmp_path)
@@ -170,6 +170,7 @@ def compare_one_jax(name, coordinates, tmp_path):
         assert apart(np.ravel(slope), np.ravel(f.derivative("forward_dynamics", by)(*given))) < 1e-12, by
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_jax_takes_many_states_and_gradients(tmp_path):
     alone(many_states, tmp_path)

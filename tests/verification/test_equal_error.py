@@ -15,6 +15,7 @@ def test_a_cell_is_a_ratio(cell, text):
     assert ratio(cell) == text
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_study_has_a_time_of_every_method_at_both_errors(monkeypatch):
     monkeypatch.setitem(equal_error.MECHANISMS, "four-bar", (4.0, 2.0, 1.6e-2))

@@ -49,7 +49,7 @@ def test_corrections_and_standard_errors_are_those_of_a_line():
     np.testing.assert_allclose(found, np.sqrt(np.diag(covariance))[::-1], rtol=1e-10)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_identify_has_the_values_and_intervals_of_seven_fits(name):

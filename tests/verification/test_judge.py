@@ -115,6 +115,7 @@ def job(number: int) -> int:
     return number**2
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_every_job_is_answered_whatever_becomes_of_its_process() -> None:
     found = {a.job: (a.value, a.died) for a in answers(job, range(9), workers=2, seconds=1.5)}

@@ -28,6 +28,7 @@ def test_sentences_that_compare(sentence, holds):
     assert holds, sentence
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_it_is_set(tmp_path):
     assert shutil.which("pdflatex")

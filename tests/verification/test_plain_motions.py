@@ -54,6 +54,7 @@ def test_pendulum_is_elliptic() -> None:
     np.testing.assert_allclose(np.array(motion.lam)[:, 0], tension, atol=1e-8)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_andrews_mechanism_reaches_the_published_end() -> None:
     """Angles and speeds of the test set for IVP solvers, computed with PSIDE at 1e-14."""

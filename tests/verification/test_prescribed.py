@@ -150,7 +150,7 @@ def test_driven_trees_move_as_bodies_with_rows_do(make, flip, tmp_path):
     assert abs(in_tree[own.work]) > 1.0, "the motors do work"
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.parametrize(
     "method",
     [

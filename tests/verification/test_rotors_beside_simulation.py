@@ -7,7 +7,7 @@ from benchmarks.bounded.draw import KINDS
 from benchmarks.bounded.rotors import geared
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_random_mechanisms_with_rotors(kind: str) -> None:

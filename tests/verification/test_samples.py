@@ -27,6 +27,7 @@ def verified(output: Path, *words: str) -> list[dict]:
     return [line for line in lines(output) if "runs" in line]
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("shape", ["straight", "joint"])
 def test_a_few_random_mechanisms(shape: str, tmp_path: Path) -> None:
@@ -38,6 +39,7 @@ def test_a_few_random_mechanisms(shape: str, tmp_path: Path) -> None:
     assert again.returncode == 0 and ": lagrange" not in again.stderr, "what is there is not run again"
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(("space", "count"), [("planar", 4), ("spatial", 2)])
 def test_random_mechanisms_in_all_shapes(space: str, count: int, tmp_path: Path) -> None:
@@ -46,6 +48,7 @@ def test_random_mechanisms_in_all_shapes(space: str, count: int, tmp_path: Path)
         assert len(verified(tmp_path / f"{first}.jsonl", *words, "--first", str(first))) >= count // 2
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_many_random_mechanisms(tmp_path: Path) -> None:
     words = ("--interpreted", "--shapes", "straight,joint", "--mechanisms", "5", "--seed", "23")
@@ -53,6 +56,7 @@ def test_many_random_mechanisms(tmp_path: Path) -> None:
         assert len(verified(tmp_path / f"{first}.jsonl", *words, "--first", first)) > 1
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_random_mechanisms_by_every_method(tmp_path: Path) -> None:
     """Looped code where a method has it: compiled once for all mechanisms."""
@@ -71,11 +75,13 @@ def test_a_hundred_broken_files(tmp_path: Path) -> None:
     fuzzed(tmp_path / "fuzz.jsonl", "--files", "100", "--seed", "21", "--whole", "0.1")
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_thousands_of_broken_files(tmp_path: Path) -> None:
     fuzzed(tmp_path / "fuzz.jsonl", "--files", "1000", "--seed", "22", "--whole", "0.2")
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_few_flipped_bits(tmp_path: Path) -> None:
     done = run("benchmarks.flips", "--flips", "20", "--seed", "21", "--output", str(tmp_path / "flips.jsonl"))
@@ -89,11 +95,13 @@ def in_units(output: Path, *words: str) -> None:
     assert all(not line["first"] for line in lines(output))
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_few_mechanisms_in_other_units(tmp_path: Path) -> None:
     in_units(tmp_path / "units.jsonl", "--entries", "pendulum", "--mechanisms", "1", "--seed", "21")
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_mechanisms_in_other_units_compiled(tmp_path: Path) -> None:
     in_units(tmp_path / "units.jsonl", "--mechanisms", "4", "--seed", "22", "--compiled")

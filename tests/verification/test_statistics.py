@@ -33,6 +33,7 @@ def test_a_case_measures_a_method_against_its_reference():
     assert coarse.violation < 1e-9 and case.run("no-such-method", "rk4") is None
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_processes_give_the_lines_of_one_process_and_a_file_of_rows_gives_the_table(tmp_path, monkeypatch, capsys):
     jobs = [Job(2026, number) for number in range(3)]
@@ -65,6 +66,7 @@ def test_the_record_has_the_sample_and_a_motion_that_no_method_follows_does_not_
     assert lost and not pairs_of(lost, "rk4", "baumgarte")
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_line_measured_again_stands_beside_the_stored_one(monkeypatch):
     monkeypatch.setattr(statistics, "INTEGRATORS", ("rk4",))

@@ -19,7 +19,7 @@ def test_derivatives_of_steps_are_smooth_in_a_parameter(name: str) -> None:
     assert sweep.apart < 1e-9 and 0.0 < sweep.bend < 0.3
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["joint", "absolute"])
 def test_an_event_that_passes_to_the_next_step_of_the_scheme_leaves_a_kink_alone(coordinates: str) -> None:

@@ -98,7 +98,7 @@ def test_a_closed_stop_bears_what_it_can(tmp_path, pull, least):
     assert note == f"rail.upper is closed at {closed.sum()} times: efforts are the least with what it can bear"
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_machine_at_rest_on_its_stop_has_no_impact(coordinates):

@@ -66,6 +66,7 @@ def test_the_integral_of_idas(tmp_path):
     assert energy.by == pytest.approx(G_BY, rel=1e-11)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 @pytest.mark.parametrize(
@@ -166,6 +167,7 @@ stiffness = "k"
 """
 
 
+@pytest.mark.by_turns(5)
 @pytest.mark.slow
 def test_many_angles_that_count_turns(tmp_path):
     """Each angle is w/r sin(r t) with r^2 = k/J; 300 values of k, against the derivative in closed form."""
@@ -187,7 +189,7 @@ def test_many_angles_that_count_turns(tmp_path):
     assert most > 2.0 * np.pi
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_loop_of_six_hinges(coordinates):

@@ -79,7 +79,7 @@ def test_a_rod_without_mass_between_a_crank_and_a_slider(coordinates):
     np.testing.assert_allclose([found.by["m"], found.by["k"]], exact, rtol=0.0, atol=1e-8)
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_both_ways_agree_over_300_masses(coordinates):

@@ -59,6 +59,7 @@ def test_what_can_be_multiplied_together_is_named_before_a_fit(four_bar, measure
         four_bar.identify(measured, free=("k", "rest", "damping", "m1", "m2", "m3"), parameters=WRONG, **FINE)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_intervals_cover_the_truth(four_bar, measured):
     rng, inside, count = np.random.default_rng(0), 0, 24
@@ -188,6 +189,7 @@ restitution = "bounce"
 """
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_restitution_of_a_ball_from_noisy_heights(tmp_path):
     ball, t, true = model(tmp_path, BOUNCE), np.linspace(0.0, 2.0, 101), {"bounce": 0.7, "height": 1.0}

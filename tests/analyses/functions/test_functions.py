@@ -96,6 +96,7 @@ def of_argument(function, state, place):
     return lambda x: np.asarray(function(*state[:place], x, *state[place + 1 :]))
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_derivatives_of_robots_are_those_of_differences(robot):
     compare_derivatives(robot[0].functions())

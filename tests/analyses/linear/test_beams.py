@@ -180,6 +180,7 @@ def test_beams_in_space_bend_and_twist():
     assert np.linalg.norm(place(princeton(4).equilibrium(), "xyz") - PRINCETON) <= 9e-6
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_beams_in_space_converge_with_fourth_order():
     model = bend(8)

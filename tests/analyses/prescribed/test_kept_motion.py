@@ -107,6 +107,7 @@ def test_the_motion_at_values_does_not_depend_on_the_values_before():
     assert np.array_equal(first[0], again[0]) and np.array_equal(first[1], again[1])
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_slopes_in_space_are_those_of_differences_of_kinematics():
     twin = spatial_twin(PUMP | {"joints": {name: PUMP["joints"][name] for name in ("O", "P", "Q", "rail")}}, {})

@@ -25,7 +25,7 @@ WEAVE, CAPSIZE = 4.29238253634111, 6.02426201538837
 
 
 @pytest.mark.by_turns(3)
-@pytest.mark.slow_cases("0.0", "1.0", "5.0")
+@pytest.mark.slow
 @pytest.mark.parametrize("v", [0.0, 1.0, 5.0, 10.0])
 def test_a_bicycle_rides(v):
     found = symgen.load("bicycle").linearise(at="start", states=["lean", "steer"], parameters={"speed": v})
@@ -39,6 +39,7 @@ def test_a_bicycle_rides(v):
     assert_allclose(found.B[2:, 0], np.linalg.inv(mass)[:, 1], rtol=1e-12)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_weave_and_capsize_speeds(tmp_path):
     asked = {"at": "start", "states": ["lean", "steer"]}

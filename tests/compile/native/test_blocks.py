@@ -57,7 +57,7 @@ def block_lengths(text: str) -> list[int]:
     return [*lengths[1:], count]
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("terms", [600, 1500])
 def test_the_same_numbers_as_in_one_block(tmp_path, monkeypatch, terms):

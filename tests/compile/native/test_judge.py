@@ -25,6 +25,7 @@ CASES = (
 )
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(("model", "methods"), [pytest.param(*case, id=case[0]) for case in of_turn(CASES, 5)])
 def test_functions_are_numbas(model, methods):

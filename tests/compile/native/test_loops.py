@@ -143,13 +143,14 @@ def compared(shape, *words):
             np.testing.assert_allclose(numbers, other["states"][name], rtol=0, atol=1e-9 * size, err_msg=name)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(5)
 @pytest.mark.slow
 @pytest.mark.parametrize("loop", of_turn(CASES, 4), ids="-".join)
 def test_runs_are_numbas(loop):
     compared("straight", *CASES[loop])
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_these_loops_have_every_construct():
     found = {loop: constructs(read(loop_of(*loop))) for loop in LOOPS}

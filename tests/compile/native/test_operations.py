@@ -145,6 +145,7 @@ def test_random_programs(tmp_path_factory, program):
     assert judged(tmp_path_factory.mktemp("programs"), printed(*program)) == []
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @given(program=programs())
 @settings(max_examples=20, deadline=None, suppress_health_check=list(HealthCheck), database=None)

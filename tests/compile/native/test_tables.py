@@ -120,13 +120,14 @@ CASES = {
 }
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow  # Numba compiles all of looped code once more, another case in another turn
 @pytest.mark.parametrize("case", of_turn(CASES, 3))
 def test_runs_of_looped_code_are_numbas(case):
     compared("looped", *CASES[case])
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_spoilt_entries_of_the_cache_are_made_anew(tmp_path):
     environment = {ENVIRONMENT_VARIABLE: str(tmp_path)}

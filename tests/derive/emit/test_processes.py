@@ -54,6 +54,7 @@ def finished(process) -> str:
     return out
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_the_catalogue_is_emitted_byte_for_byte_alike(tmp_path):
     """Straight, looped with tables, in lanes and for CUDA; all methods for the four-bar.

@@ -56,7 +56,7 @@ def test_methods_agree_on_the_four_bar():
     check_agreement("four-bar", SOME)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(5)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_all_methods_agree(name):
@@ -135,6 +135,7 @@ def test_order(method, integrator):
     assert found.halvings >= 2.9 and found.slope >= found.order - all_orders.TOLERANCE, found
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_order_of_every_pair():
     from benchmarks.pairs import allowed_pairs

@@ -37,6 +37,7 @@ def test_redundant_constraints():
     check_redundant(FEW)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_redundant_constraints_by_every_method():
     check_redundant(tuple(m for m in METHODS.names if m not in (*FEW, *COARSE)))
@@ -159,6 +160,7 @@ def two_links(massless: bool) -> Model:
     return Model(raw.build())
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction", "stiffness-scaled-penalty"])
 def test_a_massless_coupler_moves_as_a_distance_joint(method):

@@ -233,7 +233,7 @@ def test_other_methods_have_no_such_licence():
     ).spec.velocity_limit == pytest.approx(1e-3)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 def test_scipy_agrees_on_the_stiff_case():
     """Radau of SciPy on independently derived equations, its Jacobian by differences: nothing is shared."""

@@ -114,6 +114,7 @@ def test_view_of_a_model_and_of_a_file(tmp_path: Path, capsys: pytest.CaptureFix
     assert data_of((tmp_path / "b.html").read_text())["live"] is not None
 
 
+@pytest.mark.slow_cases("ggl-direct-correction-gains1")
 @pytest.mark.parametrize(
     ("method", "live", "gains"),
     [("baumgarte", "baumgarte", ["method.alpha", "method.beta"]), ("ggl", "direct-correction", [])],
@@ -152,6 +153,7 @@ def test_the_live_part_of_a_file_is_that_of_its_run(tmp_path: Path, result: Any)
     assert "q[0] =" in result.view().html
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_the_live_part_has_the_inputs_of_its_run(tmp_path: Path) -> None:
     pushed = {

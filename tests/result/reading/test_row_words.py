@@ -85,7 +85,7 @@ class Place:
 MECHANISMS = "spatial-slider-crank stewart-platform front-suspension bricard rolling-disc slider-crank driven-four-bar"
 
 
-@pytest.mark.slow_cases("stewart-platform", "front-suspension")
+@pytest.mark.slow_cases("stewart-platform", "front-suspension", "bricard")
 @pytest.mark.parametrize("name", [*MECHANISMS.split(), "pendulum", "heavy-top"])
 def test_vectors_are_zero_where_rows_are(name: str) -> None:
     model = symgen.load(name)

@@ -100,7 +100,18 @@ def test_what_a_change_adds_to_the_energy_is_work(rod):
 
 
 @pytest.mark.by_turns(3)
-@pytest.mark.slow_cases("abm", "bdf", "picard", "rkmk4-screws")
+@pytest.mark.slow_cases(
+    "abm",
+    "bdf",
+    "picard",
+    "rkmk4-screws",
+    "radau5",
+    "discrete-gradient",
+    "phem56",
+    "rattle",
+    "half-explicit",
+    "generalized-alpha",
+)
 @pytest.mark.parametrize("integrator", INTEGRATORS.names)
 def test_schemes_keep_their_order_over_a_change(rod, integrator):
     """What they remember of the rates before it is forgotten."""

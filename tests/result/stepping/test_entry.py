@@ -38,7 +38,13 @@ def both(name, **settings):
 
 @pytest.mark.by_turns(6)
 @pytest.mark.slow_cases(
-    "False-null-space-rk4", "True-direct-correction-bdf", "True-half-explicit-phem56", "False-null-space-abm4"
+    "False-null-space-rk4",
+    "True-direct-correction-bdf",
+    "True-half-explicit-phem56",
+    "False-null-space-abm4",
+    "True-ggl-bdf",
+    "False-direct-correction-bdf",
+    "False-index3-augmented-lagrangian-trapezoidal",
 )
 @pytest.mark.parametrize(("method", "integrator"), PAIRS)
 @pytest.mark.parametrize("adaptive", [False, True])

@@ -66,6 +66,7 @@ def test_steps_are_one_run(four_bar, method, integrator):
     assert_end(part, whole)
 
 
+@pytest.mark.slow_cases("half-explicit-phem56")
 @pytest.mark.parametrize(("method", "integrator"), [p for p in PAIRS if INTEGRATORS.get(p[1]).adaptive])
 def test_adaptive_pieces_end_where_they_are_told_to(four_bar, method, integrator):
     settings = {"method": method, "integrator": integrator, "until": 1.0, **LOOSE}

@@ -85,7 +85,7 @@ def test_rates_and_corrections_are_those_of_numba(name, coordinates, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "coordinates"), of_turn(in_coordinates(NAMES), 9))
+@pytest.mark.parametrize(("name", "coordinates"), of_turn(in_coordinates(NAMES), 16))
 def test_the_whole_catalogue(name, coordinates, tmp_path):
     rates, corrections = agree(name, coordinates, tmp_path)
     # strains of a stiff beam are small differences of positions
@@ -100,7 +100,7 @@ def rows_of(program, *words):
     return head.split(","), np.array([row.split(",") for row in rows], dtype=float)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "coordinates"), [("four-bar", "joint"), ("slider-crank", "absolute"), ("curved-lever", "absolute")]

@@ -147,7 +147,7 @@ def test_derivatives_and_a_step_of_a_loop(tmp_path):
     compare_step(*compare_derivatives("four-bar", "joint", tmp_path))
 
 
-@pytest.mark.by_turns(8)
+@pytest.mark.by_turns(16)
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "coordinates"), MECHANISMS)
 def test_derivatives_are_the_compiled_ones(name, coordinates, tmp_path):

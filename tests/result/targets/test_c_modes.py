@@ -98,6 +98,7 @@ def loaded(text, tmp_path):
     return symgen.load(tmp_path / "model.toml")
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_block_on_a_belt_sticks_and_slips(tmp_path):
     model = symgen.load("belt-oscillator")
@@ -107,6 +108,7 @@ def test_a_block_on_a_belt_sticks_and_slips(tmp_path):
     assert len((tmp_path / "c" / "belt_oscillator.c").read_text()) < 192_000
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_impacts_of_a_ball_accumulate(tmp_path):
     model = loaded(BALL, tmp_path)
@@ -134,7 +136,7 @@ def test_runs_with_stops_ropes_and_friction(source, until, step, coordinates, tm
     assert len(assert_same_run(model, program, until, step, coordinates)) > 2
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 def test_a_clutch_locks_in_c_and_in_an_fmu_when_its_closed_form_does(tmp_path):
     """Torques -2 t and 2 t on 2 and 3 kg m^2: equal speeds of 4 rad/s where t^2 (1/2 + 1/3) = 10."""
@@ -181,6 +183,7 @@ int main(int count, char **words) {{
 """
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_reset_of_a_state_takes_rows_with_bounds_out_of_force_as_runs_do(tmp_path):
     """The rod rests on its stop long before 3 s; as it is held there, no velocity could be given to it."""

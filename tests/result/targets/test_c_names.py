@@ -57,6 +57,7 @@ def model(tmp_path_factory):
     return CModel.of(Request(mechanism, folder), "fmu")
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_code_of_every_name_compiles(fmi, model, tmp_path):

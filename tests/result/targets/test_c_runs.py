@@ -161,7 +161,7 @@ def test_integrators_that_are_not_printed_are_refused(keys, sentence, tmp_path):
     assert sentence in str(error.value)
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("source", "until", "step", "coordinates"),

@@ -111,6 +111,7 @@ def test_margins_of_modes_are_event_indicators(tmp_path):
     assert b"RANK_Q = 1, RANK_V = 1" in files["sources/fmu.c"]
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_block_on_a_belt_sticks_and_slips(tmp_path):
     model = symgen.load("belt-oscillator")
@@ -123,7 +124,7 @@ def test_a_block_on_a_belt_sticks_and_slips(tmp_path):
     assert words == ["contact.slip", "contact.stick"] * 2
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("source", "until", "coordinates", "fmi", "error"),
@@ -141,7 +142,7 @@ def test_stops_ropes_and_friction(source, until, coordinates, fmi, error, tmp_pa
     assert_same_motion(model, exchanged(path, until), until, error, coordinates)
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 def test_a_ball_comes_to_rest_when_its_flights_end_although_the_tolerance_loses_the_last_ones(tmp_path):
     """Its flights last sqrt(2 h/g) (1 + e)/(1 - e). Where e is small, few of them are left to follow the series by."""
@@ -160,7 +161,7 @@ def test_a_ball_comes_to_rest_when_its_flights_end_although_the_tolerance_loses_
             assert len(events_of(rows)) < 400
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 def test_a_clutch_locks_under_a_ramp_and_opens_where_an_input_jumps(tmp_path):
     """Torques -2 t and 2 t on 2 and 3 kg m^2: equal speeds of 4 rad/s where t^2 (1/2 + 1/3) = 10."""
@@ -185,7 +186,7 @@ def press(tmp_path_factory):
     return fmu_of(symgen.load("toggle-press"), tmp_path_factory.mktemp("press") / "press.fmu", fmi=3)
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 def test_values_of_a_parameter_end_in_the_same_modes(press, tmp_path):
     """An instance is reset and goes on with another force of the piston, and each time the press rests on its die."""
@@ -273,6 +274,7 @@ class Importer:
         return self.fmu.getReal([self.names[name]])[0]
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_state_that_is_kept_has_its_modes(tmp_path):
     """An own importer goes to and fro; its motion is that of a run."""
@@ -294,6 +296,7 @@ def test_a_state_that_is_kept_has_its_modes(tmp_path):
     assert ends[0][:2] == pytest.approx([own["block.x"][-1], own["block.vx"][-1]], abs=1e-7)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_euler_s_method_finds_modes_behind_its_events(press):
     model = symgen.load("toggle-press")
@@ -314,7 +317,7 @@ def test_euler_s_method_finds_modes_behind_its_events(press):
         assert rows["upper.theta"][at] == pytest.approx(own["upper.theta"][k], abs=5e-3)
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 def test_a_row_that_changes_with_the_state_beside_a_stop(tmp_path):
     """Its comparison is an indicator too. The sources compile without a warning, with room for all functions."""

@@ -67,6 +67,7 @@ def four_bar(request, tmp_path_factory):
     return fmu_of(load("four-bar"), tmp_path_factory.mktemp("fmu") / "four-bar.fmu", fmi=request.param)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_it_is_valid_and_small(four_bar):
     assert validate_fmu(str(four_bar)) == []
@@ -173,6 +174,7 @@ def test_a_co_simulation_that_locks_logs_what_a_run_says(tmp_path):
     assert found[0] == pytest.approx(expected, abs=1e-5) and found[1:] == moved[1:]
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_mechanism_in_space_has_one_degree_of_freedom(tmp_path):
     model = load("bricard")
@@ -243,6 +245,7 @@ class Unit:
         self.slave.freeInstance()
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_controller_drives_the_wiper_in_one_co_simulation(tmp_path):
     parameters = {"crank_length": 0.045}
@@ -287,7 +290,7 @@ def test_what_an_fmu_has_not_is_refused(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 def test_friction_and_stops_in_co_simulation(tmp_path):
     model = load("toggle-press")
@@ -318,7 +321,7 @@ def test_units_are_products_of_base_units(unit, exponents):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "fmi"), of_turn([(name, 2 + i % 2) for i, name in enumerate(NAMES)], 9))
+@pytest.mark.parametrize(("name", "fmi"), of_turn([(name, 2 + i % 2) for i, name in enumerate(NAMES)], 16))
 def test_the_whole_catalogue(name, fmi, tmp_path):
     model = load(name)
     path = fmu_of(model, tmp_path / "model.fmu", fmi=fmi, coordinates="auto")

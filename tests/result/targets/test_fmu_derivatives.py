@@ -197,6 +197,7 @@ def test_a_co_simulation_has_them_at_its_points_of_communication(fmi, tmp_path):
     np.testing.assert_allclose(found[:, knowns.index("torque")], by_torque, rtol=1e-6, atol=1e-6)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_between_events_they_are_those_of_the_modes_in_force(tmp_path):
     raw = catalogue.raw("belt-oscillator")

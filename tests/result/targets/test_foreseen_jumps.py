@@ -99,7 +99,7 @@ JUMPING = STOP.replace("0.2,", '"0.2 if t < begin else 0.3",')
     [
         ("1 if t > begin else 0", STOP, 300), ("1 if 2*t + begin > 9*span else 0", STOP, 300),
         ("max(t - begin, span)", STOP, 300), ("max(t - begin, 0) if t > begin else -1", JUMPING, 300),
-        ("1 if sin(pace*t) > 0.2 else 0", STOP, 8),
+        pytest.param("1 if sin(pace*t) > 0.2 else 0", STOP, 8, marks=pytest.mark.slow),
         pytest.param("1 if sin(pace*t)*t > 0.3*begin else 0", STOP, 8, marks=pytest.mark.slow),
         pytest.param("abs(begin*t - t*t) + (1 if begin*t - t*t > 0 else 0)", STOP, 8, marks=pytest.mark.slow),
         ("1 if t > begin and t < begin + span else max(t - begin, 0)", "", 300),
@@ -131,6 +131,7 @@ def pushed(tmp_path_factory):
     return loaded(PUSHED, tmp_path_factory.mktemp("pushed"))
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_files_whose_jumps_are_at_fixed_times_have_these_in_their_tables(tmp_path):
     fixed = PUSHED[: PUSHED.index("[forces.wave]")].replace("begin", "0.4").replace("0.4 = 0.4\n", "")
@@ -141,7 +142,7 @@ def test_files_whose_jumps_are_at_fixed_times_have_these_in_their_tables(tmp_pat
         assert "foresee_run" not in text and "0.4" in text
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("keys", [{}, {"integrator": "dop853", "rtol": 1e-11, "atol": 1e-13}])
 def test_programs_end_where_runs_with_their_parameters_do(pushed, keys, tmp_path):
@@ -170,6 +171,7 @@ def test_programs_end_where_runs_with_their_parameters_do(pushed, keys, tmp_path
     assert hits > 100
 
 
+@pytest.mark.by_turns(5)
 @pytest.mark.slow
 def test_an_importer_is_told_the_times_that_its_parameters_give(tmp_path):
     """300 values of the begin of a push, some behind `until` of the file; each is a time event, and ends as a run."""
@@ -191,6 +193,7 @@ def test_an_importer_is_told_the_times_that_its_parameters_give(tmp_path):
             assert rows[name][-1] == pytest.approx(own[name][-1], abs=1e-9)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_an_importer_goes_from_window_to_window(pushed, tmp_path):
     """Waves and periodic tables are searched for one span of the file's run after another."""

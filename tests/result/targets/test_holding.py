@@ -30,6 +30,7 @@ def test_c_has_the_states_of_runs(name, coordinates, tmp_path):
     np.testing.assert_allclose(rows[away, 1:], own[away], rtol=0, atol=1e-12)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_c_says_why_a_joint_cannot_hold(tmp_path):
     model = loaded(MACHINES["clutch"].replace('holds_at = "present"\n', ""), tmp_path)
@@ -39,6 +40,7 @@ def test_c_says_why_a_joint_cannot_hold(tmp_path):
     assert ran.returncode == 1 and ran.stderr == f"{result.reason}\n"
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_an_fmu_has_the_states_of_runs(tmp_path):
     model = loaded(MACHINES["clutch"], tmp_path)

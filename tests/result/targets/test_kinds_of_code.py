@@ -31,7 +31,7 @@ def model_of(kind, coordinates, folder, target):
     return CModel.of(Request(mechanism_of(kind), folder, coordinates=coordinates), target)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", COORDINATES)
 @pytest.mark.parametrize("kind", FILES)

@@ -39,6 +39,7 @@ def clutches() -> symgen.MechanismBuilder:
     return builder
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("machine", [rope, gear, clutches], ids=lambda f: f.__name__)
 def test_c_has_the_states_of_runs(machine, tmp_path) -> None:

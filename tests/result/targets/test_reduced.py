@@ -85,7 +85,7 @@ def test_the_closed_form_closes_the_loop():
         np.testing.assert_allclose(shift, np.zeros(3), rtol=0, atol=1e-14)
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1e-9, 1e-11])
 def test_bricard_is_as_exact_as_its_reduced_equation(exported, tolerance, reference, evaluations):

@@ -26,7 +26,7 @@ def runs_of(text: str, until: float, folder: Path) -> Any:
     return run
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 def test_a_geneva_wheel(tmp_path: Path) -> None:
     """It is where the pin pushes it to, and leaves the wall where the brake alone would stop it as fast."""

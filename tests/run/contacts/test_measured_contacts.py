@@ -45,6 +45,7 @@ def test_a_woodpecker_comes_down_its_pole(integrator: str, tmp_path: Path) -> No
     assert abs(last["sleeve.y"][1] - last["sleeve.y"][2] - 0.0194453792847) < 1e-11
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_the_time_at_which_a_beak_sticks_is_that_of_steps_that_converge(tmp_path: Path) -> None:
     """Attempts of `picard` inside a step may not converge: with those its search was up to 9e-4 s late, or failed."""

@@ -33,7 +33,7 @@ PRINTED = {
 }
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", PRINTED)
 def test_printed_runs_with_the_same_steps(name: str, tmp_path: Path) -> None:
@@ -67,6 +67,7 @@ def test_printed_runs_with_the_same_steps(name: str, tmp_path: Path) -> None:
     assert abs(steps[seen] - run[seen][-1]) < 1e-12
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_last_impacts_in_c_are_those_of_a_closed_form(tmp_path: Path) -> None:
     """A flight that begins ever more slowly ends where a height is 0 up to rounding: all 43 times are that exact."""
@@ -83,6 +84,7 @@ def test_last_impacts_in_c_are_those_of_a_closed_form(tmp_path: Path) -> None:
         assert np.all(np.abs([t for t, _ in found[:43]] - times) < 1e-13 + 20.0 * rounding)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_block_that_rocks_to_rest_in_c_is_off_by_less_than_by_a_rounding_of_gravity(tmp_path: Path) -> None:
     until, step = 4.0, 5e-4

@@ -27,7 +27,7 @@ def test_the_simulation_knows_a_bouncing_disc() -> None:
     assert abs(motion.q[-1][0] + mu * 1.6 * down * (0.5 - first)) < 1e-12
 
 
-@pytest.mark.by_turns(8)
+@pytest.mark.by_turns(16)
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_random_scenes(kind: str) -> None:
@@ -38,7 +38,7 @@ def test_random_scenes(kind: str) -> None:
     assert {name: verdict.outcome for name, verdict in verdicts.items()} == dict.fromkeys(RUNS, "right"), verdicts
 
 
-@pytest.mark.by_turns(4)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize(("kind", "seed"), [("block", 5), ("block", 1), ("block", 4)])
 def test_what_is_left_out_at_rest_rubs_at_all_contacts(kind: str, seed: int) -> None:
@@ -62,6 +62,7 @@ def test_the_simulation_sees_flights_that_are_lower_than_what_touches() -> None:
     assert verdict.outcome == "right" and verdict.error < 1e-10
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_contacts_slip_between_impacts_that_accumulate() -> None:
     """Two discs on a floor meet ever faster; both skid after each impact, and roll before the next one.
@@ -76,6 +77,7 @@ def test_contacts_slip_between_impacts_that_accumulate() -> None:
         assert verdict.outcome == "right" and verdict.error < 1e-8 and verdict.reason == ""
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", BESIDE)
 def test_impacts_accumulate_beside_contacts_and_joints(kind: str) -> None:

@@ -101,6 +101,7 @@ SPIN = (
 )
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_rows_of_a_sweep_and_steps_are_single_runs(tmp_path: Path) -> None:
     model, settings = loaded(SPIN, tmp_path), {"integrator": "dop853", "until": 2.5}
@@ -116,6 +117,7 @@ def test_rows_of_a_sweep_and_steps_are_single_runs(tmp_path: Path) -> None:
     assert abs(simulation["disc.x"] - whole["disc.x"][-1]) < 1e-9
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_the_same_in_c(tmp_path: Path) -> None:
     model = loaded(SPIN, tmp_path)

@@ -178,6 +178,7 @@ def largest_difference(name, numbers, method, integrator, steps, step=1e-2, coor
     return float((np.abs(found - expected).max(axis=0) / np.abs(expected).max(axis=0)).max())
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction", "velocity-projection"])
 def test_derivatives_are_those_of_the_run_that_was_made(method):
@@ -194,7 +195,7 @@ PAIRS = of_turn(
         & set(METHODS.get(method, "method").forms)
         & set(INTEGRATORS.get(integrator, "integrator").forms)
     ),
-    8,
+    16,
 )
 
 

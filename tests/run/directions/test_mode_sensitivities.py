@@ -176,7 +176,7 @@ def test_random_chains_and_loops(tmp_path, make, seed, until):
     compare_with_differences(model(tmp_path, text), "b0.theta" if make is chain else "crank.theta", used, until)
 
 
-@pytest.mark.by_turns(8)
+@pytest.mark.by_turns(16)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("make", "seed", "until"),
@@ -209,6 +209,7 @@ def test_forces_that_rows_at_rest_share_are_named():
     assert any("rest together: derivatives of their forces there" in text for text in run.warnings)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_sweeps_have_derivatives_through_modes(models):
     rows = models["rotor"].sweep({"T": [0.2, 0.3]}, quantities=["rotor.theta"], until=6.0, integrator="dop853")

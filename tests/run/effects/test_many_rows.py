@@ -36,6 +36,7 @@ def struck_four_bar():
     return symgen.load(mechanism_of(description))
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("model", "event", "varied", "values", "most", "settings"),

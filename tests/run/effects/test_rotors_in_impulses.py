@@ -113,7 +113,7 @@ def test_a_reset_is_that_of_a_geared_flywheel(coordinates: str) -> None:
     assert run["lower.theta"][-1] == pytest.approx(geared["lower.theta"][-1], abs=1e-9)
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_sweep_over_the_gear_is_right_in_every_row(coordinates: str) -> None:

@@ -80,6 +80,7 @@ def test_a_stiff_rate_takes_steps_of_the_motion():
     np.testing.assert_allclose(result["z"][1:], np.sin(result.t[1:]), rtol=0.0, atol=1e-6)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_run_begins_anew_after_each_bounce():
     """A ball with restitution 1/2 on the ground: times of impacts in closed form."""

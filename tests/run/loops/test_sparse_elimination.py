@@ -248,6 +248,7 @@ def pattern_of(name, method):
     "ggl-bricard",
     "ggl-flyball-governor",
     "index3-augmented-lagrangian-bricard",
+    "index3-augmented-lagrangian-flyball-governor",
     "generalized-alpha-bricard",
     "generalized-alpha-flyball-governor",
 )

@@ -115,6 +115,7 @@ def test_of_many_starts_none_is_ok_and_wrong(rtol: float) -> None:
         assert found["wrong"] == 0 and found["unverified"] <= 2
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_rows_of_a_sweep_find_the_same_hits() -> None:
     speeds = list(np.linspace(3.0, 8.0, 9))

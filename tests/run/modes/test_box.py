@@ -73,6 +73,7 @@ def test_what_forces_cannot_reach_drives_them_to_a_bound() -> None:
     assert driven > 400
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_many_accelerations_are_those_of_bounded_least_squares() -> None:
     compare(10_000, False)

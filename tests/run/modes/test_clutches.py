@@ -497,7 +497,7 @@ torque = "t"
 """
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize("steps", [TIGHT, {"integrator": "picard"}], ids=["dop853", "picard"])
 @pytest.mark.parametrize(("one", "time", "rate"), [(1.5, 2.0, 1.0), (0.0, 0.5, 1.0), ("2 - t/4", 2.0, 1.25)])

@@ -115,12 +115,14 @@ def test_a_yo_yo_by_default_and_by_other_methods(tmp_path: Path) -> None:
         assert result.ok and abs(result["disc.y"][-1] - HEIGHT) < 1e-8, method
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_yo_yo_from_every_angle(tmp_path: Path) -> None:
     sweep = loaded(YO_YO, tmp_path).sweep(vary={"disc.theta": np.linspace(0.0, 5.0, 301)})
     assert {str(status) for status in sweep.status} == {"ok"}
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @ways
 def test_a_block_meets_a_ramp_and_comes_back(integrator: str, coordinates: str, tmp_path: Path) -> None:
@@ -131,6 +133,7 @@ def test_a_block_meets_a_ramp_and_comes_back(integrator: str, coordinates: str, 
         assert abs(result["b.x"][-1] - (1.0 - (1.5 - BACK))) < 1e-9
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @ways
 def test_a_block_flies_off_an_edge_and_lands(integrator: str, coordinates: str, tmp_path: Path) -> None:
@@ -171,7 +174,7 @@ def test_several_corners_in_one_gap(tmp_path: Path) -> None:
     assert abs(result.events[1].v["b.vx"] - rate) < 1e-9 and abs(result["b.vx"][-1] - rate) < 1e-9
 
 
-@pytest.mark.by_turns(6)
+@pytest.mark.by_turns(12)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("integrator", ["dop853", "picard", "rk4"])
@@ -198,7 +201,7 @@ def test_steps_from_python(integrator: str, tmp_path: Path) -> None:
     assert abs(run.q["disc.y"] - HEIGHT) < 1e-9
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 def test_c_passes_corners(tmp_path: Path) -> None:
     model = loaded(YO_YO, tmp_path)
@@ -226,6 +229,7 @@ def test_an_fmu_passes_corners(tmp_path: Path) -> None:
         assert abs(result["disc.y"][-1] - HEIGHT) < most, kind
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_smooth_gaps_have_no_code_for_corners(tmp_path: Path) -> None:
     for gap, word in (("b.y - 0.1*sin(b.x)", False), (RAMPS[0], False), (EDGES[0], True)):

@@ -134,6 +134,7 @@ def rise(lead, torque, way):
     return (torque - 30.0 * slope) / (1e-3 / ratio + 0.02 * slope)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_worm_lifts_and_lowers_and_holds_below_its_angle():
     for lead, torque, way in (
@@ -153,6 +154,7 @@ def test_a_worm_lifts_and_lowers_and_holds_below_its_angle():
             assert result["drum.wy"][-1] == pytest.approx(0.1 * expected, rel=1e-8, abs=1e-12)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_sweep_of_efficiencies_locks_at_the_angle_of_the_formula():
     leads = np.linspace(0.02, 0.32, 301)

@@ -110,7 +110,7 @@ SETTINGS = ({"integrator": "picard"}, {"integrator": "dop853", "rtol": 1e-6, "at
 SWEPT = ("picard", "dop853")
 
 
-@pytest.mark.by_turns(6)
+@pytest.mark.by_turns(12)
 @pytest.mark.slow
 @pytest.mark.parametrize("settings", SETTINGS)
 @pytest.mark.parametrize("count", [11, pytest.param(301, marks=pytest.mark.slow)])

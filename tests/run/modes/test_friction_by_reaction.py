@@ -50,6 +50,7 @@ def slider_crank(friction: dict[str, Any]) -> Mechanism:
     return validate(raw, "slider.toml")
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.slow_cases("dop853-absolute", "picard-absolute")
 @pytest.mark.parametrize(

@@ -117,6 +117,7 @@ class Lossy:
         return found, changes
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(
@@ -142,6 +143,7 @@ def test_a_gear_rests_with_a_dry_shaft(efficiency, amplitude, static, second, co
     assert np.abs(run.energy_error).max() < 1e-8
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("efficiency", [(0.5, 0.5), (0.9, 0.8), (0.4, -0.2)])

@@ -134,7 +134,7 @@ WAYS: dict[str, Callable[[symgen.Model, float], tuple[float, float]]] = {
 }
 
 
-@pytest.mark.by_turns(8)
+@pytest.mark.by_turns(16)
 @pytest.mark.parametrize("count", [4, pytest.param(60, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.fast(*(f"{way}-4" for way in WAYS))
@@ -202,6 +202,7 @@ def test_an_environment_takes_them_as_actions(wheel: symgen.Model) -> None:
         assert tuple(seen) == (whole["wheel.theta"][-1], whole["wheel.omega"][-1]), u
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_an_fmu_takes_them_before_during_and_after_its_initialization(wheel: symgen.Model, tmp_path: Path) -> None:
     wheel.generate(tmp_path / "wheel.fmu", target="fmu", integrator="rk4")

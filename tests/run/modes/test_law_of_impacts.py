@@ -134,6 +134,7 @@ print(json.dumps({"end": [float(run["hammer.y"][-1]), float(run["hammer.vy"][-1]
 """
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_c_follows_the_law(tmp_path: Path) -> None:
     found, folder = answer(FALLING, PRINTED, str(tmp_path / "c")), tmp_path / "c"

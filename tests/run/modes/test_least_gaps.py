@@ -45,6 +45,7 @@ def is_right(result: object) -> bool:
     return bool(np.allclose(ends, wanted, rtol=0.0, atol=1e-9))
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_ball_comes_to_rest_in_a_valley(tmp_path: Path) -> None:
     model = loaded(VALLEY, tmp_path)

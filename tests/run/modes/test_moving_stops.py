@@ -262,6 +262,7 @@ def test_a_floor_that_stops_at_once_throws(steps: dict[str, Any]) -> None:
     np.testing.assert_allclose(result["b.y"], [0.2, 0.2074 + 2 * 0.1963 - 5 * 0.1963**2], rtol=0, atol=1e-11)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_rows_have_floors_that_start_at_once() -> None:
     text = FLOOR.replace("0.5*t", "max(0, t - begin)").replace("0.3]", "0.0]")

@@ -97,6 +97,7 @@ def test_flights_that_begin_below_zero_by_rounding_end_where_they_began(rtol: fl
     assert len(result.events) == 591 and result["wheel.theta"][-1] == pytest.approx(19.45156716, abs=1e-7)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_ratchet_over_the_angle_at_which_it_starts(tmp_path: Path) -> None:
     """Rows of a sweep by two tolerances differ by what these allow: no start loses a hit."""

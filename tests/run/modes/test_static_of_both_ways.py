@@ -157,7 +157,7 @@ def test_a_block_to_and_fro_in_rows(tmp_path: Path) -> None:
         np.testing.assert_allclose(rows["block.x"][:, -1], expected, rtol=0, atol=1e-8)
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 def test_a_block_to_and_fro_in_c_in_an_fmu_and_step_by_step(tmp_path: Path) -> None:
     model = loaded(PULLED.replace("STATIC", STATIC), tmp_path)

@@ -59,6 +59,7 @@ def test_pins_hold_by_any_forces_within_their_bounds(coordinates: str, tmp_path:
     assert slips[0] == pytest.approx(breakaway(static), rel=1e-9)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_random_bounds(tmp_path: Path) -> None:
     generator = np.random.default_rng(3)

@@ -118,7 +118,7 @@ def test_pins_hold_at_300_speeds_of_the_block(part: int, tmp_path: Path) -> None
         assert result.ok and first_slip(result) == pytest.approx(expected, rel=2e-9), speed
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 def test_pins_hold_in_rows_in_c_in_an_fmu_and_step_by_step(tmp_path: Path) -> None:
     """All of them call one function; the linkage has moved by the end."""
@@ -138,6 +138,7 @@ def test_pins_hold_in_rows_in_c_in_an_fmu_and_step_by_step(tmp_path: Path) -> No
     assert found["b0.theta"][-1] == pytest.approx(alone["b0.theta"][-1], abs=1e-6)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_motions_are_those_without_a_sled() -> None:
     """A sled that rubs by its reaction, beside the event-driven simulation of what stands next to it."""

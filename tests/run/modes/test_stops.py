@@ -405,7 +405,7 @@ def test_an_impact_at_the_start(steps: dict[str, Any]) -> None:
     assert rows.status[0] == "ok" and rows["ball.y"][0].tolist() == run["ball.y"].tolist()
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("steps", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 1e-2}])
 def test_rows_with_stops_are_examined_where_constraints_may_jump(steps: dict[str, Any]) -> None:

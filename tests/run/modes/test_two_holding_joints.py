@@ -38,6 +38,7 @@ def energy(speeds: tuple[float, ...]) -> float:
     return 0.5 * sum(j * w**2 for j, w in zip(INERTIAS, speeds, strict=True))
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(
@@ -66,6 +67,7 @@ def test_rotors_share_their_momentum(first, second, catches, coordinates) -> Non
     assert np.abs(run.energy_error).max() < 1e-12
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_derivatives_of_a_hand_over(coordinates) -> None:
@@ -82,6 +84,7 @@ def test_derivatives_of_a_hand_over(coordinates) -> None:
         assert back.by["te"] == pytest.approx(slope, abs=1e-12), column
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_sweep_over_the_time_of_a_hand_over() -> None:
     """301 times: none fails, and angles are those of rotors that turn evenly before and after."""

@@ -227,6 +227,7 @@ def test_a_stiff_run_proposes_an_implicit_integrator():
     ), "a vibration that is followed is not stiff"
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", catalogue.names())
 def test_every_entry_of_the_catalogue_is_ok_by_default(name):

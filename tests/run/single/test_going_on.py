@@ -66,6 +66,7 @@ def test_two_runs_are_the_run_in_one_piece(method, integrator):
     assert_the_rest(second, whole, 1e-12 if method == "null-space" else 0.0)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.fast("spherical-double-pendulum-lagrange-0.1-0.01-straight")
 @pytest.mark.parametrize(
     ("name", "method", "until", "step", "shape"),

@@ -121,6 +121,7 @@ def tackle(rotation: np.ndarray, flipped: bool) -> symgen.Model:
     return symgen.load(builder.joint("rope", "rope", over=over, **ends).build())
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("flipped", [False, True])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])

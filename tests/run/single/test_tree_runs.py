@@ -52,6 +52,7 @@ def check_same(bodies, joints, motion=MOTION):
     assert joints.rank == bodies.rank
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("four-bar", "rolling-disc", "spherical-double-pendulum")
 @pytest.mark.parametrize(
     "name", [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in SPANS]

@@ -116,6 +116,7 @@ def test_a_body_with_products_of_inertia() -> None:
     assert got == pytest.approx(rate * axis, abs=1e-14)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("seed", of_turn(range(1, 16), 15))

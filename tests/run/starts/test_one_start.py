@@ -91,7 +91,7 @@ def test_every_bit_is_that_of_a_sweep(monkeypatch, case, holds):
         np.testing.assert_array_equal(sweep[0][:2, 2], targets[:2, 0])
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 def test_both_shapes_have_the_same_start():
     """On random mechanisms, in a process in which nothing is compiled: straight, looped, and by sparse algebra."""

@@ -70,6 +70,7 @@ def test_a_four_bar_is_found_from_positions_of_its_coupler():
     assert max(abs(found.values[name] - x) for name, x in answer.items()) < 1e-9
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_machine_without_drivers_is_integrated():
     # a mass on a spring from rest at 0.2 m passes the middle with 0.2 sqrt(k/m), and the force is 0.2 k at most
@@ -128,7 +129,7 @@ def test_limits_that_contradict_each_other_are_named(machine):
     assert missed == pytest.approx([0.015, 0.015], rel=0.05)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 def test_a_press_needs_less_than_half_of_its_torque(machine, tmp_path):
     found = machine.design(PRESS_BOX, AIM, PRESS_KEEP, starts=8)
@@ -143,6 +144,7 @@ def test_a_press_needs_less_than_half_of_its_torque(machine, tmp_path):
     assert excess(result) < 1e-6
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_an_answer_is_never_worse_than_a_file_within_limits(tmp_path):
     (tmp_path / "shaker.toml").write_text(TEXT)
@@ -298,6 +300,7 @@ def command(*words, folder):
     )
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_the_file_that_is_written_keeps_its_comments_and_gives_the_answer(tmp_path):
     (tmp_path / "shaker.toml").write_text(TEXT)

@@ -153,6 +153,7 @@ def test_driven_motions_have_the_slopes_of_differences_of_parameters_by_hand():
     assert np.abs((slopes[:, :4] - expected) / size).max() < 1e-8
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_free_motions_have_the_slopes_of_differences_of_parameters_by_hand():
     raw, beside_raw = four_bar_of_numbers(), by_hand()
@@ -188,6 +189,7 @@ def arm_in_one_frame(x, y):
     }
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_an_answer_is_never_worse_than_a_file_within_limits():
     worse, better = [], 0
@@ -250,6 +252,7 @@ value = "2*pi*t"
 """
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_the_file_that_is_written_keeps_its_comments_and_gives_the_answer(tmp_path):
     (tmp_path / "bars.toml").write_text(TEXT)

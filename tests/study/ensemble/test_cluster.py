@@ -33,6 +33,7 @@ def cluster(tmp_path_factory):
         yield client, cache
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_lost_worker_loses_nothing_and_the_bits_are_those_of_one_machine(cluster):
     client, cache = cluster
@@ -64,7 +65,7 @@ def test_a_lost_worker_loses_nothing_and_the_bits_are_those_of_one_machine(clust
     assert list((cache / "models").glob("four-bar_*/direct_correction*.py"))
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 def test_an_address_will_do_and_rows_that_fail_are_rows(cluster, tmp_path):
     client, _ = cluster

@@ -369,7 +369,7 @@ def wait_for_chunks(log, count, process):
     raise AssertionError(f"no {count} chunks: {process.communicate()}")
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.skipif(os.name != "posix", reason="signals")
 @pytest.mark.slow
 @pytest.mark.parametrize("kill", [signal.SIGKILL, signal.SIGINT])

@@ -29,6 +29,7 @@ def test_signs_and_powers_are_latex(text, latex):
     assert latex_text(text) == latex
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_tables_of_numbers_come_with_rules_of_booktabs():
     text = latex_tables(comparison_report(STUDIES, "symgen compare four-bar -o t.tex"))
@@ -38,6 +39,7 @@ def test_tables_of_numbers_come_with_rules_of_booktabs():
     assert all(ord(character) < 128 for character in text)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_latex_takes_the_tables(tmp_path):
     assert shutil.which("pdflatex")

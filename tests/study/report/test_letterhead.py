@@ -70,6 +70,7 @@ def test_the_command_takes_them(cli, tmp_path, monkeypatch):
     assert "size: letter;" in page and "report R-104" in page and 'id="acceptance"' in page
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("command", "option"),

@@ -95,6 +95,7 @@ def no_browser(monkeypatch):
     monkeypatch.setattr(paper.shutil, "which", lambda name: None)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.usefixtures("no_browser")
 def test_a_pdf_is_drawn_where_no_browser_is(driven, tmp_path):

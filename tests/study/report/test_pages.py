@@ -85,6 +85,7 @@ def page(text):
     return Page(text)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_the_page_asks_for_nothing(text, page):
     assert text.startswith("<!DOCTYPE html>")
@@ -173,6 +174,7 @@ def test_the_source_stands_beside_ours(page):
     assert "Carvalho" not in alone
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_the_same_studies_give_the_same_page(text):
     code = (

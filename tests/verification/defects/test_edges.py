@@ -71,6 +71,7 @@ def test_a_title_reaches_terminals_and_pages_as_text(tmp_path: Path) -> None:
     assert not re.search(r"(?<!\\)<b>", page) and not set(page) & {"\x1b", "\x07", "\u202e"}
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_terminated_run_keeps_what_it_has(tmp_path: Path) -> None:
     """SIGTERM ends a run as Ctrl-C does: outputs until then are saved."""

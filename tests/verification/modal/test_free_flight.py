@@ -16,7 +16,7 @@ CASES = {
 }
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("space", CASES)
 def test_a_curved_body_flies_as_all_nodes_do(space, tmp_path):

@@ -103,7 +103,7 @@ def test_a_ball_joint_holds_as_multipliers_on_all_nodes_do(tmp_path):
         np.testing.assert_allclose(own, place, atol=1e-11)
 
 
-@pytest.mark.by_turns(3)
+@pytest.mark.by_turns(6)
 @pytest.mark.slow
 def test_another_floating_frame_is_off_by_the_second_order_of_the_deformation(tmp_path):
     """The frame is held in the pinned interface, over the same space of shapes: 1e-7 m, falling with 1 / E^2.

@@ -129,7 +129,7 @@ def bend(result, ends):
     return -s * (u - x) + c * (w - y)
 
 
-@pytest.mark.by_turns(8)
+@pytest.mark.by_turns(16)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", TEN)
 def test_no_run_with_an_error_above_three_percent_is_ok(name, tmp_path):

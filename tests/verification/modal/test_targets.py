@@ -17,6 +17,7 @@ def lever():
     return symgen.load("curved-lever")
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_program_in_c_ends_where_the_run_does(lever, tmp_path):
     names, rows = rows_of(compiled(written(lever.mechanism, tmp_path, coordinates="absolute")), "0.05")
@@ -26,6 +27,7 @@ def test_a_program_in_c_ends_where_the_run_does(lever, tmp_path):
     np.testing.assert_allclose(rows[-1, 1:], end, rtol=1e-10, atol=1e-12)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_an_fmu_has_the_stress_of_the_run(lever, tmp_path):
     fmu = fmu_of(lever, tmp_path / "lever.fmu")
