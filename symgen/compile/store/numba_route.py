@@ -100,7 +100,7 @@ class CompilerOfRuns(CompilerBase):  # type: ignore[misc]  # Numba has no types
 
 @infer_global(operator.add)
 class SumOfRecords(AbstractTemplate):  # type: ignore[misc]  # Numba has no types
-    """Type of a sum of tuples, as in ``(*record, x)``: Numba has that of tuples without names alone."""
+    """Type of a sum of tuples, as in ``(*record, x)``: Numba adds tuples without names alone."""
 
     def generic(self, arguments: tuple[Any, ...], keywords: Any) -> Any:
         """Return the types of the sum, None where a number is added."""
