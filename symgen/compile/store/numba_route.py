@@ -17,9 +17,10 @@ from collections.abc import Callable, Sequence
 from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
+import llvmlite.binding as llvm
 import numba
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import CompilerBase, DefaultPassBuilder
+from numba.core.compiler import CompilerBase, DefaultPassBuilder, StateDict
 from numba.core.compiler_machinery import AnalysisPass, register_pass
 from numba.core.typed_passes import IRLegalization
 from numba.core.types import Dispatcher
@@ -55,14 +56,14 @@ def signature_of(signature: types.Signature) -> Any:
 class OwnLibrary(JITCodeLibrary):  # type: ignore[misc]  # Numba has no types
     """Machine code of one function, which calls others by their names."""
 
-    def add_linking_library(self, library: Any) -> None:
+    def add_linking_library(self, library: object) -> None:
         """Copy what Numba itself has for operations; callees of the runtime are in memory before."""
         if isinstance(library, OwnLibrary):
             library._ensure_finalized()
         else:
             super().add_linking_library(library)
 
-    def _optimize_functions(self, ll_module: Any) -> None:
+    def _optimize_functions(self, ll_module: llvm.ModuleRef) -> None:
         ll_module.data_layout = self._codegen._data_layout  # passes over the module follow, once
 
     def _optimize_final_module(self) -> None:
@@ -79,7 +80,7 @@ class KeepApart(AnalysisPass):  # type: ignore[misc]  # Numba has no types
     def __init__(self) -> None:
         super().__init__()
 
-    def run_pass(self, state: Any) -> bool:
+    def run_pass(self, state: StateDict) -> bool:
         """Choose how a function is compiled, after its types are known."""
         state.targetctx = state.targetctx.subtarget(enable_nrt=False)
         if not state.flags.forceinline:
@@ -102,7 +103,7 @@ class CompilerOfRuns(CompilerBase):  # type: ignore[misc]  # Numba has no types
 class SumOfRecords(AbstractTemplate):  # type: ignore[misc]  # Numba has no types
     """Type of a sum of tuples, as in ``(*record, x)``: Numba adds tuples without names alone."""
 
-    def generic(self, arguments: tuple[Any, ...], keywords: Any) -> Any:
+    def generic(self, arguments: tuple[Any, ...], keywords: object) -> Any:
         """Return the types of the sum, None where a number is added."""
         tuples = numba.types.BaseTuple
         if not all(isinstance(x, tuples) for x in arguments):
