@@ -116,7 +116,8 @@ def run(scene: Scene, q: Array, v: Array, times: list[float], rtol: float = 1e-1
         if what == "hit":
             closed = sorted(set(closed) | {i} | set(_touching(scene, q)))
             v = _struck(scene, q, v, closed)
-            past.setdefault(i, []).append(Impact(t, float((Problem(scene, q, v).gap @ v)[closed].max()), q, v))
+            opens = Problem(scene, q, v).gap @ v
+            past.setdefault(i, []).append(Impact(t, float(opens[i] if opens[i] > _STILL else opens[closed].max()), q, v))
             ended = _ended(past[i][-3:])
             if ended is not None:
                 _note(motion, pending, ended.t, _between(past[i][-1], ended), len(q))
