@@ -207,6 +207,16 @@ def turns_back(c: Choice, s: Strikes, w: Array, i: int) -> bool:
 
 
 @exact()
+def closes_within(c: Choice, s: Strikes, w: Array, i: int, left: float) -> bool:
+    """Return whether a gap turns back within what is left of a series of impacts, of which it takes part.
+
+    ``out`` has its acceleration. A series of impacts in a longer flight of the gap is not its own.
+    """
+    fall = c.value[i] + (c.speed[i] + 0.5 * c.out[i] * left) * left
+    return bool(turns_back(c, s, w, i) and fall <= 0.0)
+
+
+@exact()
 def recall_modes(c: Choice, s: Strikes) -> None:
     """Set the modes of friction anew that it had at the latest impact: since then modes without impulses are chosen."""
     _, _, _, _, changes = s.effects.model
@@ -220,7 +230,7 @@ def recall_modes(c: Choice, s: Strikes) -> None:
 
 
 @exact()
-def rest_contacts(t: float, c: Choice, s: Strikes, end: float, now: Instant, iw: Integers) -> int:
+def rest_contacts(t: float, c: Choice, s: Strikes, end: float, left: float, now: Instant, iw: Integers) -> int:
     """Bring the gaps that push, or turn back, to rest, in the modes of the latest impact; friction has its part.
 
     What contacts beside them have of the impacts that are left out is the sum of a series.
@@ -228,7 +238,7 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, now: Instant, iw:
     recall_modes(c, s)
     in_series = find_leading(t, c, s)
     for i in range(c.dry, c.count):
-        turns = turns_back(c, s, now.w, i)
+        turns = closes_within(c, s, now.w, i, left)
         if turns or ends_closed(c, s, now.w, i):
             opens = c.speed[i] > STILL * row_scale(c, now.w, i, abi.SPEED)
             s.active[i] = 1
@@ -272,14 +282,16 @@ def gather_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
 
     Returns as `symgen.run.modes.strikes.gather` does.
     """
-    now, count, in_turn = Instant(y, p, w), int(s.pushing[0]), False
+    now, count = Instant(y, p, w), int(s.pushing[0])
     s.pushing[0] = 0
     if count == 0:
         return SAME
     choose_events(c, s, True)
+    find_leading(t, c, s)
     for i in range(c.dry, c.count):
-        if turns_back(c, s, w, i):
-            s.chosen[s.events[i]], in_turn = 1, True
+        opens = c.speed[i] > STILL * row_scale(c, w, i, abi.SPEED)
+        if turns_back(c, s, w, i) or (opens and ends_closed(c, s, w, i)):
+            s.chosen[s.events[i]] = 1
     functions = c.rates, c.confirm, s.effects.happens
     end = accumulation(functions, t, c.layout.nq, now, iw, hunt, s.chosen, s.effects.past)
     accelerate_in_force(t, c, now, iw)
@@ -289,5 +301,8 @@ def gather_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
         return SAME
     switch_off(c, w)
     # an impact in turn stays closed: whether it would fly again, and when, would be rounding
-    end = end_in_turn(t, c, s) if in_turn or not series == series else series
-    return OTHERS if rest_contacts(t, c, s, end, now, iw) == SAME else NOT_APPLIED
+    turn, in_turn = end_in_turn(t, c, s), False
+    for i in range(c.dry, c.count):
+        in_turn = in_turn or closes_within(c, s, w, i, turn - t)
+    end = turn if in_turn or not series == series else series
+    return OTHERS if rest_contacts(t, c, s, end, turn - t, now, iw) == SAME else NOT_APPLIED

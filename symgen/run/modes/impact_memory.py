@@ -26,8 +26,8 @@ class ImpactMemory(Record):
         At the latest impact, the part of G that each row belongs to, -1 for rows that do not touch.
     leads : Array of int64, shape (k,)
         The contact of whose series each row takes part, else -1.
-    rates, rested, rests : Array, shapes (k,)
-        Rates of rows after the latest impact; where rest is tried, rates and accelerations.
+    rates, rested, rests, first : Array, shapes (k,)
+        Rates of rows after the latest impact; where rest is tried, rates and accelerations; those of the first trial.
     y, w, control : Array, Array of int64
         State and scratch, kept while rest is tried.
     """
@@ -39,6 +39,7 @@ class ImpactMemory(Record):
     rates: Array
     rested: Array
     rests: Array
+    first: Array
     y: Array
     w: Array
     control: Integers
@@ -49,5 +50,5 @@ def new_impact_memory(k: int, width: int, nw: int) -> Any:
     numbers, control = np.zeros, np.zeros(abi.N_CONTROL if k else 0, dtype=np.int64)
     impacts, groups, leads = numbers(REMEMBERED * (HEAD + k) * k), np.full(k, -1), np.full(k, -1)
     modes = np.zeros(k, dtype=np.int64)
-    rates = numbers(k), numbers(k), numbers(k)
+    rates = numbers(k), numbers(k), numbers(k), numbers(k)
     return ImpactMemory(impacts, modes, groups, leads, *rates, numbers(width), numbers(nw), control)
