@@ -31,8 +31,8 @@ PARTS = 6
 LONGEST, MOST, _GAIN = 4e-3, 1000, 1e-9
 
 
-#: Rates after impacts below which a series is looked for [m/s], and difference of its sums by one flight and by two.
-_LAST, _SAME = 2e-6, 1e-9
+#: Rates after impacts below which a series is looked for [m/s], and difference of its sums by two impacts and by three.
+_LAST, _SAME = 1e-5, 1e-9
 #: Depth of a gap that is no rounding [m].
 _DEEP = 1e-7
 #: Rates of gaps behind a series that are rounding [m/s].
@@ -116,7 +116,9 @@ def run(scene: Scene, q: Array, v: Array, times: list[float], rtol: float = 1e-1
         if what == "hit":
             closed = sorted(set(closed) | {i} | set(_touching(scene, q)))
             v = _struck(scene, q, v, closed)
-            past.setdefault(i, []).append(Impact(t, float((Problem(scene, q, v).gap @ v)[closed].max()), q, v))
+            opens = Problem(scene, q, v).gap @ v
+            rate = float(opens[i] if opens[i] > _STILL else opens[closed].max())
+            past.setdefault(i, []).append(Impact(t, rate, q, v))
             ended = _ended(past[i][-3:])
             if ended is not None:
                 _note(motion, pending, ended.t, _between(past[i][-1], ended), len(q))
@@ -144,16 +146,24 @@ def run(scene: Scene, q: Array, v: Array, times: list[float], rtol: float = 1e-1
 
 
 def _ended(past: list[Impact]) -> Impact | None:
-    """Return the state at the end of a geometric series of impacts, by Aitken's method; None where it is none."""
+    """Return the state at the end of a series of impacts, None where it is none.
+
+    It is a smooth function of the rate that remains: one of second order is extrapolated to the rate 0, where one of
+    first order says nearly the same.
+    """
     if len(past) < 3 or past[-1].rate > _LAST or not past[-3].rate > past[-2].rate > past[-1].rate > 0.0:
         return None
-    last = past[-1]
-    ends: list[Impact] = []
-    for before in past[:-1]:
-        part = last.rate / (before.rate - last.rate)
-        q, v = last.q + part * (last.q - before.q), last.v + part * (last.v - before.v)
-        ends.append(Impact(last.t + part * (last.t - before.t), 0.0, q, v))
-    return ends[1] if np.abs(ends[1].v - ends[0].v).max() < _SAME else None
+    numbers = np.array([[impact.t, *impact.q, *impact.v] for impact in past])
+    rates, n = np.array([impact.rate for impact in past]), len(past[-1].q)
+    first, second = _at_zero(rates[1:]) @ numbers[1:], _at_zero(rates) @ numbers
+    if np.abs(second - first)[n + 1 :].max() > _SAME:
+        return None
+    return Impact(float(second[0]), 0.0, second[1 : n + 1], second[n + 1 :])
+
+
+def _at_zero(places: Array) -> Array:
+    """Return the weights of values at some places in their interpolation at 0."""
+    return np.array([np.prod([b / (b - a) for b in places if b != a]) for a in places])
 
 
 def _between(one: Impact, other: Impact) -> Callable[[float], Array]:

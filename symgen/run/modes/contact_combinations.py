@@ -60,8 +60,8 @@ def next_combination(c: Choice, count: int) -> bool:
 
 @exact()
 def bound_of(c: Choice, i: int) -> float:
-    """Return the bound of a row in a combination, of a contact over the force that presses."""
-    return float(c.sliding[i] if c.loose[i] != 0 else c.static[i])
+    """Return the bound of a row in a combination, of a contact over the force that presses; sliding has its own."""
+    return float(c.sliding[i] if c.loose[i] != 0 or c.signs[i] != 0.0 else c.static[i])
 
 
 @exact()

@@ -207,6 +207,48 @@ def turns_back(c: Choice, s: Strikes, w: Array, i: int) -> bool:
 
 
 @exact()
+def follow_past(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers, hunt: Array) -> float:
+    """Return the time at which the resets of the chosen events accumulate; nan where they do not."""
+    functions = c.rates, c.confirm, s.effects.happens
+    return float(accumulation(functions, t, c.layout.nq, now, iw, hunt, s.chosen, s.effects.past))
+
+
+@exact()
+def find_lost_beside(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers, hunt: Array) -> float:
+    """Find the gaps that open after the impact of another one, and whose own impacts accumulate, or are lost.
+
+    Returns the time at which they do; nan where there are none.
+    """
+    end = math.nan
+    for i in range(c.dry, c.count):
+        s.memory.closes[i] = 0
+        opens = c.speed[i] > STILL * row_scale(c, now.w, i, abi.SPEED)
+        if turns_back(c, s, now.w, i) or (opens and ends_closed(c, s, now.w, i)):
+            for event in range(s.chosen.shape[0]):
+                s.chosen[event] = 0
+            s.chosen[s.events[i]] = 1
+            own = follow_past(t, c, s, now, iw, hunt)
+            if own == own:
+                s.memory.closes[i], end = 1, own
+    return end
+
+
+@exact()
+def find_closing(t: float, c: Choice, s: Strikes, w: Array, left: float) -> bool:
+    """Find the gaps that turn back within what is left of a series of impacts: they take part in it.
+
+    Gaps whose own flight takes longer fly on, though it be low. Returns whether any gap closes in turn.
+    """
+    in_turn = False
+    for i in range(c.dry, c.count):
+        fall = c.value[i] + (c.speed[i] + 0.5 * c.out[i] * left) * left
+        if turns_back(c, s, w, i) and fall <= 0.0:
+            s.memory.closes[i] = 1
+        in_turn = in_turn or s.memory.closes[i] != 0
+    return in_turn
+
+
+@exact()
 def recall_modes(c: Choice, s: Strikes) -> None:
     """Set the modes of friction anew that it had at the latest impact: since then modes without impulses are chosen."""
     _, _, _, _, changes = s.effects.model
@@ -228,7 +270,7 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, now: Instant, iw:
     recall_modes(c, s)
     in_series = find_leading(t, c, s)
     for i in range(c.dry, c.count):
-        turns = turns_back(c, s, now.w, i)
+        turns = s.memory.closes[i] != 0
         if turns or ends_closed(c, s, now.w, i):
             opens = c.speed[i] > STILL * row_scale(c, now.w, i, abi.SPEED)
             s.active[i] = 1
@@ -272,22 +314,22 @@ def gather_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
 
     Returns as `symgen.run.modes.strikes.gather` does.
     """
-    now, count, in_turn = Instant(y, p, w), int(s.pushing[0]), False
+    now, count = Instant(y, p, w), int(s.pushing[0])
     s.pushing[0] = 0
     if count == 0:
         return SAME
     choose_events(c, s, True)
-    for i in range(c.dry, c.count):
-        if turns_back(c, s, w, i):
-            s.chosen[s.events[i]], in_turn = 1, True
-    functions = c.rates, c.confirm, s.effects.happens
-    end = accumulation(functions, t, c.layout.nq, now, iw, hunt, s.chosen, s.effects.past)
+    end = follow_past(t, c, s, now, iw, hunt)
+    find_leading(t, c, s)
+    beside = find_lost_beside(t, c, s, now, iw, hunt)
     accelerate_in_force(t, c, now, iw)
     series = follow_series(c, s, t, count)
-    if not end == end:
+    if not (end == end or beside == beside):
         remember_impact(t, c, s)
         return SAME
     switch_off(c, w)
     # an impact in turn stays closed: whether it would fly again, and when, would be rounding
-    end = end_in_turn(t, c, s) if in_turn or not series == series else series
+    turn = end_in_turn(t, c, s)
+    in_turn = find_closing(t, c, s, w, larger_number(turn, series if series == series else t) - t)
+    end = turn if in_turn or not series == series else series
     return OTHERS if rest_contacts(t, c, s, end, now, iw) == SAME else NOT_APPLIED

@@ -117,10 +117,10 @@ def ends_closed(c: Choice, s: Strikes, w: Array, i: int) -> bool:
 
 
 @exact()
-def set_target(t: float, c: Choice, s: Strikes, lead: int, row: int, j: int) -> None:
+def set_target(t: float, c: Choice, s: Strikes, lead: int, row: int, j: int, slides: bool) -> None:
     """Say at which rate a row of a series is left, the velocity j that its events set; as it stands, at 0.
 
-    A gap that opens at rest does so at the end of the series.
+    A gap that opens at rest does so at the end of the series; what ends with it sticks, or `slides` up to its end.
     """
     ties, rate, part, u = s.ties, s.memory.rates[row], 0.0, s.asked[lead]
     if c.pushes[row] != 0:
@@ -128,15 +128,17 @@ def set_target(t: float, c: Choice, s: Strikes, lead: int, row: int, j: int) -> 
     else:
         part = left_over(c, s, lead, HEAD + row, rate)
         if abs(rate + part * u) <= _ENDS * abs(part * u):
-            return
+            if not slides:
+                return
+            part = -rate / u
     ties.parts[j] = part - s.memory.rests[row] * left_over(c, s, lead, AT, t)
     ties.values[j] = rate + ties.parts[j] * u
     ties.leads[j] = first_velocity(s.effects.model[4].owners, s.events[lead])
 
 
 @exact()
-def set_targets(t: float, c: Choice, s: Strikes) -> None:
-    """Say at which rates the rows of series are left: gaps are at rest, and friction has its sum."""
+def set_targets(t: float, c: Choice, s: Strikes, slides: bool) -> None:
+    """Say at which rates the rows of series are left: gaps are at rest, and friction has its sum, see `set_target`."""
     _, _, _, _, changes = s.effects.model
     owners, ties, gap_of = changes.owners, s.ties, -1
     for j in range(owners.shape[0]):
@@ -146,7 +148,7 @@ def set_targets(t: float, c: Choice, s: Strikes) -> None:
             if owners[j] == s.events[gap] and lead >= 0 and s.active[gap] != 0:
                 ties.held[j], ties.ratio[j], ties.values[j], ties.ways[j] = 1, 0.0, 0.0, 0.0
                 row = gap if j == gap_of else c.partner[gap]
-                set_target(t, c, s, lead, row, j)
+                set_target(t, c, s, lead, row, j, slides)
 
 
 @exact()
@@ -220,11 +222,16 @@ def sum_series(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers) -> b
     found = try_rest(t, c, s, now, iw)
     if not (found and is_sum(t, c, s)):
         for i in range(c.count):
-            s.memory.rests[i] = 0.0
-        set_targets(t, c, s)
+            s.memory.first[i], s.memory.rests[i] = s.memory.rests[i], 0.0
+        set_targets(t, c, s, False)
         found = try_rest(t, c, s, now, iw)
-        set_targets(t, c, s)
+        set_targets(t, c, s, False)
         found = found and try_rest(t, c, s, now, iw)
+        if not found:
+            for i in range(c.count):
+                s.memory.rests[i] = s.memory.first[i]
+            set_targets(t, c, s, True)
+            found = try_rest(t, c, s, now, iw) and is_sum(t, c, s)
     for i in range(c.count):
         c.mode[i] = s.memory.modes[i]
     return found

@@ -26,8 +26,10 @@ class ImpactMemory(Record):
         At the latest impact, the part of G that each row belongs to, -1 for rows that do not touch.
     leads : Array of int64, shape (k,)
         The contact of whose series each row takes part, else -1.
-    rates, rested, rests : Array, shapes (k,)
-        Rates of rows after the latest impact; where rest is tried, rates and accelerations.
+    closes : Array of int64, shape (k,)
+        1 for gaps that the latest impact does not push, and that end closed with its series.
+    rates, rested, rests, first : Array, shapes (k,)
+        Rates of rows after the latest impact; where rest is tried, rates and accelerations; those of the first trial.
     y, w, control : Array, Array of int64
         State and scratch, kept while rest is tried.
     """
@@ -36,9 +38,11 @@ class ImpactMemory(Record):
     modes: Integers
     groups: Integers
     leads: Integers
+    closes: Integers
     rates: Array
     rested: Array
     rests: Array
+    first: Array
     y: Array
     w: Array
     control: Integers
@@ -48,6 +52,6 @@ def new_impact_memory(k: int, width: int, nw: int) -> Any:
     """Return an empty memory for k rows, and states and scratches of `width` and `nw` numbers."""
     numbers, control = np.zeros, np.zeros(abi.N_CONTROL if k else 0, dtype=np.int64)
     impacts, groups, leads = numbers(REMEMBERED * (HEAD + k) * k), np.full(k, -1), np.full(k, -1)
-    modes = np.zeros(k, dtype=np.int64)
-    rates = numbers(k), numbers(k), numbers(k)
-    return ImpactMemory(impacts, modes, groups, leads, *rates, numbers(width), numbers(nw), control)
+    modes, closes = np.zeros(k, dtype=np.int64), np.zeros(k, dtype=np.int64)
+    rates = numbers(k), numbers(k), numbers(k), numbers(k)
+    return ImpactMemory(impacts, modes, groups, leads, closes, *rates, numbers(width), numbers(nw), control)
