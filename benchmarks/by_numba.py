@@ -46,6 +46,8 @@ AS_MOVED = 3.0
 MOVED = 2e-15
 #: Scenes that have processes of their own as well, where Numba compiles the loops anew.
 ALONE = ("andrews", "pendulum")
+#: Processor time by Numba that the test of a day may take [s].
+SHORT = 45.0
 #: What a process computes, by kind; `run` has the settings of the scene, the others few constant steps.
 KINDS = ("run", "looped", "sweep")
 MEASURED = """
@@ -270,7 +272,12 @@ def main(arguments: list[str]) -> int:
     return 0
 
 
-RECORD = Record("by_numba", jobs, examine, again, 2.0 * PATIENCE, share=0.01)
+def is_short(stored: Line) -> bool:
+    """Whether Numba takes seconds: the test of a day draws from these."""
+    return float(stored.get("numba", PATIENCE)) <= SHORT
+
+
+RECORD = Record("by_numba", jobs, examine, again, 2.0 * PATIENCE, share=0.01, daily=is_short)
 
 
 if __name__ == "__main__":
