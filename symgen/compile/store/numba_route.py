@@ -4,7 +4,7 @@ Emitted functions, loops and their parts stay the objects that they are; what Nu
 calls. Numba compiles in every process anew, as its cache does not know functions without a file.
 
 Loops with events are many functions that pass records with 200 arrays. By default Numba copies the text of a callee
-into each of its callers, wraps each function for Python, and counts references to every array: a run with dry friction
+into each of its callers, wraps each function for Python, and counts references to every array: a run with modes
 had not ended after 420 s. Here each function is compiled once and called by its name, only those that Python calls are
 wrapped, and nothing is counted, as the arrays of a run are Python's and outlive all calls.
 """
