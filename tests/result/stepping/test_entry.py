@@ -45,6 +45,8 @@ def both(name, **settings):
     "True-ggl-bdf",
     "False-direct-correction-bdf",
     "False-index3-augmented-lagrangian-trapezoidal",
+    "False-ggl-bdf",
+    "False-half-explicit-phem56",
 )
 @pytest.mark.parametrize(("method", "integrator"), PAIRS)
 @pytest.mark.parametrize("adaptive", [False, True])

@@ -163,6 +163,7 @@ def test_every_row_stands_in_the_tables(page):
     assert len([a for a in page.all("div") if a.get("class") == "scroll"]) == len(tables)
 
 
+@pytest.mark.slow
 def test_the_source_stands_beside_ours(page):
     whole = " ".join(page.text)
     assert "second hand: Carvalho 2022" in whole
