@@ -7,9 +7,9 @@
 Each compiler has a process with ``SYMGEN_COMPILER=numba`` or without it and an empty cache: processor time to the
 result, and the largest difference of states over their largest value. A run is the first tenth of a scene with the
 settings of ``symgen run``. Where states differ by more than 1e-9, symgen's own compiler repeats it with parameters that
-have other last digits: what amplifies rounding answers that as well. The record has a run of every scene: in processes
-that have run others before, as the loops of all scenes are the same, and a few in processes of their own, where
-``again`` is a second one with the same cache.
+have other last digits, or without any with its fastest speed at the start: what amplifies rounding answers that as
+well. The record has a run of every scene: in processes that have run others before, as the loops of all scenes are the
+same, and a few in processes of their own, where ``again`` is a second one with the same cache.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ PATIENCE = 600.0
 ROUNDING = 1e-9
 #: Larger ones are rounding as well if they are at most so many times that of a run with moved parameters.
 AS_MOVED = 3.0
-#: By how much the parameters of that run are moved, over their values.
+#: By how much the parameters of that run, or its fastest speed at the start, are moved, over their values.
 MOVED = 2e-15
 #: Scenes that have processes of their own as well, where Numba compiles the loops anew.
 ALONE = ("andrews", "pendulum")
@@ -62,7 +62,12 @@ def computed(name, kind):
     if kind in ("run", "moved"):
         by = float(sys.argv[2]) if kind == "moved" else 0.0
         parameters = {name: (1.0 + by) * value for name, value in model.parameters().items() if by and value}
-        result = model.simulate(until=0.1 * model.mechanism.defaults.until, parameters=parameters)
+        until, start = 0.1 * model.mechanism.defaults.until, {}
+        if by and not parameters:
+            speeds = model.simulate(until=until).v
+            fastest = abs(speeds.values[0]).argmax()
+            start = {speeds.names[fastest]: (1.0 + by) * speeds.values[0, fastest]}
+        result = model.simulate(until=until, parameters=parameters, start=start)
         return [result.q.values.tolist(), result.v.values.tolist()], result.status
     step = model.mechanism.defaults.step or 1e-3
     settings = {"method": "direct-correction", "integrator": "rk4", "step": step, "until": 50 * step}
