@@ -274,7 +274,7 @@ class WayBack:
             y[own, np.arange(c)] = modes[self._places, np.arange(c + n, count)] = 1.0
             transfer, impacts = self._transfer, self._impacts
             by = self._along(transfer.transfer_through(passage, y, modes)) + impacts.derivatives_here(count)
-            for units in impacts.units_of_asked(count, [*range(c), *range(c + n, count)]):
+            for units in impacts.units_of_impacts(count, [*range(c), *range(c + n, count)]):
                 impacts.add(units, self._along(transfer.transfer_impacts_alone(passage, y, modes)))
             self._y[own], self._w[place] = by[:c], 0.0
             self._found += by[c : c + n]

@@ -13,12 +13,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.describe.bounds.bounded_modes import HIT
+from symgen.describe.formulas.duals import Dual
 from symgen.run.directions.push_directions import rows_of_velocities
 from symgen.run.effects.pushing import KeptTies
 from symgen.run.loops.run_spec import Watched
@@ -32,37 +32,22 @@ Array = NDArray[np.float64]
 _AGREES, _ROUNDING = 1e-4, 1e-9
 
 
-class Rated(NamedTuple):
-    """The time, or the rate of a row, at an impact, with its directions.
-
-    Attributes
-    ----------
-    value : float
-        The number.
-    slopes : Array, shape (k,)
-        Its directions.
-    """
-
-    value: float
-    slopes: Array
-
-
 @dataclass
 class ImpactDirections:
     """Directions of the latest impacts of each event: of the time, then of the rates of all rows after an impact.
 
     Attributes
     ----------
-    kept : dict
+    latest : dict
         By the number of the event, times of the latest impacts with directions, shape (1 + rows, k).
     """
 
-    kept: dict[int, list[tuple[float, Array]]] = field(default_factory=dict)
+    latest: dict[int, list[tuple[float, Array]]] = field(default_factory=dict)
 
     def remember(self, events: Sequence[int], t: float, slopes: Array) -> None:
         """Remember the directions of an impact of events."""
         for event in events:
-            impacts = self.kept.setdefault(event, [])
+            impacts = self.latest.setdefault(event, [])
             if impacts and impacts[-1][0] == t:
                 impacts.pop()
             impacts.append((t, slopes))
@@ -70,31 +55,31 @@ class ImpactDirections:
 
     def recall(self, event: int, t: float, shape: tuple[int, int]) -> Array | None:
         """Return the directions of an impact of an event, of a shape; None where it is not remembered."""
-        return next((slopes for at, slopes in self.kept.get(event, []) if at == t), None)
+        return next((slopes for at, slopes in self.latest.get(event, []) if at == t), None)
 
 
 @dataclass
 class ImpactsAhead(ImpactDirections):
-    """Impacts on the way back, which is still to come to those that are asked for.
+    """Impacts on the way back that it has yet to come to.
 
     Attributes
     ----------
-    asked : dict
-        By event and time, the shape of the directions of the impacts asked for.
-    given : dict
+    shapes : dict
+        By event and time, the shapes of the directions of impacts ahead.
+    units : dict
         Directions of impacts in place of zero.
     bars : dict
         Derivatives of the number at the end by time and rates of impacts ahead, shape (1 + rows,).
     """
 
-    asked: dict[tuple[int, float], tuple[int, int]] = field(default_factory=dict)
-    given: dict[tuple[int, float], Array] = field(default_factory=dict)
+    shapes: dict[tuple[int, float], tuple[int, int]] = field(default_factory=dict)
+    units: dict[tuple[int, float], Array] = field(default_factory=dict)
     bars: dict[tuple[int, float], Array] = field(default_factory=dict)
 
     def recall(self, event: int, t: float, shape: tuple[int, int]) -> Array:
         """Return the directions of an impact that is ahead, zero unless they are given."""
-        self.asked[event, t] = shape
-        return self.given.get((event, t), np.zeros(shape))
+        self.shapes[event, t] = shape
+        return self.units.get((event, t), np.zeros(shape))
 
     def derivatives_here(self, count: int) -> Array:
         """Return the derivatives by `count` directions, through the impacts of the present passage alone."""
@@ -105,46 +90,47 @@ class ImpactsAhead(ImpactDirections):
                 total += self.bars.pop((event, t)) @ slopes
         return total
 
-    def units_of_asked(self, count: int, columns: Sequence[int]) -> Iterator[list[tuple[tuple[int, float], int, int]]]:
-        """Give units to the impacts asked for, as many at once as there are columns for them.
+    def units_of_impacts(
+        self, count: int, columns: Sequence[int]
+    ) -> Iterator[list[tuple[tuple[int, float], int, int]]]:
+        """Give units to the impacts ahead, as many at once as there are columns for them.
 
         Yields impact, row and column of each unit; the passage is forgotten after the last ones.
         """
-        asked = dict(self.asked)
-        wanted = [(impact, row) for impact, (rows, _) in asked.items() for row in range(rows)]
+        shapes = dict(self.shapes)
+        wanted = [(impact, row) for impact, (rows, _) in shapes.items() for row in range(rows)]
         for first in range(0, len(wanted), len(columns)):
-            self.given = {impact: np.zeros((rows, count)) for impact, (rows, _) in asked.items()}
+            self.units = {impact: np.zeros((rows, count)) for impact, (rows, _) in shapes.items()}
             units = [(*unit, column) for unit, column in zip(wanted[first:], columns, strict=False)]
             for impact, row, column in units:
-                self.given[impact][row, column] = 1.0
+                self.units[impact][row, column] = 1.0
             yield units
-        for memory in (self.asked, self.given, self.kept):
+        for memory in (self.shapes, self.units, self.latest):
             memory.clear()
 
     def add(self, units: Sequence[tuple[tuple[int, float], int, int]], slopes: Array) -> None:
         """Add the derivatives by units, of which `slopes` has one a column."""
         for impact, row, column in units:
-            rows, _ = self.asked[impact]
+            rows, _ = self.shapes[impact]
             self.bars.setdefault(impact, np.zeros(rows))[row] += slopes[column]
 
 
-def left_over(now: Rated, u: Rated, earlier: Sequence[tuple[Rated, Rated]]) -> Rated:
+def left_over(now: Dual, u: Dual, earlier: Sequence[tuple[Dual, Dual]]) -> Dual:
     """Return how a number changes in what is left out over the rate u, from two spans as runs do, see `contact_series`.
 
     Parameters
     ----------
-    now, u : Rated
+    now, u : Dual
         The number, and the rate of the gap that leads, after the latest impact.
-    earlier : sequence of (Rated, Rated)
+    earlier : sequence of (Dual, Dual)
         The same after earlier impacts, the later one first.
     """
-    found = list[Rated]()
-    for number, rate in earlier:
-        width = rate.value - u.value
-        part = (now.value - number.value) / width
-        found.append(Rated(part, (now.slopes - number.slopes - part * (rate.slopes - u.slopes)) / width))
-    one, two = found
+    one, two = ((now - number) / (rate - u) for number, rate in earlier)
     return two if abs(two.value - one.value) <= SAME_MODES * abs(one.value) else one
+
+
+def _dual(value: float, slopes: Array) -> Dual:
+    return Dual(float(value), tuple(slopes))
 
 
 class SeriesDirections:
@@ -169,46 +155,45 @@ class SeriesDirections:
         assert watched.effects is not None, "a run with impacts"
         self.owners = watched.effects.changes.owners.tolist()
 
-    def slopes(self, t: Rated, rates: Array, accelerations: tuple[Array, Array] | None) -> Array | None:
+    def slopes(self, t: float, later: Array, rates: Array, accelerations: tuple[Array, Array] | None) -> Array | None:
         """Return the directions of the parts, shape (velocities, k); None where they do not follow from impacts.
 
         Parameters
         ----------
-        t : Rated
+        t : float
             Time of the latest impact.
+        later : Array, shape (k,)
+            Directions of the time.
         rates : Array, shape (rows, k)
             Directions of the rates after it.
         accelerations : (Array, Array) or None
             Those at rest and their directions, None while these are not known.
         """
-        found, count = np.zeros((len(self.leads), rates.shape[1])), rates.shape[1]
+        parts, now = np.zeros((len(self.leads), len(later))), _dual(t, later)
         rests, by_rests = (self.rests, np.zeros_like(rates)) if accelerations is None else accelerations
         for j, lead in enumerate(self.leads):
             if lead < 0:
                 continue
             gap, size = self.hits.index(self.owners[lead]), HEAD + self.k
             row = self.along[j] if self.along[j] >= 0 else self.hits.index(self.owners[j])
-            times, numbers = list[tuple[Rated, Rated]](), list[tuple[Rated, Rated]]()
+            times, numbers = list[tuple[Dual, Dual]](), list[tuple[Dual, Dual]]()
             for past in range(REMEMBERED):
                 line = self.memory[(REMEMBERED * gap + past) * size :][:size]
-                slopes = self.impacts.recall(self.hits[gap], float(line[AT]), (1 + self.k, count))
+                slopes = self.impacts.recall(self.hits[gap], float(line[AT]), (1 + self.k, len(later)))
                 if slopes is None or not line[RATE] > self.rates[gap] > 0.0:
                     return None
-                u = Rated(float(line[RATE]), slopes[1 + gap])
-                times.append((Rated(float(line[AT]), slopes[0]), u))
-                numbers.append((Rated(float(line[HEAD + row]), slopes[1 + row]), u))
-            u = Rated(float(self.rates[gap]), rates[gap])
-            lasts = left_over(t, u, times)
-            part = -rests[row] * lasts.value
-            found[j] = -by_rests[row] * lasts.value - rests[row] * lasts.slopes
+                u = _dual(line[RATE], slopes[1 + gap])
+                times.append((_dual(line[AT], slopes[0]), u))
+                numbers.append((_dual(line[HEAD + row], slopes[1 + row]), u))
+            u = _dual(self.rates[gap], rates[gap])
+            by_rest = _dual(rests[row], by_rests[row]) * left_over(now, u, times)
+            part = -by_rest
             if self.along[j] >= 0:
-                z = Rated(float(self.rates[row]), rates[row])
-                own = Rated(-z.value / u.value, (z.value / u.value * u.slopes - z.slopes) / u.value)
+                z = _dual(self.rates[row], rates[row])
                 # its sum by earlier impacts, or its own end where it ends with the series, as the run has taken it
-                forms = left_over(z, u, numbers), own
-                changes = min(forms, key=lambda form: abs(part + form.value - self.parts[j]))
-                part += changes.value
-                found[j] += changes.slopes
-            if not abs(part - self.parts[j]) <= _AGREES * (abs(part) + abs(rests[row] * lasts.value)) + _ROUNDING:
+                forms = part + left_over(z, u, numbers), part - z / u
+                part = min(forms, key=lambda form: abs(form.value - self.parts[j]))
+            if not abs(part.value - self.parts[j]) <= _AGREES * (abs(part.value) + abs(by_rest.value)) + _ROUNDING:
                 return None
-        return found
+            parts[j] = part.slopes
+        return parts

@@ -20,7 +20,7 @@ from symgen.run.directions.free_directions import TOGETHER, Free, constraint_dir
 from symgen.run.directions.moments import Directions, Moment, Moments, modes_of_moment
 from symgen.run.directions.push_directions import PushDirections, push_state, rows_of_velocities, tied_impact
 from symgen.run.directions.reset_directions import ResetDirections
-from symgen.run.directions.series_directions import ImpactDirections, Rated, SeriesDirections
+from symgen.run.directions.series_directions import ImpactDirections, SeriesDirections
 from symgen.run.layout import abi
 from symgen.run.modes.bounded_rows import CONSTANT, EFFORT, HELD, LIMIT, SIGN, STILL
 
@@ -74,7 +74,7 @@ class Transfer:
         """Forget the last passage and all doubts."""
         self._last = None
         self.doubts.clear()
-        self.impacts.kept.clear()
+        self.impacts.latest.clear()
 
     @property
     def watched(self) -> Watched | None:
@@ -262,12 +262,10 @@ class Transfer:
         assert watched is not None and kept is not None, "an impact of contacts"
         if kept.series is None:
             return np.zeros((len(kept.held), by.y.shape[1]))
-        rows, k = self._rows_with_bounds, len(self._rows_with_bounds.names)
-        _, slopes = self.moments.evaluate_moment(rows.state.function, rows.values, now, by)
         series = SeriesDirections(watched, kept, self.impacts)
-        parts = series.slopes(Rated(now.t, by.t[:-1]), slopes[k : 2 * k, :-1], rests)
+        parts = series.slopes(now.t, by.t[:-1], self._slopes_of_rates(now, by), rests)
         if parts is None:
-            names = " and ".join(rows.names[series.hits.index(event)] for event in struck.numbers)
+            names = " and ".join(self._rows_with_bounds.names[series.hits.index(event)] for event in struck.numbers)
             self.doubts.append(
                 f"what is left out of impacts that accumulate at {names} at t = {now.t:.6g} s does not follow from the "
                 "impacts before, so that its derivatives are unknown; take differences"
@@ -279,9 +277,13 @@ class Transfer:
         """Remember the directions of an impact of contacts."""
         events = sorted({event for struck in passage.effects if struck.ties is not None for event in struck.numbers})
         if events:
-            rows, k = self._rows_with_bounds, len(self._rows_with_bounds.names)
-            _, slopes = self.moments.evaluate_moment(rows.state.function, rows.values, after, by)
-            self.impacts.remember(events, after.t, np.vstack([by.t[:-1], slopes[k : 2 * k, :-1]]))
+            self.impacts.remember(events, after.t, np.vstack([by.t[:-1], self._slopes_of_rates(after, by)]))
+
+    def _slopes_of_rates(self, now: Moment, by: Directions) -> Array:
+        """Return the directions of the rates of all rows with bounds."""
+        rows, k = self._rows_with_bounds, len(self._rows_with_bounds.names)
+        _, slopes = self.moments.evaluate_moment(rows.state.function, rows.values, now, by)
+        return slopes[k : 2 * k, :-1]
 
     @property
     def _losses(self) -> dict[int, int]:

@@ -214,12 +214,9 @@ def follow_past(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers, hun
 
 
 @exact()
-def find_lost_beside(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers, hunt: Array) -> float:
-    """Find the gaps that open after the impact of another one, and whose own impacts accumulate, or are lost.
-
-    Returns the time at which they do; nan where there are none.
-    """
-    end = math.nan
+def find_lost_beside(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers, hunt: Array) -> bool:
+    """Find the gaps that open after the impact of another one, and whose own impacts accumulate, or are lost."""
+    lost = False
     for i in range(c.dry, c.count):
         s.memory.closes[i] = 0
         opens = c.speed[i] > STILL * row_scale(c, now.w, i, abi.SPEED)
@@ -229,8 +226,8 @@ def find_lost_beside(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers
             s.chosen[s.events[i]] = 1
             own = follow_past(t, c, s, now, iw, hunt)
             if own == own:
-                s.memory.closes[i], end = 1, own
-    return end
+                s.memory.closes[i], lost = 1, True
+    return lost
 
 
 @exact()
@@ -262,13 +259,12 @@ def recall_modes(c: Choice, s: Strikes) -> None:
 
 
 @exact()
-def rest_contacts(t: float, c: Choice, s: Strikes, end: float, now: Instant, iw: Integers) -> int:
+def rest_contacts(t: float, c: Choice, s: Strikes, end: float, in_series: bool, now: Instant, iw: Integers) -> int:
     """Bring the gaps that push, or turn back, to rest, in the modes of the latest impact; friction has its part.
 
     What contacts beside them have of the impacts that are left out is the sum of a series.
     """
     recall_modes(c, s)
-    in_series = find_leading(t, c, s)
     for i in range(c.dry, c.count):
         turns = s.memory.closes[i] != 0
         if turns or ends_closed(c, s, now.w, i):
@@ -280,7 +276,7 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, now: Instant, iw:
                 c.mode[j] = ON if still else (UPPER if sign_of_number(c.speed[j]) > 0.0 else LOWER)
     choose_events(c, s, False)
     tie_velocities(c, s, True)
-    if in_series > 0 and not sum_series(t, c, s, now, iw):
+    if in_series and not sum_series(t, c, s, now, iw):
         tie_velocities(c, s, True)
     if push_contacts(s.effects.model, t, now, s.chosen, s.effects.work, s.ties) != APPLIED:
         return NOT_APPLIED
@@ -320,11 +316,11 @@ def gather_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
         return SAME
     choose_events(c, s, True)
     end = follow_past(t, c, s, now, iw, hunt)
-    find_leading(t, c, s)
-    beside = find_lost_beside(t, c, s, now, iw, hunt)
+    in_series = find_leading(t, c, s) > 0
+    lost = find_lost_beside(t, c, s, now, iw, hunt)
     accelerate_in_force(t, c, now, iw)
     series = follow_series(c, s, t, count)
-    if not (end == end or beside == beside):
+    if not (end == end or lost):
         remember_impact(t, c, s)
         return SAME
     switch_off(c, w)
@@ -332,4 +328,4 @@ def gather_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
     turn = end_in_turn(t, c, s)
     in_turn = find_closing(t, c, s, w, larger_number(turn, series if series == series else t) - t)
     end = turn if in_turn or not series == series else series
-    return OTHERS if rest_contacts(t, c, s, end, now, iw) == SAME else NOT_APPLIED
+    return OTHERS if rest_contacts(t, c, s, end, in_series, now, iw) == SAME else NOT_APPLIED

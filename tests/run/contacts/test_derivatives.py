@@ -8,7 +8,8 @@ import pytest
 
 from benchmarks.bounded.touch.kinds import drawn
 from benchmarks.mechanisms.toml import text as toml_text
-from symgen.run.directions.series_directions import ImpactDirections, ImpactsAhead, Rated, left_over
+from symgen.describe.formulas.duals import Dual
+from symgen.run.directions.series_directions import ImpactDirections, ImpactsAhead, left_over
 from tests.run.contacts.scenes import DROP, LIGHT, body, floor, head, loaded, rods
 
 #: A spinning disc that bounces, rests and rolls.
@@ -99,11 +100,11 @@ def test_what_is_left_out_of_a_geometric_series() -> None:
     """Numbers ``z + b r^i`` change by ``-b / c`` over the rate ``c r^i`` that remains, whatever z and r are."""
     b, c, r = 0.3, 0.7, 0.2
 
-    def at(i: int) -> tuple[Rated, Rated]:
+    def at(i: int) -> tuple[Dual, Dual]:
         """Return the number and the rate of an impact with their derivatives by z, b, c and r."""
         slope = i * r ** (i - 1)
-        number = Rated(2.0 + b * r**i, np.array([1.0, r**i, 0.0, b * slope]))
-        return number, Rated(c * r**i, np.array([0.0, 0.0, r**i, c * slope]))
+        number = Dual(2.0 + b * r**i, (1.0, r**i, 0.0, b * slope))
+        return number, Dual(c * r**i, (0.0, 0.0, r**i, c * slope))
 
     part = left_over(*at(7), [at(6), at(5)])
     assert part.value == pytest.approx(-b / c, rel=1e-9)
@@ -115,7 +116,7 @@ def test_impacts_ahead_get_the_derivatives_of_what_follows() -> None:
     ahead, by = ImpactsAhead(), {(4, 0.1): np.array([1.0, 2.0, 3.0]), (4, 0.2): np.array([-1.0, 0.5, 7.0])}
     for event, t in by:
         assert not ahead.recall(event, t, (3, 2)).any()
-    for units in ahead.units_of_asked(2, [0, 1]):
+    for units in ahead.units_of_impacts(2, [0, 1]):
         ahead.add(units, sum(slopes @ ahead.recall(*impact, (3, 2)) for impact, slopes in by.items()))
     slopes = np.arange(6.0).reshape(3, 2)
     ahead.remember([3, 4], 0.2, slopes)
