@@ -114,17 +114,20 @@ def test_a_drag_while_it_plays_pulls_the_body_to_the_pointer(chromium: Chromium,
     chromium.run("document.getElementById('play').click()")
     mouse(chromium, "mousePressed", x, y)
     mouse(chromium, "mouseMoved", *goal)
-    hand = until(chromium, "symgen.hand")
+    hand, held = until(chromium, "symgen.hand && [symgen.hand, symgen.now('bob')]")
     assert hand["name"] == "bob" and hand["k"] > 0.0 and hand["force"] > 0.0
     assert hand["to"] == pytest.approx([0.5, 0.6], abs=0.01)
     chromium.run(
         "document.getElementById('speed').value = '1';"
         "document.getElementById('speed').dispatchEvent(new Event('change'))"
     )
-    # the bob stays on its circle and comes to rest where spring and weight are in balance
+    # the bob stays on its circle and comes to rest where spring and weight are in balance; what is held lies beside it,
+    # by as much as the bob moved between the time at which the pointer was aimed and the press
     at = place_at_rest(chromium)
-    assert math.hypot(*at) == pytest.approx(1.0, abs=1e-6)
-    assert at[1] > 0.0  # above the pin
+    bob = chromium.run("symgen.now('bob')")
+    assert math.hypot(*bob) == pytest.approx(1.0, abs=1e-6)
+    assert bob[1] > 0.0  # above the pin
+    assert math.dist(at, [*bob, 0.0]) == pytest.approx(math.dist(hand["at"], [*held, 0.0]), abs=1e-5)
     words = chromium.run("document.getElementById('hint').textContent")
     assert words.startswith("spring of ") and "N/m" in words
     mouse(chromium, "mouseReleased", *goal)
