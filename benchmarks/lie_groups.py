@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
+#: Their numbers by steps, bodies, and settings of what stands beside them here.
+Series = tuple[Mapping[int, float], str, Mapping[str, Any]]
 
 FILE = Path(__file__).with_name("two-tops.toml")
 PAGE = "docs/measured/lie-groups.md"
@@ -80,14 +82,14 @@ BY_ANGLES = {
 }
 INDEX_2 = {10000: 3.4934359503518673, 20000: 3.4934357159579665, 40000: 3.493435698477724, 80000: 3.49343569408307}
 INDEX_3 = {20000: 3.493390210631171, 40000: 3.493412945808683, 80000: 3.493424317747051, 160000: 3.4934300048200115}
-#: Rows of implicit schemes: what their file calls them, bodies, and what stands beside them here.
-IMPLICIT = {
+#: Implicit schemes by what their file calls them.
+IMPLICIT: Mapping[str, Series] = {
     "Euler angles": (BY_ANGLES, ANGLES, {"integrator": "newmark", "coordinates": "joint"}),
     "index 2": (INDEX_2, TOPS, {"integrator": "newmark", "coordinates": "absolute"}),
     "index 3": (INDEX_3, TOPS, {"method": "generalized-alpha", "integrator": "generalized-alpha"}),
 }
 #: What stands beside their explicit schemes.
-LIE = {"integrator": "rkmk4", "coordinates": "joint"}
+LIE: Mapping[str, Any] = {"integrator": "rkmk4", "coordinates": "joint"}
 #: The heavy top at 2 s by DOPRI5 within 1e-14 and by RK67 with 1e-4 s, at 0.01 s by 400 steps.
 DOPRI5, RK67, EARLY = -106.16380414306643, -106.1638041430917, 149.8473939540758
 #: Its Euler parameters at 0.2 s, by RK4 of a program in Matlab, and with index 2 and 1e-4 s.
@@ -235,7 +237,7 @@ def tables() -> dict[str, PageTable]:
         for label, (theirs, _, keys) in IMPLICIT.items()
         for steps in theirs
     ]
-    at = {"integrator": "dop853", "coordinates": "joint"}
+    at: Mapping[str, Any] = {"integrator": "dop853", "coordinates": "joint"}
     values: list[Row] = [
         ((f"{TOP}, 2 s: DOPRI5", repr(DOPRI5)), lambda: [f"{exact(TOP):.9f}"]),
         ((f"{TOP}, 2 s: RK67, 1e-4 s", repr(RK67)), lambda: [f"{exact(TOP):.9f}"]),
@@ -272,8 +274,8 @@ def euler_parameters(digits: int, steps: int | None, **keys: Any) -> str:
 # -- the figure --------------------------------------------------------------------------------------------------------
 
 
-#: Of each picture: steps with their numbers, bodies, and the run here.
-DRAWN: Mapping[str, Mapping[str, tuple[Mapping[int, float], str, Mapping[str, Any]]]] = {
+#: What each of the two pictures shows.
+DRAWN: Mapping[str, Mapping[str, Series]] = {
     TOP: {"rotation vectors, RK4": (EXPLICIT[TOP], TOP, LIE)},
     TOPS: {"rotation vectors, RK4": (EXPLICIT[TOPS], TOPS, LIE), **IMPLICIT},
 }
