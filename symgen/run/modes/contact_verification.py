@@ -82,10 +82,10 @@ def name_fault(c: Choice, count: int) -> None:
 
 @exact()
 def is_same(c: Choice, count: int) -> bool:
-    """Return whether the accelerations of a combination are those of the first one that is right.
+    """Return whether a combination has the accelerations of the first one that is right.
 
-    They are compared with those that its forces make at bodies alone. A row at rest may have none of its own: without
-    a force along the others, its accelerations are the rounding of theirs.
+    Differences are compared with the accelerations that the forces of all rows make at bodies alone. Where no force
+    acts along a row, its acceleration is rounding of other rows.
     """
     k, box, most = c.count, c.box, 0.0
     for a in range(count):
