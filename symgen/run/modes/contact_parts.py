@@ -89,11 +89,15 @@ def probe_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Intege
         if c.partner[i] >= 0 and c.signs[i] != 0.0 and c.taken[i] == 0:
             c.rest[rows] = i
             rows += 1
+    most = 0.0  # accelerations as large as those that are there, of all rows: a row's own may be rounding of others'
     for r in range(rows):
-        j = c.rest[r]
-        force, usual = 1.0, larger_number(abs(c.offset[j]), usual_of(c, w, j))
-        if c.alone[j] > 0.0 and usual > 0.0:  # accelerations as large as those that are there
-            force = usual / c.alone[j]
+        i = c.rest[r]
+        if c.alone[i] > 0.0:
+            most = larger_number(most, larger_number(abs(c.offset[i]), usual_of(c, w, i)) / math.sqrt(c.alone[i]))
+    for r in range(rows):
+        j, force = c.rest[r], 1.0
+        if c.alone[j] > 0.0 and most > 0.0:
+            force = most / math.sqrt(c.alone[j])
         if accelerate_by(t, c, j, force, y, p, w, iw, control) != SAME:
             return NOT_FINITE
         for i in range(k):
@@ -101,10 +105,6 @@ def probe_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Intege
     c.at_rest[0] = rows
     symmetrise(c)
     size_forces(c, rows, w)
-    for r in range(rows):  # the rounding of a bound is that of what presses
-        i = c.rest[r]
-        if c.pushes[i] == 0 and c.partner[i] >= 0:
-            c.scale[i] += c.static[i] * c.scale[c.partner[i]]
     return SAME
 
 
@@ -124,6 +124,29 @@ def find_parts(c: Choice) -> int:
                 if tied and c.part[j] < c.part[i]:
                     c.part[i], again = c.part[j], True
     return int(n)
+
+
+@exact()
+def size_forces_of_parts(c: Choice, rows: int) -> None:
+    """Set the sizes of forces on gaps, of which any row of their part has a share, and of friction, which they press.
+
+    What presses two discs that only touch is the rounding of what presses them to a floor.
+    """
+    k = c.count
+    for r in range(rows):
+        i = c.rest[r]
+        own, most = c.matrix[i * k + i], 0.0
+        for q in range(rows):
+            j = c.rest[q]
+            if c.part[j] == c.part[i]:
+                most = larger_number(most, c.scale[j] * math.sqrt(c.matrix[j * k + j]))
+        c.bounds[i] = most / math.sqrt(own) if own > 0.0 else 0.0
+    for r in range(rows):
+        i = c.rest[r]
+        if c.pushes[i] != 0:
+            c.scale[i] = c.bounds[i]
+        elif c.partner[i] >= 0:  # the rounding of a bound is that of what presses
+            c.scale[i] += c.static[i] * c.bounds[c.partner[i]]
 
 
 @exact()

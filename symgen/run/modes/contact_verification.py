@@ -46,7 +46,7 @@ def is_right(c: Choice, count: int) -> bool:
             j = box.order[b]
             total -= c.matrix[i * k + j] * box.forces[j]
             size += abs(c.matrix[i * k + j] * box.forces[j])
-        box.left[i], box.scale[i] = total, size
+        box.left[i] = total
         own, tiny, force = c.matrix[i * k + i], _ROUNDING * size, box.forces[i]
         little = tiny / own if own > 0.0 else 0.0
         if c.mode[i] == ON:
@@ -81,6 +81,25 @@ def name_fault(c: Choice, count: int) -> None:
 
 
 @exact()
+def is_same(c: Choice, count: int) -> bool:
+    """Return whether a combination has the accelerations of the first one that is right.
+
+    Differences are compared with the accelerations that the forces of all rows make at bodies alone. Where no force
+    acts along a row, its acceleration is rounding of other rows.
+    """
+    k, box, most = c.count, c.box, 0.0
+    for a in range(count):
+        j = box.order[a]
+        most += math.sqrt(abs(c.matrix[j * k + j])) * (abs(box.forces[j]) + abs(c.forces[j]))
+    for a in range(count):
+        i = box.order[a]
+        size = abs(c.offset[i]) + math.sqrt(abs(c.matrix[i * k + i])) * most
+        if abs(box.left[i] - c.trial[i]) > _ONE * size:
+            return False
+    return True
+
+
+@exact()
 def try_combinations(c: Choice, count: int) -> int:
     """Find the modes of a part; return `SAME`, `NO_CONTACT_MODES`, `SEVERAL_MODES` or `TOO_MANY`.
 
@@ -103,14 +122,10 @@ def try_combinations(c: Choice, count: int) -> int:
                     i = box.order[a]
                     c.best[i], c.part[i] = c.mode[i], c.carrier[i]
                     c.forces[i], c.trial[i], c.bounds[i] = box.forces[i], box.left[i], c.sizes[i]
-            elif solutions == 1:
+            elif solutions == 1 and not is_same(c, count):
+                solutions = 2
                 for a in range(count):
-                    i = box.order[a]
-                    if abs(box.left[i] - c.trial[i]) > _ONE * box.scale[i]:
-                        solutions = 2
-                if solutions == 2:
-                    for a in range(count):
-                        c.other[box.order[a]] = c.mode[box.order[a]]
+                    c.other[box.order[a]] = c.mode[box.order[a]]
         more = next_combination(c, count)
     if solutions == 0:
         name_fault(c, count)

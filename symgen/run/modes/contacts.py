@@ -33,7 +33,14 @@ from symgen.run.modes.bounded_rows import (
 from symgen.run.modes.choice import add_forces, find_rest, write_modes
 from symgen.run.modes.choice import measure_margins as measure_margins_of_rows
 from symgen.run.modes.contact_combinations import LOWER, ON, UPPER
-from symgen.run.modes.contact_parts import choose_part, find_parts, has_contact, keep_touching, probe_contacts
+from symgen.run.modes.contact_parts import (
+    choose_part,
+    find_parts,
+    has_contact,
+    keep_touching,
+    probe_contacts,
+    size_forces_of_parts,
+)
 from symgen.run.modes.contact_verification import try_combinations
 from symgen.run.modes.holding import hold_rows
 from symgen.run.modes.resting import solve_rest
@@ -113,6 +120,7 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
         if probe_contacts(t, c, y, p, w, iw, control) != SAME:
             return NOT_FINITE
         rows = find_parts(c)
+        size_forces_of_parts(c, rows)
         code = choose_parts(c, rows)
         if code != SAME:
             return int(code)

@@ -89,7 +89,9 @@ def test_impacts_accumulate_beside_contacts_and_joints(kind: str) -> None:
 
 @pytest.mark.by_turns(3)
 @pytest.mark.slow
-@pytest.mark.parametrize(("kind", "seed", "until"), [("sled", 29, 0.7), ("sled", 39, 1.0), ("seesaw", 34, 1.0)])
+@pytest.mark.parametrize(
+    ("kind", "seed", "until"), [("sled", 29, 0.7), ("sled", 39, 1.0), ("seesaw", 34, 1.0), ("stack", 33, 0.7)]
+)
 def test_series_within_series_and_sliding_with_its_own_bound(kind: str, seed: int, until: float) -> None:
     """A disc in a corner of a sled: flights over its floor within each flight from its wall.
 
