@@ -160,7 +160,7 @@ def derivative(machine: Machine, value: float) -> Derivative:
     run = machine.model.simulate(
         parameters={machine.parameter: value}, until=machine.until, sensitivities=[machine.parameter], **OWN
     )
-    slope = float(run.gradient(machine.outcome)[-1, 0]) if run.status in ("ok", "unverified") else np.nan
+    slope = float(run.gradient(machine.outcome).values[-1, 0]) if run.status in ("ok", "unverified") else np.nan
     return Derivative(value, slope, run.status, run.reason or "", tuple(event.name for event in run.events))
 
 
