@@ -1,6 +1,6 @@
 """Derivatives of runs with contacts while a parameter varies: right within the errors of differences, or in doubt.
 
-    python -m benchmarks.contact_sweeps [bounce] [rock] [meeting] [wedge] [sled] [play] [geneva] [--rows 300]
+    python -m benchmarks.contact_sweeps [bounce] [rock] [meeting] [wedge] [sled] [play] [woodpecker] [--rows 300]
 
 Each value is a run with exact derivatives, beside differences of runs nearby: central ones of three widths, each with
 half of it (Richardson). Their error is the least change from one width to the next. Between two values with other
@@ -32,8 +32,9 @@ OWN: dict[str, Any] = {"integrator": "dop853", "rtol": 1e-11, "atol": 1e-12, "ve
 NEARBY: dict[str, Any] = OWN | {"rtol": 1e-12, "atol": 1e-13}
 #: Ratio of two widths of differences, number of widths, and how often one-sided differences are narrower.
 NARROWER, WIDTHS = 8.0, 3
-#: Errors of differences up to which a derivative is right; part of the largest derivative of a sweep that is rounding.
-WITHIN, ROUNDING = 4.0, 1e-8
+#: Errors of differences up to which a derivative is right, beside a part of the largest one: the sum of a series has
+#: rounding, and changes with the number of its impacts, so that differences nearby agree by chance.
+WITHIN, ROUNDING = 4.0, 1e-6
 #: Every so many values have an adjoint.
 ADJOINTS = 30
 
@@ -112,8 +113,8 @@ MACHINES = {
     "meeting": Machine(varied("meeting", 6, "c3", "restitution"), "restitution", (0.05, 0.7), 0.9, "two.theta"),
     "wedge": Machine(varied("wedge", 1, "c1", "restitution"), "restitution", (0.1, 0.7), 1.0, "wedge.x"),
     "sled": Machine(varied("sled", 29, "c1", "friction"), "friction", (0.3, 0.6), 0.4, "disc.theta"),
-    "play": Machine("slider-crank-with-clearance", "mu", (0.01, 0.3), 0.006, "slider.x"),
-    "geneva": Machine("geneva", "mu", (0.02, 0.3), 0.3, "wheel.theta"),
+    "play": Machine("slider-crank-with-clearance", "mu", (0.01, 0.3), 0.004, "slider.x"),
+    "woodpecker": Machine("woodpecker", "mu", (0.25, 0.35), 0.3, "sleeve.y"),
 }
 
 
