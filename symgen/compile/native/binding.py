@@ -32,10 +32,13 @@ class Room:
         Its name, the same in all functions.
     size : int
         Its length.
+    asked : bool
+        Whether printed code asks for the length, which may be another one there.
     """
 
     name: str
     size: int
+    asked: bool = False
 
 
 @dataclass(frozen=True)
@@ -274,7 +277,10 @@ class _Specialised(Folding):
 
     def length(self, e: lang.ArrayLength) -> lang.Expression:
         """Return the length of an array."""
-        size = getattr(self.meaning_of_array(e.array), "size", None)
+        meaning = self.meaning_of_array(e.array)
+        if isinstance(meaning, Room) and meaning.asked:
+            return lang.ArrayLength(self.array(e.array))
+        size = getattr(meaning, "size", None)
         if size is None or e.axis:
             if self.binder.final:
                 raise Foreign(f"the length of '{e.array}' in '{self.own.name}', which differs between calls")

@@ -319,6 +319,13 @@ class _BoundPrinter(CPrinter):
         """Return one statement."""
         return [] if isinstance(s, lang.Assign) and s.name in self.lengths else super().statement(s)
 
+    def length_text(self, array: str, axis: int) -> str:
+        """Return the length of an array: a member of the structure has one."""
+        if array not in self.bound.rooms:
+            return super().length_text(array, axis)
+        own = self.variable_text(array)
+        return f"(int)(sizeof {own}/sizeof *{own})"
+
     def variable_text(self, name: str) -> str:
         """Return the name of a variable, or a member of the structure."""
         if name in self.bound.rooms:

@@ -318,7 +318,7 @@ class Transfer:
         was = (old[:, HELD] != 0.0) & (new[:, CONSTANT] == old[:, CONSTANT])
         if passage.starts:
             was[:] = False
-        if not np.any(held):
+        if not (np.any(held) or np.any(new[:, SIGN] != 0.0)):
             slopes[own] = 0.0
             return slopes.reshape(kept.shape)
         values, directions = self.moments.evaluate_moment(rows.state.function, rows.values, after, by)
@@ -333,6 +333,9 @@ class Transfer:
                 line[LIMIT] = directions[2 * k + i]
         self._share_of_row(rows, own, new, slopes, values, directions, after, by)
         rests = (held & ~was) | ((new[:, CONSTANT] != 0.0) & (new[:, SIGN] == 0.0) & (old[:, CONSTANT] == 0.0))
+        if passage.effects:  # a rate that an impact leaves at zero is that of a row at rest, which may slide from there
+            scale = np.array([1.0 / after.w[abi.LENGTH] if info.rows[i].unit == "rad" else 1.0 for i in info.bounded])
+            rests |= (new[:, SIGN] != 0.0) & (np.abs(values[k : 2 * k]) <= STILL * after.w[abi.SPEED] * scale)
         self._check_rest(passage, rows.names, rests, directions, after, by, free)
         return slopes.reshape(kept.shape)
 
@@ -348,12 +351,14 @@ class Transfer:
     ) -> None:
         """Doubt directions in which a row moves that has come to rest here, or a gap that is closed at the start."""
         k, w, info = len(names), after.w, self.compiled.info
-        if len(passage.numbers) == 1:  # the event itself says that its row rests
+        watched = self.watched
+        if watched is not None and len(passage.numbers) == 1 and watched.words[passage.numbers[0]] != HIT:
+            # the event itself says that its row rests
             own = self._name_of_switch(passage)[1:-1].rpartition(".")[0]
             rests = rests & np.array([name != own for name in names])
         rows, which = directions[k : 2 * k][rests], np.array(names)[rests]
-        if passage.starts and self.watched is not None and self.watched.bounded is not None:
-            pushes = rests & (np.arange(k) >= self.watched.bounded.dry)
+        if passage.starts and watched is not None and watched.bounded is not None:
+            pushes = rests & (np.arange(k) >= watched.bounded.dry)
             rows = np.concatenate([rows, directions[:k][pushes]])
             which = np.concatenate([which, np.array(names)[pushes]])
         if not len(rows):

@@ -39,6 +39,24 @@ int main(int count, char **words) {{
     return failed;
 }}
 """
+#: One call, after which transitions are read as the guide has it; each is a line, and the last line counts lost ones.
+ONE_CALL = """
+#include "{prefix}.h"
+#include <stdio.h>
+int main(void) {{
+    static {prefix} model;
+    int event, told = 0, lost = 0;
+    {prefix}_init(&model);
+    if ({prefix}_start(&model) || {prefix}_show(&model, 9.0, 0.003, &event)) return 1;
+    for (double t; told < model.transitions_count[0]; told++) {{
+        const char *word = {prefix}_transition(&model, told, &t);
+        if (word) printf("%.17g %s\\n", t, word);
+        else lost++;
+    }}
+    printf("%d\\n", lost);
+    return 0;
+}}
+"""
 HEAD = '[mechanism]\nname = "{}"\ngravity = [0.0, -9.81]\n'
 #: A pendulum between two stops.
 DOOR = (
@@ -117,6 +135,24 @@ def test_impacts_of_a_ball_accumulate(tmp_path):
     assert transitions[0] == (pytest.approx(fall, abs=1e-12), "floor.hit")
     assert transitions[-1][1] == "floor.rest"
     assert transitions[-1][0] == pytest.approx(fall * (1.0 + 0.7) / (1.0 - 0.7), abs=1e-5)
+
+
+@pytest.mark.by_turns(2)
+@pytest.mark.slow
+def test_a_program_keeps_as_many_transitions_as_it_asks_for(tmp_path):
+    """A ball strikes the floor more than a hundred times in one call."""
+    model = loaded(BALL.replace("restitution = 0.7", "restitution = 0.9"), tmp_path)
+    run = model.simulate(method="direct-correction", integrator="rk4", step=3e-3, until=9.0, verify=False)
+    expected, folder = transitions_of(run), written(model.mechanism, tmp_path / "c")
+    (folder / "main.c").write_text(ONE_CALL.format(prefix="ball"))
+    assert run.ok and len(expected) > 100
+    for kept, options in ((64, ()), (100, ("-DBALL_TRANSITIONS=100",)), (1000, ("-DBALL_TRANSITIONS=1000",))):
+        ran = subprocess.run([compiled(folder, *options)], capture_output=True, text=True, check=True)
+        *lines, lost = ran.stdout.splitlines()
+        assert int(lost) == max(0, len(expected) - kept)
+        assert [line.split()[1] for line in lines] == [word for _, word in expected[int(lost) :]]
+        times = [float(line.split()[0]) for line in lines]
+        np.testing.assert_allclose(times, [t for t, _ in expected[int(lost) :]], rtol=0.0, atol=1e-9)
 
 
 @pytest.mark.by_turns(4)
