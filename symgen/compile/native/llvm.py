@@ -70,7 +70,7 @@ def llvm_module(
 def loop_module(function: lang.Function, symbol: str) -> str:
     """Return the text of a module that defines a loop, with its called parts.
 
-    Loops are unrolled in functions over lanes, and everywhere if a part asks for it (`symgen.compile.store.jit.jit`).
+    Loops are unrolled in functions over lanes, and in parts that ask for it (`symgen.compile.store.jit.jit`).
 
     Parameters
     ----------
@@ -87,10 +87,9 @@ def loop_module(function: lang.Function, symbol: str) -> str:
                 names[id(part)] = f"{symbol}.{len(names)}.{part.name}"
                 functions.append(part)
     texts, inserted = list[str](), dict[str, str]()
-    unrolled = any(getattr(f.source, "unrolled", False) for f in functions)
     for each in functions:
         printer = LlvmPrinter(each, lambda f: names[id(f)], "" if each is function else "internal ", False)
-        printer.as_written = not (unrolled or printer.for_lanes())
+        printer.as_written = not (getattr(each.source, "unrolled", False) or printer.for_lanes())
         texts.append(printer.text())
         inserted |= printer.inserted
     lines = [line for text in inserted.values() for line in text.splitlines()]

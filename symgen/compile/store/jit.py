@@ -305,7 +305,7 @@ def jit(
     contracted : bool
         Whether multiplication and addition may be fused.
     unrolled : bool
-        Whether loops run over the entries of a matrix, so that copies of their bodies pay in all loops that call it.
+        Whether its loops run over the entries of a matrix, so that copies of their bodies pay.
 
     Returns
     -------
