@@ -14,7 +14,7 @@ ROWS = 5
 def test_derivatives_over_a_parameter_are_those_of_differences(name: str) -> None:
     sweep = examined(MACHINES[name], ROWS, changes=1, adjoints=2)
     assert not sweep.wrong and sweep.statuses["ok"] >= ROWS - 1
-    assert sweep.apart < 1e-6 and sweep.adjoint < 1e-11
+    assert sweep.apart < 1e-6 and sweep.adjoint < 1e-9
 
 
 @pytest.mark.by_turns(3)
