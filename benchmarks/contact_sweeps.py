@@ -182,13 +182,13 @@ def differences(machine: Machine, values: Array) -> tuple[Array, Array]:
 
 def from_one_side(machine: Machine, value: float, way: float) -> tuple[float, float]:
     """Return a derivative by differences on one side of a value, and its error."""
-    found = list[float]()
+    slopes = list[float]()
     for width in machine.width * (machine.values[1] - machine.values[0]) * NARROWER ** -np.arange(1.0, 1.0 + WIDTHS):
         f = machine.ends(value + way * width * np.array([0.0, 0.5, 1.0, 1.5, 2.0]))
-        found.append(float(way * np.dot((-25.0, 48.0, -36.0, 16.0, -3.0), f) / (6.0 * width)))
-    errors = np.abs(np.diff(found))
+        slopes.append(float(way * np.dot((-25.0, 48.0, -36.0, 16.0, -3.0), f) / (6.0 * width)))
+    errors = np.abs(np.diff(slopes))
     best = int(np.argmin(np.where(np.isfinite(errors), errors, np.inf)))
-    return found[best + 1], float(errors[best])
+    return slopes[best + 1], float(errors[best])
 
 
 def between(machine: Machine, one: Derivative, other: Derivative) -> tuple[Derivative, Derivative]:

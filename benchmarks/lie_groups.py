@@ -175,7 +175,7 @@ def by_closed_form(name: str, steps: int, until: float | None = None) -> float:
     coordinates, velocities = ([x.name for x in names] for names in (dynamics.coordinates, dynamics.velocities))
     spins = [(coordinates.index(f"{x[:-3]}.e0"), i) for i, x in enumerate(velocities) if x.endswith(".wx")]
     plain = [(coordinates.index(x.replace(".v", ".")), i) for i, x in enumerate(velocities) if ".v" in x]
-    places, speeds = (np.array(found, dtype=int) for found in ([a for a, _ in plain], [b for _, b in plain]))
+    places, speeds = (np.array(indices, dtype=int) for indices in ([a for a, _ in plain], [b for _, b in plain]))
     q, v = (np.array(x, dtype=float) for x in dynamics.start)
     none = np.zeros_like(v)
 
@@ -213,10 +213,10 @@ SCHEMES = ("rkmk4", "rkmk4-screws", "rk4")
 def explicit_cells(name: str, steps: int) -> Iterator[str]:
     """Yield the error of their run, that of `rkmk4`, its difference and the closed form's, and errors of others."""
     theirs, right = EXPLICIT[name][steps], exact(name)
-    found = [end_of_run(name, steps, integrator=scheme, coordinates="joint")[1] for scheme in SCHEMES]
+    omegas = [end_of_run(name, steps, integrator=scheme, coordinates="joint")[1] for scheme in SCHEMES]
     closed = number(abs(by_closed_form(name, steps) - theirs)) if steps <= LONGEST else ""
-    yield from (number(abs(theirs - right)), number(abs(found[0] - right)), number(abs(found[0] - theirs)), closed)
-    yield from (number(abs(x - right)) for x in found[1:])
+    yield from (number(abs(theirs - right)), number(abs(omegas[0] - right)), number(abs(omegas[0] - theirs)), closed)
+    yield from (number(abs(x - right)) for x in omegas[1:])
 
 
 def implicit_cells(label: str, steps: int) -> Iterator[str]:

@@ -32,13 +32,13 @@ class Room:
         Its name, the same in all functions.
     size : int
         Its length.
-    asked : bool
-        Whether printed code asks for the length, which may be another one there.
+    resizable : bool
+        Whether printed code may give it another length, and asks for that.
     """
 
     name: str
     size: int
-    asked: bool = False
+    resizable: bool = False
 
 
 @dataclass(frozen=True)
@@ -278,7 +278,7 @@ class _Specialised(Folding):
     def length(self, e: lang.ArrayLength) -> lang.Expression:
         """Return the length of an array."""
         meaning = self.meaning_of_array(e.array)
-        if isinstance(meaning, Room) and meaning.asked:
+        if isinstance(meaning, Room) and meaning.resizable:
             return lang.ArrayLength(self.array(e.array))
         size = getattr(meaning, "size", None)
         if size is None or e.axis:

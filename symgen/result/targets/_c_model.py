@@ -18,9 +18,9 @@ from symgen.compile.native.formula_lines import C, NotInLines
 from symgen.compile.native.read import Foreign
 from symgen.derive.emit.module import render_template
 from symgen.result.targets._c_names import defined_names, prefix_of
-from symgen.result.targets._c_runs import OF_LATEST, cells_of, check_integrator, places_of_scales, values_of_run
+from symgen.result.targets._c_runs import cells_of, check_integrator, places_of_scales, values_of_run
 from symgen.run.compiling.checked import check_kernels, checked_function
-from symgen.run.compiling.printed import WEIGHED, Printed, PrintedEvents
+from symgen.run.compiling.printed import OF_TRANSITIONS, WEIGHED, Printed, PrintedEvents
 from symgen.run.compiling.printed_run import PrintedRun
 from symgen.run.compiling.side import compile_side
 from symgen.run.effects.locking import MOST_NAMED
@@ -184,7 +184,7 @@ class CModel:
             "effects": self._resets,
             "foresees": self.foresees,
             "memory": [
-                {"name": name, "is_real": kind == "float", "size": size, "latest": name in OF_LATEST}
+                {"name": name, "is_real": kind == "float", "size": size, "latest": name in OF_TRANSITIONS}
                 for name, (kind, size) in self._memory.items()
                 if name not in _OWN
             ],

@@ -24,9 +24,6 @@ if TYPE_CHECKING:
     from symgen.run.compiling.printed_run import PrintedRun
     from symgen.run.layout.compiled import CompiledModel
 
-#: Arrays of the memory with as many numbers as transitions are kept.
-OF_LATEST = frozenset(("transitions_times", "transitions_rows", "transitions_words"))
-
 
 def check_integrator(name: str | None) -> None:
     """Refuse an integrator that is not printed: explicit Runge-Kutta schemes are, as they have no matrices.

@@ -45,8 +45,8 @@ if TYPE_CHECKING:
 SWITCHING, CHANGED, WEIGHED = "formulas_of_events", "formulas_of_effects", "formulas_of_masses"
 #: Name of an array in the memory, by the parameter; None where it is constant, empty where it is passed.
 Naming = Callable[[str], str | None]
-#: Arrays whose lengths printed code asks for.
-ASKED = frozenset(("transitions_times",))
+#: Arrays of the memory with as many numbers as transitions are kept, which a program may change.
+OF_TRANSITIONS = frozenset(("transitions_times", "transitions_rows", "transitions_words"))
 
 
 @lru_cache(maxsize=512)
@@ -112,7 +112,7 @@ def _meaning_of_value(
         return lang.Constant(parameter.type, number)
     name, values = room(parameter.name), np.ravel(value)
     if name is not None:
-        return Room(name, len(values), name in ASKED) if name else Elements(len(values))
+        return Room(name, len(values), name in OF_TRANSITIONS) if name else Elements(len(values))
     table = tuple(values.tolist())
     return ConstantTable(parameter.name.rpartition(".")[2], parameter.type, table)
 
