@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.integrate import DOP853
 
 from benchmarks.plain.moving import Array
@@ -47,8 +48,8 @@ class Motion:
     lam: list[Array] = field(default_factory=list)
     energies: list[Array] = field(default_factory=list)
     reactions: list[Array] = field(default_factory=list)
-    unique: Array | None = None
-    unique_reactions: Array | None = None
+    unique: NDArray[np.bool_] | None = None
+    unique_reactions: NDArray[np.bool_] | None = None
     smallest: float = np.inf
     reached: float = 0.0
     evaluations: int = 0

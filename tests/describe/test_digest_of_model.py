@@ -1,6 +1,10 @@
 """The digest holds what the equations depend on, and nothing else."""
 
+import builtins
 import copy
+import functools
+import math
+import operator
 import subprocess
 import sys
 import tomllib
@@ -122,6 +126,28 @@ def test_all_models_differ():
 def test_the_canonical_text_has_floats_to_the_last_digit():
     assert "0.1 " in canonical_text(changed("bodies.a.centre_of_mass", [0.1, 0.0])).replace(")", " ")
     assert "-0.0" not in canonical_text(changed("bodies.a.centre_of_mass", [-0.0, 0.0]))
+
+
+def exactly(terms, start=0):
+    """Sum floats as exactly as Python 3.12 and newer do, anything else as always."""
+    terms = list(terms)
+    if start == 0 and terms and all(type(term) is float for term in terms):
+        return math.fsum(terms)
+    return functools.reduce(operator.add, terms, start)
+
+
+def one_after_the_other(terms, start=0):
+    """Sum as Python 3.11 does."""
+    return functools.reduce(operator.add, terms, start)
+
+
+@pytest.mark.parametrize("name", ["chain:4", "stewart-platform", "front-suspension"])
+def test_no_python_adds_the_digits_of_a_description_in_another_way(name, monkeypatch):
+    found = set()
+    for way in (exactly, one_after_the_other):
+        monkeypatch.setattr(builtins, "sum", way)
+        found.add(digest(load_mechanism(name)))
+    assert len(found) == 1
 
 
 @pytest.mark.slow

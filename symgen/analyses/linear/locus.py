@@ -233,16 +233,15 @@ class _Search:
         every = [values[0]]
         for k, (a, b) in enumerate(pairwise(values)):
             beside = [values[i - 1 : i + 2] for i in (k, k + 1) if 0 < i < len(values) - 1]
-            bend = (
-                np.max([self.bend_of_real_parts(*three) for three in beside], axis=0) if beside else np.array(math.inf)
-            )
+            bends = [self.bend_of_real_parts(*three) for three in beside]
+            bend: Array = np.max(bends, axis=0) if bends else np.array(math.inf)
             every += [*self.values_inside(a, b, bend, LOOKS), b]
         return every
 
     def values_inside(self, a: float, b: float, bend: Array, looks: int) -> list[float]:
         """Return the values between two at which to evaluate real parts, given how far these may bend."""
         first, last = (self.order_eigenvalues(value, self.count_on_axis(a, b)).real for value in (a, b))
-        bend = bend if bend.ndim == 0 or len(bend) == len(first) else bend.max(initial=0.0)
+        bend = bend if bend.ndim == 0 or len(bend) == len(first) else np.asarray(bend.max(initial=0.0))
         left = np.minimum(np.abs(first), np.abs(last))
         if not looks or not np.any((first * last > 0.0) & (left > self.level) & (bend > BENT * left)):
             return []

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import Any
+
 import msgspec
 
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number
@@ -32,15 +35,26 @@ def rotation_matrix_of(e: EulerParameters) -> Matrix:
     )
 
 
+def scalar_product(a: Iterable[Any], b: Iterable[Any]) -> Any:
+    """Return the scalar product of two vectors of numbers or arrays, its terms added one after the other.
+
+    `sum` adds numbers in another way since Python 3.12: a digest of a mechanism would depend on the interpreter.
+    """
+    result: Any = 0.0
+    for x, y in zip(a, b, strict=True):
+        result = result + x * y
+    return result
+
+
 def rotate(m: Matrix, v: tuple[float, ...]) -> tuple[float, float, float]:
     """Return the matrix times a vector."""
-    x, y, z = (sum(a * b for a, b in zip(row, v, strict=True)) for row in m)
+    x, y, z = (scalar_product(row, v) for row in m)
     return x, y, z
 
 
 def rotate_back(m: Matrix, v: tuple[float, ...]) -> tuple[float, float, float]:
     """Return the transposed matrix times a vector."""
-    x, y, z = (sum(m[i][j] * v[i] for i in range(3)) for j in range(3))
+    x, y, z = (scalar_product(column, v) for column in zip(*m, strict=True))
     return x, y, z
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+import math
 from dataclasses import dataclass
 
 from symgen.base.vocabulary.expressions import (
@@ -154,7 +155,7 @@ def beam_segments(scope: Scope, beam: BeamSection) -> list[Segment]:
 def cross_sections(scope: Scope, line: list[Segment]) -> list[list[CrossSection]]:
     """Return the cross sections at each node of a line: two at a vertex, the end and the start of segments."""
     lengths = [scope.value(segment.length, "elements") for segment in line]
-    nodes, before, whole = list[list[CrossSection]]([[]]), 0.0, sum(lengths)
+    nodes, before, whole = list[list[CrossSection]]([[]]), 0.0, math.fsum(lengths)
     for segment, length in zip(line, lengths, strict=True):
         step = segment.step
         for k, weight in enumerate(node_weights(segment.elements)):

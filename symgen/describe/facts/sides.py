@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from symgen.base.vocabulary.expressions import Number
 from symgen.base.vocabulary.measures import Direction, Dot, Holonomic, Sum
-from symgen.base.vocabulary.rotations import rotate, rotation_matrix_of
+from symgen.base.vocabulary.rotations import rotate, rotation_matrix_of, scalar_product
 from symgen.describe.mechanism import Joint, Mechanism, SpatialBody
 from symgen.describe.parts.kinds import JOINTS
 from symgen.describe.parts.topology import articulation_of_joint
@@ -112,6 +112,6 @@ def _direction_in_ground(arm: Arm, q: Any) -> tuple[Any, ...]:
     if arm.first < 0:
         return arm.vector
     e = q[arm.first : arm.first + 4]
-    length = sum(x * x for x in e) ** 0.5
+    length = scalar_product(e, e) ** 0.5
     a, b, c, d = (x / length for x in e)
     return rotate(rotation_matrix_of((a, b, c, d)), arm.vector)

@@ -6,6 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from symgen.base.vocabulary.rotations import scalar_product
+
 Vector = tuple[float, float, float]
 Matrix = tuple[Vector, Vector, Vector]
 
@@ -42,11 +44,6 @@ def vector_sum(x: Vector, y: Vector) -> Vector:
 def scaled_vector(factor: float, x: Vector) -> Vector:
     """Return a multiple of a vector."""
     return factor * x[0], factor * x[1], factor * x[2]
-
-
-def scalar_product(x: Vector, y: Vector) -> float:
-    """Return the scalar product."""
-    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]
 
 
 def unit_vector(x: Vector) -> Vector:
@@ -92,7 +89,7 @@ def rotation_from_rpy(angles: Sequence[float]) -> Matrix:
 
 def rotation_from_quaternion(numbers: Sequence[float]) -> Matrix:
     """Return the rotation of Euler parameters, the scalar first, of any length but 0."""
-    size = math.sqrt(sum(x * x for x in numbers))
+    size = math.sqrt(scalar_product(numbers, numbers))
     w, x, y, z = (number / size for number in numbers)
     return (
         (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)),

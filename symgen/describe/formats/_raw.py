@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from pathlib import Path
@@ -9,6 +10,7 @@ from typing import Any
 
 from symgen.base.errors import InputError
 from symgen.base.escapes import printable
+from symgen.base.vocabulary.rotations import scalar_product
 from symgen.describe.formats._drives import ROUNDING, Drives, names_with_count, tidy_numbers
 from symgen.describe.formats._names import DescriptionNames
 from symgen.describe.formats._poses import (
@@ -125,7 +127,9 @@ class _Description:
         return members
 
     def _mass_of_body(self, body: str) -> float:
-        return sum(self.robot.links[link].mass for link, top in self.carriers.items() if top == body and link != GROUND)
+        return math.fsum(
+            self.robot.links[link].mass for link, top in self.carriers.items() if top == body and link != GROUND
+        )
 
     def place_of_body(self, body: str) -> Pose:
         """Return the frame of a body in the ground frame."""
@@ -309,7 +313,7 @@ def _box_shape(size: Vector, own: Pose) -> dict[str, Any]:
     """Return a box: by its size where its edges are along the body's axes, else by its edges."""
     rows: Matrix = own.rotation
     if all(min(abs(abs(x) - 1.0), abs(x)) < 1e-6 for row in rows for x in row):
-        sizes = [sum(abs(x) * s for x, s in zip(row, size, strict=True)) for row in rows]
+        sizes = [scalar_product(map(abs, row), size) for row in rows]
         return {"type": "box", "size": tidy_numbers(sizes), "at": tidy_numbers(own.origin)}
     x, y, z = (s / 2.0 for s in size)
     path = "--- +-- ++- -+- --- --+ +-+ +-- +-+ +++ ++- +++ -++ -+- -++ --+"

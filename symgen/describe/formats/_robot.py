@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -223,7 +224,7 @@ def set_follower_starts(followers: list[CoupledCoordinate], connections: Mapping
     while ready := [f for f in waiting.values() if f.of not in waiting]:
         for f in ready:
             leader = connections[str(f.of)].value
-            connections[f.joint].value = sum(c * leader**k for k, c in enumerate(f.polynomial))
+            connections[f.joint].value = math.fsum(c * leader**k for k, c in enumerate(f.polynomial))
             del waiting[f.joint]
 
 

@@ -8,7 +8,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from symgen.base.errors import InputError, quote, suggest
-from symgen.describe.formats._poses import Pose, Vector, matrix_transpose, matrix_vector, scalar_product, unit_vector
+from symgen.base.vocabulary.rotations import scalar_product
+from symgen.describe.formats._poses import Pose, Vector, matrix_transpose, matrix_vector, unit_vector
 from symgen.describe.formats._robot import GROUND, Connection, CoupledCoordinate, Kind, RobotLink
 from symgen.describe.formats._xml import pose_of_text, read_inner_flag, read_inner_number, read_inner_text, read_triple
 

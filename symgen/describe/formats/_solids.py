@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from symgen.describe.formats._poses import ORIGIN, Matrix, Vector, scalar_product, scaled_vector, vector_sum
+from symgen.base.vocabulary.rotations import scalar_product
+from symgen.describe.formats._poses import ORIGIN, Matrix, Vector, scaled_vector, vector_sum
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class SolidMass:
 def sum_of_solids(solids: Iterable[SolidMass]) -> SolidMass:
     """Return solids as one, by Steiner."""
     solids = list(solids)
-    mass, centre = sum(solid.mass for solid in solids), ORIGIN
+    mass, centre = math.fsum(solid.mass for solid in solids), ORIGIN
     if mass > 0.0:
         for solid in solids:
             centre = vector_sum(centre, scaled_vector(solid.mass / mass, solid.centre))

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from symgen.base.errors import InputError, quote, suggest
+from symgen.base.vocabulary.rotations import scalar_product
 from symgen.describe.formats._poses import Pose, axis_rotation, scaled_vector
 from symgen.describe.formats._reader import RobotReader, tensor_of_entries
 from symgen.describe.formats._robot import (
@@ -188,7 +189,7 @@ class _Reader(RobotReader):
                 if c.kind == "revolute" and c.value:
                     motion = Pose(rotation=axis_rotation(c.axis, c.value))
                 elif c.kind == "translational" and c.value:
-                    size = sum(x * x for x in c.axis) ** 0.5
+                    size = scalar_product(c.axis, c.axis) ** 0.5
                     motion = Pose(scaled_vector(c.value / size, c.axis))
                 links[c.child].place = c.at @ motion
                 c.at = links[c.child].place  # the axis is the same before and after the motion

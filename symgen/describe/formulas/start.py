@@ -21,6 +21,7 @@ from symgen.base.vocabulary.rotations import (
     composed_rotation,
     rotate,
     rotation_matrix_of,
+    scalar_product,
 )
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.describe.modal_body import COORDINATE, SPEED
@@ -171,7 +172,7 @@ def euler_parameters(orientation: Orientation, numbers: Numbers, where: str) -> 
 
 
 def _vector_length(vector: tuple[float, ...], numbers: Numbers) -> float:
-    length: float = numbers.apply_function("sqrt", sum(e * e for e in vector))
+    length: float = numbers.apply_function("sqrt", scalar_product(vector, vector))
     return length
 
 
@@ -180,7 +181,7 @@ def _axes_from_directions(along: tuple[float, ...], towards: tuple[float, ...], 
     length = _vector_length(along, numbers)
     length = numbers.check_above(0.0, length, where, "a direction of the x axis", "a vector of length 0")
     a = tuple(e / length for e in along)
-    part = sum(e * f for e, f in zip(a, towards, strict=True))
+    part = scalar_product(a, towards)
     b = tuple(f - part * e for e, f in zip(a, towards, strict=True))
     limit, expected = 1e-9 * _vector_length(towards, numbers), "a second direction that is not parallel to the first"
     rest = numbers.check_above(limit, _vector_length(b, numbers), where, expected, "a parallel one")
@@ -249,8 +250,8 @@ def _turned_angle(body: AnyBody, before: Sequence[float], after: Sequence[float]
     """Return the angle by which a body was turned [rad]; in space the smallest one."""
     if not isinstance(body, SpatialBody):
         return abs(after[2] - before[2])
-    lengths = [math.sqrt(sum(e * e for e in q[3:7])) for q in (before, after)]
-    cosine = abs(sum(a * b for a, b in zip(before[3:7], after[3:7], strict=True))) / (lengths[0] * lengths[1])
+    lengths = [math.sqrt(scalar_product(q[3:7], q[3:7])) for q in (before, after)]
+    cosine = abs(scalar_product(before[3:7], after[3:7])) / (lengths[0] * lengths[1])
     return 2.0 * math.acos(min(1.0, cosine))
 
 
@@ -259,7 +260,7 @@ def _place_of_point(body: AnyBody, q: Sequence[float], at: Sequence[float]) -> l
     if body.is_point:
         return list(q)
     if isinstance(body, SpatialBody):
-        length = math.sqrt(sum(e * e for e in q[3:7]))
+        length = math.sqrt(scalar_product(q[3:7], q[3:7]))
         e0, e1, e2, e3 = (e / length for e in q[3:7])
         turned = rotate(rotation_matrix_of((e0, e1, e2, e3)), (at[0], at[1], at[2]))
         return [x + dx for x, dx in zip(q[:3], turned, strict=True)]

@@ -21,7 +21,7 @@ from symgen.base.vocabulary.expressions import (
     sum_of_terms,
 )
 from symgen.base.vocabulary.measures import GROUND, Bearing, Component, Direction, Marker, axes
-from symgen.base.vocabulary.rotations import Matrix, rotate, rotation_matrix_of
+from symgen.base.vocabulary.rotations import Matrix, rotate, rotation_matrix_of, scalar_product
 from symgen.describe.formulas.evaluate import scalar_values
 from symgen.describe.formulas.start import euler_parameters
 from symgen.describe.mechanism import SpatialBody
@@ -127,12 +127,12 @@ def _check_planes(scope: Scope, a: _Placed, b: _Placed) -> None:
     for here, there in ((a, b), (b, a)):
         if not here.has_axis:
             continue
-        beside = abs(_product(_between(here, there), here.triad[2]))
+        beside = abs(scalar_product(_between(here, there), here.triad[2]))
         if beside > IN_PLANE * apart:
             expected = "the parts of the rope beside a sheave in its plane, as the bodies start"
             hint = "an eyelet, { body, at } without a radius, turns the rope in any direction"
             raise scope.error(here.stop.key, expected, f"{there.stop.key} that is {beside:.3g} m out of it", hint)
-        if there.has_axis and (cosine := abs(_product(here.triad[2], there.triad[2]))) < 1.0 - IN_PLANE**2:
+        if there.has_axis and (cosine := abs(scalar_product(here.triad[2], there.triad[2]))) < 1.0 - IN_PLANE**2:
             expected = f"the axis of {there.stop.key} before or after it, as both are in one plane"
             got = f"one at {math.degrees(math.acos(min(cosine, 1.0))):.3g} degrees to it"
             hint = "an eyelet, { body, at } without a radius, between skew sheaves"
@@ -145,7 +145,8 @@ def _across(here: _Placed, a: _Placed, b: _Placed) -> tuple[Expr, float]:
     The axes of two sheaves may point against each other.
     """
     signs = [
-        math.copysign(1.0, _product(here.triad[2], x.triad[2])) if here.has_axis and x.has_axis else 1.0 for x in (a, b)
+        math.copysign(1.0, scalar_product(here.triad[2], x.triad[2])) if here.has_axis and x.has_axis else 1.0
+        for x in (a, b)
     ]
     first, second = (
         call("neg", x.stop.radius) if sign < 0.0 and x.stop.radius != ZERO else x.stop.radius
@@ -181,7 +182,7 @@ def _leaving(i: int, here: _Placed, a: _Placed, b: _Placed) -> _Leaving:
         apart = call("sqrt", _square(_components(name, start, end, (x, y))))
         direction = call("sub", direction, call("asin", call("div", across, apart)))
     to = _between(start, end)
-    along = _product(to, here.triad[0]), _product(to, here.triad[1])
+    along = scalar_product(to, here.triad[0]), scalar_product(to, here.triad[1])
     return _Leaving(direction, math.atan2(along[1], along[0]) - math.asin(side / math.hypot(*along)), beyond)
 
 
@@ -214,7 +215,3 @@ def _between(a: _Placed, b: _Placed) -> _Vector:
 
 def _sum(a: _Vector, b: _Vector) -> _Vector:
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
-
-
-def _product(a: _Vector, b: _Vector) -> float:
-    return sum(x * y for x, y in zip(a, b, strict=True))

@@ -22,7 +22,7 @@ from symgen.base.vocabulary.expressions import (
     vector_product,
 )
 from symgen.base.vocabulary.measures import GROUND, Direction
-from symgen.base.vocabulary.rotations import rotate, rotate_back, rotation_matrix_of
+from symgen.base.vocabulary.rotations import rotate, rotate_back, rotation_matrix_of, scalar_product
 from symgen.describe.formulas.evaluate import scalar_values
 from symgen.describe.formulas.start import euler_parameters
 from symgen.describe.mechanism import SpatialBody, Vec
@@ -157,7 +157,7 @@ def make_cross(
             first = _part_across_axis(scope, "reference", _unit_vector(scope, "reference", reference[i]), along)
         elif _is_numeric(scope, body) and _is_numeric(scope, other):
             towards = _direction_in_other_body(scope, "axes", other, body, _unit_vector(scope, "axes", axes[1 - i]))
-            if abs(_scalar_product(towards, along)) > 0.99:
+            if abs(scalar_product(towards, along)) > 0.99:
                 raise scope.error("axes", "two axes that cross", "two that start parallel")
             first = _part_across_axis(scope, "axes", towards, along)
         else:
@@ -205,10 +205,10 @@ def _swing_direction(
     if not all(_is_numeric(scope, body) for body in bodies):
         return None
     x, along = (_direction_in_other_body(scope, key, *bodies, vector) for vector in directions)
-    lean = 1.0 + _scalar_product(along, axis)
+    lean = 1.0 + scalar_product(along, axis)
     if lean < 1e-3:
         return None
-    part = _scalar_product(x, axis) / lean
+    part = scalar_product(x, axis) / lean
     return x[0] - part * (along[0] + axis[0]), x[1] - part * (along[1] + axis[1]), x[2] - part * (along[2] + axis[2])
 
 
@@ -229,7 +229,7 @@ def _any_direction_across(axis: _Triple) -> _Triple:
 
 def _perpendicular_part(vector: _Triple, axis: _Triple) -> tuple[_Triple, float]:
     """Return the part of a vector that is perpendicular to the axis, of length 1, and its length before."""
-    part = _scalar_product(vector, axis)
+    part = scalar_product(vector, axis)
     x, y, z = (v - part * a for v, a in zip(vector, axis, strict=True))
     size = math.hypot(x, y, z)
     return _tidy_vector((x / (size or 1.0), y / (size or 1.0), z / (size or 1.0))), size
@@ -239,10 +239,6 @@ def _right_handed_triad(body: str, first: _Triple, axis: _Triple) -> Triad:
     (a, b, c), (d, e, f) = axis, first
     second = _tidy_vector((b * f - c * e, c * d - a * f, a * e - b * d))
     return Triad(*(Direction(body, tuple(literal_of(x) for x in v)) for v in (first, second, axis)))
-
-
-def _scalar_product(a: _Triple, b: _Triple) -> float:
-    return sum(x * y for x, y in zip(a, b, strict=True))
 
 
 def _tidy_vector(v: _Triple) -> _Triple:
