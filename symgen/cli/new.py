@@ -25,7 +25,7 @@ from symgen.cli._shared_options import examples_in_help
 def command(name: str, output: str | None, space: str) -> int:
     """Write a commented mechanism file that runs without changes and shows every key. Never overwrites a file."""
     from symgen.base.files import check_writable, write_whole
-    from symgen.describe.files.template import new_file_text
+    from symgen.describe.edits.template import new_file_text
 
     text = new_file_text(name, space)
     if output == "-":

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from symgen.describe.files.template import new_file_text
+from symgen.describe.edits.template import new_file_text
 from tests.browser.chromium import Chromium
 from tests.browser.editor_page import KEPT, Page
 

@@ -11,7 +11,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from tests.describe.test_units import UNITS, WRONG
+from tests.describe.files.test_units import UNITS, WRONG
 
 ROD = """[mechanism]
 name = "rod"

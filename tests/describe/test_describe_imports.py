@@ -15,7 +15,7 @@ LOAD = "from symgen.describe import load"
         f"{LOAD}; [load(name) for name in ('andrews', 'n-four-bar:3', 'driven-four-bar')]",
         "import symgen.describe.files.json_schema as s; s.file_schema()",
         "from symgen.describe import catalogue; catalogue.entries()",
-        "from symgen.describe.files.template import new_file_text; new_file_text()",
+        "from symgen.describe.edits.template import new_file_text; new_file_text()",
         f"{LOAD}; from symgen.describe.facts.digest import digest; digest(load('four-bar'))",
     ],
 )

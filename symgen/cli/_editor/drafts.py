@@ -16,18 +16,18 @@ from symgen.cli._editor.joints import joint_equations
 from symgen.cli._editor.made import make_file_for_browser
 from symgen.cli._editor.texts import Texts
 from symgen.describe.drawing.scene import Array
+from symgen.describe.edits.dimensions import dimension_changes, dimensions_of_file
+from symgen.describe.edits.handles import movable_points, spans_of_parameters
+from symgen.describe.edits.renaming import remove_from_text, rename_in_text
+from symgen.describe.edits.snippet_tables import Spot
+from symgen.describe.edits.snippets import TURNED, snippet_changes
+from symgen.describe.edits.text_changes import apply_changes, utf16_places
 from symgen.describe.facts.digest import digest
-from symgen.describe.files.dimensions import dimension_changes, dimensions_of_file
-from symgen.describe.files.handles import movable_points, spans_of_parameters
 from symgen.describe.files.load import LARGEST_FILE, parse_toml
 from symgen.describe.files.origins import Source
 from symgen.describe.files.places import Path as Place
 from symgen.describe.files.places import outline_of_document
 from symgen.describe.files.problems import Problem, problems_of_text
-from symgen.describe.files.renaming import remove_from_text, rename_in_text
-from symgen.describe.files.snippet_tables import Spot
-from symgen.describe.files.snippets import TURNED, snippet_changes
-from symgen.describe.files.text_changes import apply_changes, utf16_places
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
 from symgen.result.player.motion_page import page_data

@@ -10,9 +10,9 @@ from typing import Any
 from symgen.base.errors import InputError, quote
 from symgen.base.files import check_writable, system_message, write_whole
 from symgen.describe import catalogue
+from symgen.describe.edits.template import new_file_text
+from symgen.describe.edits.text_changes import keep_line_ends
 from symgen.describe.files.load import LARGEST_FILE, read_text
-from symgen.describe.files.template import new_file_text
-from symgen.describe.files.text_changes import keep_line_ends
 
 _MARK = "\ufeff"
 

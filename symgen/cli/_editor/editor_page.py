@@ -8,7 +8,7 @@ from importlib.resources import files
 from typing import Any
 
 from symgen.base.escapes import script_json
-from symgen.describe.files.section_words import words_of_sections
+from symgen.describe.edits.section_words import words_of_sections
 from symgen.result.player.motion_page import editing_page
 
 SCRIPTS = (

@@ -6,11 +6,11 @@ import msgspec
 
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.measures import GROUND
-from symgen.describe.files.snippet_tables import Spot
+from symgen.describe.edits.snippet_tables import Spot
 
 
 class RequestedPlace(msgspec.Struct, frozen=True):
-    """A point that was pointed at: see `symgen.describe.files.snippet_tables.Spot`."""
+    """A point that was pointed at: see `symgen.describe.edits.snippet_tables.Spot`."""
 
     x: float
     y: float

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from symgen.base.errors import InputError
+from symgen.describe.edits.rereading import ReadText, read_text_after
 from symgen.describe.facts.lifted import Lifted, lift_numbers, lifted_with_numbers, numbers_of_file, path_in_words
 from symgen.describe.files.origins import Source, origin_of
 from symgen.describe.files.places import Outline
 from symgen.describe.files.places import Path as Place
-from symgen.describe.files.rereading import ReadText, read_text_after
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
 

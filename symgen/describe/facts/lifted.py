@@ -14,7 +14,7 @@ import msgspec
 
 from symgen.base.errors import InputError, quote, suggest
 from symgen.describe.bounds.keys import sections_of_files
-from symgen.describe.files.new_numbers import put_at_path, value_at_path
+from symgen.describe.edits.new_numbers import put_at_path, value_at_path
 from symgen.describe.files.origins import Origin, keep_origin, origin_of
 from symgen.describe.files.validate import validate
 from symgen.describe.formulas.identifiers import LONGEST

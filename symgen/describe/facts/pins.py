@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.units import read_amount
 from symgen.base.vocabulary.measures import GROUND
+from symgen.describe.edits.handles import PINS, PointsOfFile, WrittenPoint
+from symgen.describe.edits.new_numbers import put_at_path, value_at_path
 from symgen.describe.facts.lifted import Path, free_parameter_name, names_of_scalars, path_in_words
-from symgen.describe.files.handles import PINS, PointsOfFile, WrittenPoint
-from symgen.describe.files.new_numbers import put_at_path, value_at_path
 from symgen.describe.files.origins import Origin, origin_of
 from symgen.describe.files.validate import validate
 from symgen.describe.formulas.evaluate import parameter_values, scalar_values

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from symgen.base.units import Amount
+from symgen.describe.edits.handles import PINS
 from symgen.describe.facts.pins import AXES
-from symgen.describe.files.handles import PINS
 from symgen.describe.formulas.readings import STATE, readings_of_joint
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import unit_of_column

@@ -15,9 +15,9 @@ from symgen.analyses.kinds import change_settings_checked
 from symgen.base import arguments
 from symgen.base.errors import InputError, plural
 from symgen.base.keywords import RunKeywords, keyword_names, make_entry
+from symgen.describe.edits.new_numbers import text_with_numbers
 from symgen.describe.facts.lifted import numbers_of_file
 from symgen.describe.files.load import parse_toml, read_text
-from symgen.describe.files.new_numbers import text_with_numbers
 from symgen.describe.files.origins import Source, origin_of
 from symgen.describe.files.validate import validate
 from symgen.result.labelled import Labelled

@@ -13,10 +13,10 @@ from symgen.base import arguments
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.units import known_unit, read_unit
 from symgen.base.vocabulary.expressions import Name, names_in_expression
+from symgen.describe.edits.handles import PINS
 from symgen.describe.facts.lifted import is_path, lift_numbers
 from symgen.describe.facts.motion_quantities import MotionQuantity, QuantityNames
 from symgen.describe.facts.pins import AXES, PinPlaces, pin_of_place
-from symgen.describe.files.handles import PINS
 from symgen.describe.files.origins import origin_of
 from symgen.describe.formulas.evaluate import evaluate, parameter_values
 from symgen.study.design.pins import check_pins, read_pins

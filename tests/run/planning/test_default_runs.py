@@ -248,7 +248,7 @@ def test_a_row_is_the_default_run():
 
 @pytest.mark.parametrize("named", [None, "euler"])
 def test_lanes_take_constant_steps(named):
-    """Rows in lanes against rows one after another are in `tests/study/ensemble/test_lanes.py`."""
+    """Rows in lanes against rows one after another are in `tests/run/rows/test_lanes.py`."""
     run = {"integrator": named} if named else None
     many = make_ensemble(model("-block.x", run=run), Settings(until=0.1), {"block.x": [0.1, 0.2]}, {}, None, "lanes")
     assert many.recipe.integrator == (named or "rk4") and not many.recipe.spec.adaptive

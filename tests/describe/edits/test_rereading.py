@@ -9,7 +9,7 @@ import pytest
 
 from symgen.base.errors import InputError
 from symgen.describe import catalogue
-from symgen.describe.files.rereading import ReadText, read_text_after
+from symgen.describe.edits.rereading import ReadText, read_text_after
 
 SOURCE = "a.toml"
 

@@ -21,7 +21,7 @@ from symgen.describe.files.load import parse_toml, set_parameters
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
 
-PAGE = Path(__file__).parents[2] / "docs" / "file-format" / "units.md"
+PAGE = Path(__file__).parents[3] / "docs" / "file-format" / "units.md"
 INCH, POUND = 0.0254, 0.45359237
 
 #: Unit -> its SI unit, and SI units in one of it.

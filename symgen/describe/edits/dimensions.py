@@ -11,9 +11,9 @@ from symgen.base.errors import InputError, quote, suggest
 from symgen.base.units import Unit, read_amount, read_unit
 from symgen.base.vocabulary.expressions import Expr, names_in_expression
 from symgen.base.vocabulary.measures import GROUND
-from symgen.describe.files.handles import PointsOfFile, Spans, WrittenPoint, span_of_number
-from symgen.describe.files.snippet_tables import exact_number
-from symgen.describe.files.text_changes import Change
+from symgen.describe.edits.handles import PointsOfFile, Spans, WrittenPoint, span_of_number
+from symgen.describe.edits.snippet_tables import exact_number
+from symgen.describe.edits.text_changes import Change
 from symgen.describe.formulas.evaluate import evaluate, parameter_values
 from symgen.describe.mechanism import Body, Mechanism
 
@@ -62,7 +62,7 @@ def dimensions_of_file(
     Parameters
     ----------
     mechanism, raw, spans, text, q
-        As for `symgen.describe.files.handles.movable_points`.
+        As for `symgen.describe.edits.handles.movable_points`.
     part : str
         The body or the joint, such as ``bodies.rod``, that they belong to; all of the mechanism by default.
     """

@@ -13,14 +13,14 @@ import pytest
 from describe.measured import Posed
 from symgen.base.errors import InputError
 from symgen.describe import catalogue
+from symgen.describe.edits.template import new_file_text
 from symgen.describe.files.builder import to_toml
 from symgen.describe.files.load import load_mechanism, read_raw
-from symgen.describe.files.template import new_file_text
 from symgen.describe.files.validate import validate
 from symgen.describe.forces import FORCES
 from symgen.describe.joints import JOINTS
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+EXAMPLES = Path(__file__).parents[3] / "examples"
 FILES = sorted(EXAMPLES.glob("*.toml"))
 SIZES = {"pendulum": (1, 1), "four-bar": (3, 8), "slider-crank": (3, 8), "andrews": (7, 20), "driven-four-bar": (3, 9)}
 

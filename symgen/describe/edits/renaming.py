@@ -8,11 +8,11 @@ from typing import Any
 
 from symgen.base.errors import InputError, quote, suggest
 from symgen.describe.bounds.keys import sections_of_files
+from symgen.describe.edits.new_numbers import value_at_path
+from symgen.describe.edits.snippet_tables import blocks_of_headers
+from symgen.describe.edits.text_changes import Change, apply_changes
 from symgen.describe.files.load import parse_toml
-from symgen.describe.files.new_numbers import value_at_path
 from symgen.describe.files.places import Outline, Path, outline_of_document
-from symgen.describe.files.snippet_tables import blocks_of_headers
-from symgen.describe.files.text_changes import Change, apply_changes
 from symgen.describe.files.validate import collect_errors
 from symgen.describe.formulas.identifiers import check_identifier
 

@@ -7,7 +7,7 @@ from string import ascii_uppercase
 from typing import Any
 
 from symgen.base.errors import InputError
-from symgen.describe.files.snippet_tables import (
+from symgen.describe.edits.snippet_tables import (
     EditedFile,
     Spot,
     blocks_of_headers,
@@ -16,7 +16,7 @@ from symgen.describe.files.snippet_tables import (
     need_body,
     vector_text,
 )
-from symgen.describe.files.text_changes import Change
+from symgen.describe.edits.text_changes import Change
 
 #: What a click gives a joint: a stop [rad or m, after its kind], and friction [N m or N].
 KEYS: Mapping[str, Mapping[str, str]] = {

@@ -1,9 +1,8 @@
 """Linear systems by code that is kept: what is asked for is what is answered, whatever was asked for before."""
 
 import pytest
-from numpy.testing import assert_allclose
-
 from analyses import rods
+from numpy.testing import assert_allclose
 
 
 def reporting(formula, unit="m"):

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import symgen
-from study.ensemble.cuda_cases import CASES
+from run.rows.cuda_cases import CASES
 from symgen.base.errors import InputError
 from symgen.base.settings import Settings
 from symgen.cli import main

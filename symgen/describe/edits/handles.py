@@ -11,8 +11,8 @@ from symgen.base.errors import InputError
 from symgen.base.units import Unit, read_amount, read_unit
 from symgen.base.vocabulary.expressions import Expr, names_in_expression
 from symgen.base.vocabulary.measures import GROUND
+from symgen.describe.edits.text_changes import is_decimal_number
 from symgen.describe.files.places import Path
-from symgen.describe.files.text_changes import is_decimal_number
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.context import Context

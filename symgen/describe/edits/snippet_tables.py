@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.measures import GROUND
+from symgen.describe.edits.text_changes import Change
 from symgen.describe.files.places import Outline
-from symgen.describe.files.text_changes import Change
 
 #: Angles [rad] that closing a loop leaves where the hand meant 0.
 FINEST = 1e-9

@@ -14,7 +14,7 @@ from describe.measured import Posed, complex_value
 from symgen.base.vocabulary.expressions import ZERO
 from symgen.describe.files.load import load_mechanism
 
-DATA = json.loads((Path(__file__).parents[1] / "data" / "andrews_ivp.json").read_text())
+DATA = json.loads((Path(__file__).parents[2] / "data" / "andrews_ivp.json").read_text())
 PARAMETERS = DATA["parameters"]
 START = np.array([float(value) for value in DATA["start"]])
 MODEL = load_mechanism("andrews")

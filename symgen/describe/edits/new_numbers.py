@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from symgen.base.units import known_unit, read_amount, unit_of
+from symgen.describe.edits.text_changes import Change, apply_changes
 from symgen.describe.files.builder import to_toml
 from symgen.describe.files.places import Path, outline_of_document
-from symgen.describe.files.text_changes import Change, apply_changes
 
 
 def text_with_numbers(text: str | None, raw: Mapping[str, Any], values: Mapping[Path, float]) -> str:

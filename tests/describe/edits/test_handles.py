@@ -8,10 +8,10 @@ import pytest
 
 from symgen.api import load
 from symgen.describe import catalogue
-from symgen.describe.files.handles import Handle, movable_points, spans_of_parameters
+from symgen.describe.edits.handles import Handle, movable_points, spans_of_parameters
+from symgen.describe.edits.text_changes import Change, apply_changes
 from symgen.describe.files.load import parse_toml
 from symgen.describe.files.places import outline_of_document
-from symgen.describe.files.text_changes import Change, apply_changes
 from symgen.describe.files.validate import validate
 
 RIG = """\

@@ -8,9 +8,8 @@ from typing import Any
 
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.vocabulary.measures import GROUND
-from symgen.describe.files.places import Outline
-from symgen.describe.files.snippet_keys import KEYS, copy_changes, key_change, point_change
-from symgen.describe.files.snippet_tables import (
+from symgen.describe.edits.snippet_keys import KEYS, copy_changes, key_change, point_change
+from symgen.describe.edits.snippet_tables import (
     FINEST,
     EditedFile,
     Spot,
@@ -20,7 +19,8 @@ from symgen.describe.files.snippet_tables import (
     short_number,
     vector_text,
 )
-from symgen.describe.files.text_changes import Change
+from symgen.describe.edits.text_changes import Change
+from symgen.describe.files.places import Outline
 
 #: Names of the points of a new body.
 _LETTERS = "ABC"

@@ -8,10 +8,10 @@ import pytest
 
 from symgen.api import load
 from symgen.base.errors import InputError
-from symgen.describe.files.dimensions import Dimension, dimension_changes, dimensions_of_file, read_dimension
+from symgen.describe.edits.dimensions import Dimension, dimension_changes, dimensions_of_file, read_dimension
+from symgen.describe.edits.text_changes import apply_changes
 from symgen.describe.files.load import parse_toml
 from symgen.describe.files.places import outline_of_document
-from symgen.describe.files.text_changes import apply_changes
 from symgen.describe.files.validate import validate
 
 RIG = """\

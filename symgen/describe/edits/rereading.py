@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from itertools import accumulate
 from typing import Any, NamedTuple
 
+from symgen.describe.edits.new_numbers import put_at_path, value_at_path
 from symgen.describe.files.load import parse_toml
-from symgen.describe.files.new_numbers import put_at_path, value_at_path
 from symgen.describe.files.places import Header, Mention, Outline, Path, outline_of_document
 
 #: Numbers as most people write them; others are read by the parser.

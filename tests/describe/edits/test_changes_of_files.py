@@ -10,14 +10,14 @@ import pytest
 from symgen.api import load
 from symgen.base.errors import InputError
 from symgen.describe import catalogue
+from symgen.describe.edits.renaming import remove_from_text, rename_in_text
+from symgen.describe.edits.section_words import words_of_sections
+from symgen.describe.edits.snippet_tables import Spot
+from symgen.describe.edits.snippets import snippet_changes
+from symgen.describe.edits.text_changes import Change, apply_changes, keep_line_ends, utf16_places
 from symgen.describe.files.load import parse_toml
 from symgen.describe.files.origins import Source
 from symgen.describe.files.places import outline_of_document
-from symgen.describe.files.renaming import remove_from_text, rename_in_text
-from symgen.describe.files.section_words import words_of_sections
-from symgen.describe.files.snippet_tables import Spot
-from symgen.describe.files.snippets import snippet_changes
-from symgen.describe.files.text_changes import Change, apply_changes, keep_line_ends, utf16_places
 from symgen.describe.files.validate import collect_errors, validate
 
 

@@ -33,7 +33,7 @@ NAMING = (
         "describe/joints/_giving.py",
         "cli/compare.py",
         "describe/files/joint_tables.py",
-        "describe/files/snippet",
+        "describe/edits/snippet",
     ),
     *("run/modes/contact", "run/modes/refusals.py", "run/effects/pushing.py", "run/directions/push_directions.py"),
 )
