@@ -11,7 +11,7 @@ from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
 
-from symgen.base.errors import InputError, quote, suggest
+from symgen.base.errors import InputError, suggest
 
 #: Content of a file, or a function that writes it to an open file.
 Content = bytes | str | Callable[[io.BytesIO], object]
@@ -173,39 +173,9 @@ def write_csv(path: Path, heading: Sequence[str], rows: Iterable[Sequence[object
     return write_whole(path, text.getvalue())
 
 
-def check_csv_rows(where: str, names: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
-    """Refuse a CSV table whose columns share a name, or whose rows are longer or shorter than its heading.
-
-    Parameters
-    ----------
-    where : str
-        The file, for the message.
-    names : sequence of str
-        Of the heading, without units.
-    rows : iterable of sequence of str
-        Those below it.
-
-    Raises
-    ------
-    InputError
-        With the column or the row.
-    """
-    for name in names:
-        if name and names.count(name) > 1:
-            raise InputError(where, "a name of its own for each column", f"{names.count(name)} columns {quote(name)}")
-    for line, row in enumerate(rows, 2):
-        if len(row) != len(names):
-            raise InputError(where, f"as many cells as in the heading, {len(names)}", f"{len(row)} in row {line}")
-
-
 def heading_with_unit(name: str, unit: str) -> str:
     """Return the heading of a column that carries its unit: ``crank.theta [rad]``."""
     return f"{name} [{unit}]" if unit else name
-
-
-def name_without_unit(heading: str) -> str:
-    """Return the name of a column whose heading may carry its unit."""
-    return heading.partition(" [")[0]
 
 
 def system_message(error: Exception) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -12,10 +11,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from symgen.base.errors import InputError, quote
-from symgen.base.files import check_csv_rows, check_file_name, name_without_unit, need_library
+from symgen.base.csv_tables import numbers_in_unit, read_csv_table, split_heading
+from symgen.base.errors import InputError, quote, suggest
+from symgen.base.files import check_file_name, need_library
 from symgen.describe.coordinate_names import ACCELERATIONS
 from symgen.describe.parts.columns import FORMS
+from symgen.describe.parts.topology import unit_of_column
 from symgen.result.export import LAST_HEADER, LAST_PREFIX, SAVED
 from symgen.result.labelled import Array
 from symgen.result.signals import TABLES
@@ -45,7 +46,9 @@ class Recorded:
         Times [s].
     columns : mapping of str to Array
         By name, each of shape (k,): coordinates, velocities, accelerations, and coordinates of joints, where angles
-        count turns; of files of columns all others too.
+        count turns; of files of columns all others too. Numbers are in the units of `units`.
+    units : mapping of str to str
+        Units that the source gives its columns, of those that have one there.
     mechanism : str
         Its name, empty in files of columns.
     run : mapping
@@ -57,6 +60,7 @@ class Recorded:
     whence: str
     t: Array
     columns: Mapping[str, Array]
+    units: Mapping[str, str] = field(default_factory=dict)
     mechanism: str = ""
     run: Mapping[str, Any] = field(default_factory=dict)
     last: tuple[dict[str, Any], dict[str, Any]] | None = None
@@ -71,23 +75,35 @@ class Recorded:
         """Values of inputs in the run, in words where they were no numbers."""
         return dict(self.run.get("inputs", {}))
 
-    def table(self, names: Sequence[str]) -> Array:
-        """Return columns in an order, shape (k, n).
+    def column(self, name: str, unit: str) -> Array:
+        """Return a column in a unit, shape (k,); numbers of a column without a unit are in it already.
 
         Raises
         ------
         InputError
-            If one is missing, or holds numbers that are not finite.
+            If there is no such column, or its unit is one of another quantity.
         """
-        for name in names:
-            if name not in self.columns:
-                raise InputError(self.whence, "the motion of this mechanism", f"no column {quote(name)}")
-        values = np.zeros((len(self.t), len(names)))
-        for i, name in enumerate(names):
-            values[:, i] = self.columns[name]
-        if not np.all(np.isfinite(values)):
-            raise InputError(self.whence, "finite numbers", "others")
-        return values
+        if name not in self.columns:
+            hint = suggest(name, self.columns) if self.columns else ""
+            raise InputError(self.whence, "the motion of this mechanism", f"no column {quote(name)}", hint)
+        written = self.units.get(name, "")
+        if written in ("", unit):
+            return self.columns[name]
+        return np.array(numbers_in_unit(f"{self.whence}: {name}", self.columns[name].tolist(), written, unit))
+
+    def table(self, columns: Iterable[tuple[str, str]]) -> Array:
+        """Return columns by name and unit, in their order, shape (k, n).
+
+        Raises
+        ------
+        InputError
+            If one is missing, has a unit of another quantity, or holds numbers that are not finite.
+        """
+        read = [(name, self.column(name, unit)) for name, unit in columns]
+        for name, values in read:
+            if not np.all(np.isfinite(values)):
+                raise InputError(self.whence, "finite numbers", f"others in {quote(name)}")
+        return np.stack([values for _, values in read], axis=1) if read else np.zeros((len(self.t), 0))
 
 
 def _read_or_refuse(option: str, path: Path, use: Callable[[Recorded], _Value]) -> _Value:
@@ -109,7 +125,7 @@ def read_result_file(option: str, path: Path, read: Callable[[Path], _Value], li
         return read(path)
     except InputError:
         raise
-    except (OSError, ValueError, KeyError, IndexError, TypeError, StopIteration, RuntimeError, csv.Error) as error:
+    except (OSError, ValueError, KeyError, IndexError, TypeError, StopIteration, RuntimeError) as error:
         why = " ".join(str(error).split())[:80]
         raise InputError(option, "a file of a result", f"'{path}', which cannot be read as one ({why})") from None
 
@@ -149,31 +165,34 @@ def _check_table(name: str, variable: xr.DataArray) -> None:
 
 
 def _read_dataset(path: Path, whence: str) -> Recorded:
-    dataset, columns = dataset_of(path), dict[str, Array]()
+    dataset, columns, units = dataset_of(path), dict[str, Array](), dict[str, str]()
     check_names(dataset["kind_of_energy"].values.tolist())
     for table in _TABLES:
-        values = np.asarray(dataset[table].values, dtype=np.float64)
-        columns |= {str(name): values[:, i] for i, name in enumerate(dataset[TABLES[table]].values)}
+        values, names = np.asarray(dataset[table].values, dtype=np.float64), dataset[TABLES[table]].values
+        columns |= {str(name): values[:, i] for i, name in enumerate(names)}
+        units |= dict(zip(map(str, names), map(str, dataset[f"{TABLES[table]}_unit"].values), strict=True))
     last = None
     if LAST_HEADER in dataset.attrs:
         variables = {str(name): v.values for name, v in dataset.data_vars.items() if v.dims == (f"{name}_index",)}
         arrays = {name.removeprefix(LAST_PREFIX): array for name, array in variables.items()}
         last = json.loads(dataset.attrs[LAST_HEADER]), arrays
     t, facts = np.asarray(dataset["time"].values, dtype=np.float64), dataset.attrs
-    return Recorded(whence, t, columns, str(facts["mechanism"]), json.loads(facts["run"]), last)
+    return Recorded(whence, t, columns, units, str(facts["mechanism"]), json.loads(facts["run"]), last)
 
 
 def _read_csv(path: Path, whence: str) -> Recorded:
-    with path.open(encoding="utf-8", newline="") as file:
-        rows = csv.reader(file)
-        names, cells = [name_without_unit(name) for name in next(rows)], list(rows)
-    check_names(names)
-    check_csv_rows(whence, names, cells)
-    values = np.array([[float(x or "nan") for x in row] for row in cells])
-    if not len(values):
+    table = read_csv_table(whence, path)
+    check_names(table.names)
+    if not table.rows:
         raise ValueError("it has no rows")
-    columns = {name: values[:, i] for i, name in enumerate(names)}
-    return Recorded(whence, columns.pop("t"), columns)
+    times = table.place_of_times()
+    if times is None:
+        named = ", ".join(map(quote, table.names[:8])) + (", ..." if len(table.names) > 8 else "")
+        raise InputError(whence, "a column 't' or 'time'", f"the columns {named}")
+    t = np.array(table.numbers_in_unit(times, "s"))
+    own = [i for i in range(len(table.names)) if i != times and table.is_of_numbers(i)]
+    columns = {table.names[i]: np.array(table.numbers(i, gaps=True)) for i in own}
+    return Recorded(whence, t, columns, {table.names[i]: table.units[i] for i in own})
 
 
 def _read_parquet(path: Path, whence: str) -> Recorded:
@@ -181,8 +200,13 @@ def _read_parquet(path: Path, whence: str) -> Recorded:
 
     frame = pd.read_parquet(path, engine="pyarrow")
     check_names(list(map(str, frame.columns)))
-    columns = {str(name): np.asarray(frame[name], dtype=np.float64) for name in frame.columns}
-    return Recorded(whence, np.asarray(frame.index, dtype=np.float64), columns)
+    saved = {str(name): str(unit) for name, unit in frame.attrs.get("units", {}).items()}
+    headings = {str(name): split_heading(str(name)) for name in frame.columns}
+    columns = {headings[str(name)][0]: np.asarray(frame[name], dtype=np.float64) for name in frame.columns}
+    units = {name: unit or saved.get(heading, "") for heading, (name, unit) in headings.items()}
+    _, unit = split_heading(str(frame.index.name or ""))
+    t = numbers_in_unit(f"{whence}: {frame.index.name}", np.asarray(frame.index, dtype=np.float64).tolist(), unit, "s")
+    return Recorded(whence, np.array(t), columns, units)
 
 
 def recorded_motion(motion: Any) -> Recorded:
@@ -199,8 +223,9 @@ def recorded_motion(motion: Any) -> Recorded:
         raise InputError("motion", "a result of a run, or a motion of kinematics", f"a {type(motion).__name__}")
     tables = [getattr(motion, name) for name in _TABLES if hasattr(motion, name)]
     columns = {name: table.values[:, i] for table in tables for i, name in enumerate(table.names)}
+    units = {name: unit for table in tables for name, unit in zip(table.names, table.units, strict=True)}
     run = {name: dict(getattr(motion, name, {})) for name in ("parameters", "inputs")}
-    return Recorded("motion", np.asarray(motion.t, dtype=np.float64), columns, run=run)
+    return Recorded("motion", np.asarray(motion.t, dtype=np.float64), columns, units, run=run)
 
 
 def read_recorded(option: str, path: Path) -> Recorded:
@@ -258,12 +283,18 @@ def _state_of_columns(saved: Recorded) -> LastState:
             if (m := _OF_BODY.fullmatch(name)) and m[3] in labels and not (m[2] and m[1] in heads)
             if not (m[2] and f"{m[1]}.{m[3]}" in saved.columns)
         )
-        return {name: float(saved.columns[name][-1]) for name in own}
+        return {name: _last_number(saved, name, unit_of_column(name.rpartition(".")[2])) for name in own}
 
-    work = 0.0 if saved.mechanism else float(saved.columns["energy.work"][-1])
+    work = 0.0 if saved.mechanism else _last_number(saved, "energy.work", "J")
     last = LastState(
         saved.mechanism, "", float(saved.t[-1]), row_of_columns(_PLACES), row_of_columns(ACCELERATIONS), work
     )
     # states of a file are columns with the names of outputs, which have no dot
     own = {name: float(column[-1]) for name, column in saved.columns.items() if "." not in name}
-    return replace(last, states=own or None)
+    return replace(last, states=own or None, state_units={name: saved.units.get(name, "") for name in own})
+
+
+def _last_number(saved: Recorded, name: str, unit: str) -> float:
+    """Return the last number of a column in a unit."""
+    last = replace(saved, columns={key: column[-1:] for key, column in saved.columns.items()})
+    return float(last.column(name, unit)[0])

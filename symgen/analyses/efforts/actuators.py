@@ -89,7 +89,9 @@ def with_actuators(mechanism: Mechanism, names: Sequence[str]) -> tuple[Mechanis
             actuators.append(Actuator(name, unit, f"{name}{_MARK}", _power_of_unit_effort(name, effort)))
     if len({a.parameter for a in actuators}) < len(actuators):
         raise InputError(WHERE, "each name once", ", ".join(names))
-    inputs = tuple(Parameter(a.parameter, 0.0, a.unit, input=True) for a in actuators if a.name not in whole.inputs)
+    inputs = tuple(
+        Parameter(a.parameter, 0.0, a.unit, input=True) for a in actuators if a.parameter not in whole.inputs
+    )
     changes = {"forces": (*forces.values(), *added), "parameters": (*whole.parameters, *inputs)}
     loose = drop_joints(whole, driver_names(whole))  # outputs may read what drivers exert
     return msgspec.structs.replace(loose, outputs=(), holds=(), **changes), tuple(actuators)

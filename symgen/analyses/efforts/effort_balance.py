@@ -189,9 +189,8 @@ def _motions_with_unit_efforts(
     plan = make_plan(mechanism, settings, Purpose.STATE)
     values, code = parameter_values(mechanism, settings.parameters), compiled_for(mechanism, plan.choice)
     info = code.info
-    velocities = [v.name for v in info.velocities]
-    q, v = record.table([c.name for c in info.coordinates]), record.table(velocities)
-    a = record.table([acceleration_name(name) for name in velocities])
+    q, v = (record.table((c.name, c.unit) for c in of) for of in (info.coordinates, info.velocities))
+    a = record.table((acceleration_name(c.name), f"{c.unit}^2") for c in info.velocities)
     instant, datum = (float(record.t[0]), ()), origin_of_sizes(mechanism, scalar_values(values))
 
     def close_start(compiled: CompiledModel, ask_light: bool) -> Start:
@@ -201,12 +200,13 @@ def _motions_with_unit_efforts(
     compiled, start = close_with_light_bodies(plan, code, close_start)
     states = np.zeros((len(record.t), info.ny))
     states[:, : info.nq], states[:, info.nq : info.work] = q, v
-    states[:, info.own_states] = record.table([x.name for x in info.states])
+    states[:, info.own_states] = record.table((x.name, x.unit) for x in info.states)
     # angles that count turns are those that joints have reported
     status = np.full((len(record.t), abi.N_STATUS + info.windings), np.nan)
     names = {m: f"{joint.name}.{label}" for joint in mechanism.joints for label, m in joint.coordinates}
     for i, measure in enumerate(winding_order(mechanism, compiled.shape)):
-        status[:, abi.N_STATUS + i] = record.columns.get(names.get(measure, ""), np.nan)
+        turned = names.get(measure, "")
+        status[:, abi.N_STATUS + i] = record.column(turned, "rad") if turned in record.columns else np.nan
     still = PrescribedMotion(
         times=np.array(record.t),  # of files it is read-only
         states=states,
@@ -228,6 +228,7 @@ def _motions_with_unit_efforts(
 
     for actuator in actuators:
         still.p[places[actuator.parameter]] = 0.0
+    compiled.prepare(still.p)  # numbers hoisted from an input whose default is not 0
     ones = [parameters_with_effort(actuator.parameter, 1.0) for actuator in actuators]
     none = still.responses.accelerations
     for actuator, one in zip(actuators, ones, strict=True):

@@ -138,6 +138,9 @@ class Identification:
         self.start = np.array([*self.free.values(first.directions, first.run, result), *(0.0 for _ in bias)])
         self.units = {d.name: d.unit for d in first.directions}
         self.quantities = self._choose_quantities(result, quantities)
+        self.left_out = self._headings_left_out(result, quantities)
+        units = {name: self._unit_of_quantity(result, name) for name in self.quantities}
+        self.data = data = [each.in_units(units) for each in data]
         self.scales = {name: weights.get(name) or 1.0 / self.standard_deviation(name) for name in self.quantities}
         for name in (*bias, *weights):
             if name not in self.quantities:
@@ -146,7 +149,7 @@ class Identification:
         self.labels = (*self.names, *(f"bias of {name}" for name in bias))
         every = [*free.values(), *((None, None) for _ in bias)]
         self.bounds = arrays_of_bounds("identify: free", self.labels, every, self.start)
-        count = sum(len(d.t) for d in data for name in self.quantities if name in d.columns)
+        count = sum(int(d.measured(name).sum()) for d in data for name in d.columns)
         if count < len(self.labels):
             got = f"{count} for {len(self.labels)} unknowns"
             raise InputError("identify: data", "at least as many numbers as unknowns", got)
@@ -166,14 +169,29 @@ class Identification:
         chosen = tuple(quantities or (name for name in measured if name in result._places))
         if not chosen:
             expected = f"a column of {self.free.mechanism.name}, such as {result.q.names[0]}"
-            raise InputError(self.data[0].whence, expected, ", ".join(map(quote, measured)) or "none")
+            hint = suggest(next(iter(measured)), result._places) if measured else ""
+            got = ", ".join(map(quote, measured)) or "none"
+            raise InputError(self.data[0].whence, expected, got, hint if hint.startswith("did") else "")
         for name in chosen:
             place_of_column(result, name)
         return chosen
 
+    def _headings_left_out(self, result: Result, quantities: Sequence[str]) -> tuple[str, ...]:
+        """Return a sentence on each measured column that the model does not have, with the nearest name that it has."""
+        if quantities:
+            return ()
+        unknown = dict.fromkeys(name for data in self.data for name in data.columns if name not in result._places)
+        hints = {name: suggest(name, result._places) for name in unknown}
+        ends = {name: f"; {hint}" if hint.startswith("did you mean") else "" for name, hint in hints.items()}
+        return tuple(
+            f"column {quote(name)} of the data is left out: the model has none{ends[name]}" for name in unknown
+        )
+
     def standard_deviation(self, name: str) -> float:
         """Return the standard deviation of measured numbers, or their size where they do not change."""
-        values = np.concatenate([data.columns[name] for data in self.data if name in data.columns])
+        values = np.concatenate([d.columns[name][d.measured(name)] for d in self.data if name in d.columns])
+        if not len(values):
+            raise InputError(self.data[0].whence, f"numbers of {quote(name)}", "none")
         return float(np.std(values)) or float(np.abs(values).max(initial=0.0)) or 1.0
 
     @staticmethod
@@ -209,9 +227,9 @@ class Identification:
             for name in self.quantities:
                 if name not in data.columns:
                     continue
-                by = np.zeros((len(data.t), len(self.labels)))
+                by, known = np.zeros((len(data.t), len(self.labels))), data.measured(name)
                 if not whole or result is None:
-                    residuals.append(np.full(len(data.t), np.inf))
+                    residuals.append(np.full(int(known.sum()), np.inf))
                 else:
                     table, place, _ = place_of_column(result, name)
                     values = getattr(result, table).values[:, place]
@@ -219,8 +237,8 @@ class Identification:
                     if name in self.bias:
                         k = len(self.names) + list(self.bias).index(name)
                         by[:, k], values = 1.0, values + x[k]
-                    residuals.append(self.scales[name] * (values - data.columns[name]))
-                slopes.append(self.scales[name] * by)
+                    residuals.append(self.scales[name] * (values - data.columns[name])[known])
+                slopes.append(self.scales[name] * by[known])
         return np.concatenate(residuals), np.concatenate(slopes)
 
 
@@ -308,9 +326,15 @@ def _fit_with_statistics(task: Identification, solution: Any) -> Fit:
     for data in task.data:
         for name in task.quantities:
             if name in data.columns:
-                part = residuals[first : first + len(data.t)] / task.scales[name]
-                deviations.setdefault(name, []).append(part)
-                first += len(data.t)
+                count = int(data.measured(name).sum())
+                deviations.setdefault(name, []).append(residuals[first : first + count] / task.scales[name])
+                first += count
+    gaps = {
+        name: sum(int((~data.measured(name)).sum()) for data in task.data if name in data.columns)
+        for name in deviations
+    }
+    notes += [f"{plural(n, 'cell')} of {quote(name)} without a number left out" for name, n in gaps.items() if n]
+    notes += task.left_out
     notes += notes_on_neighbours(deviations, {name: task.standard_deviation(name) for name in deviations})
     notes += literal_points_in_words(task.names)
     result = task.result_at(x, task.data[0])

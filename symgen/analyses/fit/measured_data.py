@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.csv_tables import numbers_in_unit, split_heading
 from symgen.base.errors import InputError
 from symgen.result.saved import Recorded, read_recorded
 
@@ -26,12 +27,33 @@ class MeasuredData:
     t : Array, shape (k,)
         Times [s], increasing.
     columns : mapping of str to Array
-        Measured quantities by name.
+        Measured quantities by name; nan where nothing was measured.
+    units : mapping of str to str
+        Units of those columns whose headings have one.
     """
 
     whence: str
     t: Array
     columns: Mapping[str, Array]
+    units: Mapping[str, str] = field(default_factory=dict)
+
+    def in_units(self, units: Mapping[str, str]) -> MeasuredData:
+        """Return the columns that are named with the units of their quantities, converted from those of the headings.
+
+        Raises
+        ------
+        InputError
+            If a heading has a unit of another quantity.
+        """
+        columns = {name: values for name, values in self.columns.items() if name in units}
+        for name, values in columns.items():
+            where, written = f"{self.whence}: {name}", self.units.get(name, "")
+            columns[name] = np.array(numbers_in_unit(where, values.tolist(), written, units[name]))
+        return replace(self, columns=columns, units={name: units[name] for name in columns})
+
+    def measured(self, name: str) -> NDArray[np.bool_]:
+        """Return at which times a quantity was measured, shape (k,)."""
+        return ~np.isnan(self.columns[name])
 
 
 def measured_columns(source: object, number: int = 0, where: str = "identify: data") -> MeasuredData:
@@ -40,19 +62,22 @@ def measured_columns(source: object, number: int = 0, where: str = "identify: da
     Raises
     ------
     InputError
-        If they are no columns over increasing times, or hold numbers that are not finite.
+        If they are no columns over increasing times, or hold infinite numbers; cells without a number are gaps.
     """
     if isinstance(source, str | Path):
         record = read_recorded(where, Path(source))
-        whence, t, columns = record.whence, record.t, dict(record.columns)
+        whence, t, columns, units = record.whence, record.t, dict(record.columns), record.units
     elif isinstance(source, Recorded):
-        whence, t, columns = source.whence, source.t, dict(source.columns)
+        whence, t, columns, units = source.whence, source.t, dict(source.columns), source.units
     elif isinstance(source, Mapping):
         whence = f"{where} {number + 1}"
-        columns = {str(name): np.asarray(values, dtype=np.float64) for name, values in source.items()}
+        headings = {str(heading): split_heading(str(heading)) for heading in source}
+        columns = {headings[str(name)][0]: np.asarray(values, dtype=np.float64) for name, values in source.items()}
+        units = dict(headings.values())
         if "t" not in columns:
             raise InputError(whence, "a column 't' of times", "none")
         t = columns.pop("t")
+        t = np.array(numbers_in_unit(f"{whence}: t", t.tolist(), units.pop("t"), "s")) if units["t"] else t
     else:
         raise InputError(where, "files, or mappings with a column 't'", f"a {type(source).__name__}")
     if len(t) == 0 or not np.all(np.diff(t) > 0.0) or not np.all(np.isfinite(t)):
@@ -62,6 +87,6 @@ def measured_columns(source: object, number: int = 0, where: str = "identify: da
     for name, values in columns.items():
         if values.shape != t.shape:
             raise InputError(whence, f"{len(t)} numbers of {name}", f"an array of shape {values.shape}")
-        if not np.all(np.isfinite(values)):
+        if np.any(np.isinf(values)):
             raise InputError(whence, "finite numbers", f"others in {name}")
-    return MeasuredData(whence, t, columns)
+    return MeasuredData(whence, t, columns, units)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,17 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from symgen.base import arguments
+from symgen.base.csv_tables import numbers_in_unit, read_csv_table
 from symgen.base.errors import InputError, quote, suggest
-from symgen.base.files import check_csv_rows, system_message
-from symgen.base.units import SI, Unit, unit_of
+from symgen.base.units import SI, Unit
 from symgen.describe.table_functions import Table
 
 INTERPOLATIONS = ("hold", "linear", "cubic", "pchip")
-#: Maximum bytes of a data file.
-LARGEST_FILE = 50_000_000
 _FILE = re.compile(r"(?P<file>.+\.csv):(?P<column>[^:]+)(?::(?P<how>[^:]*))?", re.IGNORECASE)
 _WORDS = re.compile(rf".* \(({'|'.join(INTERPOLATIONS)})\)", re.DOTALL)
-_HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\]]*)\]\s*)?")
 
 
 @dataclass(frozen=True)
@@ -111,42 +107,16 @@ def _read_file_column(where: str, file: str, column: str, how: str | None, unit:
     """Return a column of a file, over its column ``t`` or ``time``, or its first one, in SI units."""
     how = arguments.one_word_of(f"{where} interpolation", how or "linear", INTERPOLATIONS)
     path = Path(file)
-    try:
-        with path.open("rb") as stream:
-            content = stream.read(LARGEST_FILE + 1)
-    except (OSError, ValueError) as error:
-        raise InputError(f"{where}: {file}", "a file that can be read", system_message(error)) from None
-    if len(content) > LARGEST_FILE:
-        raise InputError(f"{where}: {path.name}", f"a file of at most {LARGEST_FILE} bytes", "a larger one")
-    try:
-        rows = [row for row in csv.reader(content.decode("utf-8-sig").splitlines()) if any(map(str.strip, row))]
-    except (UnicodeDecodeError, csv.Error):
-        raise InputError(f"{where}: {path.name}", "a CSV file in UTF-8", "something else") from None
-    matches = [_HEADING.fullmatch(cell) for cell in rows[0]] if rows else []
-    headings = [match["name"] if match else cell for match, cell in zip(matches, rows[0] if rows else (), strict=True)]
-    if column not in headings:
-        raise InputError(f"{where}: {path.name}", "a column of the file", quote(column), suggest(column, headings))
-    check_csv_rows(f"{where}: {path.name}", headings, rows[1:])
-    times = next((headings.index(name) for name in ("t", "time") if name in headings), 0)
-    place = headings.index(column)
+    table = read_csv_table(f"{where}: {path.name}", path)
+    place, times = table.place(column), table.place_of_times() or 0
     if place == times:
-        raise InputError(f"{where}: {path.name}", "a column beside that of the times", quote(column))
-    t, u = (
-        [_number_of_cell(f"{where}: {path.name}", row, i, k) for k, row in enumerate(rows[1:], 2)]
-        for i in (times, place)
-    )
-    units = [(m["unit"] or "").strip() if (m := matches[i]) else "" for i in (times, place)]
-    of_time = unit_of(units[0], f"{where}: {path.name}", quantity="s") if units[0] else SI
-    own = unit_of(units[1], f"{where}: {path.name}", quantity=unit.si) if units[1] and unit.si else unit
-    return _checked_data(where, [*map(of_time.to_si, t)], [*map(own.to_si, u)], how, f"{file}:{column}")
-
-
-def _number_of_cell(where: str, row: list[str], index: int, line: int) -> float:
-    text = row[index] if index < len(row) else ""
-    try:
-        return float(text)
-    except ValueError:
-        raise InputError(where, "a number in every row", f"{quote(text)} in row {line}") from None
+        raise InputError(table.where, "a column beside that of the times", quote(column))
+    t, u = table.numbers_in_unit(times, "s"), table.numbers(place)
+    if table.units[place]:
+        u = numbers_in_unit(f"{table.where}: {column}", u, table.units[place], unit.si)
+    else:
+        u = [*map(unit.to_si, u)]
+    return _checked_data(where, t, u, how, f"{file}:{column}")
 
 
 def _checked_data(where: str, t: object, u: object, how: str, source: str) -> Data:

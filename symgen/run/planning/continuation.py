@@ -92,7 +92,8 @@ def _from_coordinates(plan: Plan, last: LastState, compiled: CompiledModel, ask_
     whence = last.t, _windings(plan.mechanism, compiled, last)
     masses = masses_of_starts(plan.mechanism, compiled, True)
     start = assemble(compiled, q, v, p, plan.settings.strict, None, ask_light, None, whence, datum, masses)
-    holds = [Hold(name, Number(x)) for name, x in (last.states or {}).items()]
+    states = last.states_in({state.name: state.unit for state in plan.mechanism.states})
+    holds = [Hold(name, Number(x)) for name, x in states.items()]
     start.y[info.own_states] = states_at_start(plan.mechanism, scalar_values(values), holds)
     return start
 

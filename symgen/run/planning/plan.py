@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.base.errors import InputError, quote
+from symgen.base.errors import InputError, quote, suggest
 from symgen.base.settings import Settings
 from symgen.derive.lower.windings import follows_places
 from symgen.derive.methods import METHODS
@@ -311,8 +311,12 @@ def _refuse_other(mechanism: Mechanism, last: LastState) -> None:
     speeds = [f"{b.name}.{n}" for b in mechanism.bodies for n in b.speeds]
     other = last.digest not in ("", digest(mechanism)) or {*names} != {*last.q} or {*speeds} != {*last.v}
     if other or last.mechanism not in ("", mechanism.name):
-        got = f"one of {last.mechanism}" if last.mechanism not in ("", mechanism.name) else "one of others"
-        raise InputError("start", f"the result of a run of {mechanism.name} with the same equations", got)
+        got, hint = f"one of {last.mechanism}" if last.mechanism not in ("", mechanism.name) else "one of others", ""
+        given = {*last.q, *last.v}
+        if not last.mechanism and (missing := [name for name in (*names, *speeds) if name not in given]):
+            unknown = given - {*names, *speeds}
+            got, hint = f"no column {quote(missing[0])}", suggest(missing[0], unknown) if unknown else ""
+        raise InputError("start", f"the result of a run of {mechanism.name} with the same equations", got, hint)
     if not all(math.isfinite(x) for x in (last.t, *last.q.values(), *last.v.values())):
         raise InputError("start", "a last state that is finite", "one that is not")
 

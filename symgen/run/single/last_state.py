@@ -5,12 +5,13 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.csv_tables import numbers_in_unit
 from symgen.base.errors import plural
 
 Array = NDArray[np.float64]
@@ -47,6 +48,8 @@ class LastState:
         Arrays saved by `symgen.run.single.simulation.Simulation`; empty if none were saved.
     states : mapping of str to float
         States of the file's own by name; None without such states.
+    state_units : mapping of str to str
+        Their units where a file of columns gives others than the mechanism may.
     """
 
     mechanism: str
@@ -62,9 +65,21 @@ class LastState:
     failed: str = ""
     arrays: Mapping[str, NDArray[Any]] | None = None
     states: Mapping[str, float] | None = None
+    state_units: Mapping[str, str] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return f"<LastState of {self.mechanism} at {self.t:g} s: {plural(len(self.q), 'coordinate')}>"
+
+    def states_in(self, units: Mapping[str, str]) -> dict[str, float]:
+        """Return the states of the file's own in units of a mechanism.
+
+        Raises
+        ------
+        InputError
+            If one has a unit of another quantity.
+        """
+        states, own = self.states or {}, self.state_units
+        return {n: numbers_in_unit(f"start: {n}", [x], own.get(n, ""), units.get(n, ""))[0] for n, x in states.items()}
 
     @property
     def last_state(self) -> LastState:

@@ -154,7 +154,7 @@ def test_the_command(rod, tmp_path, capsys, monkeypatch):
 @pytest.mark.parametrize(
     ("data", "free", "said"),
     [
-        ({"t": [0.1, 0.2], "rod.theta": [1.0, np.nan]}, "length", "finite numbers, got others in rod.theta"),
+        ({"t": [0.1, 0.2], "rod.theta": [1.0, np.inf]}, "length", "finite numbers, got others in rod.theta"),
         ({"t": [0.1, 0.2], "rod.theta": [1.0]}, "length", "2 numbers of rod.theta"),
         ({"t": [0.2, 0.1], "rod.theta": [1.0, 1.0]}, "length", "increasing times"),
         ({"t": [-1.0, 0.1], "rod.theta": [1.0, 1.0]}, "length", "times from the start of the run"),
