@@ -158,7 +158,7 @@ def modes_about(
             nothing.reshape(0, 0),
             about=subject.coordinates_by_name(y),
             t=x.t,
-            notes=subject.mode,
+            notes=subject.notes,
         )
     still = vibration_about_rest(x)
     vectors: Array | Complex
@@ -190,7 +190,7 @@ def modes_about(
         shapes = shapes / np.maximum(largest, 1e-300)
     tables, notes = (
         _shares_of_modes(x, vectors, bodies),
-        (*subject.mode, *subject.sentence_if_singular(subject.rows(x.base)), *sentence_on_edges(subject, y)),
+        (*subject.notes, *subject.sentence_if_singular(subject.rows(x.base)), *sentence_on_edges(subject, y)),
     )
     shapes = shapes.T.astype(np.complex128)
     return Modes(sort_eigenvalues(values), squares, x.velocities, names, shapes, *tables, about, x.t, notes)

@@ -26,7 +26,7 @@ from symgen.analyses.state.algebra import (
     unit_stiffness,
 )
 from symgen.analyses.state.edges import sentence_on_edges
-from symgen.analyses.state.moving_drivers import note_on_moving_drivers, refuse_moving_drivers
+from symgen.analyses.state.moving_drivers import note_on_forces_of_time, note_on_moving_drivers, refuse_moving_drivers
 from symgen.analyses.state.sparse_statics import Sparse
 from symgen.analyses.state.subject import put_inputs_at_start
 from symgen.base.errors import AnalysisError, InputError
@@ -113,7 +113,8 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     about = {name: float(x) for name, x in zip(names, y, strict=False)}
     shapes = (motion @ vectors).T.astype(np.complex128)
     owners = np.array([v.name.rpartition(".")[0] for v in sparse.compiled.info.velocities])
-    notes, energy = sentence_on_edges(sparse, y), vectors * (mass @ vectors)
+    notes = (*note_on_forces_of_time(sparse.mechanism, 0.0), *sentence_on_edges(sparse, y))
+    energy = vectors * (mass @ vectors)
     bodies = {body: energy[owners == body].sum(axis=0) / energy.sum(axis=0) for body in dict.fromkeys(owners.tolist())}
     return Modes(
         sort_eigenvalues(np.concatenate([roots, -roots])),
@@ -170,6 +171,7 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
         lam=lam,
         notes=(
             *note_on_moving_drivers(sparse.mechanism, sparse.compiled, sparse.p, 0.0),
+            *note_on_forces_of_time(sparse.mechanism, 0.0),
             *sentence_on_edges(sparse, y),
         ),
     )

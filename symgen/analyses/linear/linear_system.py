@@ -177,7 +177,7 @@ def linear_system(subject: Subject, y: Array, states: Sequence[str] = (), instan
         tuple(left_out),
         subject.by,
         (
-            *subject.mode,
+            *subject.notes,
             *subject.sentence_if_singular(subject.rows(x.base)),
             *sentence_on_edges(subject, y, x.a, outputs),
         ),

@@ -138,7 +138,7 @@ def judge_equilibrium(rest: Settled) -> Equilibrium:
         not_unique=joints_not_unique(subject.mechanism, info, share),
         y=y,
         lam=lam,
-        notes=(*subject.mode, *subject.sentence_if_singular(d), *sentence_on_edges(subject, y)),
+        notes=(*subject.notes, *subject.sentence_if_singular(d), *sentence_on_edges(subject, y)),
     )
 
 

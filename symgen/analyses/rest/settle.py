@@ -137,6 +137,10 @@ class DenseStatics:
         """Return a state whose coordinates are moved by a change."""
         return self.subject.move_state(y, change)
 
+    def acting(self, y: Array) -> Array:
+        """Return what acts along each velocity, as work: sums of sizes, which do not cancel where forces balance."""
+        return self.subject.spans * self.subject.acting(self.subject.evaluate(y))
+
     def wind_angles(self, y: Array) -> DenseStatics:
         """Return the same with the angles that count turns as they are at a state less than half a turn away."""
         return replace(self, subject=self.subject.wind_angles(y))
@@ -270,7 +274,8 @@ def _search_from(statics: S, y: Array, near: float) -> tuple[S, Array, Array, in
         raise AnalysisError("the rows cannot be distinguished: some depend on others near the start")
     work = solve(-force, np.zeros(len(gaps)))[1]
     before = y, work
-    error, best, shift, first, size = np.inf, np.inf, 0.0, 0.0, np.zeros(len(force))
+    # what joints carry, and what acts: forces that cancel leave no measure of themselves
+    error, best, shift, first, size = np.inf, np.inf, 0.0, 0.0, statics.acting(y)
     for step in range(steps, MOST_STEPS):
         lam = statics.all_multipliers(work)
         force, gaps = statics.forces(y, lam)

@@ -35,30 +35,31 @@ LEAST_CHANGE = 1e-6
 LATER = 1e-4
 #: Radians, or lengths of the mechanism, between the instants of the checks.
 APART = 0.7
-#: A motion is followed for so many radians of its fastest eigenvalue at most.
-FARTHEST = 1e4
+#: A motion is followed for so many radians of its fastest eigenvalue at most, and by so many evaluations.
+FARTHEST, MOST_EVALUATIONS = 1e4, 20_000
 
 
 def at_rest(subject: Subject, x: StateTangent) -> bool:
     """Whether nothing moves at a state, nor begins to, nor is driven.
 
-    What moves is compared with what the forces on it could do in its own place: what joints carry there and what
-    springs would exert a length of the mechanism, or a radian, away.
+    What moves is compared with what the forces on it could do in its own place: what joints carry there, what springs
+    would exert a length of the mechanism, or a radian, away, and the rounding of what acts. Forces that depend on time
+    count as they are at the instant.
     """
     e, spans = x.base, subject.spans
-    if any(np.any(e.by(group, "t")) for group in ("balance", "velocities", "positions")):
+    if any(np.any(e.by(group, "t")) for group in ("velocities", "positions")):
         return False
     rows = subject.rows(e)
     carried = np.abs(rows).T @ np.abs(x.lam) + np.abs(e.by("balance", "q") @ e.by("motion", "v")) @ spans
     heavy = np.diag(e.by("balance", "a")) * spans
     rates = np.abs(e.value("states"))
-    if np.any(e.by("states", "t")) or np.any(rates > STILL * np.abs(e.by("states", "z")) @ subject.extents(x.y)):
+    if np.any(rates > STILL * np.abs(e.by("states", "z")) @ subject.extents(x.y)):
         return False
     massive = heavy > 0.0  # what has no mass follows
     quick = carried[massive] / heavy[massive]
     # at a singular position, forces along directions that rows leave free balance only to the accuracy of a search
     rounding = TOLERANCE if subject.lost_rank(rows) > 0 else ROUNDED
-    limit = STILL * quick + rounding * quick.max(initial=0.0)
+    limit = STILL * quick + rounding * quick.max(initial=0.0) + ROUNDED * subject.acting(e)[massive] / heavy[massive]
     v, a = np.abs(x.speeds / spans)[massive], np.abs(x.a / spans)[massive]
     return bool(np.all(a <= limit) and np.all(v**2 <= STILL * limit))
 
@@ -307,10 +308,17 @@ def _follow_briefly(subject: Subject, x: StateTangent) -> StateTangent:
     nq, size, y, w = subject.nq, subject.nq + subject.nv, x.y.copy(), subject.w.copy()
     own = subject.compiled.info.own_states
     followed = [*range(size), *range(own.start, own.stop)]
-    active = ~subject.redundant
+    active, left = ~subject.redundant, MOST_EVALUATIONS
     rates, iw, whole = rate_function(subject.compiled), np.zeros(len(COUNTERS), dtype=np.int64), np.zeros_like(y)
 
     def slope_of_states(t: float, z: Array) -> Array:
+        nonlocal left
+        left -= 1
+        if left < 0:
+            raise AnalysisError(
+                f"whether the motion is steady is not known at t = {t:.4g} s, after {MOST_EVALUATIONS} evaluations; "
+                "ask for the system of the instant (instantaneous)"
+            )
         y[followed] = z
         rates(float(t), y, subject.p, w, iw, whole)
         return np.asarray(whole[followed])

@@ -1,4 +1,4 @@
-"""Drivers that move at the time of an analysis: beside them nothing rests."""
+"""What depends on time in an analysis: drivers that move, beside which nothing rests, and forces, which are held."""
 
 from __future__ import annotations
 
@@ -97,3 +97,13 @@ def note_on_moving_drivers(mechanism: Mechanism, compiled: CompiledModel, p: Arr
     moving = moving_drivers(mechanism, compiled, p, t)
     verb, them = ("moves", "it") if len(moving) == 1 else ("move", "them")
     return (f"{', '.join(moving)} {verb} at t = {t:g} s; the equilibrium holds {them} there",) if moving else ()
+
+
+def note_on_forces_of_time(mechanism: Mechanism, t: float) -> tuple[str, ...]:
+    """Return a sentence about forces and states whose formulas read the time and are held; none without such ones."""
+    named = [
+        f"force '{x.name}'" for x in mechanism.forces if any("t" in names_in_expression(e.magnitude) for e in x.efforts)
+    ]
+    named += [f"state '{x.name}'" for x in mechanism.states if "t" in names_in_expression(x.rate)]
+    verb, it = ("depends", "it counts") if len(named) == 1 else ("depend", "they count")
+    return (f"{', '.join(named)} {verb} on t: {it} as at t = {t:g} s",) if named else ()

@@ -94,6 +94,10 @@ class Sparse(Yardsticks):
         gaps = self.compiled.section(self.w, "residual") / self.gaps
         return r[nq : nq + nv] * self.spans, gaps[self.active]
 
+    def acting(self, y: Array) -> Array:
+        """Return what acts along each velocity at a state without multipliers: bodies have coordinates of their own."""
+        return np.abs(self.forces(y, np.zeros(self.pattern.m))[0])
+
     def derivatives(self, y: Array, lam: Array) -> tuple[Any, Any, Any]:
         """Return N, D of rows that are not redundant, and the stiffness K."""
         motion, _, rows, stiffness, _ = self.matrices(y, lam)

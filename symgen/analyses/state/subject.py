@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -11,6 +12,7 @@ from msgspec.structs import replace as replaced
 from numpy.typing import NDArray
 
 from symgen.analyses.state.algebra import null_space_split
+from symgen.analyses.state.moving_drivers import note_on_forces_of_time
 from symgen.analyses.state.one_sided import mode_in_words, rows_as_joints, rows_in_force_at
 from symgen.analyses.state.sticking import Stuck, rows_that_stick, with_rows_along, with_slips
 from symgen.base.errors import InputError, suggest
@@ -18,7 +20,7 @@ from symgen.base.settings import Settings
 from symgen.derive.lower.windings import winding_order
 from symgen.describe.bounds.bounded_modes import one_sided_rows, without_bounds
 from symgen.describe.facts.digest import digest
-from symgen.describe.formulas.evaluate import parameter_values
+from symgen.describe.formulas.evaluate import evaluate, parameter_values
 from symgen.describe.parts.holding_joints import in_modes
 from symgen.run.compiling.linearised import DescriptorForm, LinearisedState, compile_linearised
 from symgen.run.compiling.pipeline import straight_alone
@@ -145,6 +147,11 @@ class Subject(Yardsticks):
         return mode_in_words((*self.shut, *(each.row for each in self.stuck)), self.opened)
 
     @property
+    def notes(self) -> tuple[str, ...]:
+        """Sentences on what an analysis at a state takes for granted: the rows in force, and forces of time."""
+        return (*self.mode, *note_on_forces_of_time(self.mechanism, self.t))
+
+    @property
     def varied(self) -> tuple[str, ...]:
         """Inputs, then the parameters that the form is differentiated by."""
         return (*self.inputs, *self.by)
@@ -224,6 +231,19 @@ class Subject(Yardsticks):
         d = e.by("velocities", "v")
         d[np.linalg.norm(d * self.spans, axis=1) < NO_ROW * self.gaps] = 0.0
         return d
+
+    def acting(self, e: LinearisedState) -> Array:
+        """Return what acts along each velocity, shape (nv,): sums of sizes, which do not cancel where forces balance.
+
+        Of the weight it is the most that it can be along a coordinate, by Schwarz' inequality.
+        """
+        sizes, mass = np.zeros(self.nv), np.abs(np.diag(e.by("balance", "a")))
+        for (_, i), force in zip(self.form.elements, e.value("elements"), strict=True):
+            sizes[i] += abs(force)
+        values = {q.name: float(x) for q, x in zip(self.compiled.info.parameters, self.p, strict=False)}
+        pull = math.hypot(*(evaluate(g, values, "gravity") for g in self.mechanism.gravity))
+        whole = sum(abs(evaluate(body.mass, values, "mass")) for body in self.mechanism.bodies)
+        return np.asarray(sizes + pull * np.sqrt(whole * mass))
 
     def lost_rank(self, d: Array) -> int:
         """Return by how much the rank of D is below its rank at positions nearby: above 0 at a singular position."""
