@@ -16,7 +16,9 @@ from typing import TYPE_CHECKING, Any
 from symgen.base.version import __version__
 
 if TYPE_CHECKING:
-    from symgen.api import Model, load
+    from pathlib import Path
+
+    from symgen.api import Model as _Model
     from symgen.api import simulate as simulate
     from symgen.base.errors import AssemblyError, InputError, SimulationError, StepError, SymgenError
     from symgen.base.plugins import load_plugin
@@ -29,12 +31,24 @@ if TYPE_CHECKING:
     from symgen.result.result import Result
     from symgen.result.stepping.stepped_run import SteppedRun
     from symgen.run.integrators import list_integrators
-    from symgen.study.comparison.compare_models import Study, compare
-    from symgen.study.design.designing import design
+    from symgen.study.comparison.compare_models import Study
+    from symgen.study.comparison.compare_models import compare as compare
+    from symgen.study.design.designing import design as design
     from symgen.study.design.found import Design
-    from symgen.study.ensemble.parameter_sweep import sweep
+    from symgen.study.ensemble.parameter_sweep import sweep as sweep
     from symgen.study.ensemble.sweep_study import Sweep
     from symgen.study.report.write import write_report
+
+    _compare, _design, _sweep = compare, design, sweep
+
+    class Model(_Model):
+        """`symgen.api.Model` with its studies, which are found by their names when they are first called."""
+
+        compare, design, sweep = _compare, _design, _sweep
+
+    def load(model: str | Path | Mechanism | _Model) -> Model:
+        """Return a model; see `symgen.api.load`."""
+
 
 #: Public name -> its module.
 _WHERE = {

@@ -31,9 +31,6 @@ from symgen.run.planning.starts import start_of
 from symgen.run.single.run import Array
 
 if TYPE_CHECKING:
-    from symgen import compare as _compare
-    from symgen import design as _design
-    from symgen import sweep as _sweep
     from symgen.analyses.functions.body_frame import Frame
     from symgen.analyses.functions.model_functions import Functions
     from symgen.result.result import Result
@@ -42,6 +39,9 @@ if TYPE_CHECKING:
     from symgen.run.planning.package import Package
     from symgen.run.starts.assembly import Start
     from symgen.run.starts.held import Held
+
+#: Functions of the package that are methods of models as well.
+STUDIES = ("compare", "design", "sweep")
 
 
 @explain_plugin_errors
@@ -80,17 +80,6 @@ def simulate(
         Single settings by name, as listed above.
     """
     return load(model).simulate(settings, progress, sensitivities, **changes)
-
-
-class _OfPackage:
-    """A function of the package as a method; its module imports this one, so it is imported at its first use."""
-
-    def __init__(self, name: str) -> None:
-        self.name = name
-
-    def __get__(self, model: object, owner: type) -> Any:
-        setattr(owner, self.name, getattr(import_module("symgen"), self.name))
-        return getattr(owner if model is None else model, self.name)
 
 
 @dataclass(frozen=True, repr=False)
@@ -312,12 +301,6 @@ class Model(Analysed, Shown):
         )
         return kind.write(request)
 
-    # editors and type checkers see the functions, which are imported when they are first called
-    if TYPE_CHECKING:
-        compare, design, sweep = _compare, _design, _sweep
-    else:
-        compare, design, sweep = _OfPackage("compare"), _OfPackage("design"), _OfPackage("sweep")
-
     @make_entry
     def simulate(
         self,
@@ -388,3 +371,18 @@ class Model(Analysed, Shown):
             return prepare(self.mechanism, replace(settings, start=start))
 
         return SteppedRun(begun(settings.start), begun)
+
+
+class _OfPackage:
+    """A function of the package as a method; its module imports this one, so it is imported at its first use."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def __get__(self, model: object, owner: type) -> Any:
+        setattr(owner, self.name, getattr(import_module("symgen"), self.name))
+        return getattr(owner if model is None else model, self.name)
+
+
+for _name in STUDIES:  # type checkers see them in `symgen.Model`
+    setattr(Model, _name, _OfPackage(_name))

@@ -178,7 +178,7 @@ def command(
         show_across(across_mechanisms(studies))
 
     def write_report(file: Path) -> None:
-        from symgen.study.report.comparison_report import comparison_report
+        from symgen.study.report.kinds.comparison_report import comparison_report
         from symgen.study.report.letterhead import put_on_paper
         from symgen.study.report.write import write
 

@@ -96,7 +96,7 @@ def command(
         check_report("--report", report_path)
     size = paper_of_report(paper, report_path, "--report")
 
-    from symgen.api import load
+    from symgen import load
     from symgen.cli._progress import Bar
     from symgen.study.design.designing import design
 

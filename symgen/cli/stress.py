@@ -87,8 +87,8 @@ def command(
 
     def write_report(file: Path) -> None:
         from symgen.api import load
+        from symgen.study.report.kinds.stress_report import stress_report
         from symgen.study.report.letterhead import put_on_paper
-        from symgen.study.report.stress_report import stress_report
         from symgen.study.report.write import write
 
         mechanisms = [load(name) for name in dict.fromkeys(models)]

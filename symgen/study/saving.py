@@ -11,14 +11,10 @@ from symgen.base.arguments import path_argument as argument_path
 from symgen.base.errors import InputError
 
 if TYPE_CHECKING:
-    from symgen.study.comparison.comparison_study import Study
-    from symgen.study.stress.stress_rows import Stress
-
-#: Endings of reports.
-REPORTS = (".html", ".md", ".pdf", ".tex")
+    from symgen.study.report.write import Reported
 
 
-def save_study(study: Study | Stress, path: str | PathLike[str], save_rows: Callable[[Path], Path]) -> Path:
+def save_study(study: Reported, path: str | PathLike[str], save_rows: Callable[[Path], Path]) -> Path:
     """Write a study to a file, by its ending.
 
     Parameters
@@ -36,11 +32,10 @@ def save_study(study: Study | Stress, path: str | PathLike[str], save_rows: Call
         If the ending is another, matplotlib is missing for a report, or the file cannot be written.
     """
     file = argument_path("save", path)
-    ending = file.suffix.lower()
-    if ending in REPORTS:
-        from symgen.study.report.write import write_report
+    if file.suffix.lower() == ".csv":
+        return save_rows(file)
+    from symgen.study.report.write import WRITTEN, write_report
 
+    if file.suffix.lower() in WRITTEN:
         return write_report(study, file)
-    if ending != ".csv":
-        raise InputError("save", f"a file ending in {', '.join(('.csv', *REPORTS))}", f"'{file}'")
-    return save_rows(file)
+    raise InputError("save", f"a file ending in {', '.join(('.csv', *WRITTEN))}", f"'{file}'")

@@ -18,11 +18,16 @@ from pathlib import Path
 
 import pytest
 
+import symgen
+from benchmarks import structure
+from symgen import api
 from symgen.compile.store import sources
 
 PACKAGE = Path(__file__).resolve().parents[2] / "symgen"
 
 SOURCES = sorted(PACKAGE.rglob("*.py"))
+#: Most files in circles of imports, those for types included, and in the largest one.
+IN_CIRCLES, LARGEST_CIRCLE = 105, 10
 #: Streets without rooms: their folders are parts of one thing.
 WHOLE = ("cli",)
 
@@ -120,6 +125,29 @@ def test_benchmarks_import_what_their_page_says() -> None:
         if path.parent.name != "peers":  # these run in an environment of their own
             found = {name.partition(".")[0] for name in imported(path)} - set(sys.stdlib_module_names)
             assert found <= known, path
+
+
+def test_circles_of_imports_are_few_and_small() -> None:
+    trees = structure.modules(PACKAGE)
+    arrows = {name: structure.imported(tree, set(trees)) - {name} for name, tree in trees.items()}
+    circles = structure.circles(arrows)
+    sizes = [*map(len, circles)]
+    assert sum(sizes) <= IN_CIRCLES and max(sizes) <= LARGEST_CIRCLE, circles
+    # a model names none of the studies that are its methods
+    assert not any(name == "symgen" or name.startswith("symgen.study") for name in arrows["symgen.api"])
+
+
+def test_circles_are_found_at_any_length() -> None:
+    ring = {"a": {"b", "d"}, "b": {"c"}, "c": {"a"}, "d": {"e"}, "e": set(), "f": {"g"}, "g": {"f", "a"}}
+    assert sorted(sorted(circle) for circle in structure.circles(ring)) == [["a", "b", "c"], ["f", "g"]]
+
+
+def test_type_checkers_see_the_studies_that_models_find() -> None:
+    tree = ast.parse((PACKAGE / "__init__.py").read_text(encoding="utf-8"))
+    (seen,) = (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef))
+    names = next(ast.unparse(node.targets[0]) for node in seen.body if isinstance(node, ast.Assign))
+    assert names == f"({', '.join(api.STUDIES)})"
+    assert [getattr(api.Model, name) for name in api.STUDIES] == [getattr(symgen, name) for name in api.STUDIES]
 
 
 def test_a_file_that_imports_more_is_noticed(tmp_path: Path) -> None:

@@ -18,7 +18,7 @@ from symgen.study.comparison import compare_models as whole
 from symgen.study.comparison import model_comparison as module
 from symgen.study.comparison.combinations import Combinations
 from symgen.study.journal import Journal
-from symgen.study.report.comparison_report import comparison_report
+from symgen.study.report.kinds.comparison_report import comparison_report
 
 ROW_KEYS = {
     *("method", "integrator", "step", "rtol", "status", "reason", "error", "run_seconds", "run_seconds_spread"),

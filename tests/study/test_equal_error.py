@@ -12,7 +12,7 @@ from symgen.cli._comparison_tables import show_study
 from symgen.study.comparison.combinations import Combinations
 from symgen.study.comparison.equal_error import pareto_front, time_at_error, times_at
 from symgen.study.journal import Journal
-from symgen.study.report.comparison_report import comparison_report
+from symgen.study.report.kinds.comparison_report import comparison_report
 
 
 def line(method, errors, **changes):

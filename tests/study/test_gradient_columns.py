@@ -9,7 +9,7 @@ from symgen.base.errors import InputError
 from symgen.cli.compare import command
 from symgen.study.comparison.gradients import difference_slopes
 from symgen.study.journal import Journal
-from symgen.study.report.comparison_report import comparison_report
+from symgen.study.report.kinds.comparison_report import comparison_report
 
 RUNS = {
     "methods": ["lagrange", "direct-correction", "ggl"],

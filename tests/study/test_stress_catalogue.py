@@ -6,8 +6,8 @@ import pytest
 
 from study.report.made import stress_row
 from symgen.study.report import stress_figures
-from symgen.study.report import stress_report as report
-from symgen.study.report.stress_report import FEW_MODELS
+from symgen.study.report.kinds import stress_report as report
+from symgen.study.report.kinds.stress_report import FEW_MODELS
 from symgen.study.stress.findings import cause_of_failure, findings_of_study
 from symgen.study.stress.stress_rows import Limit, Stress, outcomes_of_models, shares_of_models
 

@@ -128,16 +128,6 @@ class AnalysisTable:
     left: Sequence[str] = ()
 
 
-def html_output(items: Iterable[str | AnalysisTable], notes: Iterable[str] = ()) -> str:
-    """Return the output of a command as HTML."""
-    from symgen.result.labelled import notebook_table
-
-    lines = [*items, *(f"note: {note}" for note in notes)]
-    return "\n".join(
-        f"<p>{escape(x)}</p>" if isinstance(x, str) else notebook_table(x.headings, x.rows, most=40) for x in lines
-    )
-
-
 @dataclass(frozen=True)
 class AnalysisOutput:
     """Output of a command.
@@ -178,12 +168,15 @@ class Analysis:
         In the order of the help.
     examples : tuple of str
         Lines that can be typed as they are.
+    lines : mapping
+        Class of a result, by its name -> its lines and tables, for the command and for notebooks.
     """
 
     methods: tuple[Callable[..., Any], ...]
     command: Callable[..., AnalysisOutput]
     options: tuple[Option, ...]
     examples: tuple[str, ...]
+    lines: Mapping[str, Callable[[Any], Iterable[str | AnalysisTable]]] = field(default_factory=dict)
 
 
 def change_settings_checked(
@@ -210,3 +203,13 @@ def settings_about_place(where: str, settings: Settings | None, changes: Mapping
 
 
 ANALYSES: Registry[Analysis] = Registry(__name__, "analysis")
+
+
+def notebook_html(kind: str, result: object, notes: Iterable[str] = ()) -> str:
+    """Return a result as a notebook shows it: the lines and tables that the command of its kind prints."""
+    from symgen.result.labelled import notebook_table
+
+    lines = [*ANALYSES.get(kind).lines[type(result).__name__](result), *(f"note: {note}" for note in notes)]
+    return "\n".join(
+        f"<p>{escape(x)}</p>" if isinstance(x, str) else notebook_table(x.headings, x.rows, most=40) for x in lines
+    )

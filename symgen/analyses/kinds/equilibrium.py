@@ -157,4 +157,5 @@ KIND = Analysis(
         *STATE,
     ),
     examples=("symgen equilibrium four-bar", 'symgen equilibrium four-bar --scan "crank.theta=lin(0,6.28,25)" --json'),
+    lines={"Equilibrium": equilibrium_lines},
 )

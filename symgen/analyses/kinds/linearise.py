@@ -97,4 +97,5 @@ KIND = Analysis(
         Option("--by", "Parameters that are inputs as well: constants, changed once.", "words", "NAME,NAME"),
     ),
     examples=("symgen linearise pendulum", "symgen linearise bicycle --at start --states lean,steer --json"),
+    lines={"LinearSystem": system_lines},
 )

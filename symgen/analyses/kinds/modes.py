@@ -230,4 +230,5 @@ KIND = Analysis(
         Option("--plot", "Draw the root locus into a .svg, .png or .pdf file.", "plot", "FILE"),
     ),
     examples=("symgen modes four-bar", "symgen modes four-bar --start crank.theta=4"),
+    lines={"Modes": mode_lines, "Locus": locus_lines},
 )

@@ -121,10 +121,9 @@ class Modes:
         return f"<Modes: {plural(self.degrees_of_freedom, 'degree')} of freedom, eigenvalues {shown or 'none'} 1/s>"
 
     def _repr_html_(self) -> str:
-        from symgen.analyses.kinds import html_output
-        from symgen.analyses.kinds.modes import mode_lines
+        from symgen.analyses.kinds import notebook_html
 
-        return html_output(mode_lines(self), self.notes)
+        return notebook_html("modes", self, self.notes)
 
 
 def modes_about(

@@ -112,10 +112,9 @@ class LinearSystem:
         return f"<LinearSystem: {'; '.join(f'{len(names)} {what}{_first_names(names)}' for what, names in parts)}>"
 
     def _repr_html_(self) -> str:
-        from symgen.analyses.kinds import html_output
-        from symgen.analyses.kinds.linearise import system_lines
+        from symgen.analyses.kinds import notebook_html
 
-        return html_output(system_lines(self), self.notes)
+        return notebook_html("linearise", self, self.notes)
 
 
 def _first_names(names: Sequence[str]) -> str:

@@ -92,10 +92,9 @@ class Locus:
         return f"<Locus: {counts[0]} over {self.name} = {first:g} to {last:g}, {counts[1]}>"
 
     def _repr_html_(self) -> str:
-        from symgen.analyses.kinds import html_output
-        from symgen.analyses.kinds.modes import locus_lines
+        from symgen.analyses.kinds import notebook_html
 
-        return html_output(locus_lines(self))
+        return notebook_html("modes", self)
 
     @overload
     def plot(self, path: None = None) -> Plot: ...

@@ -108,10 +108,9 @@ class Equilibrium:
         )
 
     def _repr_html_(self) -> str:
-        from symgen.analyses.kinds import html_output
-        from symgen.analyses.kinds.equilibrium import equilibrium_lines
+        from symgen.analyses.kinds import notebook_html
 
-        return html_output(equilibrium_lines(self), self.notes)
+        return notebook_html("equilibrium", self, self.notes)
 
 
 def judge_equilibrium(rest: Settled) -> Equilibrium:

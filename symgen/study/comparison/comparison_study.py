@@ -8,7 +8,7 @@ from functools import cached_property
 from os import PathLike
 from pathlib import Path
 from statistics import median
-from typing import TYPE_CHECKING, Any, cast, overload
+from typing import TYPE_CHECKING, Any, ClassVar, cast, overload
 
 from symgen.base.arguments import one_word_of, words
 from symgen.base.errors import InputError, plural
@@ -71,6 +71,8 @@ class Study:
     at : tuple of TimeAtError
         Run times of the lines at the errors asked for.
     """
+
+    report_kind: ClassVar[str] = "comparison-report"
 
     mechanism: str
     how: str

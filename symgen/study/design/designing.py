@@ -41,7 +41,7 @@ from symgen.study.design.starts import Screened, screen
 from symgen.study.report.words import enumeration
 
 if TYPE_CHECKING:
-    from symgen.api import Model
+    from symgen import Model
     from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
 
@@ -112,7 +112,7 @@ def design(
     InputError
         If an argument is wrong, or the machine of the file does not move.
     """
-    from symgen.api import load
+    from symgen import load
 
     own = change_settings_checked("design", settings, changes, COUNTING)
     count = arguments.whole_number("design: starts", starts, 1, MOST_STARTS)
@@ -309,7 +309,7 @@ class _Designing:
 
     def _new_file(self, values: Mapping[str, float]) -> tuple[str, Model]:
         """Return the text of the file with new numbers, and its machine."""
-        from symgen.api import Model
+        from symgen import Model
 
         origin, pins = self.origin, self.varied.pins
         paths = {name: path for name, path, _ in numbers_of_file(origin.raw)}

@@ -17,7 +17,7 @@ from symgen.base.errors import InputError, quote
 from symgen.base.files import write_whole
 
 if TYPE_CHECKING:
-    from symgen.api import Model
+    from symgen import Model
     from symgen.base.settings import Settings
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result

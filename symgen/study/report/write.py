@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar, Protocol
 from urllib.parse import quote
 
 from symgen.base.arguments import kind_of_value
@@ -16,21 +16,24 @@ from symgen.base.arguments import path_argument as argument_path
 from symgen.base.errors import InputError
 from symgen.base.escapes import markdown_text
 from symgen.base.files import Content, check_path, system_message, templates_folder, write_all, write_whole
-from symgen.study.comparison.comparison_study import Study
 from symgen.study.report.browser_pdf import find_browser, print_pdf
 from symgen.study.report.document import DocumentTable, Picture, ReportDocument, Section, TableCell
+from symgen.study.report.kinds import STUDY_REPORTS
 from symgen.study.report.latex import latex_tables
 from symgen.study.report.letterhead import signing_section
 from symgen.study.report.plain_pdf import plain_pdf
-from symgen.study.saving import REPORTS
 
 if TYPE_CHECKING:
     import jinja2
 
-    from symgen.study.stress.stress_rows import Stress
-
 #: Endings of reports -> the libraries needed.
-WRITTEN: Mapping[str, tuple[str, ...]] = {**dict.fromkeys(REPORTS, ("matplotlib",)), ".tex": ()}
+WRITTEN: Mapping[str, tuple[str, ...]] = {**dict.fromkeys((".html", ".md", ".pdf"), ("matplotlib",)), ".tex": ()}
+
+
+class Reported(Protocol):
+    """A study that names its report, one of `symgen.study.report.kinds`."""
+
+    report_kind: ClassVar[str]
 
 
 def check_report(where: str, path: Path) -> None:
@@ -88,7 +91,7 @@ def write(document: ReportDocument, path: Path) -> Path:
     return path
 
 
-def write_report(study: Study | Stress | Sequence[Study], path: str | PathLike[str]) -> Path:
+def write_report(study: Reported | Sequence[Reported], path: str | PathLike[str]) -> Path:
     """Write the report of a comparison, of several beside each other, or of a stress study.
 
     Parameters
@@ -104,18 +107,13 @@ def write_report(study: Study | Stress | Sequence[Study], path: str | PathLike[s
     InputError
         If the ending is another one, matplotlib is missing, or the file cannot be written.
     """
-    from symgen.study.report.comparison_report import comparison_report
-    from symgen.study.report.stress_report import stress_report
-    from symgen.study.stress.stress_rows import Stress
-
     file = argument_path("report", path)
     check_report("report", file)
-    if isinstance(study, Stress):
-        return write(stress_report(study), file)
-    studies = [study] if isinstance(study, Study) else study
-    if not (isinstance(studies, Sequence) and studies and all(isinstance(s, Study) for s in studies)):
+    studies = study if isinstance(study, Sequence) else [study]
+    kinds = {getattr(each, "report_kind", "") for each in studies}
+    if len(kinds) != 1 or kinds == {""}:
         raise InputError("report", "a comparison or a stress study", kind_of_value(study))
-    return write(comparison_report(studies), file)
+    return write(STUDY_REPORTS.get(*kinds)(studies), file)
 
 
 def _report_folder(path: Path) -> Path:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, fields
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 from symgen.base.files import check_writable, heading_with_unit, need_library, write_csv
 from symgen.result.contract import json_value
@@ -149,6 +149,8 @@ class Stress:
     underived : tuple of (str, str)
         Models that two formulations judge, and what of each no second derivation has.
     """
+
+    report_kind: ClassVar[str] = "stress-report"
 
     models: tuple[str, ...]
     rows: tuple[StressRow, ...]

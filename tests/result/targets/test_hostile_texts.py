@@ -28,7 +28,7 @@ from support.rotation import of_turn
 from symgen.base.errors import InputError
 from symgen.base.escapes import comment_text
 from symgen.cli import main
-from symgen.study.report.comparison_report import comparison_report
+from symgen.study.report.kinds.comparison_report import comparison_report
 from symgen.study.report.write import html_report, markdown_report
 from tests.study.report.made import row, study, trace
 

@@ -8,7 +8,7 @@ import pytest
 from study.report import made
 from symgen.study.comparison.across import across_mechanisms
 from symgen.study.comparison.comparison_study import plot_rows
-from symgen.study.report.comparison_report import comparison_report
+from symgen.study.report.kinds.comparison_report import comparison_report
 from symgen.study.report.latex import latex_tables, latex_text
 
 STUDIES = [made.study(), made.study(mechanism="slider_crank & more")]

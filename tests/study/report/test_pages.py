@@ -14,10 +14,10 @@ from markdown_it import MarkdownIt
 from study.report.made import row, study, trace
 from symgen.base.errors import InputError
 from symgen.base.escapes import markdown_text
-from symgen.study.report import comparison_report as sections
 from symgen.study.report import picture
-from symgen.study.report.comparison_report import comparison_report
 from symgen.study.report.figures import pictures_of_study
+from symgen.study.report.kinds import comparison_report as sections
+from symgen.study.report.kinds.comparison_report import comparison_report
 from symgen.study.report.write import check_report, html_report, markdown_report, write
 
 VOID = {"meta", "img", "br", "hr", "link", "input"}

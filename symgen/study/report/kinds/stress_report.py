@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from symgen.base.errors import plural
+from symgen.base.errors import InputError, plural
 from symgen.run.planning.automatic import AUTO
 from symgen.study.machine_class import machine_class, version_list
 from symgen.study.references.effort import IMPLICIT_BUDGET, explicit_limits
@@ -225,3 +225,13 @@ def _cell_row(row: StressRow) -> tuple[str | TableCell, ...]:
         *map(words.rounded_number, (row.error, row.relative_error, row.reference_error)),
         str(row.evaluations),
     )
+
+
+def _report_of_one(studies: Sequence[Stress]) -> ReportDocument:
+    """Return the report of a stress study, which has no other one beside it."""
+    if len(studies) > 1:
+        raise InputError("report", "one stress study", f"{len(studies)} of them")
+    return stress_report(studies[0])
+
+
+KIND = _report_of_one

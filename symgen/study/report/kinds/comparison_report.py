@@ -361,3 +361,6 @@ def _violations_table(study: Study) -> DocumentTable:
         scaled = words.rounded_number(row.relative_violation)
         rows.append((row.label, row.integrator, words.setting_in_words(row.step, row.rtol), scaled, *values))
     return DocumentTable("Violations at position, velocity and acceleration level.", headings, tuple(rows), words=3)
+
+
+KIND = comparison_report
