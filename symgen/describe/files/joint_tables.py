@@ -17,7 +17,7 @@ from symgen.describe.parts.collected import Errors, Incomplete, further_errors
 from symgen.describe.parts.fields import Flag, JointStart, Scalar, read_table, read_value, value_in_words
 from symgen.describe.parts.holding_joints import ReadHolding, read_holding
 from symgen.describe.parts.holds import joint_holds
-from symgen.describe.parts.kinds import JOINTS, kind_and_keys
+from symgen.describe.parts.kinds import JOINTS, check_points, kind_and_keys
 from symgen.describe.parts.topology import articulation_of_joint
 
 if TYPE_CHECKING:
@@ -111,6 +111,7 @@ class JointTables:
         where = self.where(f"joints.{name}")
         kind, table = kind_and_keys(where, whole, "joint type")
         struct = JOINTS.get(kind, f"{where}.type")
+        check_points(struct, kind, where)
         shared = tuple(key for key in self._keys if key not in _taken_keys(struct, whole))
         table = {key: value for key, value in table.items() if key not in shared}
         scope = self.scope("joints", name, JOINTS.resolve_alias(kind))

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import cache
 from typing import Annotated, Any, Literal, TypeVar, cast, get_args, get_origin
 
@@ -227,6 +228,19 @@ def read_table(kind: type[T], raw: object, where: str, further: tuple[str, ...] 
 @cache  # one entry for each section and kind; msgspec evaluates every annotation
 def _fields_by_name(kind: type[msgspec.Struct]) -> dict[str, msgspec.structs.FieldInfo]:
     return {field.name: field for field in msgspec.structs.fields(kind)}
+
+
+@cache
+def takes_one_point(kind: type[msgspec.Struct]) -> bool:
+    """Whether a kind of joint or force has one point under `at` beside two bodies, each of which has a point there."""
+    at = _fields_by_name(kind).get("at")
+    if at is None or "between" not in _fields_by_name(kind):
+        return False
+    for one in ("name", [0.0, 0.0]):
+        with suppress(msgspec.ValidationError):
+            msgspec.convert(one, at.type)
+            return True
+    return False
 
 
 def read_value(type_: object, value: object, where: str) -> Any:

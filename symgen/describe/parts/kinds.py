@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
-from symgen.base.errors import InputError
+from symgen.base.errors import InputError, quote
 from symgen.base.registry import Registry
-from symgen.describe.parts.fields import read_table, value_in_words
+from symgen.describe.parts.fields import read_table, takes_one_point, value_in_words
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Force, Joint
@@ -75,6 +75,17 @@ def kind_and_keys(where: str, table: object, what: str, *common: str) -> tuple[s
     return kind, {key: value for key, value in table.items() if key not in ("type", *common)}
 
 
+def check_points(kind: type[JointKind | ForceKind], name: str, where: str) -> None:
+    """Refuse a kind of a plugin that has one point under `at` beside `between`.
+
+    Renaming, beams, pins and the editor read these two keys of any table, as a body and its point in one order.
+    """
+    if takes_one_point(kind):
+        hint = "give this key of the plugin another name, such as 'point'"
+        expected = "a kind whose 'at' has a point of each body of 'between'"
+        raise InputError(f"{where}.type", expected, f"{quote(name)}, whose 'at' is one point", hint)
+
+
 def read_force(name: str, raw: object, scope_of_entry: Callable[[str, str, str], Scope]) -> Force:
     """Return the force that a table of ``[forces]`` describes.
 
@@ -93,6 +104,7 @@ def read_force(name: str, raw: object, scope_of_entry: Callable[[str, str, str],
     where = scope_of_entry("forces", name, "").where("")
     kind, table = kind_and_keys(where, raw, "force type")
     struct = FORCES.get(kind, f"{where}.type")
+    check_points(struct, kind, where)
     scope = scope_of_entry("forces", name, FORCES.resolve_alias(kind))
     scope.check_space(struct.SPACES)
     return read_table(struct, table, where, ("type",)).build(scope)
