@@ -59,10 +59,8 @@ CARRY_UNITS = (
 PARAMETERS = {
     "baumgarte": {"alpha": (5.0, "1/s"), "beta": (5.0, "1/s")},
     "adaptive-baumgarte": {"gain": (5.0, "1/s")},
-    "penalty": {"penalty": (1e9, "kg"), "omega": (10.0, "1/s")},
-    "augmented-lagrangian": {"penalty": (1e7, "kg"), "omega": (10.0, "1/s")},
-    "index1-augmented-lagrangian": {"penalty": (1e7, "kg")},
-    "mass-orthogonal-projection": {"penalty": (1e7, "kg")},
+    "penalty": {"omega": (10.0, "1/s")},
+    "augmented-lagrangian": {"omega": (10.0, "1/s")},
 }
 #: Exponents of two that lengths, masses and times are multiplied by: about 1e-6 to 1e6, 1e-9 to 1e9, 1e-4 to 1e4.
 LENGTHS, MASSES, TIMES = (-20, -7, 0, 10, 20), (-30, -10, 0, 10, 30), (-13, -3, 0, 3, 13)

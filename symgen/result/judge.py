@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 #: Energy jump over a passage, as a fraction of the energy in motion: beyond the first a run is in doubt, beyond the
 #: second it has failed.
 JUMP_DOUBT, JUMP_FAILURE = 1e-5, 1e-3
+#: Forces that accelerations leave over, as a fraction of all forces: beyond the first a run is in doubt, beyond the
+#: second it has failed. A finer run has the same error, so it settles nothing.
+LEFT_DOUBT, LEFT_FAILURE = 1e-5, 1e-2
 #: A run of adaptive steps with at most so many operations is checked by a second one by default; about 0.2 to 1 s of
 #: explicit steps.
 MOST_OPERATIONS = 2_000_000_000
@@ -86,6 +89,13 @@ def judge(run: Prepared, outcome: Outcome, second: Verification | None = None) -
     """
     verdict = judge_alone(outcome, run.compiled.law)
     verdict = replace(verdict, warnings=(*verdict.warnings, *_velocity_warning(run, outcome)))
+    left = 0.0 if verdict.status == FAILED else outcome.imbalance
+    if not left <= LEFT_DOUBT:
+        reason = (
+            f"accelerations leave {left:.2g} of the forces unbalanced: rounding of large penalties or of light bodies "
+            f"stands in for masses ({run.plan.choice.method.name})"
+        )
+        return replace(verdict, status=FAILED if not left <= LEFT_FAILURE else UNVERIFIED, reason=reason)
     if second is None or verdict.status == FAILED:
         return verdict
     if second.doubt is not None:

@@ -81,6 +81,10 @@ class LawAt:
         """A number of the status."""
         return float(self.w[STATUS.index(name)])
 
+    def row_masses(self) -> np.ndarray:
+        """The mean mass times the weights of rows: the unit of penalties."""
+        return self.status("mean_mass") * self.section("row_weight")
+
     def rates(self, q, v, t=0.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """q', v' and lambda; the second opinion on rank where the law asks for it."""
         y, rate, law = self.state(q, v), np.zeros_like(self.start.y), self.compiled.law_module

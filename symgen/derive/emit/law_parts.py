@@ -150,6 +150,7 @@ ROLES = {
     "preparation": ("prepare", "Numbers that depend on parameters alone"),
     "iteration": ("iterate", "One iteration, and its end"),
     "acceleration": ("rhs", "Right-hand side"),
+    "balance": ("balance", "What accelerations and multipliers leave of the forces"),
     "metric": ("metric", "Corrections in another metric"),
     "correction": ("accept", "Treatment of accepted states"),
     "closed": ("rhs_closed", "Right-hand side behind the closure of the state"),
@@ -158,7 +159,7 @@ ROLES = {
     "derivation": ("slopes", "Right-hand side for derivatives"),
 }
 #: Functions that a law's module exports.
-_EXPORTS = "prepare", "rhs", "confirm", "rates", "accept", "geometry", "spread", "residual", "tangent"
+_EXPORTS = "prepare", "rhs", "confirm", "rates", "accept", "balance", "geometry", "spread", "residual", "tangent"
 
 
 def law_modules(

@@ -24,9 +24,13 @@ ARGUMENTS = {
     **dict.fromkeys(("rhs", "rates"), ("t", "y", "p", "w", "iw", "ydot")),
     **dict.fromkeys(("begin", "aim", "geometry"), ("t", "y", "p", "w")),
     **dict.fromkeys(("iterate", "weigh", "expand", "refactor", "spread"), ("p", "w")),
-    "finish": ("t", "y", "p", "w", "ydot"),
+    **dict.fromkeys(("finish", "balance"), ("t", "y", "p", "w", "ydot")),
     "strike": ("w",),
 }
+
+
+#: Operations that end in v' = M^-1 (f - D^T lambda), so that forces balance whatever the multipliers are.
+_BALANCED = frozenset(("constrained", "minv"))
 
 
 @dataclass(frozen=True)
@@ -42,7 +46,7 @@ class Part:
         state, a group of `EQUATIONS`; and its operation.
     flag : int, optional
         The operation that flags suspicious pivots.
-    role : {"acceleration", "iteration", "metric", "form"}
+    role : {"acceleration", "iteration", "balance", "metric", "form"}
         Part of the law.
     velocities : int, optional
         The operation that computes v where the state does not hold it.
@@ -160,19 +164,32 @@ class _Law:
         self.parts.append(Part(name, purpose, places, None if flag is None else flag.index, self.role))
 
     def add_law(self, law: Law) -> None:
+        kind = ""
         if isinstance(law, Acceleration):
             self.form, flag = "direct", self.system.flag()
             rates = self.state_rates(law.acceleration, law.multipliers, law.position)
             outputs = [*rates, ("multipliers", law.multipliers)]
             self.add_part("rhs", "q', v', power and multipliers", *outputs, flag=flag)
+            kind = self.system.tape.operations[law.acceleration.index].kind
         elif isinstance(law, Iteration):
             self.add_iteration(law)
+            kind = "" if law.rates is None else "constrained"  # the rates of results
         elif isinstance(law, Dense):
             self.add_orthogonal_factorisation(law)
         elif isinstance(law, Tangent):
             self.add_tangent_basis()
         else:
             assert_never(law)
+        if kind not in _BALANCED:
+            self.add_balance()
+
+    def add_balance(self) -> None:
+        """Add what v' and the multipliers leave of the forces: rounding may move a law without any violation."""
+        s = self.system
+        forces = s.D.transposed(s.variable("multipliers", "m")) - s.f
+        left = s.mass(s.variable("rates.v", "nv")) + forces
+        self.role = "balance"
+        self.add_part("balance", "M v' + D^T lambda - f in the section `change`", ("change", left))
 
     def state_rates(
         self,
@@ -351,7 +368,7 @@ class _Law:
         lambda before it solves, so lambda begins at -a r.
         """
         s = self.system
-        penalties = s.penalties(s.parameter("penalty"))
+        penalties = s.penalties(s.of_mean_mass(s.parameter("penalty")))
         factor = s.augmented_metric(penalties)
         self.add_refactor("M + a D^T D", factor)
         self.sections |= {"moved": ("nv",), "force_of_constraints": ("m",)}

@@ -80,4 +80,4 @@ def _constraint_groups(s: System, form: Descriptor, accelerations: Vector, multi
     rest = s.D @ accelerations - form.target
     if form.level == "projected":
         return [s.holonomic_or(velocity), velocity, rest]
-    return [rest if form.compliance is None else rest - form.compliance * multipliers]
+    return [rest if form.compliance is None else rest - form.compliance.times(multipliers)]

@@ -49,12 +49,12 @@ class OfRows(OfMass):
     def _schur_factor(self) -> FactorNodes:
         return self._masked_factor(self.mass_gram(self.rows))
 
-    def _on_compliant(self, operation: FormulaStep, compliance: int) -> FactorNodes:
+    def _on_compliant(self, operation: FormulaStep, compliance: Nodes) -> FactorNodes:
         """Return the factor of S + e: a term of a diagonal entry is a term of its pivot."""
         g = self.graph
 
         def reciprocal(row: int, pivot: int, _: int) -> int:
-            return self._masked_reciprocal(self._is_held(row), g.add(pivot, g.add(compliance, self.mask[row])))
+            return self._masked_reciprocal(self._is_held(row), g.add(pivot, g.add(compliance[row], self.mask[row])))
 
         return factorise_symmetric(g, self.mass_gram(self.rows), self.order, reciprocal)
 

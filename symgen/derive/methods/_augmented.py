@@ -8,7 +8,9 @@ from symgen.derive.methods._tape import Vector
 
 SOURCE = "the source's value (Marques, Souto, Flores, Multibody Syst. Dyn. 39, 2017)"
 
-PENALTY = MethodParameter("penalty", 1e7, "kg", f"factor a of D^T D, usual range 1e4 to 1e7; {SOURCE}", 1e-300)
+PENALTY = MethodParameter(
+    "penalty", 1e7, "1", f"factor a of D^T D over the mean mass, usual range 1e4 to 1e7; {SOURCE}, in kg", 1e-300
+)
 OMEGA = MethodParameter("omega", 10.0, "1/s", f"natural frequency of the violations; {SOURCE}")
 MU = MethodParameter("mu", 1.0, "1", f"damping ratio of the violations; {SOURCE}")
 ITERATION_TOLERANCE = MethodParameter(

@@ -164,13 +164,13 @@ class Descriptor:
         derivatives, for schemes that evaluate forces explicitly.
     target : Vector, optional
         g of the acceleration level.
-    compliance : Scalar, optional
-        e of the acceleration level; 0 by default.
+    compliance : Vector, optional
+        e of the acceleration level for each row; 0 by default.
     """
 
     level: str
     target: Vector | None = None
-    compliance: Scalar | None = None
+    compliance: Vector | None = None
 
 
 #: Forms of problems that explicit integrators solve with the law alone; all others have a descriptor form.

@@ -48,13 +48,18 @@ class System:
         """Return a number of the status that the runtime sets: ``mean_mass``, ``length_scale``, ``step``, ..."""
         return self.tape.named(Scalar, "status", name)
 
+    def of_mean_mass(self, factor: Scalar) -> Vector:
+        """Return a factor times the mean mass for each row, scaled to derivatives of length 1.
+
+        The mean has I / l^2 for rotations, so a penalty has the same effect at any size and any mass of a mechanism
+        [kg, or kg m^2 for rows that are angles].
+        """
+        return (factor * self.scale("mean_mass")) * self.variable("row_weight", "m")
+
     @property
     def heavy_penalty(self) -> Vector:
-        """1e5 times the mean mass, with I / l^2 for rotations, for rows scaled to derivatives of length 1.
-
-        This factor needs few iterations and loses few digits [kg, or kg m^2 for rows that are angles].
-        """
-        return (self.tape.constant(1e5) * self.scale("mean_mass")) * self.variable("row_weight", "m")
+        """1e5 times the mean mass for each row: few iterations, and few digits are lost."""
+        return self.of_mean_mass(self.tape.constant(1e5))
 
     @property
     def inverse_step(self) -> Scalar:
@@ -64,6 +69,10 @@ class System:
     def inverse(self, x: Scalar) -> Scalar:
         """Return 1 / x."""
         return self.tape.constant(1.0) / x
+
+    def inverses(self, x: Vector) -> Vector:
+        """Return 1 / x of each element."""
+        return x.apply(Vector, "div", self.tape.constant(1.0), x, size=x.size)
 
     def zeros(self, size: str) -> Vector:
         """Return the zero vector of a size."""
@@ -117,7 +126,7 @@ class System:
 
         return result("accelerations", accelerations), result("multipliers", multipliers)
 
-    def compliant_factor(self, compliance: Scalar) -> Factor:
+    def compliant_factor(self, compliance: Vector) -> Factor:
         """Return the factor of ``S + e``, e the compliance of each row, infinite for rows that the runtime leaves out.
 
         It is positive definite for any rank of D, so no pivot is suspicious.

@@ -41,7 +41,7 @@ class AugmentedHamiltonian(Method):
 
     def law(self, system: System, options: Mapping[str, str]) -> Iteration:
         """Return the iteration for v and sigma, and the rates of q and M^-1 p."""
-        penalties = system.penalties(system.parameter("penalty"))
+        penalties = system.penalties(system.of_mean_mass(system.parameter("penalty")))
         factor = system.keep_factor(system.augmented_factor(penalties))
         penalties = system.keep("kept_penalties", penalties)
         constraints, target = system.keep_constraints(), system.keep("kept_target", self.target(system))

@@ -24,7 +24,8 @@ class AugmentedLagrangian(Method):
 
     def law(self, system: System, options: Mapping[str, str]) -> Iteration:
         """Return the iteration for the stabilised constraints."""
-        return augmented_iteration(system, system.parameter("penalty"), stabilised_acceleration(system))
+        penalties = system.of_mean_mass(system.parameter("penalty"))
+        return augmented_iteration(system, penalties, stabilised_acceleration(system))
 
 
 KIND = AugmentedLagrangian()

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from symgen.derive.methods._augmented import MU, OMEGA, stabilised_acceleration
 from symgen.derive.methods._base import Acceleration, Descriptor, Method, MethodParameter
 from symgen.derive.methods._system import System
+from symgen.derive.methods._tape import Vector
 
 
 class CompliantConstraints(Method):
@@ -23,7 +24,7 @@ class CompliantConstraints(Method):
     reference = "Eich, Hanke, Z. Angew. Math. Mech. 75 (1995) 761-773"
     forms = ("ode", "index-1")
     parameters = (
-        MethodParameter("compliance", 1e-9, "1/kg", "e, one over the default factor of `penalty`", 1e-300),
+        MethodParameter("compliance", 1e-9, "1", "e times the mean mass, 1 / a of `penalty`", 1e-300),
         OMEGA,
         MU,
     )
@@ -34,13 +35,17 @@ class CompliantConstraints(Method):
 
     def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
         """Return the law: one solve with S + e."""
-        factor = system.compliant_factor(system.parameter("compliance"))
+        factor = system.compliant_factor(self._compliance(system))
         multipliers = system.solve(factor, system.D @ system.minv(system.f) - stabilised_acceleration(system))
         return Acceleration(system.minv(system.f - system.D.transposed(multipliers)), multipliers)
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
         """Return the same equations without elimination."""
-        return Descriptor("acceleration", stabilised_acceleration(system), system.parameter("compliance"))
+        return Descriptor("acceleration", stabilised_acceleration(system), self._compliance(system))
+
+    def _compliance(self, system: System) -> Vector:
+        """Return e of each row."""
+        return system.inverses(system.of_mean_mass(system.inverse(system.parameter("compliance"))))
 
 
 KIND = CompliantConstraints()

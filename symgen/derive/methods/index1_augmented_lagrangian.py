@@ -35,7 +35,7 @@ class Index1AugmentedLagrangian(Method):
 
     def law(self, system: System, options: Mapping[str, str]) -> Iteration:
         """Return the iteration for the constraints at acceleration level."""
-        return augmented_iteration(system, system.parameter("penalty"), system.gamma)
+        return augmented_iteration(system, system.of_mean_mass(system.parameter("penalty")), system.gamma)
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return the mass-orthogonal projection."""

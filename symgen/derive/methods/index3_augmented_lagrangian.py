@@ -27,7 +27,7 @@ class Index3AugmentedLagrangian(MultiplierMethod):
     default_integrator = "trapezoidal"
     parameters = (
         MethodParameter(
-            "penalty", 1e9, "kg/s^2", "factor a of D^T D at position level, usual range 1e7 to 1e9", 1e-300
+            "penalty", 1e9, "1/s^2", "factor a of D^T D at position level over the mean mass", 1e-300
         ),
     )
 

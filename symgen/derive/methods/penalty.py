@@ -13,7 +13,8 @@ class Penalty(Method):
     """``(M + a D^T D) v' = f + a D^T g`` with ``g = gamma - 2 omega mu Phi' - omega^2 Phi``; ``lambda = a (D v' - g)``.
 
     The first step of the augmented Lagrangian method, not iterated: the constraints hold up to an error that falls like
-    1 / a, while rounding grows like a. M + a D^T D is positive definite, so redundant rows need no special treatment.
+    1 / a, while rounding grows like a. a is in units of the mean mass, so both are the same for light and heavy
+    mechanisms. M + a D^T D is positive definite, so redundant rows need no special treatment.
     """
 
     name = "penalty"
@@ -27,8 +28,9 @@ class Penalty(Method):
         MethodParameter(
             "penalty",
             1e9,
-            "kg",
-            "factor a of D^T D: the error falls like 1 / a until rounding, which grows like a, takes over near 1e10",
+            "1",
+            "factor a of D^T D over the mean mass: the error falls like 1 / a until rounding, which grows like a, takes "
+            "over near 1e10",
             1e-300,
         ),
         OMEGA,
@@ -37,14 +39,16 @@ class Penalty(Method):
 
     def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
         """Return the law: one solve with M + a D^T D."""
-        penalties, target = system.penalties(system.parameter("penalty")), stabilised_acceleration(system)
+        penalties = system.penalties(system.of_mean_mass(system.parameter("penalty")))
+        target = stabilised_acceleration(system)
         right = system.f + system.D.transposed(penalties.times(target))
         acceleration = system.solve(system.augmented_factor(penalties), right)
         return Acceleration(acceleration, penalties.times(system.D @ acceleration - target))
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
         """Return the same equations with lambda = a (D v' - g) kept as an unknown."""
-        return Descriptor("acceleration", stabilised_acceleration(system), system.inverse(system.parameter("penalty")))
+        compliance = system.inverses(system.of_mean_mass(system.parameter("penalty")))
+        return Descriptor("acceleration", stabilised_acceleration(system), compliance)
 
 
 KIND = Penalty()

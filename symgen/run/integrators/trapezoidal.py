@@ -32,7 +32,7 @@ class Trapezoidal(ImplicitTableau):
         if compiled.law.level != "projected":
             return super().setup(compiled, spec, w)
         from symgen.run.layout.scheme_records import Projection
-        from symgen.run.loops.newton import Pattern, constraint_forces, mass_diagonal, projection_plan
+        from symgen.run.loops.newton import Pattern, constraint_forces, projection_plan
         from symgen.run.loops.schemes import projected
 
         law, info = compiled.law, compiled.info
@@ -42,7 +42,7 @@ class Trapezoidal(ImplicitTableau):
         forces = np.stack(constraint_forces(pattern), axis=1).ravel()
         place = law.parameter_offset + [name for name, _ in law.parameters].index("penalty")
         rows = np.array([0.0 if row.holonomic else 1.0 for row in info.rows])
-        scheme = Projection(place, np.zeros(sources), numbers, plan, forces, mass_diagonal(pattern), rows)
+        scheme = Projection(place, np.zeros(sources), numbers, plan, forces, rows)
         functions = law_functions(compiled, "turn", "residual", "tangent")
         memory, room = projected.memory(padded(info.ny), info.nv + len(info.states), info.m, law.unknowns)
         return Setup(projected.constant, functions, scheme, spec.step, memory, room)

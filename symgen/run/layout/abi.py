@@ -19,6 +19,8 @@ Derive = Callable[[Array, Array, Array, Array, Array], int]
 Accept = Callable[[float, Array, Array, Array, Integers], int]
 #: residual(t, y, k, p, w, r) and tangent(t, y, k, p, w, j); j holds only the structural nonzeros.
 Stage = Callable[[float, Array, Array, Array, Array, Array], int]
+#: balance(t, y, p, w, ydot).
+Balance = Callable[[float, Array, Array, Array, Array], int]
 #: geometry(t, y, p, w).
 Measure = Callable[[float, Array, Array, Array], int]
 #: move(y, w) or turn(y, w): the section ``change`` applied to the coordinates.

@@ -149,8 +149,6 @@ class Projection(Record):
         Of W, see `symgen.run.loops.newton.projection_plan`.
     pulls : Array of int64
         Row, velocity and source of each entry of D^T.
-    masses : Array of int64
-        Sources of the diagonal of M.
     nonholonomic : Array
         1 for rows without Phi, else 0.
     """
@@ -160,7 +158,6 @@ class Projection(Record):
     numbers: Array
     plan: Integers
     pulls: Integers
-    masses: Integers
     nonholonomic: Array
 
 

@@ -214,11 +214,6 @@ def constraint_forces(pattern: Pattern) -> tuple[Indices, Indices, Indices]:
     return pattern.columns[sources] - width, pattern.rows[sources] - pattern.nq, sources
 
 
-def mass_diagonal(pattern: Pattern) -> Indices:
-    """Return the sources of the diagonal of M."""
-    return np.flatnonzero(pattern.dynamic & (pattern.rows == pattern.columns)).astype(np.int64)
-
-
 def _along_motion(
     pattern: Pattern, chosen: NDArray[np.bool_]
 ) -> tuple[list[tuple[Indices, Indices, int, Indices]], Products]:

@@ -270,6 +270,11 @@ class CarriedOutcome(Outcome):
     work: float
     tree: TreeRun = field(repr=False)
 
+    @property
+    def imbalance(self) -> float:
+        """That of the loop: its law is that of the joints."""
+        return self.inner.imbalance
+
 
 def places_of_turns(whole: Mechanism, mechanism: Mechanism, shape: str) -> list[tuple[bool, int, float]]:
     """Return where a tree has the angles that the code for bodies counts turns of.

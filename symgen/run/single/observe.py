@@ -62,6 +62,59 @@ def observe_rates(
     return 0
 
 
+@jit()
+def _size_of_forces(sizes: Sizes, w: Array) -> float:
+    """Return the square of forces in the section ``change``, moments over the lengths of bodies."""
+    total = 0.0
+    for i in range(sizes.nv):
+        total += w[sizes.gauge + i] * w[sizes.change + i] ** 2
+    return total
+
+
+@jit(entry=True)
+def observe_balance(
+    model: tuple[Sizes, abi.Rhs, abi.Rhs, abi.Accept],
+    balance: abi.Balance,
+    outputs: Outputs,
+    p: Array,
+    w: Array,
+    iw: Integers,
+    left: Array,
+    room: Array,
+) -> int:
+    """Evaluate what v' and lambda of a law leave of the forces at outputs: |M v' + D^T lambda - f| over its terms.
+
+    Parameters
+    ----------
+    model, outputs, p, w, iw, room
+        As for `observe_rates`.
+    balance : emitted function
+        ``balance(t, y, p, w, ydot)``.
+    left : Array, shape (k,)
+        Receives it for each output; 0 where nothing acts.
+    """
+    sizes, rates, confirm, accept = model
+    y, rate = part(room, 0, sizes.ny), part(room, sizes.ny, sizes.ny)
+    for k in range(outputs.times.shape[0]):
+        t = outputs.times[k]
+        put_output(sizes, outputs, k, y, w)
+        accept(t, y, p, w, iw)
+        if rates(t, y, p, w, iw, rate) != 0:
+            confirm(t, y, p, w, iw, rate)
+        balance(t, y, p, w, rate)
+        rest = _size_of_forces(sizes, w)
+        for i in range(sizes.m):
+            w[sizes.multipliers + i] = 0.0
+        balance(t, y, p, w, rate)
+        terms = _size_of_forces(sizes, w)  # of M v' - f, which is D^T lambda where all balances
+        for i in range(sizes.nv):
+            rate[sizes.nq + i] = 0.0
+        balance(t, y, p, w, rate)
+        terms += _size_of_forces(sizes, w)
+        left[k] = math.sqrt(rest / terms) if terms > 0.0 else 0.0
+    return 0
+
+
 @jit(entry=True)
 def observe_rows(
     observe: abi.Observe,

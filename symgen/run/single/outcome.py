@@ -25,6 +25,10 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
+#: Outputs at which the balance of forces is evaluated.
+BALANCES = 8
+
+
 @dataclass(frozen=True)
 class RankEvent:
     """A passage near a singular position, or a change of rank.
@@ -250,6 +254,31 @@ class Outcome(Motion, Ended):
 
     def __repr__(self) -> str:
         return f"<Outcome of {self.compiled.info.name}: {plural(len(self.times), 'output')} until {self.end:g} s>"
+
+    @cached_property
+    def imbalance(self) -> float:
+        """Largest |M v' + D^T lambda - f| over its terms at the start and at outputs, at most `BALANCES` of them.
+
+        It is 0 for laws whose last operation is v' = M^-1 (f - D^T lambda). Others solve with penalties or by
+        factorisations that may round M away: such a run stands still and violates nothing.
+        """
+        from symgen.run.single.observe import observe_balance
+
+        law, k = self.compiled.law_module, len(self.times)
+        if not hasattr(law, "balance") or not k:
+            return 0.0
+        sizes, outputs, _ = self._seen
+        some = np.unique(np.linspace(0, k - 1, min(k, BALANCES)).astype(int))
+        model, iw = (sizes, *rate_functions(law), law.accept), np.zeros(abi.N_COUNTERS, dtype=np.int64)
+        w, room, largest = self.start.w.copy(), np.zeros(2 * sizes.ny), 0.0
+        w[abi.STEP_STATUS] = self.last_step
+        for first, last, p in self.parameters:
+            here = some[(some >= first) & (some < last)]
+            left = np.zeros(len(here))
+            chosen = type(outputs)(*(array[here] for array in outputs))
+            observe_balance(model, law.balance, chosen, p, w, iw, left, room)
+            largest = max(largest, float(np.max(left, initial=0.0)))  # nan ends a run before
+        return largest
 
     @property
     def last_step(self) -> float:

@@ -28,7 +28,7 @@ from symgen.derive.lower.replay import Nodes, Replay
 from symgen.derive.methods._tape import FormulaStep, needed_operations
 
 #: Functions of a law in which the kernels of an evaluation are called first.
-_EVALUATE = ("rhs", "begin")
+_EVALUATE = ("rhs", "begin", "balance")
 #: Number of scratch vectors reserved for generic code.
 _FIRST_VECTOR = 2
 
@@ -250,8 +250,8 @@ class Loops(Replay):
     _on_weighted_mass = partialmethod(_gram_factor, matrix="weighted", section="law_lower")
     _on_weighted_identity = partialmethod(_gram_factor, matrix="identity", section="law_lower")
 
-    def _on_compliant(self, operation: FormulaStep, compliance: int) -> _Factor:
-        return _Factor("compliant", "schur_lower", compliance)
+    def _on_compliant(self, operation: FormulaStep, compliance: Nodes) -> _Factor:
+        return _Factor("compliant", "schur_lower", compliance[0])
 
     def _on_augmented(self, operation: FormulaStep, penalties: Nodes | None) -> _Factor:
         return _Factor("augmented", "augmented_lower", -1 if penalties is None else penalties[0])
@@ -287,12 +287,11 @@ class Loops(Replay):
         masked, compliant = factor.matrix == "schur", factor.matrix == "compliant"
         mode = "MASKED_FACTOR" if masked or compliant else "KEPT_FACTOR"
         if compliant:  # the mask is added to pivots: a term of a diagonal entry is a term of its pivot
-            compliance = self._local_number(factor.weight)
-            self._add_loop("m", "mask", self.graph.add(self.mask[0], compliance))
+            self._add_loop("m", "mask", self.graph.add(self.mask[0], factor.weight))
         result = "suspicious" if masked else ""
         self._add_call(name, "T", "p", "w", factor.table, factor.section, mode, *last, result=result)
         if compliant:
-            self._add_loop("m", "mask", self.graph.sub(self.mask[0], compliance))
+            self._add_loop("m", "mask", self.graph.sub(self.mask[0], factor.weight))
         self.flagged = self.flagged or masked
         return bool(target)
 

@@ -87,7 +87,7 @@ def _reason_of_density(method: Method, options: tuple[tuple[str, str], ...], imp
 
 
 #: Functions of laws that can be loops.
-_FUNCTIONS = ("rhs", "begin", "iterate", "finish", "refactor", "spread")
+_FUNCTIONS = ("rhs", "begin", "iterate", "finish", "balance", "refactor", "spread")
 #: Operations on one joint, besides arithmetic: no masses, no forces, nothing of other joints.
 _OF_A_JOINT = frozenset(ARITHMETIC) | {"constant", "min", "dot", "constraints", "product", "holonomic_or", "parameter"}
 _OF_A_JOINT |= {"status", "section", "zeros", "gamma", "nu", "phi", "v"}

@@ -9,7 +9,8 @@ iterated, since one pass leaves a residual. States of the file are unknowns besi
 ``2/h`` times its unknown's change, as for v1; W treats both in the same way. Other auxiliary states follow by the
 trapezoidal rule.
 
-The memory of a run holds the rates of the state, the multipliers, and the largest mass.
+a of a row is the parameter times the mean mass and the row's weight: the matrix is conditioned alike at any size and
+mass of a mechanism. The memory of a run holds the rates of the state and the multipliers.
 """
 
 from __future__ import annotations
@@ -40,6 +41,8 @@ def factorise_trial(
     """Factorise W at the trial state; return whether its factors had room."""
     quarter, factors = 0.25 * h * h, part(run.room, 0, 5)
     system.tangent(t, run.trial, k, run.p, run.w, scheme.slopes)
+    for e in range(0, scheme.pulls.shape[0], 3):  # a of each row is `penalty` times its weight
+        scheme.slopes[scheme.pulls[e + 2]] *= math.sqrt(run.w[system.sizes.row_weight + scheme.pulls[e]])
     factors[0], factors[1], factors[2], factors[3], factors[4] = 1.0, 0.5 * h, quarter, -quarter, quarter * penalty
     multiply_sources(scheme.plan, scheme.slopes)
     turn_rows(scheme.plan, scheme.slopes, shift)
@@ -47,30 +50,26 @@ def factorise_trial(
 
 
 @called
-def pull_back(factor: float, nv: int, forces: Integers, slopes: Array, rest: Array, at: int, right: Array) -> None:
-    """Set right = factor D^T times the residuals from index `at` of `rest`."""
+def pull_back(
+    factor: float, nv: int, forces: Integers, slopes: Array, weights: Array, rest: Array, at: int, right: Array
+) -> None:
+    """Set right = factor D^T times the residuals from index `at` of `rest`, by the weights of rows."""
     for i in range(nv):
         right[i] = 0.0
     for e in range(0, forces.shape[0], 3):
-        right[forces[e + 1]] += factor * slopes[forces[e + 2]] * rest[at + forces[e]]
+        weighed = math.sqrt(weights[forces[e]]) * rest[at + forces[e]]  # `slopes` have the other root
+        right[forces[e + 1]] += factor * slopes[forces[e + 2]] * weighed
 
 
 @called
 def prepare(system: ModelSystem, scheme: Projection, span: Span, run: Run) -> None:
-    """Store rates and multipliers at the start, and the largest mass."""
+    """Store rates and multipliers at the start."""
     sizes, t = system.sizes, run.clock[abi.TIME]
-    width, n = sizes.width, sizes.unknowns
+    width = sizes.width
     evaluate(system, run, t, run.y, part(run.memory, 0, width))
     run.control[abi.EVALUATIONS] += 1
     for c in range(sizes.m):
         run.memory[width + c] = run.w[sizes.multipliers + c]
-    k, heaviest = part(run.room, 0, n), 0.0
-    for i in range(n):
-        k[i] = 0.0
-    system.tangent(t, run.y, k, run.p, run.w, scheme.slopes)
-    for i in range(scheme.masses.shape[0]):
-        heaviest = max(heaviest, scheme.slopes[scheme.masses[i]])
-    run.memory[width + sizes.m] = heaviest
 
 
 @called
@@ -101,7 +100,7 @@ def project(
     """Project velocities, then accelerations, on the constraints; `rest`, `right` and `change` are working memory."""
     sizes = system.sizes
     nq, nv, m, n, count = sizes.nq, sizes.nv, sizes.m, sizes.unknowns, sizes.nv + sizes.states
-    quarter = 0.25 * h * h
+    quarter, weights = 0.25 * h * h, part(run.w, sizes.row_weight, m)
     for i in range(nv, count):
         right[i] = 0.0
     for level in range(2):
@@ -118,7 +117,7 @@ def project(
             if violation > 0.95 * last or violation == 0.0:
                 break
             last = violation
-            pull_back(quarter * penalty, nv, scheme.pulls, scheme.slopes, rest, n + level * m, right)
+            pull_back(quarter * penalty, nv, scheme.pulls, scheme.slopes, weights, rest, n + level * m, right)
             solve(scheme.plan, scheme.numbers, right, change)
             for i in range(nv):
                 if level == 0:
@@ -140,7 +139,8 @@ def attempt(
     right, change = part(run.room, at, count), part(run.room, at + count, count)
     shift, held = part(run.room, at + 2 * count, count), part(run.room, at + 3 * count, m)
     rate = part(run.room, at + 3 * count + m, width)
-    penalty = max(run.p[scheme.penalty], _LEAST_PENALTY * run.memory[width + m] / quarter)
+    # the mean mass times the number of velocities is at least the largest mass
+    penalty = max(run.p[scheme.penalty], _LEAST_PENALTY * nv / quarter) * run.w[abi.MEAN_MASS]
     for i in range(nv):
         shift[i] = h * run.y[nq + i] + 0.5 * h * h * run.memory[nq + i]
     for i in range(nv, count):
@@ -153,7 +153,7 @@ def attempt(
         complete_trial(system, run, h, shift, k)
         system.residual(following, run.trial, k, run.p, run.w, rest)
         for c in range(m):
-            weight = 0.5 * h * penalty if scheme.nonholonomic[c] > 0.0 else penalty
+            weight = penalty * run.w[sizes.row_weight + c] * (0.5 * h if scheme.nonholonomic[c] > 0.0 else 1.0)
             if iteration > 0:
                 held[c] += weight * rest[first + c]
             k[first + c] = held[c] + weight * rest[first + c]
@@ -224,7 +224,7 @@ def memory(width: int, count: int, m: int, unknowns: int) -> tuple[int, int]:
 
     `count` is the number of velocities and states of the file.
     """
-    return width + m + 1, 8 + 2 * unknowns + 3 * m + 3 * count + width
+    return width + m, 8 + 2 * unknowns + 3 * m + 3 * count + width
 
 
 _FUNCTIONS = "turn", "residual", "tangent"
