@@ -26,9 +26,7 @@ class Index3AugmentedLagrangian(MultiplierMethod):
     forms = ("index-3-projected",)
     default_integrator = "trapezoidal"
     parameters = (
-        MethodParameter(
-            "penalty", 1e9, "1/s^2", "factor a of D^T D at position level over the mean mass", 1e-300
-        ),
+        MethodParameter("penalty", 1e9, "1/s^2", "factor a of D^T D at position level over the mean mass", 1e-300),
     )
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:

@@ -29,8 +29,8 @@ class Penalty(Method):
             "penalty",
             1e9,
             "1",
-            "factor a of D^T D over the mean mass: the error falls like 1 / a until rounding, which grows like a, takes "
-            "over near 1e10",
+            "factor a of D^T D over the mean mass: the error falls like 1 / a until rounding, which grows like a, "
+            "takes over near 1e10",
             1e-300,
         ),
         OMEGA,

@@ -276,7 +276,9 @@ class LoopedStages(PipelineStages[Mapping[str, "Element"], LoopedPrograms]):
             filler_of_hoisted(mechanism, shape, tables, kernels),
         )
         if needs.choice.implicit:
-            law_module = _gather_functions(law_module, "rhs", "confirm", "accept", "prepare", "geometry", "spread", "balance")
+            law_module = _gather_functions(
+                law_module, "rhs", "confirm", "accept", "prepare", "geometry", "spread", "balance"
+            )
             law_module.residual, law_module.tangent = model.residual, model.tangent
         return LoopedModel(
             info=info,

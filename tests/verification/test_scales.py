@@ -1,0 +1,127 @@
+"""The motion of a linkage at any size and any mass: gravity scales with the size, so angles are the same."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from symgen.api import Model
+from symgen.derive.methods import METHODS
+from symgen.describe.files.validate import validate
+
+#: Powers of ten of the size and of all masses.
+SCALES = [(0, 0), (-9, 0), (-3, -6), (9, 0), (0, -9), (0, -5), (0, 9), (-9, -9), (9, 9), (-6, -15)]
+#: Methods whose own scheme has this order or less, and what it leaves of an angle at 1 ms [rad].
+COARSE = {"half-explicit": 1e-4, "implicit-constraint": 2e-2, "rattle": 1e-3, "discrete-gradient": 1e-3}
+COARSE |= {"generalized-alpha": 1e-3, "index3-augmented-lagrangian": 1e-3, "symmetric-projection": 1e-5}
+#: Scales at which a method does not say ok: Newton's iteration of the one fails at 1e9 m, and the other asks for a
+#: second run.
+SILENT = {"discrete-gradient": 2, "energy-projection": len(SCALES)}
+UNTIL, LENGTHS, MASSES = 2.0, (2.0, 8.0, 5.0), (2.0, 8.0, 5.0)
+POSES = ((0.5, 0.8660254037844386, np.pi / 3), (4.706229663272004, 3.2366642739058917, 0.38564124740737094))
+POSES += ((9.206229663272005, 2.3706388701214535, 1.8938968124057762),)
+
+
+def linkage():
+    """A four-bar linkage whose lengths are all multiples of one parameter, and masses of another."""
+    bodies = {}
+    for name, length, mass, (x, y, angle) in zip("abc", LENGTHS, MASSES, POSES, strict=True):
+        points = {"A": [f"-{length / 2}*size", 0.0], "B": [f"{length / 2}*size", 0.0]}
+        inertia = f"{mass * length**2 / 12}*mass*size**2"
+        bodies[name] = {"mass": f"{mass}*mass", "inertia": inertia, "points": points}
+        bodies[name] |= {"position": [f"{x}*size", f"{y}*size"], "angle": angle}
+    pins = {"A": ("ground", "a", [0.0, 0.0], "A"), "B": ("a", "b", "B", "A"), "C": ("b", "c", "B", "B")}
+    pins["D"] = ("ground", "c", ["10*size", 0.0], "A")
+    return {
+        "mechanism": {"name": "linkage", "gravity": [0.0, "-9.81*size"]},
+        "parameters": {"size": {"value": 1.0, "unit": "m"}, "mass": {"value": 1.0, "unit": "kg"}},
+        "bodies": bodies,
+        "joints": {n: {"type": "revolute", "between": [a, b], "at": [p, q]} for n, (a, b, p, q) in pins.items()},
+    }
+
+
+def crank_angle(times):
+    """The crank's angle by the one equation of motion of the linkage of size 1, with angles by the law of cosines."""
+
+    def angles(theta):
+        joint = 2.0 * np.array([np.cos(theta), np.sin(theta)])
+        away = np.array([10.0, 0.0]) - joint
+        r = np.hypot(*away)
+        beta = np.arctan2(away[1], away[0]) + np.arccos((8.0**2 + r**2 - 5.0**2) / (2 * 8.0 * r))
+        end = joint + 8.0 * np.array([np.cos(beta), np.sin(beta)])
+        return beta, np.arctan2(end[1], end[0] - 10.0)
+
+    def slopes(theta, h=1e-4):
+        def rise(h):
+            return (np.array(angles(theta + h)) - np.array(angles(theta - h))) / (2 * h)
+
+        return (4.0 * rise(h / 2) - rise(h)) / 3.0
+
+    def energies(theta):
+        """The inertia seen by the crank, and the potential energy."""
+        beta, gamma = angles(theta)
+        b, c = slopes(theta)
+        centre = 2.0 * np.array([-np.sin(theta), np.cos(theta)]) + 4.0 * b * np.array([-np.sin(beta), np.cos(beta)])
+        inertia = 2.0 * 4.0 / 3.0 + 8.0 * centre @ centre + 8.0 * 64.0 / 12.0 * b**2 + 5.0 * 25.0 / 3.0 * c**2
+        height = 2.0 * np.sin(theta) + 8.0 * (2.0 * np.sin(theta) + 4.0 * np.sin(beta)) + 12.5 * np.sin(gamma)
+        return np.array([inertia, 9.81 * height])
+
+    def rate(_, y, h=1e-3):
+        rise = (energies(y[0] + h) - energies(y[0] - h)) / (2 * h)
+        finer = (energies(y[0] + h / 2) - energies(y[0] - h / 2)) / h
+        inertia, force = (4.0 * finer - rise) / 3.0
+        return [y[1], -(0.5 * inertia * y[1] ** 2 + force) / energies(y[0])[0]]
+
+    return solve_ivp(rate, (0.0, UNTIL), [np.pi / 3, 0.0], "DOP853", times, rtol=1e-10, atol=1e-10).y[0]
+
+
+@pytest.fixture(scope="module")
+def expected():
+    return crank_angle(np.linspace(0.0, UNTIL, 21))
+
+
+@pytest.mark.fast("penalty", "augmented-hamiltonian", "compliant-constraints")
+@pytest.mark.parametrize("method", METHODS.names)
+def test_no_scale_is_ok_and_wrong(method, expected):
+    """A penalty with a unit of mass stands still below 1e-13 of these masses, ok and without any violation."""
+    model = Model(validate(linkage(), "test"))
+    own = METHODS.get(method).default_integrator in ("picard", "dop853")
+    right = 0
+    for size, mass in SCALES:
+        result = model.simulate(
+            method=method,
+            integrator="rk4" if own else None,
+            step=1e-3,
+            until=UNTIL,
+            output_step=0.1,
+            max_violation=1e-2,
+            parameters={"size": 10.0**size, "mass": 10.0**mass},
+        )
+        if result.status == "ok":
+            found = np.asarray(result["a.theta"])
+            np.testing.assert_allclose(found, expected, rtol=0.0, atol=COARSE.get(method, 1e-6))
+            right += 1
+    assert right == len(SCALES) - SILENT.get(method, 0)
+
+
+@pytest.mark.parametrize(
+    ("shape", "coordinates"), [("straight", "absolute"), ("straight", "joint"), ("looped", "absolute")]
+)
+def test_what_accelerations_leave_of_forces_ends_in_the_status(shape, coordinates):
+    """Rounding of a D^T D, about 1e-16 a, is as large as the masses at a = 1e15: they leave forces over."""
+    model, left, status = Model(validate(linkage(), "test")), [], []
+    for a in (1e9, 1e11, 1e14):
+        result = model.simulate(
+            method="penalty",
+            shape=shape,
+            coordinates=coordinates,
+            options={"method.penalty": a},
+            integrator="rk4",
+            step=1e-3,
+            until=0.2,
+            output_step=0.1,
+            max_energy_error=1.0,
+        )
+        left.append(result.outcome.imbalance)
+        status.append(result.status)
+    assert status[0] == "ok" and status[2] != "ok" and left[0] < 1e-6 < 1e-4 < left[2]
+    assert "of the forces unbalanced" in result.reason
