@@ -1,6 +1,6 @@
 """Model `bricard`: what every method of it shares. Emitted by symgen; do not edit.
 
-digest fd3274b7e385658e1bb048363112e7da7c265e25ce2beed16a493807bb5250bb, format 3, templates 074c9a478b9eac01
+digest fd3274b7e385658e1bb048363112e7da7c265e25ce2beed16a493807bb5250bb, format 3, templates a1bfe8da2fcb1eac
 35 coordinates, 30 velocities, 30 constraint rows, 0 parameters,
 25 of 30 rows eliminated with 5 divisions, together with velocities that they fix
 

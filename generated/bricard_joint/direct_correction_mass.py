@@ -2,7 +2,7 @@
 
 Positions and velocities are projected after each step with the pseudoinverse of D.
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076; Yoon, Howe, Greenwood, J. Mech. D...
-digest dc50b4bafc3843d522248ecf36306546216a47158252a42fd3a8f555947a7488, format 3, templates 074c9a478b9eac01
+digest dc50b4bafc3843d522248ecf36306546216a47158252a42fd3a8f555947a7488, format 3, templates a1bfe8da2fcb1eac
 option solver = elimination
 option weight = mass
 option when = step

@@ -1,6 +1,6 @@
 """Model `bricard`: what every method of it shares. Emitted by symgen; do not edit.
 
-digest dc50b4bafc3843d522248ecf36306546216a47158252a42fd3a8f555947a7488, format 3, templates 074c9a478b9eac01
+digest dc50b4bafc3843d522248ecf36306546216a47158252a42fd3a8f555947a7488, format 3, templates a1bfe8da2fcb1eac
 5 coordinates, 5 velocities, 5 constraint rows, 0 parameters,
 0 fill-ins in the factor of D D^T
 

@@ -1,6 +1,6 @@
 """Model `four-bar`: what every method of it shares, for CUDA. Emitted by symgen; do not edit.
 
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 074c9a478b9eac01
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a1bfe8da2fcb1eac
 9 coordinates, 9 velocities, 8 constraint rows, 3 parameters,
 6 of 8 rows eliminated without a division, together with velocities that they fix
 

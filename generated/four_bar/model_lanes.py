@@ -1,6 +1,6 @@
 """Model `four-bar` in lanes, for 8 runs at once: functions that are no calls. Emitted by symgen; do not edit.
 
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 074c9a478b9eac01
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a1bfe8da2fcb1eac
 """
 
 from numba import njit

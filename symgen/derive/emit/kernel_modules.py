@@ -72,7 +72,7 @@ def _loop_over_instances(block: Block, access: InstanceAccess, stride: int) -> M
 
 #: Array, and the summands of the index of its first element, for inputs and outputs of functions of kernels.
 _READ = {"q": ("y", "q"), "v": ("y", "nq", "v"), "change": ("w", "change", "v")}
-_READ["multipliers"] = ("w", "multipliers", "row")
+_READ |= {name: ("w", name, "row") for name in ("multipliers", "row_weight")}
 _WRITTEN = {
     **{"record": ("w", "f0"), "ydot": ("out", "q"), "y": ("y", "q"), "force=": ("w", "force", "v")},
     **{"own": ("out", "own0"), "drag": ("w", "drag")},

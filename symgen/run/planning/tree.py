@@ -272,7 +272,7 @@ class CarriedOutcome(Outcome):
 
     @property
     def imbalance(self) -> float:
-        """That of the loop: its law is that of the joints."""
+        """Imbalance of the loop, by the law of the joints."""
         return self.inner.imbalance
 
 
