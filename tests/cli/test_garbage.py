@@ -5,9 +5,10 @@ import sys
 
 import pytest
 
+# Python 3.12 begins with objects of its own that it does not look through
 SPARING = """
 import gc
-usual = gc.get_threshold()
+usual, excluded = gc.get_threshold(), gc.get_freeze_count()
 from symgen.cli import FIRST, spare_collections
 spare_collections()
 {body}
@@ -22,7 +23,7 @@ def printed(code: str) -> str:
 @pytest.mark.parametrize(
     "body",
     [
-        "kept = [[] for _ in range(2 * FIRST)]\nprint(gc.get_threshold() == usual and gc.get_freeze_count() > 0)",
+        "kept = [[] for _ in range(2 * FIRST)]\nprint(gc.get_threshold() == usual and gc.get_freeze_count() > excluded)",
         "import weakref\nclass Ring: pass\nkept = [[] for _ in range(2 * FIRST)]\n"
         "ring = Ring(); ring.itself = ring; dead = weakref.ref(ring); del ring\ngc.collect(); print(dead() is None)",
     ],
@@ -34,9 +35,9 @@ def test_collection_comes_late(body: str) -> None:
 
 def test_nothing_is_looked_through_when_the_process_ends() -> None:
     # atexit calls the last one registered first
-    body = SPARING.format(body="print(gc.get_freeze_count())")
-    code = f"import atexit, gc\natexit.register(lambda: print(gc.get_freeze_count() > 0))\n{body}"
-    assert printed(code) == "0\nTrue\n"
+    body = SPARING.format(body="print(gc.get_freeze_count() == excluded)")
+    code = f"import atexit, gc\natexit.register(lambda: print(gc.get_freeze_count() > excluded))\n{body}"
+    assert printed(code) == "True\nTrue\n"
 
 
 @pytest.mark.parametrize(("words", "changed"), [("", True), ("['--version']", False)])

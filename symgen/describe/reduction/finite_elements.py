@@ -191,7 +191,8 @@ def _masses(m: Sparse, n: int, d: int) -> tuple[Sparse, Array, Sparse]:
     blocks = np.zeros((n, unknowns, unknowns))
     blocks[:, :d, :d] = lumps[:, None, None] * np.eye(d)
     blocks[:, d:, d:] = rotary[:, : unknowns - d, : unknowns - d]
-    return sparse.diags_array(lumps).tocsc(), rotary, sparse.csc_array(sparse.block_diag(list(blocks), format="csc"))
+    along = np.arange(n + 1, dtype=np.int32)
+    return sparse.diags_array(lumps).tocsc(), rotary, sparse.csc_array(sparse.bsr_array((blocks, along[:-1], along)))
 
 
 def _lumped(blocks: Array, d: int, r: int) -> tuple[Array, Array]:
