@@ -2,10 +2,11 @@
 # make test    the tests that take less than some 0.4 s each: about five minutes on two quiet cores
 # make help    everything else
 #
-# The first target that needs it makes .venv with Python 3.11 or newer and installs symgen there, editable, with all
-# extras; it is made again when pyproject.toml changes. Another interpreter: make test PYTHON=/path/to/python3.13
+# The first target that needs it makes .venv with the newest Python that is there, 3.11 or newer, and installs symgen
+# there, editable, with all extras; it is made again when pyproject.toml changes. Another interpreter:
+# make test PYTHON=/path/to/python3.13
 
-PYTHON ?= $(shell .ci/python 3.11 3.12 3.13 3.14 3)
+PYTHON ?= $(shell .ci/python 3.14 3.13 3.12 3.11 3)
 WORKERS ?= 2
 MINUTES ?= 45
 DEMO_MODEL ?= four-bar

@@ -17,6 +17,7 @@ import re
 import signal
 import sys
 import threading
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from difflib import SequenceMatcher
@@ -148,6 +149,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if arguments is None:  # this process does nothing else
         spare_collections()
         _open_streams()
+        # what libraries announce to their callers fails no run, whatever PYTHONWARNINGS says
+        warnings.filterwarnings("ignore", category=DeprecationWarning)
+        warnings.filterwarnings("ignore", category=FutureWarning)
     # a terminated run keeps its results, as with Ctrl-C; only the main thread may set handlers
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGTERM, signal.default_int_handler)

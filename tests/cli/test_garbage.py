@@ -1,4 +1,4 @@
-"""A process of the command line leaves garbage collection alone while it imports and when it ends."""
+"""A process of the command line leaves garbage collection alone while it imports and when it ends, and warns nobody."""
 
 import subprocess
 import sys
@@ -23,7 +23,8 @@ def printed(code: str) -> str:
 @pytest.mark.parametrize(
     "body",
     [
-        "kept = [[] for _ in range(2 * FIRST)]\nprint(gc.get_threshold() == usual and gc.get_freeze_count() > excluded)",
+        "kept = [[] for _ in range(2 * FIRST)]\n"
+        "print(gc.get_threshold() == usual and gc.get_freeze_count() > excluded)",
         "import weakref\nclass Ring: pass\nkept = [[] for _ in range(2 * FIRST)]\n"
         "ring = Ring(); ring.itself = ring; dead = weakref.ref(ring); del ring\ngc.collect(); print(dead() is None)",
     ],
@@ -38,6 +39,13 @@ def test_nothing_is_looked_through_when_the_process_ends() -> None:
     body = SPARING.format(body="print(gc.get_freeze_count() == excluded)")
     code = f"import atexit, gc\natexit.register(lambda: print(gc.get_freeze_count() > excluded))\n{body}"
     assert printed(code) == "True\nTrue\n"
+
+
+def test_no_command_fails_by_what_a_library_announces() -> None:
+    code = "import sys, warnings\nfrom symgen.cli import main\nsys.argv = ['symgen', '--version']\nmain()\n"
+    code += "for kind in (DeprecationWarning, FutureWarning):\n    warnings.warn('soon', kind)\nprint('went on')"
+    command = [sys.executable, "-W", "error", "-c", code]
+    assert subprocess.run(command, capture_output=True, text=True, check=True).stdout.endswith("went on\n")
 
 
 @pytest.mark.parametrize(("words", "changed"), [("", True), ("['--version']", False)])
