@@ -18,7 +18,7 @@ INSTALLED := $(VENV)/.installed
 DOCS_INSTALLED := $(VENV)/.installed-docs
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test slow browser lint format generated docs gallery findings paper peers bench clean
+.PHONY: help demo test affected slow browser lint format generated docs gallery findings paper peers bench clean
 
 help:  ## say what the targets do
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' $(MAKEFILE_LIST) | awk -F'|' '{ printf "make %-10s %s\n", $$1, $$2 }'
@@ -55,6 +55,9 @@ demo: $(INSTALLED)  ## derive, generate, compile and run a mechanism with every 
 
 test: $(INSTALLED)  ## run the tests, except slow ones
 	@"$(BIN)/python" -m pytest -n $(WORKERS) --dist worksteal
+
+affected: $(INSTALLED)  ## run the tests of make test that enter what changed since the last time; the first time, all
+	@"$(BIN)/python" -m pytest -n $(WORKERS) --dist worksteal -p tests.support.affected
 
 slow: $(INSTALLED)  ## run the slow tests
 	@"$(BIN)/python" -m pytest -n $(WORKERS) --dist worksteal -m "slow and not browser"
