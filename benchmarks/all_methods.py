@@ -37,7 +37,7 @@ RESOLVED, LOST = 1e-9, 1e-2
 ROUNDED = {"n-four-bar:2": 1e-5}
 #: Processor time of a mechanism at most [s].
 PATIENCE = 7200.0
-PAGE = "docs/findings/all-methods.md"
+PAGE = "docs/tables/all-methods.md"
 
 
 class Job(NamedTuple):

@@ -89,7 +89,7 @@ def table(times: bool = False) -> PageTable:
         if name == next(iter(PROBLEMS)):
             rows.append(((name, "IDA, published", "1e-6"), lambda: IDA))
     headings = ("mechanism", "solver", "rtol, atol", "error [m]", "steps", "evaluations", "ms")
-    return PageTable("backward", "docs/measured/backward.md", headings, tuple(rows), times=(6,), loose=(3,))
+    return PageTable("backward", "docs/tables/backward.md", headings, tuple(rows), times=(6,), loose=(3,))
 
 
 if __name__ == "__main__":

@@ -35,7 +35,7 @@ from benchmarks.records import Line, Pair, Record
 from benchmarks.show import show
 from symgen.describe.catalogue import all_names, names
 
-PAGE = "docs/measured/numba.md"
+PAGE = "docs/tables/numba.md"
 #: Processor time of a process at most [s].
 PATIENCE = 600.0
 #: Largest difference of states over their largest value that is rounding, amplified by the motion.

@@ -20,7 +20,7 @@ from symgen.study.comparison.comparison_rows import Row
 #: Mechanisms of the source, as the catalogue names them.
 MECHANISMS = ("four-bar", "bricard", "spatial-slider-crank", "front-suspension")
 METHODS = (*DEFAULT_METHODS, "dependent-correction")
-PAGE = "docs/findings/source-claims.md"
+PAGE = "docs/tables/source-claims.md"
 HEADINGS = ("mechanism", "method", r"\|Phi\|", r"\|D v - nu\|", "energy [J]", "error [m]", "time")
 
 

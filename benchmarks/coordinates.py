@@ -119,7 +119,7 @@ def table(times: bool = False) -> PageTable:
 
     rows = tuple(((f"`{name}`",), partial(list_of, cells, name)) for name in MODELS)
     headings = ("mechanism", "right-hand side", "tangent", "`rk4`", f"`dop853` to {ERROR:g} m".replace("e-0", "e-"))
-    return PageTable("coordinates", "docs/findings/coordinates.md", headings, rows, (3, 4))
+    return PageTable("coordinates", "docs/tables/coordinates.md", headings, rows, (3, 4))
 
 
 if __name__ == "__main__":

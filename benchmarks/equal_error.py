@@ -105,7 +105,7 @@ def page_table() -> PageTable:
         if job.session == 2
     )
     headings = ("mechanism", "integrator", *(f"`{m}`".replace(":weight=mass`", "`, mass") for m in METHODS[1:]))
-    return PageTable("equal_error", "docs/findings/equal-error.md", headings, rows, stored=True, claims=claims)
+    return PageTable("equal_error", "docs/tables/equal-error.md", headings, rows, stored=True, claims=claims)
 
 
 def claims() -> Iterator[str]:

@@ -143,7 +143,7 @@ def page_table() -> PageTable:
     pairs = [(integrator, method) for integrator in SETTINGS for method in METHODS[1:]]
     rows = tuple(((f"`{i}`", label(m)), lambda i=i, m=m: list_of(summary, ratios(i, m))) for i, m in pairs)
     headings = ("integrator", "method", "mechanisms", "median", "geometric mean", "10, 90 %")
-    page = "docs/findings/equal-work.md"
+    page = "docs/tables/equal-work.md"
     return PageTable("equal_work", page, headings, rows, stored=True, claims=claims)
 
 

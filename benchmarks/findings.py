@@ -1,4 +1,4 @@
-"""Measured tables of pages, written into them.
+"""Measured tables, written into the pages of docs/tables.
 
     python -m benchmarks.findings [TABLE ...] [--times]
 
@@ -66,7 +66,7 @@ TABLES = measured_tables()
 
 
 def main(arguments: list[str]) -> int:
-    """Measure the tables that are named, or all, and write them into their pages; 1 if a page lacks a sentence."""
+    """Measure the tables that are named, or all, and write them into their pages; 1 if a study lacks a sentence."""
     tables = measured_tables(times="--times" in arguments)
     names, lacking = [name for name in arguments if name != "--times"], 0
     for table in tables:
@@ -77,9 +77,9 @@ def main(arguments: list[str]) -> int:
         new = written(table, text, table.measured(), date.today().isoformat())
         page.write_text(new, encoding="utf-8")
         sys.stdout.write(f"{table.command}: {'written into' if new != text else 'as in'} {table.page}\n")
-        for claim in missing(table, new):
+        for claim in missing(table, (ROOT / table.study).read_text(encoding="utf-8")):
             lacking += 1
-            sys.stdout.write(f"  {table.page} has no sentence '{claim}'\n")
+            sys.stdout.write(f"  {table.study} has no sentence '{claim}'\n")
     return int(lacking > 0)
 
 

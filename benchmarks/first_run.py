@@ -1,7 +1,7 @@
 """What a first run enters: the functions of ``symgen run four-bar`` with an empty cache, as a page to read along.
 
-``python -m benchmarks.first_run`` runs it and writes ``docs/first-run.md``. Of each stage the page has the functions
-below which most others are entered for the first time: they are the way through it.
+``python -m benchmarks.first_run`` runs it and writes ``docs/development/first-run.md``. Of each stage the page has the
+functions below which most others are entered for the first time: they are the way through it.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-PAGE = ROOT / "docs" / "first-run.md"
+PAGE = ROOT / "docs" / "development" / "first-run.md"
 #: Functions of a stage that the page has, at most: a screen.
 SCREEN = 24
 #: Runs the command, and writes each function of symgen in the order in which it is first entered: file, name, lines,

@@ -184,7 +184,7 @@ def tables() -> tuple[PageTable, ...]:
             if model != LEG or FUNCTIONS[function][1]:
                 names = model, velocities.get(model, KEPT), f"`{function}`"
                 rows.append((names, lambda model=model, function=function: cells(model, function)))
-    return (PageTable("functions", "docs/measured/robots.md", HEADINGS, tuple(rows), stored=True, claims=claims),)
+    return (PageTable("functions", "docs/tables/robots.md", HEADINGS, tuple(rows), stored=True, claims=claims),)
 
 
 def claims() -> Iterator[str]:

@@ -425,7 +425,7 @@ def page_table() -> PageTable:
         "runs",
         "by differences",
     )
-    return PageTable("identification", "docs/measured/sensitivities.md", headings, rows, stored=True, claims=claims)
+    return PageTable("identification", "docs/tables/sensitivities.md", headings, rows, stored=True, claims=claims)
 
 
 def claims() -> Iterator[str]:

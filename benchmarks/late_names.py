@@ -1,6 +1,6 @@
 """Names that are bound late: who means each name of the frame and of the turn, and when, as a page made from the code.
 
-``python -m benchmarks.late_names`` writes ``docs/late-names.md``. The page follows from all `Meanings` of
+``python -m benchmarks.late_names`` writes ``docs/development/late-names.md``. The page follows from all `Meanings` of
 `symgen.compile.loopcode.loop_instances` in the street `run`, and from the parts of schemes in
 `symgen.run.loops.frame.RECIPES`.
 """
@@ -24,7 +24,7 @@ from symgen.run.rows import lanes, row_observers, rows
 from symgen.run.single import turn_of_run
 
 ROOT = Path(__file__).resolve().parent.parent
-PAGE = ROOT / "docs" / "late-names.md"
+PAGE = ROOT / "docs" / "development" / "late-names.md"
 RUN = ROOT / "symgen" / "run"
 #: Functions that are compiled with other meanings of names, and the packages of functions that are copied for it.
 ROOTS = (

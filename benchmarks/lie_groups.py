@@ -36,7 +36,7 @@ Array = NDArray[np.float64]
 Series = tuple[Mapping[int, float], str, Mapping[str, Any]]
 
 FILE = Path(__file__).with_name("two-tops.toml")
-PAGE = "docs/measured/lie-groups.md"
+PAGE = "docs/tables/lie-groups.md"
 TIGHT = 1e-13
 TOP, TOPS, ANGLES = "`heavy-top`", "two bodies", "two bodies by Euler angles"
 #: What is read of each: the body, and the end of the run [s].

@@ -39,7 +39,7 @@ Options = Mapping[str, str | float]
 UNWATCHED = {"max_violation": 1e3, "max_energy_error": 1e3}
 SCHEMES = {"euler": 1e-4, "heun": 1e-3, "rk4": 2e-3, "dopri5": 8e-3, "dop853": 3.125e-2}
 MASS: Options = {"method.weight": "mass"}
-PAGES = "docs/findings/"
+PAGES = "docs/tables/"
 #: An order is shown where the smallest error is above this: below, errors are those of the reference and of rounding.
 RESOLVED = 5e-12
 #: Methods that solve one and the same equations: name of the class at its first line, label, method, options.
@@ -181,7 +181,7 @@ def adaptive() -> PageTable:
     kinds += [(f"`{rule}`", "adaptive-baumgarte", {"method.rule": rule}) for rule in ("taylor", "pole-placed")]
     rows = tuple(((label,), partial(list_of, cells, method, options)) for label, method, options in kinds)
     headings = ("gains", "8 ms", "4 ms", "2 ms", r"largest \|D v - nu\| at 8 ms [m/s]")
-    return PageTable("literature adaptive", "docs/measured/adaptive-gains.md", headings, rows)
+    return PageTable("literature adaptive", "docs/tables/adaptive-gains.md", headings, rows)
 
 
 def energy() -> PageTable:

@@ -67,7 +67,7 @@ def table() -> PageTable:
         for label, method, integrator, options in FORMULATIONS:
             rows.append(((name, label), partial(list_of, growth, name, until, step, method, integrator, options)))
     ends = "energy error until T/10 [J]", "until T [J]", "exponent", r"largest \|Phi\| [m]"
-    return PageTable("long", "docs/findings/long-runs.md", ("mechanism", "formulation", *ends), tuple(rows))
+    return PageTable("long", "docs/tables/long-runs.md", ("mechanism", "formulation", *ends), tuple(rows))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""What meets what: each feature of a mechanism file in each command, target and coordinate, as ``docs/meeting.md``.
+"""What meets what: each feature of a mechanism file in each command, target and coordinate, as a page of docs/tables.
 
 python -m benchmarks.meeting [FEATURE ...]
 
@@ -23,7 +23,7 @@ from symgen.base.errors import InputError, SymgenError
 from symgen.cli import main
 
 ROOT = Path(__file__).resolve().parents[1]
-RECORD, PAGE = ROOT / "benchmarks" / "records" / "meeting.json", ROOT / "docs" / "meeting.md"
+RECORD, PAGE = ROOT / "benchmarks" / "records" / "meeting.json", ROOT / "docs" / "tables" / "meeting.md"
 
 #: A cart on a rail with a pole; features change or add lines.
 CART = """

@@ -50,7 +50,7 @@ class PageTable:
     stored : bool
         Whether cells follow from a record: then they are equal, and nothing is measured.
     claims : callable
-        Returns sentences of the page that follow from the same numbers, word for word.
+        Returns sentences of `study` that follow from the same numbers, word for word.
     """
 
     command: str
@@ -61,6 +61,12 @@ class PageTable:
     loose: tuple[int, ...] = ()
     stored: bool = False
     claims: Callable[[], Iterable[str]] = tuple
+
+    @property
+    def study(self) -> str:
+        """Return the path of the page that says what follows from the table: its own, where no study has its name."""
+        study = self.page.replace("docs/tables/", "docs/findings/")
+        return study if (ROOT / study).is_file() else self.page
 
     def band(self, column: int) -> float:
         """Return the factor by which numbers of a column may differ, 0 where their digits count."""
@@ -211,7 +217,7 @@ def written(table: PageTable, text: str, measured: Sequence[Sequence[str]], date
 
 
 def missing(table: PageTable, text: str) -> list[str]:
-    """Return the claims of a table that its page does not have."""
+    """Return the claims of a table that the text of its study does not have."""
     page = " ".join(text.split())
     return [claim for claim in table.claims() if claim not in page]
 

@@ -1,6 +1,6 @@
-"""The pairs of method and integrator that fit together, from the forms both declare, as the table of ``docs/pairs.md``.
+"""The pairs of method and integrator that fit together, from the forms both declare, as a page of docs/tables.
 
-python -m benchmarks.pairs > docs/pairs.md
+python -m benchmarks.pairs > docs/tables/pairs.md
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ from symgen.run.integrators import INTEGRATORS
 
 INTRODUCTION = """# Pairs of method and integrator
 
-Written by `python -m benchmarks.pairs` from the forms that methods give and integrators solve
-([integrators](integrators.md)). Methods in one line take the same integrators; the default is **bold**. Anything else
-is refused with a sentence that names those that fit.
+Written by `python -m benchmarks.pairs` from the forms that methods give and [integrators](../integrators.md) solve.
+Methods in one line take the same integrators; the default is **bold**. Anything else is refused with a sentence that
+names those that fit.
 """
 
 

@@ -2,7 +2,7 @@
 
 python -m benchmarks.sayable [--left]
 
-counts the lines of ``benchmarks/records/sayable.txt`` and writes `docs/measured/sayable.md`; ``--left`` prints what is
+counts the lines of ``benchmarks/records/sayable.txt`` and writes `docs/tables/sayable.md`; ``--left`` prints what is
 left. A line has the name of an example, what it is, and a verdict before and after the features that are named:
 S where keys can be named, H where formulas have to be derived but nothing is left out, P where something is, N where it
 cannot be said, ``-`` where there is no mechanism in it.
@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[1]
-RECORD, PAGE = ROOT / "benchmarks" / "records" / "sayable.txt", ROOT / "docs" / "measured" / "sayable.md"
+RECORD, PAGE = ROOT / "benchmarks" / "records" / "sayable.txt", ROOT / "docs" / "tables" / "sayable.md"
 VERDICTS = "SHPN-"
 #: Sets of examples, with the words of the page.
 SETS = {"exudyn": "Exudyn, examples", "exudyn-tests": "Exudyn, test models", "modelica": "Modelica, mechanics"}

@@ -68,7 +68,7 @@ def table() -> PageTable:
         ((", ".join(f"{k:.0e}".replace("e+0", "e") for k in case),), partial(list_of, cells, case)) for case in CASES
     )
     headings = ("stiffness of the bars [N/m]", "bars that give, closed form", *(f"`{method}`" for method in METHODS))
-    return PageTable("shared_loads", "docs/findings/redundant-constraints.md", headings, rows)
+    return PageTable("shared_loads", "docs/tables/redundant-constraints.md", headings, rows)
 
 
 if __name__ == "__main__":

@@ -63,7 +63,7 @@ def table() -> PageTable:
 
     rows = tuple(((str(windows),), partial(list_of, cells, windows)) for windows in WINDOWS)
     headings = ("windows", *(f"`weight={weight}`: 10, 50, 90 % [m]" for weight in WEIGHTS))
-    return PageTable("singular", "docs/findings/singular-positions.md", headings, rows, loose=(1, 2))
+    return PageTable("singular", "docs/tables/singular-positions.md", headings, rows, loose=(1, 2))
 
 
 if __name__ == "__main__":

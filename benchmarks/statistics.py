@@ -267,7 +267,7 @@ def page_table() -> PageTable:
         "time, 50 %",
     )
     rows = tuple(((label(method),), partial(list_of, cells, method)) for method in METHODS)
-    return PageTable("statistics", "docs/findings/random-mechanisms.md", headings, rows, stored=True, claims=claims)
+    return PageTable("statistics", "docs/tables/random-mechanisms.md", headings, rows, stored=True, claims=claims)
 
 
 def interval(values: Sequence[float], of: Any) -> tuple[float, float]:

@@ -117,7 +117,7 @@ def table() -> PageTable:
     for method, integrator in PAIRS:
         names = f"`{method}` with `{integrator}`", str(INTEGRATORS.get(integrator).order)
         rows.append((names, partial(list_of, cells, method, integrator)))
-    return PageTable("stiff", "docs/findings/stiff-limit.md", ("pair", "order", "status", "error [m]"), tuple(rows))
+    return PageTable("stiff", "docs/tables/stiff-limit.md", ("pair", "order", "status", "error [m]"), tuple(rows))
 
 
 if __name__ == "__main__":

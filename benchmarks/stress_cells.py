@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of the catalogue: tables of docs/measured/stress.md from a record of `symgen stress`.
+"""Stiff and extreme cases of the catalogue: tables of docs/tables/stress.md from a record of `symgen stress`.
 
     python -m benchmarks.stress_cells [models] [causes] [families] [methods]    tables of the page, from the record
     python -m benchmarks.stress_cells picture                                   draws its picture
@@ -52,7 +52,7 @@ COMPILATION, LARGE = 36.0, {"bricard", "chain:4", "flyball-governor", "front-sus
 #: Processor time of a family on a model at most [s].
 PATIENCE = 7200.0
 
-PAGE, PICTURE = "docs/measured/stress.md", "docs/pictures/stress-catalogue.svg"
+PAGE, PICTURE = "docs/tables/stress.md", "docs/pictures/stress-catalogue.svg"
 #: Pairs of fewer judged cells have no share; so many are listed as the most and the least often accurate.
 LEAST, MOST = 50, 4
 

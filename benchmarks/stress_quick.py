@@ -1,6 +1,6 @@
 """Quick stress studies of the whole catalogue: what `symgen stress NAME --quick` costs, and how its cells end.
 
-    python -m benchmarks.stress_quick                                   prints the table of docs/measured/stress.md
+    python -m benchmarks.stress_quick                                   prints the table of docs/tables/stress.md
     python -m benchmarks.stress_quick apart MODEL ...                   how many methods a study tells apart
     python -m benchmarks.records stress_quick [--workers N]             measures what the record lacks
 
@@ -29,7 +29,7 @@ from symgen.describe.catalogue import all_names, names
 from symgen.study.stress.cell_outcome import GOOD, OUTCOMES
 from symgen.study.stress.study import INDEX_ONE, STIFF, SUITED
 
-PAGE = "docs/measured/stress.md"
+PAGE = "docs/tables/stress.md"
 #: Time of a study at most, however busy the machine is [s].
 LONGEST = 1200.0
 #: Processor time of a study that the test of a day may repeat [s].

@@ -39,7 +39,7 @@ NAVIGATION = {
         "docs/paper/README",
     ),
     "Guides": ("docs/howto/README", "docs/results", "docs/stress", "docs/sweeps"),
-    "Theory": ("docs/theory/README", "docs/methods", "docs/integrators", "docs/pairs", "docs/joint-coordinates"),
+    "Theory": ("docs/theory/README", "docs/methods", "docs/integrators", "docs/joint-coordinates"),
     "Analyses": (
         "docs/equilibrium",
         "docs/modes",
@@ -58,15 +58,11 @@ NAVIGATION = {
         "docs/api",
     ),
     "Development": (
-        "docs/architecture",
-        "docs/first-run",
-        "docs/internals",
-        "docs/glossary",
-        "docs/late-names",
         "docs/extending",
+        "docs/development/README",
         "CONTRIBUTING",
         "docs/decisions/README",
-        "docs/measured/README",
+        "docs/tables/README",
         "benchmarks/README",
         "CHANGELOG",
     ),
@@ -99,13 +95,14 @@ def _navigate(app: Sphinx, docname: str, content: list[str]) -> None:
         content[0] += _toctree([*(["[!R]*"] if below else []), *folders], glob=True)
 
 
-#: Folders whose pages are found by their titles alone, so that guides come first in the search: reasons and records.
-BEHIND = ("docs/decisions/", "docs/measured/", "benchmarks/")
+#: Folders whose pages are found by their titles alone, so that guides come first in the search: what programs write,
+#: and what is for who changes symgen.
+BY_TITLE = ("docs/tables/", "docs/gallery/", "docs/decisions/", "docs/development/", "benchmarks/")
 
 
-def _behind(app: Sphinx, doctree: nodes.document) -> None:
-    """Leave the words of reasons and records out of the search; their titles stay in it."""
-    if app.env.docname.startswith(BEHIND):
+def _leave_out(app: Sphinx, doctree: nodes.document) -> None:
+    """Leave the words of such pages out of the search; their titles stay in it."""
+    if app.env.docname.startswith(BY_TITLE):
         app.env.metadata[app.env.docname]["nosearch"] = ""
 
 
@@ -193,7 +190,7 @@ def setup(app: Sphinx) -> None:
     """Connect what is written here."""
     app.connect("build-finished", _play)
     app.connect("source-read", _navigate)
-    app.connect("doctree-read", _behind)
+    app.connect("doctree-read", _leave_out)
     app.connect("autodoc-before-process-signature", _short_signature)
     app.connect("autodoc-process-signature", _without_fields)
     app.connect("autodoc-process-docstring", _name_settings, priority=400)  # before napoleon reads it

@@ -130,7 +130,7 @@ def test_the_errors_of_the_wrong_file_that_a_page_shows(
 
 @pytest.mark.fast(
     "README.md",
-    "docs/architecture.md",
+    "docs/development/architecture.md",
     "docs/drawing.md",
     "docs/howto/controllers.md",
     "docs/howto/gymnasium.md",
@@ -140,7 +140,7 @@ def test_the_errors_of_the_wrong_file_that_a_page_shows(
     "docs/howto/own-method.md",
     "docs/howto/stiff-mechanisms.md",
     "docs/howto/stops.md",
-    "docs/internals.md",
+    "docs/development/internals.md",
     "docs/inverse.md",
     "docs/joint-coordinates.md",
     "docs/linearise.md",

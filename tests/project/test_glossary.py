@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = (ROOT / "docs" / "glossary.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "development" / "glossary.md").read_text(encoding="utf-8")
 #: Word -> meaning and listed files, of each line of the table.
 LINES = {
     cells[0]: (cells[1], re.findall(r"`([^`]+)`", cells[2]))
@@ -28,7 +28,7 @@ def test_files_with_a_word_of_the_glossary_are_listed_with_its_meaning(word: str
     assert meaning
     new, gone = having(word) - {*listed}, {*listed} - having(word)
     assert not new, f"{sorted(new)} have '{word}': list them if they mean '{meaning}', else rename them"
-    assert not gone, f"docs/glossary.md lists {sorted(gone)} for '{word}', which are not there"
+    assert not gone, f"docs/development/glossary.md lists {sorted(gone)} for '{word}', which are not there"
 
 
 def test_the_glossary_has_at_most_thirty_words() -> None:

@@ -90,7 +90,7 @@ def test_a_room_says_in_twelve_lines_what_goes_in_and_comes_out() -> None:
 
 
 def test_the_page_of_the_architecture_is_the_sum_of_the_rooms() -> None:
-    page = (PACKAGE.parent / "docs" / "architecture.md").read_text(encoding="utf-8")
+    page = (PACKAGE.parent / "docs" / "development" / "architecture.md").read_text(encoding="utf-8")
     lines = dict(re.findall(r"^\| `([\w/]+)` \| (.*) \|$", page.partition("## One walk")[0], re.MULTILINE))
     assert lines == {room: text[0].replace("``", "`") for room, text in ROOMS.items()}
     text = [line for line in page.splitlines() if not line.startswith("| `")]

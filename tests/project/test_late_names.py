@@ -36,7 +36,7 @@ def test_functions_that_do_nothing_are_in_one_file_and_name_the_page() -> None:
     functions = {name: f for name, f in own.items() if isinstance(f, types.FunctionType)}
     assert set(functions) <= {name for name in late_names.meanings()} and len(functions) > 30
     for name, function in functions.items():
-        assert "``docs/late-names.md`` says who means it when." in str(function.__doc__), name
+        assert "``docs/development/late-names.md`` says who means it when." in str(function.__doc__), name
     by_default = {name for name, places in late_names.defaults().items() if ("loops/unbound.py", name) in places}
     assert by_default == set(functions)
 

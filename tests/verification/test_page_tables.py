@@ -35,6 +35,10 @@ def text_of(table):
     return (ROOT / table.page).read_text(encoding="utf-8")
 
 
+def study_of(table):
+    return (ROOT / table.study).read_text(encoding="utf-8")
+
+
 def printed(table):
     """The rows of a table as its page has them."""
     first, end = place(table, text_of(table))
@@ -48,12 +52,12 @@ def test_a_page_has_the_table_with_its_headings_and_rows(table):
         assert row[: len(names)] == list(names)
 
 
-@pytest.mark.slow_cases("docs/findings/random-mechanisms.md statistics", "docs/findings/equal-work.md equal_work")
+@pytest.mark.slow_cases("docs/tables/random-mechanisms.md statistics", "docs/tables/equal-work.md equal_work")
 @pytest.mark.parametrize("table", STORED, ids=lambda table: f"{table.page} {table.command}")
 def test_a_table_of_a_record_and_its_sentences_are_those_of_the_page(table):
     for row, own in zip(printed(table), table.measured(), strict=True):
         assert all(cell in (shown, KEPT) for shown, cell in zip(row, own, strict=True))
-    assert not missing(table, text_of(table))
+    assert not missing(table, study_of(table))
 
 
 def test_a_digit_of_a_sentence_spoilt_by_hand_is_missing():
@@ -61,7 +65,7 @@ def test_a_digit_of_a_sentence_spoilt_by_hand_is_missing():
     claim = next(iter(table.claims()))
     spoilt = re.sub(r"0\.\d\d", "0.01", claim, count=1)
     assert spoilt != claim
-    assert missing(table, text_of(table).replace(claim, spoilt)) == [claim]
+    assert missing(table, study_of(table).replace(claim, spoilt)) == [claim]
 
 
 @pytest.mark.parametrize("page", sorted((ROOT / "docs/findings").glob("*.md")), ids=lambda page: page.stem)

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Plain runs that an adjoint costs, and a run with L directions beyond one: `docs/measured/sensitivities.md`.
+#: Plain runs that an adjoint costs, and a run with L directions beyond one: `docs/tables/sensitivities.md`.
 COST, COST_OF_DIRECTION = 3.0, 0.25
 #: Most operations of a right-hand side whose adjoint is compiled without being wanted: more take ten seconds.
 LARGEST = 5000

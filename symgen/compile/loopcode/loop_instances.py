@@ -38,7 +38,9 @@ def viewing(function: Function) -> Function:
 
 
 class Meanings(dict[str, Any]):
-    """Meanings of global names for `Instances`, and when they hold; ``docs/late-names.md`` lists all of them.
+    """Meanings of global names for `Instances`, and when they hold.
+
+    ``docs/development/late-names.md`` lists all of them.
 
     Parameters
     ----------

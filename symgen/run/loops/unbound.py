@@ -1,8 +1,8 @@
 """Functions that are bound late: what names of loops and of turns mean where nothing else is bound to them.
 
 Each does nothing, or returns a value that means nothing. Schemes, the search for events, modes and targets bind other
-functions to these names, see `symgen.compile.loopcode.loop_instances`; ``docs/late-names.md`` says who means each when.
-Of the parts of a scheme,
+functions to these names, see `symgen.compile.loopcode.loop_instances`; ``docs/development/late-names.md`` says who
+means each when. Of the parts of a scheme,
 
 | name | takes | does |
 | --- | --- | --- |
@@ -44,7 +44,7 @@ UNCHANGED = 0
 def prepare(system: ModelSystem, scheme: Record, span: Span, run: Run) -> None:
     """Do nothing: a scheme without memory needs nothing at the start.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
@@ -53,7 +53,7 @@ def attempt(
 ) -> float:
     """Return `DIVERGED`: each scheme has its own step.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return DIVERGED
 
@@ -61,14 +61,14 @@ def attempt(
 def renew(system: ModelSystem, scheme: Record, span: Span, run: Run, t: float, changed: bool) -> None:
     """Do nothing: a scheme without memory keeps nothing of a step.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
 def refuse(run: Run) -> None:
     """Do nothing: the memory of a scheme is valid for another attempt as well.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
@@ -77,7 +77,7 @@ def interpolate(
 ) -> None:
     """Do nothing: a scheme without dense output ends a step at each output.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
@@ -88,7 +88,7 @@ def inside(
 
     0 where the scheme has none: then states are those of a cubic through both ends and their rates.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return 0.0
 
@@ -96,7 +96,7 @@ def inside(
 def locate_event(system: ModelSystem, scheme: Record, run: Run, following: float, h: float, search: int) -> int:
     """Return `NOTHING`: a run without events finds none between a good attempt and its acceptance.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return NOTHING
 
@@ -104,7 +104,7 @@ def locate_event(system: ModelSystem, scheme: Record, run: Run, following: float
 def prepare_search(system: ModelSystem, run: Run, doing: int) -> int:
     """Return `NOTHING`: a run without events has no sides to find (`LOOK`), and nothing to `REMEMBER` and `RECALL`.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return NOTHING
 
@@ -112,7 +112,7 @@ def prepare_search(system: ModelSystem, run: Run, doing: int) -> int:
 def step_to_point(system: ModelSystem, run: Run, h: float) -> float:
     """Return the step to try in place of one of `h` seconds, proposed by the error estimate.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return h
 
@@ -120,7 +120,7 @@ def step_to_point(system: ModelSystem, run: Run, h: float) -> float:
 def is_astray(span: Span, run: Run, adaptive: bool) -> bool:
     """Return False: only runs with events are examined.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return False
 
@@ -131,14 +131,14 @@ def is_astray(span: Span, run: Run, adaptive: bool) -> bool:
 def keep_before(kept: Record, y: Array) -> None:
     """Do nothing: nobody reads the effects of this run.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
 def keep_after(kept: Record, now: Record, first: int, work: Record) -> None:
     """Do nothing: nobody reads the effects of this run.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
@@ -148,7 +148,7 @@ def keep_after(kept: Record, now: Record, first: int, work: Record) -> None:
 def lay_gaps(t: float, modes: Record, state: State) -> int:
     """Return 0: a run without gaps has none that is closed at a start.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return 0
 
@@ -156,7 +156,7 @@ def lay_gaps(t: float, modes: Record, state: State) -> int:
 def meet_impacts(t: float, modes: Record, state: State) -> int:
     """Return `SAME`: a run without gaps has no impacts.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return UNCHANGED
 
@@ -164,7 +164,7 @@ def meet_impacts(t: float, modes: Record, state: State) -> int:
 def gather_impacts(t: float, modes: Record, state: State) -> int:
     """Return `SAME`: a run without gaps has no impacts that accumulate.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return UNCHANGED
 
@@ -175,14 +175,14 @@ def gather_impacts(t: float, modes: Record, state: State) -> int:
 def forget_run(model: System, state: State) -> None:
     """Do nothing: a run without switching functions has no data of them.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
 def begin_choice(model: System, span: Span, state: State) -> int:
     """Return `DONE`: a run without bounded rows has no modes to choose.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return int(abi.DONE)
 
@@ -190,7 +190,7 @@ def begin_choice(model: System, span: Span, state: State) -> int:
 def take_change(model: System, span: Span, state: State) -> int:
     """Return the end code of a run whose parameters its loop cannot prepare.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return int(abi.UNPREPARED)
 
@@ -198,7 +198,7 @@ def take_change(model: System, span: Span, state: State) -> int:
 def take_notes(code: int, r: int, model: System, chunk: RowChunk, state: State) -> int:
     """Return the end code of a run without events.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return code
 
@@ -206,7 +206,7 @@ def take_notes(code: int, r: int, model: System, chunk: RowChunk, state: State) 
 def resume_code(state: State) -> int:
     """Return the end code with which a run that was left for an examination goes on, `DONE` for a new run.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return int(abi.DONE)
 
@@ -214,7 +214,7 @@ def resume_code(state: State) -> int:
 def waits_for_caller(code: int, model: System, chunk: RowChunk, state: State) -> bool:
     """Return whether a run has to be left for an examination: none without rows that may jump.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return False
 
@@ -222,21 +222,21 @@ def waits_for_caller(code: int, model: System, chunk: RowChunk, state: State) ->
 def store_after(code: int, span: Span, state: State, outputs: Outputs) -> None:
     """Do nothing: outputs of a run without events hold its state.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
 def take_row(system: System, r: int) -> None:
     """Do nothing: no row has seams.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
 def integrate(*arguments: object) -> int:
     """Mark the place of the loop over one run: it is never called.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     raise NotImplementedError
 
@@ -244,14 +244,14 @@ def integrate(*arguments: object) -> int:
 def hold(system: System | int, span: Span, chunk: RowChunk, r: int, state: State, times: Array, k: int) -> None:
     """Do nothing: the same parameters hold at all outputs of a run without seams.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
 def keep_ends(model: System, count: int, row: Array) -> None:
     """Do nothing: events end no run but by their time.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
@@ -261,21 +261,21 @@ def keep_ends(model: System, count: int, row: Array) -> None:
 def assume_step(model: System, span: Span) -> None:
     """Do nothing: no modes depend on the step that is assumed before the first one.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
 def let_go(model: System, state: State) -> None:
     """Do nothing: a run without rows with bounds has none in force.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
 def return_before_seams(system: System, state: State) -> None:
     """Do nothing: a run without seams has passed none.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
@@ -283,7 +283,7 @@ def return_before_seams(system: System, state: State) -> None:
 def system_of_steps(system: System) -> System:
     """Return the first argument of the loop over steps.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return system
 
@@ -291,7 +291,7 @@ def system_of_steps(system: System) -> System:
 def read_step(system: System, scheme: Record, state: State, outputs: Record) -> int:
     """Return 0: nothing can be read of a constant step.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return 0
 
@@ -300,7 +300,7 @@ def read_step(system: System, scheme: Record, state: State, outputs: Record) -> 
 def effects_alone(further: Effects) -> Effects:
     """Return the effects of events in a run without rows with bounds.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return further
 
@@ -308,21 +308,21 @@ def effects_alone(further: Effects) -> Effects:
 def leave_alone(further: Record, w: Array) -> None:
     """Do nothing: a run without rows with bounds has no modes.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
 def forget_rests(modes: Record, times: Array, is_begun: bool) -> None:
     """Do nothing: no gap of a run without gaps comes to rest.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
 def rest_lost_gaps(t: float, modes: Record, state: State) -> int:
     """Return `SAME`: a run without gaps has no flights.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return UNCHANGED
 
@@ -330,14 +330,14 @@ def rest_lost_gaps(t: float, modes: Record, state: State) -> int:
 def note_rests(t: float, modes: Record, times: Array) -> None:
     """Do nothing: no gap of a run without gaps comes to rest.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
 
 
 def next_rest(t: float, modes: Record, times: Array) -> float:
     """Return infinity: no gap of a run without gaps comes to rest.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return math.inf
 
@@ -345,7 +345,7 @@ def next_rest(t: float, modes: Record, times: Array) -> float:
 def next_time(model: System, state: State) -> float:
     """Return infinity: formulas of a run without seams neither jump nor have kinks over time.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return math.inf
 
@@ -353,7 +353,7 @@ def next_time(model: System, state: State) -> float:
 def pass_seams(model: System, span: Span, state: State) -> int:
     """Return `QUIET`: a run without seams passes none.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return UNCHANGED
 
@@ -361,6 +361,6 @@ def pass_seams(model: System, span: Span, state: State) -> int:
 def formula_at(f: Record, state: Record, j: int, t: float) -> float:
     """Return nan: each search for times of jumps has formulas of its own.
 
-    ``docs/late-names.md`` says who means it when.
+    ``docs/development/late-names.md`` says who means it when.
     """
     return math.nan

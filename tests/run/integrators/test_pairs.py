@@ -17,8 +17,8 @@ ALL = [(m, i) for m in METHODS.names for i in INTEGRATORS.names]
 
 
 def test_the_page_is_up_to_date():
-    page = Path(__file__).parents[3] / "docs" / "pairs.md"
-    assert page.read_text(encoding="utf-8") == pairs.page(), "run python -m benchmarks.pairs > docs/pairs.md"
+    page = Path(__file__).parents[3] / "docs" / "tables" / "pairs.md"
+    assert page.read_text(encoding="utf-8") == pairs.page(), "run python -m benchmarks.pairs > docs/tables/pairs.md"
 
 
 def test_a_plan_is_made_for_exactly_the_pairs_of_the_table():
