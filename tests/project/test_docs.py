@@ -46,7 +46,8 @@ PAGES = (
     ROOT / "README.md",
     ROOT / "CONTRIBUTING.md",
     ROOT / "CHANGELOG.md",
-    *sorted((ROOT / "benchmarks").glob("*.md")),
+    *sorted((ROOT / "benchmarks").rglob("*.md")),
+    ROOT / "examples" / "README.md",
     *sorted((ROOT / "docs").rglob("*.md")),
 )
 _FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -226,9 +227,16 @@ def test_every_page_is_reachable_from_the_first_one() -> None:
 
 
 def anchors(page: Path) -> set[str]:
-    """Return the anchors of a page's headings, as they are made from the text."""
-    headings = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    """Return the anchors of a page's headings, as they are made from the text; comments of code are no headings."""
+    headings = re.findall(r"^#+ (.*)$", _FENCE.sub("", page.read_text(encoding="utf-8")), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).strip().replace(" ", "-") for heading in headings}
+
+
+def test_a_comment_of_code_is_no_heading() -> None:
+    page = ROOT / "docs" / "tables" / "README.md"
+    assert anchors(page) == {"tables"}
+    own = anchors(ROOT / "docs" / "howto" / "finite-elements.md")
+    assert "in-a-mechanism" in own and not any("strip-of-steel" in anchor for anchor in own)
 
 
 # -- every kind with every key -----------------------------------------------------------------------------------------
