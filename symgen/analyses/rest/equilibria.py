@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.rest.settle import Settled, evaluate_at_balance, settle_position
+from symgen.analyses.rest.dense_statics import evaluate_at_balance
+from symgen.analyses.rest.settle import Settled, settle_position
 from symgen.analyses.state.algebra import (
     ZERO,
     Complex,

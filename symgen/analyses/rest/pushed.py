@@ -7,17 +7,9 @@ from contextlib import suppress
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.analyses.rest.dense_statics import DenseStatics, evaluate_at_balance
 from symgen.analyses.rest.equilibria import STABLE, UNSTABLE, Equilibrium, judge_equilibrium
-from symgen.analyses.rest.settle import (
-    NEAR,
-    DenseStatics,
-    Settled,
-    close_nearly,
-    evaluate_at_balance,
-    length_of_step,
-    newton_step,
-    settle_position,
-)
+from symgen.analyses.rest.settle import NEAR, Settled, close_nearly, length_of_step, newton_step, settle_position
 from symgen.analyses.state.algebra import solver_with_rows, symmetric_part, unit_stiffness
 from symgen.analyses.state.subject import Subject
 from symgen.base.errors import AnalysisError

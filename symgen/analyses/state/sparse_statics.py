@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.state.subject import Yardsticks
+from symgen.analyses.state.yardsticks import Yardsticks
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
 from symgen.run.loops.newton import Pattern

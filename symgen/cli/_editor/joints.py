@@ -9,7 +9,7 @@ from symgen.base.errors import InputError, quote, suggest
 from symgen.derive.formulate.formulate import formulate
 from symgen.describe.mechanism import Mechanism
 from symgen.result.reading.html import equation_html, equations_html, vector_equation
-from symgen.result.reading.page import check_size
+from symgen.result.reading.page_size import check_size
 from symgen.result.reading.row_words import row_words
 from symgen.result.reading.sheet import Sheet
 

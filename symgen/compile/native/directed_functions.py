@@ -13,6 +13,7 @@ from functools import lru_cache
 
 from symgen.base.ir.graph import CARRIED
 from symgen.compile.native import language as lang
+from symgen.compile.native.directed_numbers import DirectedNumbers
 from symgen.compile.native.direction_rules import DirectionRules
 from symgen.compile.native.folding import walk_statements
 from symgen.compile.native.read_values import Foreign
@@ -63,44 +64,6 @@ class _Held:
 @lru_cache(maxsize=256)
 def _directed(key: object, held: _Held, places: Places, is_entry: bool) -> lang.Function:
     return _Directed(held.function, dict(places), is_entry).directed()
-
-
-class _Numbers:
-    """Operations on numbers as expressions, under the names that slopes of elementary functions use on a graph."""
-
-    one = lang.Constant("float", 1.0)
-
-    def __init__(self, writer: _Directed) -> None:
-        self.writer = writer
-
-    def constant(self, value: float) -> lang.Expression:
-        """Return a number."""
-        return lang.Constant("float", value)
-
-    def add(self, a: lang.Expression, b: lang.Expression) -> lang.Expression:
-        """Return a sum."""
-        return lang.ScalarOperation("float", "add", (a, b))
-
-    def sub(self, a: lang.Expression, b: lang.Expression) -> lang.Expression:
-        """Return a difference."""
-        return lang.ScalarOperation("float", "sub", (a, b))
-
-    def mul(self, a: lang.Expression, b: lang.Expression) -> lang.Expression:
-        """Return a product."""
-        return lang.ScalarOperation("float", "mul", (a, b))
-
-    def neg(self, a: lang.Expression) -> lang.Expression:
-        """Return the opposite."""
-        return lang.ScalarOperation("float", "neg", (a,))
-
-    def div(self, a: lang.Expression, b: lang.Expression) -> lang.Expression:
-        """Return a quotient, which has a name."""
-        return self.writer.named(lang.ScalarOperation("float", "div", (a, b)))
-
-    def call(self, name: str, *values: lang.Expression) -> lang.Expression:
-        """Return the value of a function, which has a name."""
-        own = "pow" if name == "pow" else f"math.{name}"
-        return self.writer.named(lang.ScalarOperation("float", own, values))
 
 
 class _Directed(DirectionRules[lang.Expression]):
@@ -367,9 +330,9 @@ class _Directed(DirectionRules[lang.Expression]):
     # -- rules
 
     @property
-    def numbers(self) -> _Numbers:
+    def numbers(self) -> DirectedNumbers:
         """Operations on numbers."""
-        return _Numbers(self)
+        return DirectedNumbers(self.named)
 
     def print_plain(self, e: lang.ScalarOperation) -> lang.Expression:
         """Return an operation without directions."""

@@ -17,15 +17,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast
 from symgen.compile.native import types
 from symgen.compile.native.compiler import is_by_numba, is_interpreted, selected_compiler
 from symgen.compile.native.read_tables import Written
+from symgen.compile.store.function_source import syntax_tree
 from symgen.compile.store.identity import combined_digest, file_content
-from symgen.compile.store.jit import (
-    Arguments,
-    CacheEntry,
-    MachineFunction,
-    argument_types,
-    numba_arguments,
-    syntax_tree,
-)
+from symgen.compile.store.jit import Arguments, CacheEntry, MachineFunction, argument_types, numba_arguments
 from symgen.compile.store.sources import source_stamp
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ import functools
 import marshal
 import sys
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard, TypeVar, cast
 
 import llvmlite
@@ -26,15 +26,16 @@ from symgen.compile.native.calls import argument_type, lockless_caller
 from symgen.compile.native.compiler import is_by_numba, is_interpreted, selected_compiler
 from symgen.compile.native.machine import load_machine_code, lock, processor_features
 from symgen.compile.store.entries import get_or_make_data, plain_name
-from symgen.compile.store.identity import combined_digest, file_content, file_digest
+from symgen.compile.store.identity import combined_digest
 from symgen.compile.store.sources import COMPILER, reached_digest, source_stamp
 from symgen.compile.store.stats import CompilationClock
 from symgen.compile.store.upkeep import NATIVE
 
 if TYPE_CHECKING:
     from symgen.compile.native.read import Kind
+from symgen.compile.store.function_source import read_lines, syntax_tree
 
-__all__ = ["CacheEntry", "MachineFunction", "RuntimeFunction", "jit", "object_file", "syntax_tree"]
+__all__ = ["CacheEntry", "MachineFunction", "RuntimeFunction", "jit", "object_file"]
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _FORMAT = "3"
@@ -262,7 +263,7 @@ class RuntimeFunction(MachineFunction):
 
     def tree(self) -> ast.FunctionDef | None:
         """Return the syntax tree of the function, None where its source is not available."""
-        return syntax_tree(_read_lines(self.py_func.__code__.co_filename), self.py_func)
+        return syntax_tree(read_lines(self.py_func.__code__.co_filename), self.py_func)
 
     def identity(self) -> str:
         """Return the sources and options that machine code depends on."""
@@ -389,31 +390,3 @@ def _identity_of_global(value: object) -> str:
     if hasattr(function, "__qualname__"):
         return f"{function.__module__}.{function.__qualname__}"
     return repr(value) if value is None or isinstance(value, int | float | str) else ""
-
-
-def syntax_tree(lines: Sequence[str], function: Any) -> ast.FunctionDef | None:
-    """Return the syntax tree of a function that begins in the first column, or None.
-
-    Parameters
-    ----------
-    lines : sequence of str
-        Of its file.
-    function : function
-        The function loaded from there.
-    """
-    first = function.__code__.co_firstlineno - 1  # of its decorators, if any
-    begin = next((i for i in range(first, len(lines)) if lines[i].startswith("def ")), len(lines))
-    rest = range(begin + 1, len(lines))
-    end = next((i for i in rest if lines[i][:1].strip() and not lines[i].startswith(")")), len(lines))
-    try:
-        statements = ast.parse("\n".join(lines[first:end])).body
-    except SyntaxError:
-        return None
-    return statements[0] if len(statements) == 1 and isinstance(statements[0], ast.FunctionDef) else None
-
-
-@functools.lru_cache(maxsize=64)
-def _read_lines(file: str) -> tuple[str, ...]:
-    """Return the lines of a file, none of one that has been edited since it was loaded."""
-    text = file_content(file)
-    return tuple(text.decode().split("\n")) if combined_digest(text) == file_digest(file) else ()

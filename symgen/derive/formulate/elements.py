@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 
 from symgen.base.ir.graph import Graph
 from symgen.derive.formulate.equations import ConstraintRow, Equations
-from symgen.derive.formulate.formulate import formulate, rotor_rate, with_rotors
+from symgen.derive.formulate.formulate import formulate
 from symgen.derive.formulate.measure_nodes import ModelNodes
+from symgen.derive.formulate.rotors import rotor_rate, with_rotors
 from symgen.describe.mechanism import Mechanism
 
 #: Stride of the records in the numbering ("record", frame * RECORD + place).

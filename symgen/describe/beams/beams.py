@@ -9,7 +9,7 @@ masses of the ends of two segments, and the elements before and after it have th
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -20,23 +20,27 @@ from symgen.base.vocabulary.expressions import (
     ONE,
     ZERO,
     Expr,
-    call,
     difference,
-    literal_of,
-    product,
-    scalar_product_of,
     sum_of_terms,
-    vector_product,
 )
 from symgen.base.vocabulary.measures import GROUND
-from symgen.base.vocabulary.rotations import rotation_matrix_of
 from symgen.describe.beams.beam_lines import CrossSection, beam_segments, cross_sections
 from symgen.describe.beams.beam_sections import BeamSection, Properties, section_properties
-from symgen.describe.formulas.evaluate import scalar_values
+from symgen.describe.beams.node_tables import (
+    BodyMass,
+    RigidMotion,
+    add_mass,
+    body_axes,
+    in_frame,
+    node_velocities,
+    pose_keys,
+    rigid_motion,
+    section_mass,
+    write_vector,
+)
 from symgen.describe.formulas.formula_text import file_value, to_text
-from symgen.describe.formulas.start import euler_parameters
-from symgen.describe.mechanism import AnyBody, Body, Vec
-from symgen.describe.parts.bodies import is_modal, shift_tensor
+from symgen.describe.mechanism import AnyBody, Vec
+from symgen.describe.parts.bodies import is_modal
 from symgen.describe.parts.collected import Errors
 from symgen.describe.parts.fields import read_table, value_in_words
 from symgen.describe.parts.kinds import FORCES, JOINTS
@@ -55,18 +59,6 @@ _UNTURNED = {n: tuple(tuple(ONE if i == j else ZERO for j in range(n)) for i in 
 
 
 @dataclass(frozen=True)
-class _Mass:
-    """The end of a line on a body: its place in the frame of that body, its mass, and its inertia in that frame.
-
-    In space the inertia is a tensor of six entries.
-    """
-
-    place: Vec
-    mass: Expr
-    inertia: tuple[Expr, ...]
-
-
-@dataclass(frozen=True)
 class _Seat:
     """A node of elements: a body, the place in its frame, and directions x and y there of each cross section."""
 
@@ -76,11 +68,7 @@ class _Seat:
 
     def written_axis(self, section: int, i: int) -> list[float | str]:
         """Return direction x or y of a cross section as written in a file."""
-        return _write_vector(self.sides[section][i])
-
-
-#: A point of a rigid beam, its velocity, and three components of the angular velocity.
-_Motion = tuple[Vec, Vec, Vec]
+        return write_vector(self.sides[section][i])
 
 
 class Beams:
@@ -113,7 +101,7 @@ class Beams:
         self.raw, self.scope_of, self.body_of, self.errors = raw, scope_of, body_of, errors
         self._nodes: dict[str, list[tuple[str, float]]] = {}  # of a beam, "" for a clamped end, and parts of its length
         self._counts: dict[str, list[int]] = {}  # elements of the segments of a beam
-        self._further: dict[str, list[_Mass]] = {}  # of bodies, besides those of their tables
+        self._further: dict[str, list[BodyMass]] = {}  # of bodies, besides those of their tables
         self._centres: dict[str, Any] = {}  # of bodies that ends are clamped to, in their frames
         self.bodies: dict[str, Any] = {}
         self.forces: dict[str, Any] = {}
@@ -154,7 +142,7 @@ class Beams:
     def add_end_masses(self, body: AnyBody) -> AnyBody:
         """Return a body with the masses of the ends of beams that are part of it."""
         for further in self._further.get(body.name, ()):
-            body = _add_mass(body, further)
+            body = add_mass(body, further)
         return body
 
     # -- nodes and elements ------------------------------------------------------------------------------------------
@@ -168,7 +156,7 @@ class Beams:
             raise scope.error(
                 "clamp", "one body, or two: that of the start and that of the end", value_in_words(beam.clamp)
             )
-        nodes, motion, seats = cross_sections(scope, line), _rigid_motion(scope, beam, line[0].start), list[_Seat]()
+        nodes, motion, seats = cross_sections(scope, line), rigid_motion(scope, beam, line[0].start), list[_Seat]()
         last = len(nodes) - 1
         self._counts[name], self._nodes[name] = [segment.elements for segment in line], []
         for k, sections in enumerate(nodes):
@@ -204,22 +192,27 @@ class Beams:
                 self.forces[f"{name}.{ELEMENT}{k}"] = element | keys
 
     def _node_seat(
-        self, name: str, beam: BeamSection, sections: list[CrossSection], properties: Properties, motion: _Motion | None
+        self,
+        name: str,
+        beam: BeamSection,
+        sections: list[CrossSection],
+        properties: Properties,
+        motion: RigidMotion | None,
     ) -> _Seat:
         """Return the seat of a node, which becomes a body."""
         vertex, own = len(sections) > 1, sections[0]
         dimension = len(own.place)
         unturned = _UNTURNED[dimension]
-        (mass, inertia), *others = (_section_mass(properties, s, s.axes if vertex else None) for s in sections)
+        (mass, inertia), *others = (section_mass(properties, s, s.axes if vertex else None) for s in sections)
         if vertex:  # it has no direction of its own
             own = replace(own, axes=unturned, angle=ZERO)
-            self._further[name] = [_Mass((ZERO,) * dimension, *other) for other in others]
+            self._further[name] = [BodyMass((ZERO,) * dimension, *other) for other in others]
         self.bodies[name] = {
             "mass": file_value(mass),
-            "inertia": _write_vector(inertia) if dimension == 3 else file_value(*inertia),
+            "inertia": write_vector(inertia) if dimension == 3 else file_value(*inertia),
             "hold": beam.hold,
-            **_pose_keys(own),
-            **({} if motion is None else _node_velocities(own, motion)),
+            **pose_keys(own),
+            **({} if motion is None else node_velocities(own, motion)),
         }
         return _Seat(name, CENTRE, [section.sides if vertex else unturned for section in sections])
 
@@ -235,7 +228,7 @@ class Beams:
     def _clamped_seat(self, scope: Scope, name: str, end: CrossSection, properties: Properties) -> _Seat:
         """Return the seat of a clamped end on its body, which takes the mass of the end."""
         if name == GROUND:
-            return _Seat(name, _write_vector(end.place), [end.sides])
+            return _Seat(name, write_vector(end.place), [end.sides])
         bodies = self.raw.get("bodies", {})
         if name not in bodies:
             got = f"the unknown body {quote(name)}"
@@ -246,12 +239,12 @@ class Beams:
         body = self.body_of(self.scope_of("bodies", name), bodies[name])
         if body.is_point:
             raise scope.error("clamp", "a body with an angle", f"the point mass '{name}'")
-        frame = _body_axes(scope, body)
-        (place,) = _in_frame(frame, [tuple(map(difference, end.place, body.position))])
-        mass = _Mass(place, *_section_mass(properties, end, _in_frame(frame, end.axes)))
+        frame = body_axes(scope, body)
+        (place,) = in_frame(frame, [tuple(map(difference, end.place, body.position))])
+        mass = BodyMass(place, *section_mass(properties, end, in_frame(frame, end.axes)))
         self._further.setdefault(name, []).append(mass)
-        self._centres[name] = _write_vector(body.centre_of_mass)
-        return _Seat(name, _write_vector(place), [_in_frame(frame, end.sides)])
+        self._centres[name] = write_vector(body.centre_of_mass)
+        return _Seat(name, write_vector(place), [in_frame(frame, end.sides)])
 
     # -- names of nodes ----------------------------------------------------------------------------------------------
 
@@ -305,98 +298,6 @@ class Beams:
             got = f"the end of '{beam}' that is clamped to a body"
             raise scope.error("at", "a node that moves by itself", got, "name that body and a point of it")
         return nodes[k][0]
-
-
-# -- tables of nodes, and masses -------------------------------------------------------------------------------------
-
-
-def _rigid_motion(scope: Scope, beam: BeamSection, start: Vec) -> _Motion | None:
-    """Return the rigid-body motion of a beam at the start, None where its table has no velocities."""
-    if beam.velocity is None and beam.angular_velocity is None:
-        return None
-    velocity = scope.vector("velocity", (0.0,) * scope.dimension if beam.velocity is None else beam.velocity)
-    count, turning = (3 if scope.spatial else 1), beam.angular_velocity
-    omega = scope.several("angular_velocity", 0.0 if turning is None else turning, count, alike=turning is None)
-    return start, velocity, (*(ZERO,) * (3 - count), *omega)
-
-
-def _node_velocities(section: CrossSection, motion: _Motion) -> dict[str, Any]:
-    """Return the velocities of a node."""
-    start, velocity, omega = motion
-    swept = vector_product(omega, (*map(difference, section.place, start), ZERO))
-    own = (
-        _write_vector(scalar_product_of(omega, axis) for axis in section.axes)
-        if len(start) == 3
-        else file_value(omega[2])
-    )
-    return {"velocity": _write_vector(map(sum_of_terms, velocity, swept)), "angular_velocity": own}
-
-
-def _pose_keys(section: CrossSection) -> dict[str, Any]:
-    """Return the position and orientation of a node."""
-    if len(section.axes) == 2:
-        return {"position": _write_vector(section.place), "angle": file_value(section.angle)}
-    turned = {"x_axis": _write_vector(section.axes[0]), "y_axis": _write_vector(section.axes[1])}
-    return {"position": _write_vector(section.place), "orientation": turned}
-
-
-def _section_mass(
-    properties: Properties, section: CrossSection, axes: tuple[Vec, ...] | None
-) -> tuple[Expr, tuple[Expr, ...]]:
-    """Return the mass of a cross section and its rotary inertia, in space with axes in a frame its tensor there."""
-    mass, *rotary = (product(section.share, e) for e in (properties.mass, *properties.rotary))
-    if axes is None or len(axes) == 2:
-        return mass, tuple(rotary)
-    x, y, _ = axes
-    pairs = (0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)
-    # the third of three perpendicular axes follows from the others: its formulas are the longest
-    about_x, about_y = (difference(e, rotary[2]) for e in rotary[:2])
-    return mass, tuple(
-        sum_of_terms(rotary[2] if i == j else ZERO, product(about_x, x[i], x[j]), product(about_y, y[i], y[j]))
-        for i, j in pairs
-    )
-
-
-def _body_axes(scope: Scope, body: AnyBody) -> tuple[Vec, ...]:
-    """Return the axes of a body's frame in the ground frame, as it is described."""
-    if isinstance(body, Body):
-        cosine, sine = call("cos", body.angle), call("sin", body.angle)
-        return (cosine, sine), (call("neg", sine), cosine)
-    if not body.orientation.is_numeric:
-        raise scope.error("clamp", "a body whose orientation at the start is given in numbers", f"'{body.name}'")
-    rows = rotation_matrix_of(
-        euler_parameters(body.orientation, scalar_values(scope.context.values), scope.where("clamp"))
-    )
-    return tuple(tuple(literal_of(x) for x in column) for column in zip(*rows, strict=True))
-
-
-def _add_mass(body: AnyBody, further: _Mass) -> AnyBody:
-    """Return a body with a further mass and tensor of inertia at a place of its frame (Huygens, Steiner)."""
-    mass = sum_of_terms(body.mass, further.mass)
-    share = call("div", further.mass, mass)
-    apart = tuple(map(difference, further.place, body.centre_of_mass))
-    centre = tuple(sum_of_terms(c, product(share, d)) for c, d in zip(body.centre_of_mass, apart, strict=True))
-    reduced, inertia = product(share, body.mass), body.inertia
-    assert inertia is not None, "a point mass clamps nothing"
-    if isinstance(inertia, tuple):
-        a, b, c, d, e, f = map(sum_of_terms, inertia, further.inertia)
-        inertia = shift_tensor((a, b, c, d, e, f), call("neg", reduced), apart)
-    else:
-        inertia = sum_of_terms(inertia, *further.inertia, product(reduced, scalar_product_of(apart, apart)))
-    return msgspec.structs.replace(body, mass=mass, centre_of_mass=centre, inertia=inertia)
-
-
-# -- vectors ---------------------------------------------------------------------------------------------------------
-
-
-def _in_frame(frame: Sequence[Vec], vectors: Sequence[Vec]) -> tuple[Vec, ...]:
-    """Return vectors in the axes of a frame."""
-    return tuple(tuple(scalar_product_of(vector, axis) for axis in frame) for vector in vectors)
-
-
-def _write_vector(vector: Iterable[Expr]) -> list[float | str]:
-    """Return a vector as written in a file."""
-    return [file_value(e) for e in vector]
 
 
 def _load_on_node(size: Expr, part: float | str, node: str) -> str:

@@ -1,12 +1,7 @@
-"""Kinks in formulas of joints and forces, and formulas that may hide short changes.
-
-Kinks lie at times that are computed before a run, or where the state passes points. Of formulas of the time that are
-no polynomials with one sine no time says where something short lies: there adaptive steps are bounded.
-"""
+"""Kinks in formulas of joints and forces, at times that are computed before a run, or where the state passes points."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -38,24 +33,16 @@ from symgen.describe.remembered import compute_once
 from symgen.describe.table_functions import Table
 
 #: Functions that may jump, and those that compare a value with zero, or two values with each other.
-_SIDES = ("lt", "le", "gt", "ge", "sign")
-_COMPARED = (*_SIDES, *BENT)
+JUMPING = ("lt", "le", "gt", "ge", "sign")
+_COMPARED = (*JUMPING, *BENT)
 #: Inverses of functions, and the function that is 0 where they have kinks or jump.
 _INVERSE = {("acos", "cos"): "sin", ("asin", "sin"): "cos", ("atan", "tan"): "cos"}
 #: How these are written where a formula is encoded: with their lengths, as other words contain `le` too.
 _COMPARED_TEXTS = tuple(map(msgspec.msgpack.encode, _COMPARED))
-
-
 #: The derivative of a table that jumps at its points.
 KINKS = {"linear": 1, "pchip": 2, "cubic": 3}
-#: Steps for which something may lie hidden are no longer than a run over this.
-PARTS = 1000
 #: Encoded forms of formulas of the time.
-_TIME = msgspec.msgpack.encode(Name("t"))
-#: Powers beyond this one are as sharp as pulses.
-_LOW = 16
-#: Functions that are polynomials where their arguments are, except at jumps and kinks.
-_PLAIN = frozenset(("add", "sub", "neg", "mul", "where", "and", "or", "not", *BENT))
+ENCODED_TIME = msgspec.msgpack.encode(Name("t"))
 
 
 def jumps_in_time(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[tuple[Jump, ...], tuple[Jump, ...]]:
@@ -66,7 +53,7 @@ def jumps_in_time(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[t
     formulas may jump. Arguments are formulas of t and parameters; those of state pass at times unknown before.
     """
     return _kinks_in_formulas(
-        mechanism, (*integrands_of_run(mechanism), _bound_formulas(mechanism), tuple(e.when for e in events))
+        mechanism, (*integrands_of_run(mechanism), bound_formulas(mechanism), tuple(e.when for e in events))
     )
 
 
@@ -77,9 +64,9 @@ def jumps_of_gaps(mechanism: Mechanism) -> tuple[Jump, ...]:
 
 def _kinks_in_formulas(mechanism: Mechanism, formulas: tuple[Any, ...]) -> tuple[tuple[Jump, ...], tuple[Jump, ...]]:
     """Return the kinks in time of formulas, and their comparisons."""
-    tables, timely = _tables_with_halts(mechanism), _names_of_time(mechanism)
+    tables, timely = tables_with_halts(mechanism), names_of_time(mechanism)
     kinks, sides = dict[Jump, None](), dict[Jump, None]()
-    for e, _ in _calls_with_efforts(*formulas) if _may_switch(formulas) else ():
+    for e, _ in calls_with_efforts(*formulas) if _may_switch(formulas) else ():
         if e.function in _COMPARED:
             jump = Jump(compared_with_zero(e))
         elif (table := tables.get(table_of(e.function) or "")) is not None:
@@ -88,11 +75,11 @@ def _kinks_in_formulas(mechanism: Mechanism, formulas: tuple[Any, ...]) -> tuple
         else:
             continue
         if "t" in (used := set(names_in_expression(jump.argument))) and used <= timely:
-            (sides if e.function in _SIDES else kinks)[jump] = None
+            (sides if e.function in JUMPING else kinks)[jump] = None
     return tuple(kinks), tuple(sides)
 
 
-def _bound_formulas(mechanism: Mechanism) -> tuple[Any, ...]:
+def bound_formulas(mechanism: Mechanism) -> tuple[Any, ...]:
     """Return the formulas of the bounds of rows with two: their efforts in motion, and their bounds at rest."""
     rows = two_sided_rows(mechanism)
     by_reaction = (Effort("bound", row.measure, row.coefficient) for row in rows if row.pressed)
@@ -101,17 +88,17 @@ def _bound_formulas(mechanism: Mechanism) -> tuple[Any, ...]:
 
 def changes_in_time(mechanism: Mechanism) -> bool:
     """Return whether anything but the motion changes over time: a formula of t, or a state of the file's own."""
-    return bool(mechanism.states) or _TIME in msgspec.msgpack.encode(
-        (integrands_of_run(mechanism), _bound_formulas(mechanism))
+    return bool(mechanism.states) or ENCODED_TIME in msgspec.msgpack.encode(
+        (integrands_of_run(mechanism), bound_formulas(mechanism))
     )
 
 
-def _tables_with_halts(mechanism: Mechanism) -> dict[str, Table]:
+def tables_with_halts(mechanism: Mechanism) -> dict[str, Table]:
     """Return the tables at whose points runs halt."""
     return {table.name: table for table in mechanism.tables if len(table.x) <= MOST_KNOTS}
 
 
-def _names_of_time(mechanism: Mechanism) -> set[str]:
+def names_of_time(mechanism: Mechanism) -> set[str]:
     """Return the names in formulas of time alone."""
     return {p.name for p in mechanism.parameters if not p.input} | {"t"}
 
@@ -151,16 +138,16 @@ def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
     nothing, so that no other error shows a dip of it between two evaluations, nor of the gap of an open stop. ``s`` and
     ``rate`` of forces are readings of their measures.
     """
-    formulas = *integrands_of_run(mechanism), _bound_formulas(mechanism)
+    formulas = *integrands_of_run(mechanism), bound_formulas(mechanism)
     gaps = tuple(row.place for row in one_sided_rows(mechanism))
-    tables, plain = _tables_with_halts(mechanism), {p.name for p in mechanism.parameters} | {"t"}
+    tables, plain = tables_with_halts(mechanism), {p.name for p in mechanism.parameters} | {"t"}
     own = {
         _effort_formula_of_run(Name("rate"), row.effort) for row in two_sided_rows(mechanism)
     }  # modes change where these are 0
     jumping = dict[tuple[Expr, Table | None], bool]()
-    found = list(_calls_with_efforts(*formulas)) if _may_switch(formulas) else []
+    found = list(calls_with_efforts(*formulas)) if _may_switch(formulas) else []
     acting = len(found)
-    found += _calls_with_efforts(gaps) if _may_switch(gaps) else ()
+    found += calls_with_efforts(gaps) if _may_switch(gaps) else ()
     for i, (e, effort) in enumerate(found):
         table = tables.get(table_of(e.function) or "")
         if e.function not in _COMPARED and table is None:
@@ -170,7 +157,7 @@ def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
         if argument in own:
             continue
         if any(readings_in(argument)) or not set(names_in_expression(argument)) <= plain:
-            jumps = i < acting and e.function in _SIDES  # a gap is continuous
+            jumps = i < acting and e.function in JUMPING  # a gap is continuous
             jumping[argument, table] = jumping.get((argument, table), False) or jumps
     held = dict.fromkeys((e, None) for row in rows_with_kinks(mechanism) for e in row.switches)
     for key in held:
@@ -185,7 +172,7 @@ def compares_state(mechanism: Mechanism) -> bool:
 
 def kink_expressions(formula: Expr) -> tuple[Expr, ...]:
     """Return expressions that are 0 wherever a formula jumps or has a kink, tables aside, each once."""
-    return tuple(dict.fromkeys(x for e, _ in _calls_with_efforts(formula) for x in _zero_at_kinks(e)))
+    return tuple(dict.fromkeys(x for e, _ in calls_with_efforts(formula) for x in _zero_at_kinks(e)))
 
 
 def _zero_at_kinks(e: Call) -> tuple[Expr, ...]:
@@ -253,7 +240,7 @@ def rows_with_kinks(mechanism: Mechanism) -> tuple[ChangingRow, ...]:
             own = isinstance(measure, FormulaMeasure | FormulaSpeed)
             held = measure.of if isinstance(measure, FormulaMeasure | FormulaSpeed) else Reading(row.label, measure)
             motion, rest = _split_by_time(held, timely)
-            switches = tuple(dict.fromkeys(x for e, _ in _calls_with_efforts(rest) for x in _zero_at_kinks(e)))
+            switches = tuple(dict.fromkeys(x for e, _ in calls_with_efforts(rest) for x in _zero_at_kinks(e)))
             moves = tuple(
                 x for x in switches if any(readings_in(x)) or not set(names_in_expression(x)) <= timely - {"t"}
             )
@@ -274,7 +261,7 @@ def rows_with_kinks(mechanism: Mechanism) -> tuple[ChangingRow, ...]:
 
 def _switching_calls(part: object) -> Iterator[Call]:
     """Yield the calls in a part of a mechanism that may jump or have kinks."""
-    return (e for e, _ in _calls_with_efforts(part) if _zero_at_kinks(e))
+    return (e for e, _ in calls_with_efforts(part) if _zero_at_kinks(e))
 
 
 def _split_by_time(e: Expr, timely: set[str], sign: float = 1.0) -> tuple[Expr, Expr]:
@@ -290,15 +277,15 @@ def _split_by_time(e: Expr, timely: set[str], sign: float = 1.0) -> tuple[Expr, 
 
 def switching_formulas(part: object) -> Iterator[Expr]:
     """Yield whole formulas in a part of a mechanism that compare something or read a table, as formulas of a run."""
-    for formula, effort in _calls_with_efforts(part, enters=lambda e: False):
-        if any(e.function in _COMPARED or table_of(e.function) for e, _ in _calls_with_efforts(formula)):
+    for formula, effort in calls_with_efforts(part, enters=lambda e: False):
+        if any(e.function in _COMPARED or table_of(e.function) for e, _ in calls_with_efforts(formula)):
             yield formula if effort is None else _effort_formula_of_run(formula, effort)
 
 
 def formulas_with_domain(part: object) -> Iterator[tuple[Expr, Expr]]:
     """Yield formulas in a part of a mechanism, each with a call in it that is no number everywhere, as of a run."""
-    for whole, effort in _calls_with_efforts(part, enters=lambda e: False):
-        for e, _ in _calls_with_efforts(whole):
+    for whole, effort in calls_with_efforts(part, enters=lambda e: False):
+        for e, _ in calls_with_efforts(whole):
             if e.function in ("div", "pow") or (e.function in ELEMENTARY and not ELEMENTARY[e.function].everywhere):
                 yield (
                     (whole, e)
@@ -313,7 +300,7 @@ def _effort_formula_of_run(e: Expr, effort: Effort) -> Expr:
     return replace_names(e, lambda name: own.get(name.name, name))
 
 
-def _calls_with_efforts(
+def calls_with_efforts(
     *parts: object, enters: Callable[[Call], bool] = lambda e: True
 ) -> Iterator[tuple[Call, Effort | None]]:
     """Yield the calls of functions in the formulas of parts of a mechanism, and in which effort each is.
@@ -331,84 +318,3 @@ def _calls_with_efforts(
         elif isinstance(value, msgspec.Struct):
             own = value if isinstance(value, Effort) else effort
             waiting += [(getattr(value, field), own) for field in value.__struct_fields__]
-
-
-def longest_step(
-    mechanism: Mechanism, length: float, events: Sequence[Event] = (), jumps: Sequence[Jump] = ()
-) -> tuple[float, str]:
-    """Return the longest step that sees what formulas of the time do [s], and why it is that by default.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        Whose own largest step counts before all else.
-    length : float
-        Of the run [s].
-    events, jumps : sequence of Event, sequence of Jump
-        Conditions of the run, and of its inputs.
-
-    Returns
-    -------
-    float
-        Infinity where no bound is needed.
-    str
-        A sentence, or empty.
-    """
-    if mechanism.defaults.max_step is not None:
-        return mechanism.defaults.max_step, ""
-    further = {"inputs": tuple(jump.argument for jump in jumps), "events": tuple(event.when for event in events)}
-    groups = (
-        *_groups_of_integrands(mechanism),
-        *(group for group, part in further.items() if _may_hide_changes(part, mechanism)),
-    )
-    if not groups:
-        return math.inf, ""
-    longest = length / PARTS
-    return longest, (
-        f"formulas of t in {' and '.join(groups)} may have short features: adaptive steps are at most {longest:.3g} s,"
-        f" a thousandth of the run; what is shorter needs a smaller `max_step`"
-    )
-
-
-@compute_once
-def _groups_of_integrands(mechanism: Mechanism) -> tuple[str, ...]:
-    """Return the groups of integrated formulas that may hide short changes."""
-    formulas = *integrands_of_run(mechanism), _bound_formulas(mechanism)
-    parts = zip(("drivers", "forces", "integrals", "bounds"), formulas, strict=True)
-    return tuple(group for group, part in parts if _may_hide_changes(part, mechanism))
-
-
-def _may_hide_changes(part: object, mechanism: Mechanism) -> bool:
-    """Return whether a part of a mechanism has a formula of t and parameters that may hide short changes."""
-    if _TIME not in msgspec.msgpack.encode(part):
-        return False
-    timely, tables = _names_of_time(mechanism), frozenset(_tables_with_halts(mechanism))
-    largest = _calls_with_efforts(part, enters=lambda e: not set(names_in_expression(e)) <= timely)
-    return any(
-        "t" in (used := set(names_in_expression(e))) and used <= timely and _power_and_sine(e, tables) is None
-        for e, _ in largest
-    )
-
-
-def _power_and_sine(e: Expr, tables: frozenset[str]) -> tuple[float, frozenset[Expr]] | None:
-    """Return the power of a polynomial of t and one sine, and the sine's argument; None for any other formula."""
-    if not isinstance(e, Call):
-        return float(isinstance(e, Name) and e.name == "t"), frozenset()
-    forms = [form for a in e.arguments if (form := _power_and_sine(a, tables)) is not None]
-    if len(forms) < len(e.arguments):
-        return None
-    powers = [power for power, _ in forms]
-    function, power, waves = e.function, max(powers), frozenset[Expr]().union(*(waves for _, waves in forms))
-    if power == 0.0 or function in _SIDES:  # constant, between known times at least
-        return 0.0, frozenset()
-    if function in ("sin", "cos"):
-        return (1.0, frozenset(e.arguments)) if power == 1.0 and not waves else None
-    if function == "mul":
-        power = sum(powers)
-    elif function == "pow" and isinstance(n := e.arguments[1], Number) and n.value in range(_LOW + 1):
-        power *= n.value
-    elif table_of(function) in tables:
-        power *= 3.0
-    elif function not in _PLAIN and not (function == "div" and powers[1] == 0.0):
-        return None
-    return (power, waves) if power <= _LOW and len(waves) <= 1 else None

@@ -15,7 +15,7 @@ from symgen.describe.bounds.keys import keys_of_any_joint, rows_of_joint
 from symgen.describe.mechanism import Force, Hold, Joint, Rotor
 from symgen.describe.parts.collected import Errors, Incomplete, further_errors
 from symgen.describe.parts.fields import Flag, JointStart, Scalar, read_table, read_value, value_in_words
-from symgen.describe.parts.holding_joints import ReadHolding, read_holding
+from symgen.describe.parts.holding_keys import ReadHolding, read_holding
 from symgen.describe.parts.holds import joint_holds
 from symgen.describe.parts.kinds import JOINTS, check_points, kind_and_keys
 from symgen.describe.parts.topology import articulation_of_joint

@@ -145,7 +145,7 @@ Scalars = Annotated[
     tuple[float | str, ...], Meta(description="a list of numbers or expressions of parameters", min_length=2)
 ]
 BodyNames = Annotated[tuple[str, ...], Meta(description="names of bodies", min_length=1)]
-#: A condition, or a table of conditions (`symgen.describe.parts.holding_joints.HoldsSection`).
+#: A condition, or a table of conditions (`symgen.describe.parts.holding_keys.HoldsSection`).
 Holds = Annotated[
     str | dict[str, str | bool],
     Meta(description="a condition such as 't < 0.3', or a table such as { releases = 'hook.F > 500' }"),

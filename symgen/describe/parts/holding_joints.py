@@ -1,4 +1,4 @@
-"""Joints whose rows are in force for a while: the keys ``holds`` and ``holds_at``, and what a run makes of them.
+"""Joints whose rows are in force for a while: what a run has of them.
 
 A joint that holds for a while has states of the file's own: ``NAME.changed``, which is 1 after an odd number of
 changes, ``NAME.dissipated``, the energy that its catches have taken [J], and for a joint that holds present positions
@@ -25,103 +25,18 @@ from symgen.base.vocabulary.expressions import (
     Reading,
     call,
     names_in_expression,
-    readings_in,
 )
 from symgen.base.vocabulary.measures import GROUND, Angle, FormulaMeasure, Holonomic, Measure
 from symgen.describe.coordinate_names import is_speed
 from symgen.describe.formulas.evaluate import evaluate
-from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import Hold, Holding, Joint, Mechanism, ModeEvent, Output, StateVariable
 from symgen.describe.parts.driven_mechanism import replace_names
-from symgen.describe.parts.event_sections import RESET, switching_function
-from symgen.describe.parts.fields import Condition, Flag, Holds, HoldsAt, read_table, read_value
-from symgen.describe.parts.scope import Scope
+from symgen.describe.parts.event_sections import RESET
+from symgen.describe.parts.holding_keys import HOLDS, ReadHolding
 
-#: Keys of joints, and what `holds_at` may be.
-HOLDS, HOLDS_AT, DESCRIBED, PRESENT = "holds", "holds_at", "described", "present"
 #: Last words of the names of events, states and the mode.
 CATCHES, RELEASES, CHANGED, DISSIPATED, AT, MODE = "holds", "releases", "changed", "dissipated", "at", "mode"
-
-
-class HoldsSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """When the rows of a joint are in force.
-
-    Parameters
-    ----------
-    during : str
-        A condition: the rows are in force while it is true. In place of the two others.
-    catches, releases : str
-        Conditions of t, parameters and the state, of forces too in `releases`: the joint catches, or releases, when one
-        becomes true. Without `catches` it never catches again, without `releases` it never lets go.
-    at_start : bool
-        Whether the rows are in force at the start; by default the value of the condition with positions as described.
-    """
-
-    during: Condition | None = None
-    catches: Condition | None = None
-    releases: Condition | None = None
-    at_start: Flag | None = None
-
-
-class ReadHolding(msgspec.Struct, frozen=True):
-    """What the keys of a joint say; `first` is a switching function at the start, which described positions decide."""
-
-    joint: str
-    where: str
-    first: Expr | bool
-    catches: Expr | None
-    releases: Expr | None
-    present: bool
-
-
-# -- reading -----------------------------------------------------------------------------------------------------------
-
-
-def read_holding(scope: Scope, joint: Joint, raw: dict[str, Any]) -> ReadHolding | None:
-    """Return when the rows of a joint are in force, from its table; None where they always are.
-
-    Raises
-    ------
-    InputError
-        With the key that is wrong.
-    """
-    if HOLDS not in raw:
-        if HOLDS_AT in raw:
-            raise scope.error(HOLDS_AT, "the key holds beside it", "no such key")
-        return None
-    if not joint.rows or not all(type(row) is Holonomic for row in joint.rows):
-        got = f"a {joint.kind} joint" + (", which has rows of velocities or none" if joint.kind != "driver" else "")
-        raise scope.error(HOLDS, "a joint that holds positions", got)
-    at = read_value(HoldsAt, raw.get(HOLDS_AT, DESCRIBED), scope.where(HOLDS_AT))
-    value = read_value(Holds, raw[HOLDS], scope.where(HOLDS))
-    table = {"during": value} if isinstance(value, str) else value
-    section = read_table(HoldsSection, table, scope.where(HOLDS))
-    key = HOLDS if isinstance(value, str) else f"{HOLDS}.during"
-    if section.during is not None:
-        if section.catches is not None or section.releases is not None:
-            raise scope.error(HOLDS, "the condition during, or catches and releases", "both")
-        during = _condition(scope, key, section.during, True)
-        catches = None if reads_results(during) else during
-        releases: Expr | None = call("neg", during)
-        first: Expr | bool = True if catches is None else during
-    else:
-        if section.catches is None and section.releases is None:
-            raise scope.error(HOLDS, "a condition: during, catches or releases", "none")
-        catches = None if section.catches is None else _condition(scope, f"{HOLDS}.catches", section.catches, False)
-        releases = None if section.releases is None else _condition(scope, f"{HOLDS}.releases", section.releases, True)
-        first = True if catches is None else catches
-    if section.at_start is not None:
-        first = section.at_start
-    return ReadHolding(joint.name, scope.where(HOLDS), first, catches, releases, at == PRESENT)
-
-
-def _condition(scope: Scope, key: str, text: str, results: bool) -> Expr:
-    """Return a function above 0 where a condition holds; with `results` it may read forces."""
-    function, is_condition = switching_function(scope, key, text, results)
-    if not is_condition:
-        raise scope.error(key, "a condition such as 't < 0.3'", repr(text))
-    return function
 
 
 class _Symbol:
@@ -256,9 +171,6 @@ def refuse_other_start(mechanism: Mechanism, holds: Sequence[Hold]) -> None:
             expected = "the key at_start, as the start is not that of the bodies' tables"
             hint = "holds = { during = ..., at_start = true }"
             raise InputError(f"{mechanism.name}: joints.{each.joint}.{HOLDS}", expected, f"start of {moved[0]}", hint)
-
-
-# -- what a run has of them --------------------------------------------------------------------------------------------
 
 
 def mode_of(holding: Holding) -> Expr:
@@ -398,8 +310,3 @@ def _event(joint: Joint, word: str, when: Expr, reset: tuple[tuple[Expr, Expr], 
 def formulas_of_holding(read: Sequence[ReadHolding]) -> list[Expr]:
     """Return the conditions of joints."""
     return [e for x in read for e in (x.catches, x.releases) if e is not None]
-
-
-def reads_forces(when: Expr) -> bool:
-    """Whether a switching function reads accelerations or forces."""
-    return any(True for _ in readings_in(when)) and reads_results(when)

@@ -9,7 +9,7 @@ from symgen.compile.native import types
 from symgen.compile.native.formula_lines import JAVASCRIPT
 from symgen.compile.native.javascript_code import ADDRESSED, INDEX_TABLES, js_number
 from symgen.run.compiling.checked import checked_function
-from symgen.run.compiling.printed import source_of_piece
+from symgen.run.compiling.printed_meanings import source_of_piece
 from symgen.run.layout.kernel_addresses import KERNEL
 from symgen.run.planning.start_lines import room_for_lines
 from symgen.run.starts.hoisting import copy_masses, sum_products

@@ -25,7 +25,8 @@ from symgen.result.player.motion_page import PAGES
 from symgen.result.reading.contact_facts import contact_facts
 from symgen.result.reading.inspection_text import inspection_as_text
 from symgen.result.reading.jamming import jamming_numbers
-from symgen.result.reading.page import MOST_STRAIGHT, EquationPage, check_size
+from symgen.result.reading.page import EquationPage
+from symgen.result.reading.page_size import MOST_STRAIGHT, check_size
 from symgen.result.reading.quantity_names import input_names
 from symgen.result.reading.row_words import row_words
 from symgen.result.reading.structure import element_terms, nodes_with_names, shared_terms

@@ -49,10 +49,6 @@ if TYPE_CHECKING:
 
 #: Largest page [bytes]; emitted code is left out of a page that would be larger.
 LARGEST = 2_000_000
-#: Mechanisms with more rows and velocities have no page.
-MOST_ROWS = 1500
-#: Up to so many velocities of bodies a page has the code of a run in straight lines, unless the shape is set.
-MOST_STRAIGHT = 150
 #: Number of shared terms in one group.
 _TOGETHER = 25
 #: Matrices up to this size are shown whole.
@@ -65,21 +61,6 @@ _POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inl
 @lru_cache(maxsize=4)
 def _read_web_part(name: str) -> str:
     return (Path(__file__).parent / "web" / name).read_text(encoding="utf-8")
-
-
-def check_size(mechanism: Mechanism) -> None:
-    """Refuse a mechanism too large for a readable page, before anything is derived.
-
-    Raises
-    ------
-    InputError
-        If it has too many rows or velocities.
-    """
-    rows = sum(len(joint.rows) for joint in mechanism.joints)
-    speeds = sum(len(body.speeds) for body in mechanism.bodies)
-    if max(rows, speeds) > MOST_ROWS:
-        expected = f"at most {MOST_ROWS} constraint rows and velocities for a page"
-        raise InputError("page", expected, f"{rows} rows and {speeds} velocities", "text and JSON have no such limit")
 
 
 @dataclass(eq=False)

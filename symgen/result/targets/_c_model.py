@@ -20,7 +20,8 @@ from symgen.derive.emit.module import render_template
 from symgen.result.targets._c_names import defined_names, prefix_of
 from symgen.result.targets._c_runs import cells_of, check_integrator, places_of_scales, values_of_run
 from symgen.run.compiling.checked import check_kernels, checked_function
-from symgen.run.compiling.printed import OF_TRANSITIONS, WEIGHED, Printed, PrintedEvents
+from symgen.run.compiling.printed import WEIGHED, Printed, PrintedEvents
+from symgen.run.compiling.printed_meanings import OF_TRANSITIONS
 from symgen.run.compiling.printed_run import PrintedRun
 from symgen.run.compiling.side import compile_side
 from symgen.run.effects.locking import MOST_NAMED

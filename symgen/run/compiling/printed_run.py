@@ -22,7 +22,7 @@ from symgen.describe.bounds.bounded_modes import MODE
 from symgen.describe.parts.event_sections import STOP
 from symgen.run.compiling.checked import checked_function
 from symgen.run.compiling.foresight import Passages
-from symgen.run.compiling.printed import meanings_of_names
+from symgen.run.compiling.printed_meanings import meanings_of_names
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.probe import rate_functions
@@ -347,7 +347,7 @@ class PrintedRun:
         return {path: self._named[id(array)][0] for path, array in pairs}
 
     def _name_of_array(self, name: str) -> str | None:
-        """Return the name of an array in the memory; see `symgen.run.compiling.printed.Naming`."""
+        """Return the name of an array in the memory; see `symgen.run.compiling.printed_meanings.Naming`."""
         return "" if name in _PASSED else self._by_path.get(name) or None
 
 

@@ -16,7 +16,7 @@ from symgen.derive.lower.windings import follows_places
 from symgen.derive.methods import METHODS
 from symgen.describe.bounds.bounded_modes import refuse_bounds
 from symgen.describe.facts.digest import digest
-from symgen.describe.facts.kinks import longest_step
+from symgen.describe.facts.short_changes import longest_step
 from symgen.describe.facts.sticking import advice_on_jumps
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.event_sections import RECORD, STOP, read_events, watched_event

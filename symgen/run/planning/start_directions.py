@@ -23,8 +23,8 @@ from symgen.describe.formulas.start import described_start
 from symgen.run.directions.directed_model import DirectedModel, Seeds, lanes_for_directions
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
+from symgen.run.planning.held_numbers import held_quantities
 from symgen.run.planning.shortest_changes import NONE, shortest_slope, shortest_solution
-from symgen.run.planning.starts import held_quantities
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo

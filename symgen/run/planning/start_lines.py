@@ -11,7 +11,7 @@ from symgen.describe.formulas.start import described_start
 from symgen.describe.parts.holds import ORIENTATION, read_holds
 from symgen.run.compiling.masses import masses_of_starts
 from symgen.run.layout.model_arrays import velocity_of_coordinate
-from symgen.run.planning.starts import held_quantities
+from symgen.run.planning.held_numbers import held_quantities
 from symgen.run.starts.assembler import Assembly
 from symgen.run.starts.held import Held
 

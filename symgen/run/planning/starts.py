@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,13 +15,13 @@ from symgen.describe.facts.sides import sided_joints, wrong_sides
 from symgen.describe.formulas.evaluate import evaluate, parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start, displacements_of_bodies
 from symgen.describe.parts.holding_joints import refuse_other_start
-from symgen.describe.parts.holds import ORIENTATION, read_holds
+from symgen.describe.parts.holds import read_holds
 from symgen.run.compiling.masses import masses_of_starts
 from symgen.run.compiling.pipeline import compile_model
 from symgen.run.compiling.side import add_integrals
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.model_arrays import marks_of_lengths, velocity_of_coordinate
+from symgen.run.layout.model_arrays import marks_of_lengths
 from symgen.run.layout.start_records import Instant
 from symgen.run.starts.assembler import Assembly
 from symgen.run.starts.assembly import Start, closed_start, closed_state, described_state
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from symgen.run.compiling.method_choice import MethodChoice
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
     from symgen.run.planning.plan import Plan
+from symgen.run.planning.held_numbers import Indices, held_quantities, indices_of
 
 
 def start_of(
@@ -252,65 +253,6 @@ def _opposite_sides(mechanism: Mechanism, info: ModelInfo, y: NDArray[np.float64
             raise half_turn(info, joint).with_coordinates(y.tolist())
         lines.append(opposite_sentence(joint))
     return lines
-
-
-class Indices(NamedTuple):
-    """Indices of what a start may hold, by name; the velocity of an orientation is its first one."""
-
-    coordinates: dict[str, int]
-    velocities: dict[str, int]
-    joints: dict[str, int]
-    spins: dict[str, int]
-
-
-def indices_of(info: ModelInfo) -> Indices:
-    """Return the indices of what starts of a model may hold."""
-    kinds = info.coordinates, info.velocities, info.joint_coordinates
-    coordinates, velocities, joints = ({quantity.name: i for i, quantity in enumerate(kind)} for kind in kinds)
-    spins = {f"{info.coordinates[first].name.rpartition('.')[0]}.{ORIENTATION}": at for first, at in info.spins}
-    return Indices(coordinates, velocities, joints, spins)
-
-
-def held_quantities(
-    info: ModelInfo,
-    holds: Sequence[Hold],
-    numbers: Scalars,
-    v: Sequence[float | None],
-    indices: Indices | None = None,
-) -> Held:
-    """Return the held quantities by index.
-
-    Parameters
-    ----------
-    info : ModelInfo
-        The model.
-    holds : sequence of Hold
-        From `symgen.describe.parts.holds.read_holds`.
-    numbers : Scalars
-        Values of the names in formulas.
-    v : sequence of float or None
-        Given velocities.
-    indices : Indices, optional
-        Those of the model, for many calls.
-    """
-    coordinates, velocities, joints, spins = indices or indices_of(info)
-    values, speeds, places, rates = dict[int, float](), dict[int, float](), dict[int, float](), dict[int, float]()
-    fixed = list[int]()
-    for hold in holds:
-        name, value = hold.name, None if hold.value is None else numbers.value(hold.value, f"start '{hold.name}'")
-        if name in coordinates and value is None:
-            fixed.append(velocity_of_coordinate(coordinates[name], info))
-        elif name in coordinates:
-            values[coordinates[name]] = float(value or 0.0)
-        elif name in velocities:
-            speed = v[velocities[name]] if value is None else value
-            speeds[velocities[name]] = float(speed or 0.0)
-        elif name in spins:
-            fixed += range(spins[name], spins[name] + 3)
-        elif "." in name:  # states of a file have names without a dot, and nothing holds them
-            of, rate = name.removesuffix(".rate"), name.endswith(".rate")
-            (rates if rate else places)[joints[of]] = float(value or 0.0)
-    return Held(values, speeds, tuple(fixed), places, rates)
 
 
 def compiled_for(mechanism: Mechanism, choice: MethodChoice) -> CompiledModel:

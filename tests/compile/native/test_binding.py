@@ -14,7 +14,7 @@ from symgen.compile.native.binding import bind_functions
 from symgen.compile.native.c99 import c_functions
 from symgen.compile.native.folding import walk_statements
 from symgen.run.compiling.checked import checked_function
-from symgen.run.compiling.printed import meanings_of_names, source_of_piece
+from symgen.run.compiling.printed_meanings import meanings_of_names, source_of_piece
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.probe import Ready

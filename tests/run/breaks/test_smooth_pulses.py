@@ -15,7 +15,7 @@ from support.pushed import pushed_point
 import symgen
 from symgen.describe.catalogue import MACHINES, entries
 from symgen.describe.catalogue import names as names_of_catalogue
-from symgen.describe.facts.kinks import longest_step
+from symgen.describe.facts.short_changes import longest_step
 from symgen.study.ensemble.parameter_sweep import sweep
 
 SCHEMES = ["dop853", "dopri5", "picard", "abm", "sdirk", "radau5"]
