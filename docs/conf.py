@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from docutils import nodes
+from docutils.utils import new_document
 from docutils.utils.math import latex2mathml
 
 from symgen import __version__, load
@@ -100,10 +101,18 @@ def _navigate(app: Sphinx, docname: str, content: list[str]) -> None:
 BY_TITLE = ("docs/tables/", "docs/gallery/", "docs/decisions/", "docs/development/", "benchmarks/")
 
 
-def _leave_out(app: Sphinx, doctree: nodes.document) -> None:
-    """Leave the words of such pages out of the search; their titles stay in it."""
-    if app.env.docname.startswith(BY_TITLE):
-        app.env.metadata[app.env.docname]["nosearch"] = ""
+def _index_titles(app: Sphinx) -> None:
+    """Leave the words of such pages out of the search; `nosearch` would leave out their titles too."""
+    index = getattr(app.builder, "index_page", None)
+
+    def index_page(name: str, doctree: nodes.document, title: str) -> None:
+        if name.startswith(BY_TITLE):
+            doctree = new_document("")
+            doctree += nodes.section("", nodes.title("", title))
+        index(name, doctree, title)
+
+    if index is not None:
+        app.builder.index_page = index_page
 
 
 # -- equations ---------------------------------------------------------------------------------------------------------
@@ -190,7 +199,7 @@ def setup(app: Sphinx) -> None:
     """Connect what is written here."""
     app.connect("build-finished", _play)
     app.connect("source-read", _navigate)
-    app.connect("doctree-read", _leave_out)
+    app.connect("builder-inited", _index_titles)
     app.connect("autodoc-before-process-signature", _short_signature)
     app.connect("autodoc-process-signature", _without_fields)
     app.connect("autodoc-process-docstring", _name_settings, priority=400)  # before napoleon reads it
