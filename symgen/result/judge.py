@@ -8,6 +8,7 @@ trace of what steps that are too long, or joints that give, have missed there.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -27,6 +28,9 @@ JUMP_DOUBT, JUMP_FAILURE = 1e-5, 1e-3
 #: Forces that accelerations leave over, as a fraction of all forces: beyond the first a run is in doubt, beyond the
 #: second it has failed. A finer run has the same error, so it settles nothing.
 LEFT_DOUBT, LEFT_FAILURE = 1e-5, 1e-2
+#: Energy error as a fraction of the energy in motion, beyond which one that finer steps leave as it is needs a word;
+#: and one that no second run judges, over the tolerance.
+LASTING_ERROR, OVER_TOLERANCE = 1e-6, 1e4
 #: A run of adaptive steps with at most so many operations is checked by a second one by default; about 0.2 to 1 s of
 #: explicit steps.
 MOST_OPERATIONS = 2_000_000_000
@@ -88,7 +92,9 @@ def judge(run: Prepared, outcome: Outcome, second: Verification | None = None) -
         Verification by a run with finer steps; it settles all doubts but those of energy that jumped.
     """
     verdict = judge_alone(outcome, run.compiled.law)
-    verdict = replace(verdict, warnings=(*verdict.warnings, *_velocity_warning(run, outcome)))
+    verdict = replace(
+        verdict, warnings=(*verdict.warnings, *_velocity_warning(run, outcome), *_energy_warning(run, outcome, second))
+    )
     left = 0.0 if verdict.status == FAILED else outcome.imbalance
     if not left <= LEFT_DOUBT:
         reason = (
@@ -173,6 +179,21 @@ def _velocity_warning(run: Prepared, outcome: Outcome) -> list[str]:
         f"velocities are off their constraints by up to {violation:.3g}, {violation / speed:.2g} of the largest speed: "
         f"{method.name} holds positions only, and this is an error of order {run.plan.integrator.order}"
     ]
+
+
+def _energy_warning(run: Prepared, outcome: Outcome, second: Verification | None) -> list[str]:
+    """Say where an energy error is none of the integrator's: some work is not in the balance, or forces jump."""
+    if outcome.code != abi.DONE or not outcome.energy_scale > 0.0 or run.compiled.law.energy_correction:
+        return []
+    if second is not None:
+        error, least, why = second.energy, LASTING_ERROR, "finer steps leave it as it is"
+    else:
+        rtol = run.spec.rtol if run.spec.adaptive else math.inf
+        error, least, why = outcome.energy_drift_max, OVER_TOLERANCE * rtol, f"far more than rtol = {rtol:g} explains"
+    share = error / outcome.energy_scale
+    if not share > least:
+        return []
+    return [f"the energy leaves its balance by {error:.3g} J, {share:.2g} of the energy in motion: {why}"]
 
 
 def _sentence_on_jump(outcome: Ended) -> str:

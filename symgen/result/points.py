@@ -250,6 +250,8 @@ class Verification:
         Of all runs together.
     whole : bool
         Whether it says what there is to say about the whole run; a first part of it may agree.
+    energy : float
+        Energy error that finer steps do not make smaller [J], else 0.
     """
 
     doubt: str | None
@@ -257,3 +259,4 @@ class Verification:
     error: float | None
     evaluations: int
     whole: bool = True
+    energy: float = 0.0

@@ -107,7 +107,8 @@ class Drag:
     row : int
         The row of the coordinate.
     sign, coefficient, rate : int
-        Nodes of the sign, 0 at rest, of the force over |N| [1 or m], and of the rate.
+        Nodes of the sign, 0 at rest, of the force over |N| [1 or m], and of the part of the rate that the velocities
+        of the state make: a driver of a tree pays for the rest.
     pressed : tuple of tuple of (int, int)
         Of each component of N the rows in it, and nodes by which their multipliers count.
     noun : str

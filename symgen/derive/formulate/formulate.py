@@ -187,23 +187,27 @@ def _equations_of_bounded_row(model: ModelNodes, bounded: BoundedRow, first: int
 def _drag_of_reaction(
     model: ModelNodes, bounded: BoundedRow, rows: Sequence[ConstraintRow], repeats: Iterable[tuple[str, str]]
 ) -> Drag:
-    """Return the effort by the reaction of a joint, or by the force of a gap."""
-    places = {row.name: i for i, row in enumerate(rows)}
+    """Return the effort by the reaction of a joint, or by the force of a gap.
+
+    Its power is over the velocities of the state: what drivers of a tree give to it, they take from it again.
+    """
+    g, places = model.graph, {row.name: i for i, row in enumerate(rows)}
     refuse_shared_reactions(bounded, repeats)
-    rate = model.measure(bounded.measure).rate(model.graph, model.velocities)
+    rate = model.measure(bounded.measure).rate(g, model.velocities)
     with refuse_overflow(bounded.where):
         sign, coefficient = (
             model.expression(name_of_number(bounded, "sign")),
             model.expression(bounded.coefficient, rate=rate),
         )
     rows_of = tuple(places[name] for name in bounded.pressed)
-    pressed: tuple[tuple[tuple[int, int], ...], ...] = tuple(((row, model.graph.one),) for row in rows_of)
+    pressed: tuple[tuple[tuple[int, int], ...], ...] = tuple(((row, g.one),) for row in rows_of)
     if bounded.across:
         cosines = [[model.measure(cosine).value for cosine in line] for line in bounded.across]
         pressed = tuple(tuple(zip(rows_of, line, strict=True)) for line in cosines)
     if bounded.signed:  # a force that pushes is minus the multiplier of its row
-        coefficient = model.graph.neg(coefficient)
-    return Drag(places[bounded.row], sign, coefficient, rate, pressed, bounded.family.one, bounded.signed)
+        coefficient = g.neg(coefficient)
+    along = g.sum_of(g.mul(node, g.input("v", j)) for j, node in rows[places[bounded.row]].entries)
+    return Drag(places[bounded.row], sign, coefficient, along, pressed, bounded.family.one, bounded.signed)
 
 
 def _switchable_row(model: ModelNodes, row: ConstraintRow, first: int) -> ConstraintRow:

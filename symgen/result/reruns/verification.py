@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 #: A finer run has this share of a constant step; or of tolerances, and the square of it where two runs differ by far.
 HALF, TENTH = 0.5, 0.1
+#: An energy error that finer steps leave above this part is none of theirs: with half a step even Euler's halves.
+LASTING = 0.75
 #: Tolerances are not made smaller than this.
 SMALLEST_RTOL = 1e-13
 #: Operations of a run with a tenth of the tolerances, over those of the run, at most as a rule.
@@ -119,6 +121,12 @@ def _difference_of_runs(name: str, agreed: Agreement, times: NDArray[np.float64]
     return f"{name} differs by {agreed.apart:.2g} m{upto}"
 
 
+def _lasting_energy_error(first: Outcome, second: Outcome) -> float:
+    """Return the energy error [J] that finer steps do not make smaller, 0 where they do."""
+    error = second.energy_drift_max
+    return error if error > LASTING * first.energy_drift_max else 0.0
+
+
 def _outputs_to_compare(first: Outcome, second: Outcome) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return which outputs of two runs to compare: those at the same times, and the last ones where both end early.
 
@@ -182,7 +190,8 @@ def verify_run(run: Prepared, outcome: Outcome, free: bool = False) -> tuple[Pre
         # two runs may agree to the last bit, and neither is exact
         error = max(apart / apart_of_error, agreed.rounding) if math.isfinite(apart) else None
         if agreed.holds:
-            verification = Verification(None, f"verified: {name} agrees within {apart:.2g} m", error, total)
+            note, energy = f"verified: {name} agrees within {apart:.2g} m", _lasting_energy_error(outcome, second)
+            verification = Verification(None, note, error, total, energy=energy)
             return (finer, second, verification) if free else (run, outcome, verification)
         if not free or error is None:
             return run, outcome, Verification(_difference_of_runs(name, agreed, outcome.times), None, error, total)

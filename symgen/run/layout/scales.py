@@ -291,7 +291,12 @@ def is_at_rest(sizes: Sizes, span: Span, run: Run) -> bool:
     weights, largest = weights_of(span, run), 0.0
     for i in range(sizes.nq, sizes.nq + sizes.nv):
         largest = max(largest, weights[i] * max(abs(run.y[i]), abs(run.trial[i])))
-    return bool(largest <= tolerance_at_rest(span))
+    return bool(largest <= tolerance_at_rest(span)) and not is_carried(span, run)
+
+
+def is_carried(span: Span, run: Run) -> bool:
+    """Return whether bodies move, as drivers of a tree move them whose coordinates are none of the state."""
+    return bool(run.w[abi.KINETIC] > span.rtol * run.gauges[abi.ENERGY_SCALE])
 
 
 def tolerance_at_rest(span: Span) -> float:

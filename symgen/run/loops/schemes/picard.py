@@ -23,7 +23,7 @@ from symgen.compile.native.annotations import Array
 from symgen.compile.native.types import NODES
 from symgen.run.layout import abi
 from symgen.run.layout.records import ModelSystem, Run, Sizes, Span
-from symgen.run.layout.scales import tolerance_at_rest, weights_of
+from symgen.run.layout.scales import is_carried, tolerance_at_rest, weights_of
 from symgen.run.layout.scheme_records import NODES as SCHEME
 from symgen.run.layout.scheme_records import Nodes
 from symgen.run.loops.frame import loop, shortest_step
@@ -111,7 +111,7 @@ def step_rests(sizes: Sizes, span: Span, run: Run, ends: Array) -> bool:
     share, largest = weights_of(span, run), 0.0
     for i in range(sizes.nq, sizes.nq + sizes.nv):
         largest = max(largest, share[i] * max(abs(run.y[i]), abs(ends[i * NODES + NODES - 1])))
-    return bool(largest <= tolerance_at_rest(span))
+    return bool(largest <= tolerance_at_rest(span)) and not is_carried(span, run)
 
 
 def begin_nodes(
