@@ -186,4 +186,46 @@ holds = { catches = "t < 0.9 and sqrt(ball.x**2 + ball.y**2) > length", releases
 until = 1.2
 """
 )
-MACHINES = {"pendulum": PENDULUM, "clutch": CLUTCH, "carriage": CARRIAGE, "jumper": JUMPER, "link": LINK, "rope": ROPE}
+
+#: Two bodies that float past each other are welded where they are, and part again.
+DOCKING = (
+    _HEAD.format("docking", 0.0)
+    + """
+[parameters]
+offset = 0.5
+spin = 0.8
+
+[bodies.a]
+mass = 2.0
+inertia = 0.05
+angular_velocity = "spin"
+
+[bodies.b]
+mass = 1.0
+inertia = 0.02
+position = ["offset", 0.0]
+velocity = [0.3, 0.4]
+
+[joints.weld]
+type = "rigid"
+between = ["a", "b"]
+at = ["centre", "centre"]
+holds = { catches = "t > 1.0", releases = "t > 2.0", at_start = false }
+holds_at = "present"
+
+[outputs]
+L = "0.05*a.omega + 0.02*b.omega + 2.0*(a.x*a.vy - a.y*a.vx) + 1.0*(b.x*b.vy - b.y*b.vx)"
+
+[run]
+until = 2.4
+"""
+)
+MACHINES = {
+    "pendulum": PENDULUM,
+    "clutch": CLUTCH,
+    "carriage": CARRIAGE,
+    "jumper": JUMPER,
+    "link": LINK,
+    "rope": ROPE,
+    "docking": DOCKING,
+}

@@ -35,7 +35,8 @@ from symgen.describe.bounds.by_reaction import pressed_rows, refuse_shared_react
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.mechanism import Holding, Mechanism, SpatialBody
-from symgen.describe.parts.holding_joints import CHANGED, name_of_place
+from symgen.describe.parts.held_places import name_of_place
+from symgen.describe.parts.holding_joints import CHANGED
 from symgen.describe.parts.topology import UNITS, state_quantities
 
 

@@ -15,6 +15,7 @@ from symgen.describe.bounds.keys import keys_of_any_joint, rows_of_joint
 from symgen.describe.mechanism import Force, Hold, Joint, Rotor
 from symgen.describe.parts.collected import Errors, Incomplete, further_errors
 from symgen.describe.parts.fields import Flag, JointStart, Scalar, read_table, read_value, value_in_words
+from symgen.describe.parts.held_places import at_present_place
 from symgen.describe.parts.holding_keys import ReadHolding, read_holding
 from symgen.describe.parts.holds import joint_holds
 from symgen.describe.parts.kinds import JOINTS, check_points, kind_and_keys
@@ -117,7 +118,7 @@ class JointTables:
         scope = self.scope("joints", name, JOINTS.resolve_alias(kind))
         scope.check_space(struct.SPACES)
         section = read_table(struct, table, where, ("type", *shared))
-        joint = section.build(scope)
+        joint = at_present_place(scope, section.build(scope), whole)
         if (give := getattr(section, "give", None)) is not None and (force := give(scope)) is not None:
             self.forces[name] = force
         scope.coordinates = {label: joint.unit(label) for label, _ in joint.coordinates}

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from symgen.base.vocabulary.expressions import Expr, Reading, call, sum_of_terms
-from symgen.base.vocabulary.measures import GROUND, Component, Driven, Holonomic, LinkStretch, Measure, axes
+from symgen.base.vocabulary.measures import GROUND, Component, Dot, Driven, Holonomic, LinkStretch, Measure, axes
 from symgen.describe.mechanism import Joint
 
 #: Names of a joint's reaction, and of the pull of a rod or a rope.
@@ -16,7 +18,7 @@ def readings_of_reaction(joint: Joint) -> Table:
     """Return the size of the force on the first body of a joint, and its components where rows are along fixed axes.
 
     Joints whose rows of forces are components of a vector between two points, along axes of one frame, have one: their
-    multipliers are the components.
+    multipliers are the components, along axes of the ground or, of a joint that holds at present positions, of a body.
     """
     forces = [row for row in joint.rows if isinstance(row, Holonomic) and row.unit == "m"]
     rows = [(f"{joint.name}.{row.label}", row.measure) for row in forces]
@@ -29,10 +31,18 @@ def readings_of_reaction(joint: Joint) -> Table:
     efforts = [Reading(row, Driven(row, measure)) for row, measure in rows]
     squares = [call("mul", each, each) for each in efforts]
     table: Table = {"F": (call("sqrt", sum_of_terms(*squares)) if len(rows) > 1 else call("abs", efforts[0]), "N")}
-    for letter, axis in zip("xyz", axes(GROUND, len(components[0].along.vector)), strict=False):
-        along = [e for e, measure in zip(efforts, components, strict=True) if measure.along == axis]
-        if len(along) == 1:
-            table[f"F{letter}"] = call("neg", along[0]), "N"
+    (body,) = {frame for _, _, frame in frames}
+    dimension = len(components[0].along.vector)
+    along = {measure.along.vector: effort for effort, measure in zip(efforts, components, strict=True)}
+    parts = [along[axis.vector] for axis in axes(body, dimension) if axis.vector in along]
+    if body != GROUND and len(parts) < dimension:
+        return table
+    for letter, axis in zip("xyz", axes(GROUND, dimension), strict=False):
+        if body != GROUND:
+            turned = (Reading(f"{body}.{letter}{k}", Dot(axis, own)) for k, own in enumerate(axes(body, dimension)))
+            table[f"F{letter}"] = call("neg", sum_of_terms(*map(partial(call, "mul"), parts, turned))), "N"
+        elif axis.vector in along:
+            table[f"F{letter}"] = call("neg", along[axis.vector]), "N"
     return table
 
 

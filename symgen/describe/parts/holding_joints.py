@@ -26,17 +26,18 @@ from symgen.base.vocabulary.expressions import (
     call,
     names_in_expression,
 )
-from symgen.base.vocabulary.measures import GROUND, Angle, FormulaMeasure, Holonomic, Measure
+from symgen.base.vocabulary.measures import GROUND, Angle, Holonomic
 from symgen.describe.coordinate_names import is_speed
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import Hold, Holding, Joint, Mechanism, ModeEvent, Output, StateVariable
 from symgen.describe.parts.driven_mechanism import replace_names
 from symgen.describe.parts.event_sections import RESET
+from symgen.describe.parts.held_places import at_place_of_states, measure_beyond_value, name_of_place, places_of
 from symgen.describe.parts.holding_keys import HOLDS, ReadHolding
 
 #: Last words of the names of events, states and the mode.
-CATCHES, RELEASES, CHANGED, DISSIPATED, AT, MODE = "holds", "releases", "changed", "dissipated", "at", "mode"
+CATCHES, RELEASES, CHANGED, DISSIPATED, MODE = "holds", "releases", "changed", "dissipated", "mode"
 
 
 class _Symbol:
@@ -178,18 +179,6 @@ def mode_of(holding: Holding) -> Expr:
     return call("abs", call("sub", holding.first, Name(f"{holding.joint}.{CHANGED}")))
 
 
-def name_of_place(joint: str, label: str) -> str:
-    """Return the name of the state that says where a row holds."""
-    return f"{joint}.{label}.{AT}"
-
-
-def _measure_beyond_value(row: Holonomic, joint: str) -> Measure:
-    """Return what a row holds at 0, or at the value of a place: its measure, less its value where that moves."""
-    if isinstance(row.value, Number):
-        return row.measure
-    return FormulaMeasure(call("sub", Reading(f"{joint}.{row.label}", row.measure), row.value))
-
-
 def with_holding(mechanism: Mechanism, read: Sequence[ReadHolding]) -> Mechanism:
     """Return a mechanism with the states, events and outputs of joints that hold for a while.
 
@@ -249,7 +238,11 @@ def in_modes(mechanism: Mechanism, values: Mapping[str, float], states: Mapping[
         own |= {f"{x.joint}.{CHANGED}", f"{x.joint}.{DISSIPATED}", f"{x.joint}.{MODE}", *places_of(mechanism, x)}
         own |= {f"{x.joint}.{CATCHES}", f"{x.joint}.{RELEASES}"}
     for joint in mechanism.joints:
-        joints.append(msgspec.structs.replace(joint, kind="place", rows=()) if joint.name in off else joint)
+        joints.append(
+            msgspec.structs.replace(joint, kind="place", rows=())
+            if joint.name in off
+            else at_place_of_states(joint, states)
+        )
     changed: dict[str, Any] = {
         part: tuple(x for x in getattr(mechanism, part) if x.name not in own)
         for part in ("states", "events", "outputs")
@@ -259,12 +252,6 @@ def in_modes(mechanism: Mechanism, values: Mapping[str, float], states: Mapping[
 
 def _at_start(holding: Holding) -> dict[str, float]:
     return {f"{holding.joint}.{CHANGED}": 0.0}
-
-
-def places_of(mechanism: Mechanism, holding: Holding) -> tuple[str, ...]:
-    """Return the names of the states that say where the rows of a joint hold."""
-    rows = mechanism.joint_named(holding.joint).rows if holding.present else ()
-    return tuple(name_of_place(holding.joint, row.label) for row in rows)
 
 
 def refuse_holding(where: str, mechanism: Mechanism) -> None:
@@ -282,7 +269,8 @@ def refuse_holding(where: str, mechanism: Mechanism) -> None:
 def _events_of(holding: Holding, joint: Joint) -> list[ModeEvent]:
     """Return the events of a joint: that at which it catches comes before that at which it releases.
 
-    Where the joint cannot do what an event is for, its switching function is -1: it sleeps.
+    Where the joint cannot do what an event is for, its switching function is 1: it sleeps, and a condition that is true
+    as it awakes has not become true.
     """
     mode, changed, events = mode_of(holding), Name(f"{joint.name}.{CHANGED}"), list[ModeEvent]()
     other, flip = call("sub", ONE, mode), (changed, call("sub", ONE, changed))
@@ -290,15 +278,15 @@ def _events_of(holding: Holding, joint: Joint) -> list[ModeEvent]:
         reset, places = list[tuple[Expr, Expr]](), list[tuple[Expr, Expr]]()
         for row in joint.rows:
             assert isinstance(row, Holonomic), "rows of joints that hold for a while are of positions"
-            measure, name = _measure_beyond_value(row, joint.name), f"{joint.name}.{row.label}"
+            measure, name = measure_beyond_value(row, joint.name), f"{joint.name}.{row.label}"
             reset.append((Reading(f"{name}.rate", measure, 1), ZERO))
             if holding.present:
                 value = call("sub", Reading(name, row.measure), row.value)
                 places.append((Name(name_of_place(joint.name, row.label)), value))
-        when = call("sub", call("mul", other, holding.catches), mode)
+        when = call("add", call("mul", other, holding.catches), mode)
         events.append(_event(joint, CATCHES, when, (*reset, flip, *places)))
     if holding.releases is not None:
-        when = call("sub", call("mul", mode, holding.releases), other)
+        when = call("add", call("mul", mode, holding.releases), other)
         events.append(_event(joint, RELEASES, when, (flip,)))
     return events
 

@@ -139,7 +139,8 @@ def _shortest_tree(mechanism: Mechanism, cut: Sequence[str]) -> Topology:
 def _prescribed_coordinates(mechanism: Mechanism, tree: Topology) -> tuple[Prescribed, ...]:
     """Return the values of drivers for the coordinates of a tree; at least one coordinate stays in the state.
 
-    A driver whose effort is integrated keeps its row: its multiplier is wanted at every evaluation.
+    A driver whose effort is integrated keeps its row: its multiplier is wanted at every evaluation. So does a
+    joint that holds for a while.
     """
     places = dict[Measure, tuple[str, str, float]]()
     for link in tree.links:
@@ -159,7 +160,8 @@ def _prescribed_coordinates(mechanism: Mechanism, tree: Topology) -> tuple[Presc
         for measure, _ in _equal_measures(rotor.angle):
             places.pop(measure, None)
     for joint in mechanism.joints:
-        row = joint.rows[0] if len(joint.rows) == 1 and not joint.coordinates else None
+        alone = len(joint.rows) == 1 and not joint.coordinates and joint.name not in mechanism.switchable
+        row = joint.rows[0] if alone else None
         if isinstance(row, Holonomic) and row.measure in places and f"{joint.name}.{row.label}" not in integrated:
             name, label, sign = places[row.measure]
             key = f"{name}.{'angle' if label == 'theta' else label}"

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.ir.interpolation import Interpolation
-from symgen.base.vocabulary.expressions import ZERO, Expr
+from symgen.base.vocabulary.expressions import ZERO, Expr, moving_quantities
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import measure_derivative, mode_events, one_sided_rows, two_sided_rows
 from symgen.describe.bounds.by_reaction import reaction_components, rows_bounded_by_reactions
@@ -201,7 +201,8 @@ def catches_of_joints(mechanism: Mechanism, events: Sequence[Event]) -> dict[int
         if release >= 0:
             found[release] = "", -1
         if x.catches is not None:
-            by_state = x.releases is not None and not reads_results(x.releases)
+            # a catch changes no condition of time alone
+            by_state = x.releases is not None and not reads_results(x.releases) and moving_quantities(x.releases)
             found[numbers[f"{x.joint}.{CATCHES}"]] = f"{x.joint}.{DISSIPATED}", release if by_state else -1
     return found
 

@@ -18,7 +18,15 @@ def away_from_events(result, times):
 @pytest.mark.by_turns(6)
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("name", "coordinates"), [("clutch", "absolute"), ("rope", "absolute"), ("link", "joint"), ("pendulum", "joint")]
+    ("name", "coordinates"),
+    [
+        ("clutch", "absolute"),
+        ("rope", "absolute"),
+        ("link", "joint"),
+        ("pendulum", "joint"),
+        ("docking", "absolute"),
+        ("docking", "joint"),
+    ],
 )
 def test_c_has_the_states_of_runs(name, coordinates, tmp_path):
     model = loaded(MACHINES[name], tmp_path)

@@ -221,6 +221,7 @@ def test_wrong_keys_are_refused(old, new, sentence, loaded) -> None:
         ("carriage", "place", ("load.x", "load.omega")),
         ("link", "strength", ("block.x",)),
         ("rope", "length", ("ball.x", "ball.vy", "rope.dissipated")),
+        ("docking", "spin", ("b.x", "a.omega", "weld.dissipated")),
     ],
 )
 def test_derivatives_pass_through_releases_and_catches(machine, name, columns, coordinates, loaded) -> None:
@@ -245,7 +246,7 @@ def number_of(stepped, column: str) -> float:
 
 
 @pytest.mark.slow_cases("pendulum")
-@pytest.mark.parametrize("machine", ["pendulum", "clutch", "rope"])
+@pytest.mark.parametrize("machine", ["pendulum", "clutch", "rope", "docking"])
 def test_steps_equal_a_run(machine, loaded) -> None:
     """Pieces of a run, saved and gone back to between, and a run that goes on from another one."""
     model = loaded(MACHINES[machine])
@@ -256,7 +257,7 @@ def test_steps_equal_a_run(machine, loaded) -> None:
     stepped.step(0.25)
     stepped.restore(saved)
     stepped.step(until - 0.35)
-    body = {"pendulum": "bob", "clutch": "b", "rope": "ball"}[machine]
+    body = {"pendulum": "bob", "clutch": "b", "rope": "ball", "docking": "b"}[machine]
     for column in (f"{body}.x", f"{body}.vy"):
         assert number_of(stepped, column) == pytest.approx(whole[column][-1], rel=0, abs=1e-13)
     first = model.simulate(integrator="rk4", step=1e-3, until=0.6)

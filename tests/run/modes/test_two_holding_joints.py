@@ -199,34 +199,42 @@ def four_bar(**pin: object) -> symgen.Model:
     return symgen.load(builder.build())
 
 
-def terms(angles: np.ndarray, rates: np.ndarray) -> tuple[np.ndarray, ...]:
+def arms_of_loop(angles: np.ndarray, offset: complex = 0.0) -> np.ndarray:
+    """Return the vectors around the loop as complex numbers; `offset` is the caught point in the coupler's frame."""
+    return (np.array([1.0, 1.0, -1.0]) * LENGTHS + np.array([0.0, offset, 0.0])) * np.exp(1j * angles)
+
+
+def terms(angles: np.ndarray, rates: np.ndarray, offset: complex = 0.0) -> tuple[np.ndarray, ...]:
     """Return mass matrix, force, Jacobian and right side of the loop of three bars, in the angles of the bars."""
     (l1, l2, l3), (m1, m2, m3) = LENGTHS, MASSES
-    c, s = np.cos(angles), np.sin(angles)
     mixed = 0.5 * m2 * l1 * l2
     c12, s12 = np.cos(angles[0] - angles[1]), np.sin(angles[0] - angles[1])
     mass = np.diag(MASSES * LENGTHS**2 / 3.0) + np.diag([m2 * l1**2, 0.0, 0.0])
     mass[0, 1] = mass[1, 0] = mixed * c12
-    weight = -G * c * np.array([0.5 * m1 * l1 + m2 * l1, 0.5 * m2 * l2, 0.5 * m3 * l3])
+    weight = -G * np.cos(angles) * np.array([0.5 * m1 * l1 + m2 * l1, 0.5 * m2 * l2, 0.5 * m3 * l3])
     force = weight + np.array([-mixed * s12 * rates[1] ** 2, mixed * s12 * rates[0] ** 2, 0.0])
-    signs = np.array([1.0, 1.0, -1.0]) * LENGTHS
-    jacobian = np.array([-signs * s, signs * c])
-    return mass, force, jacobian, np.array([signs * c, signs * s]) @ rates**2
+    arms = arms_of_loop(angles, offset)
+    turned = arms @ rates**2
+    return mass, force, np.array([-arms.imag, arms.real]), np.array([turned.real, turned.imag])
 
 
 def own_four_bar(until: float) -> tuple[np.ndarray, float]:
-    """Return the state at a time, and the energy that the catch takes: three phases of a loop that opens and closes."""
-    state, lost = np.concatenate([closed_angles(1.0), np.zeros(3)]), 0.0
+    """Return the state at a time, and the energy that the catch takes: three phases of a loop that opens and closes.
+
+    It closes where it is: the end of the rocker is held where it is in the frame of the coupler.
+    """
+    state, lost, offset = np.concatenate([closed_angles(1.0), np.zeros(3)]), 0.0, 0.0
     for (begin, end), held in zip(pairwise((0.0, OPENS, CLOSES, UNTIL)), (True, False, True), strict=True):
         if begin == CLOSES and until > CLOSES:
-            mass, _, jacobian, _ = terms(state[:3], state[3:])
+            offset = (PIVOT - arms_of_loop(state[:3]).sum()) * np.exp(-1j * state[1])
+            mass, _, jacobian, _ = terms(state[:3], state[3:], offset)
             back = np.linalg.solve(mass, jacobian.T)
             change = back @ np.linalg.solve(jacobian @ back, jacobian @ state[3:])
             lost = 0.5 * change @ mass @ change
             state[3:] -= change
 
-        def rates(_, y, held=held):
-            mass, force, jacobian, right = terms(y[:3], y[3:])
+        def rates(_, y, held=held, offset=offset):
+            mass, force, jacobian, right = terms(y[:3], y[3:], offset)
             if not held:
                 return np.concatenate([y[3:], np.linalg.solve(mass, force)])
             matrix = np.block([[mass, jacobian.T], [jacobian, np.zeros((2, 2))]])
