@@ -123,8 +123,8 @@ def _difference_of_runs(name: str, agreed: Agreement, times: NDArray[np.float64]
 
 def _lasting_energy_error(first: Outcome, second: Outcome) -> float:
     """Return the energy error [J] that finer steps do not make smaller, 0 where they do."""
-    error = second.energy_drift_max
-    return error if error > LASTING * first.energy_drift_max else 0.0
+    error, finer = first.energy_drift_max, second.energy_drift_max
+    return min(error, finer) if finer > LASTING * error else 0.0
 
 
 def _outputs_to_compare(first: Outcome, second: Outcome) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
