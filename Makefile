@@ -60,7 +60,7 @@ affected: $(INSTALLED)  ## run the tests of make test that enter what changed si
 	@"$(BIN)/python" -m pytest -n $(WORKERS) --dist worksteal -p tests.support.affected
 
 slow: $(INSTALLED)  ## run the slow tests
-	@"$(BIN)/python" -m pytest -n $(WORKERS) --dist worksteal -m "slow and not browser"
+	@"$(BIN)/python" -m pytest -n $(WORKERS) --dist worksteal -m "slow and not browser" --durations=100 --durations-min=4
 
 browser: $(INSTALLED)  ## run the tests of pages in Chromium, which is installed where it is missing and apt-get can
 	@command -v chromium chromium-browser google-chrome chrome >/dev/null || test -n "$$SYMGEN_BROWSER" \

@@ -61,6 +61,7 @@ def test_limits_are_theirs():
     assert [float(x) for x in turned.split(", ")] == list(MATLAB)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_euler_angles_have_the_errors_of_theirs():
     """Their file names no scheme: it is the average acceleration, within the tolerance of their iteration."""

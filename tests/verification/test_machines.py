@@ -240,6 +240,7 @@ def test_the_wiper_swings_as_its_four_bar_says():
     assert_allclose(place(result, "arm.b"), b, atol=1e-12)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_the_wiper_turns_as_an_equation_of_its_crank_alone_says():
     """J w' + J' w^2/2 = torque; J' by a central difference, whose error of 1e-9 stays below the bound."""

@@ -50,6 +50,7 @@ def test_the_woodpecker_has_the_period_of_its_author():
     assert abs((knocks[-1] - knocks[-11]) / 10.0 - 0.145976065144) < 1e-10
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_the_wheel_turns_by_a_quarter_a_turn():
     result = run("geneva")

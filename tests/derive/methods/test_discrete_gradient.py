@@ -65,6 +65,7 @@ def test_energy_changes_by_rounding_alone(name, step):
     assert kept.max() < 1e-12 * scale < 1e-8 * scale < other.max()
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_energy_changes_by_rounding_alone_in_ten_thousand_swings():
     """10^6 steps: less than one rounding of the energy in each, and many orders below what the scheme is off by."""

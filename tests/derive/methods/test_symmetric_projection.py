@@ -120,6 +120,7 @@ def test_the_error_of_energy_is_bounded_over_500_swings():
     assert last < 1.05 * first and often > 8.0 * once
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_the_error_of_energy_is_bounded_over_ten_thousand_swings():
     (first, last), (once, often) = energies(1.0, 10_000, 2e-2), energies(0.0, 10_000, 2e-2)

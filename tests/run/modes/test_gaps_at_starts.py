@@ -96,6 +96,7 @@ def test_arms_in_space_are_laid_down_with_their_joints_closed(coordinates: str) 
     assert turn == pytest.approx(1.0, abs=1e-15)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_heights_over_a_floor_from_0_on_are_smooth(coordinates: str) -> None:

@@ -174,6 +174,7 @@ def test_a_shaft_with_bounds_of_two_directions_beside_a_gear() -> None:
         assert slips["gear.slip"] == pytest.approx(abs(limit - 1.0), abs=1e-9)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_sweeps_over_the_drive_fail_nowhere() -> None:
     """301 amplitudes from one that moves nothing to one that never rests, with ends as those of own equations."""

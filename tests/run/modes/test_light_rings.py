@@ -127,6 +127,7 @@ def test_a_light_ring_takes_as_many_steps_as_one_without_inertia(way: dict[str, 
     assert runs[1]["engine.omega"][-1] == pytest.approx(by_phases(1e-9), abs=2e-8)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_rings_from_1e_12_to_1e_3_are_smooth(coordinates: str) -> None:

@@ -71,6 +71,7 @@ def test_friction_acts_as_soon_as_the_driver_moves(law: str, way: str, coordinat
     assert path > 0.01 and run.outputs["lost"][-1] == pytest.approx(4.0 * path, abs=1e-8)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_rows_over_the_swing_are_single_runs() -> None:
     """Amplitudes of both signs, and none: the slide then rests."""

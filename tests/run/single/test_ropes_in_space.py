@@ -183,6 +183,7 @@ def test_a_bob_swings_out_of_the_plane_of_its_sheave(coordinates) -> None:
         assert np.abs(result.energy_error).max() < 1e-10
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_sweep_over_the_weight_is_smooth_with_derivatives() -> None:
     """301 masses of the weight: none fails, ends equal single runs; the derivative equals that of own equations."""
