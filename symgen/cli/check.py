@@ -132,9 +132,6 @@ def _facts_of_assembly(
     loaded: Model, parameters: dict[str, float], held: dict[str, float], strict: bool
 ) -> dict[str, Any]:
     """Return the facts of an assembled mechanism: sizes, rank, degrees of freedom, redundant rows and notes."""
-    from symgen.describe.files.joints_at_centres import warnings_on_centres
-    from symgen.describe.files.large_angles import warnings_on_angles
-
     compiled = loaded.compile()
     start = loaded.assemble(compiled, parameters, strict=strict, held=held)
     info, mechanism = compiled.info, loaded.mechanism
@@ -158,7 +155,7 @@ def _facts_of_assembly(
         "redundant_rows": list(start.redundant_rows),
         "dropped_rows": list(info.dropped_rows),
         "notes": list(start.notes),
-        "warnings": [*warnings_on_centres(mechanism), *warnings_on_angles(mechanism), *start.warnings],
+        "warnings": [*mechanism.remarks, *start.warnings],
         "start": {
             "q": {each.name: float(x) for each, x in zip(info.coordinates, q, strict=True)},
             "v": {each.name: float(x) for each, x in zip(info.velocities, v, strict=True)},

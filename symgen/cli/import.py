@@ -29,7 +29,8 @@ from symgen.cli._shared_options import examples_in_help, json_option
 def command(file: str, output: str | None, floating: bool, stops: bool, as_json: bool) -> int:
     """Write FILE, a robot in URDF, MJCF or SDF, as a mechanism file. Never overwrites a file.
 
-    What the mechanism file leaves out is listed: as a comment in it, and on the screen.
+    What the mechanism file leaves out is listed on the screen and in it: as `remarks`, which all results repeat, where
+    the motion may depend on it, else as comments.
     """
     from symgen.base.errors import InputError, quote
     from symgen.base.files import check_writable, write_whole
@@ -52,14 +53,14 @@ def command(file: str, output: str | None, floating: bool, stops: bool, as_json:
         why = f"their files are not in the folder of {'the output' if output == '-' else target.name}"
         read = replace(read, left_out=(*read.left_out, LeftOut("meshes", f"{lost} in pictures", why, False)))
     mechanism = validate(raw, path.name)
-    lines = [f"left out, and the motion may depend on it: {item}" for item in read.left_out if item.moves]
-    lines += [f"left out: {item}" for item in read.left_out if not item.moves]
+    comments = [f"left out: {item}" for item in read.left_out if not item.moves]
+    lines = [*mechanism.remarks, *comments]
     if output == "-":
-        click.echo("".join(f"# {line}\n" for line in lines) + to_toml(raw), nl=False)
+        click.echo("".join(f"# {line}\n" for line in comments) + to_toml(raw), nl=False)
         return OK
     if output is not None or not as_json:
         check_writable("-o", target)
-        write_whole(target, "".join(f"# {line}\n" for line in lines) + to_toml(raw), replace=False)
+        write_whole(target, "".join(f"# {line}\n" for line in comments) + to_toml(raw), replace=False)
     if as_json:
         left_out = [{"what": x.what, "where": x.where, "why": x.why, "moves": x.moves} for x in read.left_out]
         counts = {"bodies": len(mechanism.bodies), "joints": len(mechanism.joints), "inputs": len(mechanism.inputs)}

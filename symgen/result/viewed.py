@@ -111,6 +111,7 @@ def _recording_of_result(
     """Return a motion as a page plays it, with facts of its run by the names of JSON."""
     facts = [("", run["method"]), ("", run["integrator"]), ("status", run["status"])]
     facts += [("", run["reason"])] if run["reason"] else []
+    facts += [("remark", sentence) for sentence in mechanism.remarks]
     moments = [
         RecordedEvent(e["t_in"], e["t_out"], "rank", f"rank {e['rank']}, smallest pivot {e['smallest_pivot']:.1e}")
         for e in run.get("rank_events", [])

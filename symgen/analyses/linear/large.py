@@ -113,7 +113,7 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     about = {name: float(x) for name, x in zip(names, y, strict=False)}
     shapes = (motion @ vectors).T.astype(np.complex128)
     owners = np.array([v.name.rpartition(".")[0] for v in sparse.compiled.info.velocities])
-    notes = (*note_on_forces_of_time(sparse.mechanism, 0.0), *sentence_on_edges(sparse, y))
+    notes = (*mechanism.remarks, *note_on_forces_of_time(sparse.mechanism, 0.0), *sentence_on_edges(sparse, y))
     energy = vectors * (mass @ vectors)
     bodies = {body: energy[owners == body].sum(axis=0) / energy.sum(axis=0) for body in dict.fromkeys(owners.tolist())}
     return Modes(
@@ -170,6 +170,7 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
         y=y,
         lam=lam,
         notes=(
+            *mechanism.remarks,
             *note_on_moving_drivers(sparse.mechanism, sparse.compiled, sparse.p, 0.0),
             *note_on_forces_of_time(sparse.mechanism, 0.0),
             *sentence_on_edges(sparse, y),

@@ -103,8 +103,8 @@ class Subject(Yardsticks):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Sentences on what an analysis at a state takes for granted: the rows in force, and forces of time."""
-        return (*self.mode, *note_on_forces_of_time(self.mechanism, self.t))
+        """Sentences that every analysis at a state has: remarks on the model, rows in force, and forces of time."""
+        return (*self.mechanism.remarks, *self.mode, *note_on_forces_of_time(self.mechanism, self.t))
 
     @property
     def varied(self) -> tuple[str, ...]:

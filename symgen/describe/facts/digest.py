@@ -73,13 +73,13 @@ def digest(mechanism: Mechanism) -> str:
 def mechanism_digest(mechanism: Mechanism) -> str:
     """Return the digest of all of a mechanism: equations, start, values of parameters and defaults.
 
-    Shapes, limits, author and revision stay outside, as nothing is computed with them, and so do the sources of
-    inputs, which are part of forces.
+    Shapes, limits, remarks, author and revision stay outside, as nothing is computed with them, and so do the sources
+    of inputs, which are part of forces.
     """
     import hashlib
 
     plain = msgspec.structs.replace(
-        mechanism, shapes=(), limits=(), author="", revision="", input_formulas=(), beams=b"", bounded=()
+        mechanism, shapes=(), limits=(), author="", revision="", input_formulas=(), beams=b"", bounded=(), remarks=()
     )
     # the text of structs, which older folders of sweeps and journals were named by
     text = msgspec.Struct.__repr__(plain).replace(", bounded=()", "").removesuffix(")")
@@ -95,6 +95,7 @@ def mechanism_digest(mechanism: Mechanism) -> str:
         ", beams=b''",
         ", switchable=()",
         ", holding=()",
+        ", remarks=()",
         ", pressed=()",
         ", across=()",
         ", speed=None",

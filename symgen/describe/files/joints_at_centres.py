@@ -3,26 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import Any
 
 from symgen.base.vocabulary.measures import GROUND
-from symgen.describe.files.origins import origin_of
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.scope import CENTRE
 
 
-def warnings_on_centres(mechanism: Mechanism) -> Iterator[str]:
+def warnings_on_centres(mechanism: Mechanism, raw: Mapping[str, Any]) -> Iterator[str]:
     """Yield a sentence for each point of a joint that is ``"centre"`` where the frame has its origin elsewhere.
 
     A point given by a name of its own or by coordinates is taken as meant, also where it is the centre of mass.
 
     Parameters
     ----------
-    mechanism : Mechanism
-        A mechanism whose description is known; of another one nothing is said.
+    mechanism, raw : Mechanism, mapping
+        A mechanism and its description.
     """
-    origin = origin_of(mechanism)
-    joints = {} if origin is None else origin.raw.get("joints", {})
+    joints = raw.get("joints", {})
     values = {p.name: p.value for p in mechanism.parameters}
     bodies = {body.name: body for body in mechanism.bodies}
     for name, joint in joints.items():

@@ -3,27 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import Any
 
-from symgen.describe.files.origins import origin_of
 from symgen.describe.mechanism import Mechanism
 
 _SECTIONS = ("bodies", "joints")
 
 
-def warnings_on_angles(mechanism: Mechanism) -> Iterator[str]:
+def warnings_on_angles(_: Mechanism, raw: Mapping[str, Any]) -> Iterator[str]:
     """Yield a sentence for each angle of a body or a joint that is a plain number above one turn.
 
     Parameters
     ----------
-    mechanism : Mechanism
-        A mechanism whose description is known; of another one nothing is said.
+    raw : mapping
+        The description of a mechanism.
     """
-    origin = origin_of(mechanism)
-    if origin is None:
-        return
     for section in _SECTIONS:
-        for name, table in origin.raw.get(section, {}).items():
+        for name, table in raw.get(section, {}).items():
             angle = table.get("angle")
             if isinstance(angle, int | float) and not isinstance(angle, bool) and abs(angle) > 2.0 * math.pi:
                 turns = abs(angle) / (2.0 * math.pi)

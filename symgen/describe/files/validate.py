@@ -22,6 +22,7 @@ from symgen.describe.bounds.losses import losses_by_name
 from symgen.describe.bounds.smooth import rows_as_forces
 from symgen.describe.files.joint_tables import JointTables
 from symgen.describe.files.origins import errors_in, keep_origin
+from symgen.describe.files.remarks import with_remarks
 from symgen.describe.files.section_names import NAMED, SECTIONS
 from symgen.describe.formulas.identifiers import check_identifier, check_mechanism_name, one_line
 from symgen.describe.formulas.parser import FormulaNames
@@ -79,7 +80,7 @@ def validate(raw: Raw, source: str) -> Mechanism:
         At the first thing that is wrong.
     """
     with errors_in(source):
-        mechanism = _Validator(raw, source, Errors()).read_mechanism()
+        mechanism = with_remarks(_Validator(raw, source, Errors()).read_mechanism(), raw)
     return keep_origin(mechanism, raw, source)
 
 
@@ -226,6 +227,7 @@ class _Validator:
             limits=tuple(self._limits),
             author=one_line(head.author),
             revision=one_line(head.revision),
+            remarks=tuple(map(one_line, head.remarks)),
         )
         with self.errors.part_of_description():
             mechanism = with_holding(mechanism, holding)

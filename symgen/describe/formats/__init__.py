@@ -95,6 +95,8 @@ def read_robot(path: Path, name: str, *, floating: bool = False, stops: bool = F
 
     robot = FORMATS.get(name).read(path, floating)
     raw, left_out, folder = describe_robot(robot, f"{path.name} ({name.upper()})", stops)
+    if remarks := [f"left out, and the motion may depend on it: {item}" for item in left_out if item.moves]:
+        raw["mechanism"]["remarks"] = remarks
     return Import(raw, left_out, name, folder)
 
 

@@ -276,7 +276,7 @@ class _Reader:
         affine = bias == int(m.mjtBias.mjBIAS_AFFINE)
         if not weights or not plain or not fixed or not (affine or bias == int(m.mjtBias.mjBIAS_NONE)):
             why = "it is no effort along joints that is affine in its input, coordinates and rates"
-            self.left_out.append(LeftOut("an actuator", name, why, False))
+            self.left_out.append(LeftOut("an actuator", name, why, True))
             return None
         offset, along, against = model.actuator_biasprm[i].tolist()[:3] if affine else (0.0, 0.0, 0.0)
         bounds = _as_pair(model.actuator_ctrlrange[i]) if model.actuator_ctrllimited[i] else None

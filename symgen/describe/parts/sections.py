@@ -37,6 +37,8 @@ class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         ``"planar"`` or ``"spatial"``.
     gravity : vector
         Gravitational acceleration in the ground frame [m/s^2]; none by default.
+    remarks : list of str
+        What a reader of any result has to know, such as what an import left out; every result repeats it.
     shape : table, or list of tables
         A look of the ground in pictures, as bodies have; none by default.
     """
@@ -46,6 +48,7 @@ class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     source: Text = ""
     author: Text = ""
     revision: Text = ""
+    remarks: tuple[Text, ...] = ()
     space: Literal["planar", "spatial"] = "planar"
     gravity: Vector | None = None
     shape: ShapeSection | tuple[ShapeSection, ...] | None = None

@@ -18,6 +18,7 @@ from symgen.compile.native.formula_lines import C, NotInLines
 from symgen.compile.native.read import Foreign
 from symgen.derive.emit.module import render_template
 from symgen.result.targets._c_names import defined_names, prefix_of
+from symgen.result.targets._c_reasons import c_text
 from symgen.result.targets._c_runs import cells_of, check_integrator, places_of_scales, values_of_run
 from symgen.run.compiling.checked import check_kernels, checked_function
 from symgen.run.compiling.printed import WEIGHED, Printed, PrintedEvents
@@ -120,14 +121,16 @@ class CModel:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Another name of the mechanism in C, and what an FMU is not for, in words."""
+        """Remarks on the model, another name of it in C, and what an FMU is not for, in words."""
         name = self.mechanism.name.replace("-", "_")
         words = f"in C, names of '{self.mechanism.name}' begin with {self.prefix}: {name} has another meaning there"
         alone = "the FMU is for co-simulation alone: an importer that integrates does not find modes of contacts"
         has_contacts = any(row.in_contact for row in self.mechanism.bounded)
         holding = "the FMU is for co-simulation alone: an importer that integrates does not choose rows of joints anew"
-        notes = (words,) * (self.prefix != name) + (alone,) * (has_contacts and self.target == "fmu")
-        return notes + (holding,) * (bool(self.mechanism.holding) and self.target == "fmu")
+        notes = [*self.mechanism.remarks, *([words] if self.prefix != name else [])]
+        of_fmu = ((alone, has_contacts), (holding, bool(self.mechanism.holding)))
+        notes += [sentence for sentence, said in of_fmu if said and self.target == "fmu"]
+        return tuple(notes)
 
     @cached_property
     def text(self) -> str:
@@ -169,6 +172,7 @@ class CModel:
         return {
             "name": mechanism.name,
             "title": mechanism.title or mechanism.name,
+            "remarks": [(sentence, c_text(sentence)) for sentence in mechanism.remarks],
             "method": law.method,
             "prefix": self.prefix,
             "upper": self.prefix.upper(),

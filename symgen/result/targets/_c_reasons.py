@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from string import Formatter
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -66,8 +65,9 @@ def _words(rows: BoundedRows, run: PrintedRun) -> dict[str, str]:
 
 
 def c_text(text: str) -> str:
-    """Return a text as a string of C."""
-    return json.dumps(text).replace("?", "\\?")  # no trigraphs
+    """Return a text as a string of C in ASCII; signs with a meaning, and bytes beyond ASCII, are octal numbers."""
+    plain = (chr(x) if 32 <= x < 127 and chr(x) not in '"\\?' else f"\\{x:03o}" for x in text.encode())
+    return f'"{"".join(plain)}"'
 
 
 def _reasons(run: PrintedRun) -> Iterator[tuple[int, str, str]]:

@@ -339,6 +339,8 @@ def prepared_run(plan: Plan, assembled: Assembled) -> Prepared:
 
 
 def add_notes(plan: Plan, assembled: Assembled) -> Assembled:
-    """Return code and start with the notes of a plan before the notes of the start."""
+    """Return code and start with remarks on the model and notes of a plan before the notes of the start."""
     start = assembled.start
-    return replace(assembled, start=replace(start, notes=(*plan.notes, *plan.bound, *start.notes)))
+    return replace(
+        assembled, start=replace(start, notes=(*plan.mechanism.remarks, *plan.notes, *plan.bound, *start.notes))
+    )

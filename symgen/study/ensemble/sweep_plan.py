@@ -138,7 +138,7 @@ def make_ensemble(
         _ = kernel_of_recipe(recipe).first_model
     model = replace(model, mechanism=mechanism)
     warnings = *plan.warnings, *_warnings_of_missed(plan, passed_times, grid), *_warnings_on_modes(mechanism)
-    notes = *plan.notes, *plan.bound
+    notes = *mechanism.remarks, *plan.notes, *plan.bound
     return Ensemble(model, plan, compiled, grid, targets, recipe, driving, warnings, notes)
 
 

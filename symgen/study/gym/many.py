@@ -45,7 +45,8 @@ class Environments(VectorEnv):  # type: ignore[misc]  # a class without types
     """Runs of one model side by side; `symgen.gym.make_vec` makes them.
 
     An episode that has ended begins anew at the next step, whose action it does not take. A row that fails stays where
-    it was, and its episode is truncated, with the reason in ``infos["failure"]``.
+    it was, and its episode is truncated, with the reason in ``infos["failure"]``. `reset` returns remarks on
+    the model in ``infos["remarks"]``.
 
     Parameters
     ----------
@@ -79,7 +80,7 @@ class Environments(VectorEnv):  # type: ignore[misc]  # a class without types
             if mask.shape != (self.num_envs,):
                 raise InputError("reset_mask", f"{self.num_envs} truth values", arguments.kind_of_value(mask))
         self._begin(mask)
-        return self._rows.values[:, : len(self.task.observe)].copy(), {}
+        return self._rows.values[:, : len(self.task.observe)].copy(), self.task.remarks
 
     def _begin(self, mask: NDArray[np.bool_]) -> None:
         for r in np.flatnonzero(mask).tolist():

@@ -17,7 +17,7 @@ class Environment(gymnasium.Env):  # type: ignore[misc]  # a class without types
     """An environment of one stepped run; `symgen.gym.make` makes it.
 
     A step that fails truncates the episode, with the reason in ``info["failure"]``; an event that ends runs terminates
-    it, with its name in ``info["event"]``.
+    it, with its name in ``info["event"]``. `reset` returns remarks on the model in ``info["remarks"]``.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ class Environment(gymnasium.Env):  # type: ignore[misc]  # a class without types
         """Begin an episode; ``options["start"]`` has values of the start, which replace `reset`."""
         super().reset(seed=seed)
         self.run.reset(self.task.draw_start(self.np_random) if not options else options.get("start"))
-        return self._meter()[: len(self.task.observe)], {}
+        return self._meter()[: len(self.task.observe)], self.task.remarks
 
     def step(self, action: object) -> tuple[Array, float, bool, bool, dict[str, Any]]:
         """Hold an action for a time `dt`."""

@@ -75,6 +75,12 @@ class Task:
         box = gymnasium.spaces.Box
         return box(-np.inf, np.inf, (len(self.observe),), np.float64), box(self.low, self.high, dtype=np.float64)
 
+    @property
+    def remarks(self) -> dict[str, Any]:
+        """Remarks on the model, as facts of a reset; empty without any."""
+        said = self.model.mechanism.remarks
+        return {"remarks": said} if said else {}
+
     def judge_step(self, values: Array, action: Array) -> tuple[Array, Any, Any]:
         """Return observations, rewards, and whether episodes are terminated, from values of the formulas."""
         n = len(self.observe)

@@ -13,6 +13,7 @@ from symgen.analyses.prescribed.dead_centre_room import room_to_dead_centre
 from symgen.analyses.prescribed.transmission import PIN, transmission_angles
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.measures import GROUND
+from symgen.study.report.passages import outside_passages
 from symgen.study.report.words import engineering_number
 
 if TYPE_CHECKING:
@@ -78,6 +79,7 @@ def _loads_of_drivers(mechanism: Mechanism, result: Result) -> Iterator[KeyNumbe
     table = result.whole(("elements",))
     columns = dict(zip(table.names, table.values.T, strict=True))
     units = dict(zip(table.names, table.units, strict=True))
+    columns = {name: np.where(outside_passages(result), column, np.nan) for name, column in columns.items()}
     drivers = [name for name in columns if name.endswith(_EFFORTS[0])]
     told = set[str]()
     for name in drivers or [name for name in columns if name.endswith(_EFFORTS)]:
@@ -105,7 +107,7 @@ def _largest_pin_forces(mechanism: Mechanism, result: Result) -> list[KeyNumber]
     table, peaks = result.whole(("magnitudes",)), list[tuple[float, KeyNumber]]()
     for i, name in enumerate(table.names):
         joint = name.rpartition(".")[0]
-        k = _index_of_peak(table.values[:, i])
+        k = _index_of_peak(np.where(outside_passages(result), table.values[:, i], np.nan))
         if k is None or joint in drivers or table.units[i] != "N":
             continue
         size = float(abs(table.values[k, i]))

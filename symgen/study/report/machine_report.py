@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
@@ -23,6 +24,7 @@ from symgen.study.machine_class import machine_class, version_list
 from symgen.study.report.document import DocumentTable, Letterhead, Picture, ReportDocument, Section, TableCell
 from symgen.study.report.key_numbers import MOST_NUMBERS, KeyNumber, key_numbers
 from symgen.study.report.letterhead import origin_of_file
+from symgen.study.report.passages import outside_passages, passages
 from symgen.study.report.picture import MOST_BODIES, picture_of_figure
 from symgen.study.report.verdict import verdict_on_run
 from symgen.study.report.words import engineering_number, enumeration
@@ -87,6 +89,7 @@ def machine_report(
     numbers = key_numbers(model.mechanism, result) if len(result.t) and result.status != "failed" else ()
     sections = [
         *_first_section(model, result, numbers),
+        *_remarks_section(model.mechanism, result),
         *_limits_section(limits, result.status == "failed"),
         *_motion_section(model, result),
         *_events_section(result),
@@ -115,11 +118,20 @@ def _lead_sentence(result: Result) -> str:
     return f"{result.mechanism}, simulated {span} with {result.method} and {result.integrator}."
 
 
+def _remarks_section(mechanism: Mechanism, result: Result) -> Iterator[Section]:
+    """Yield the section of what is known of the model, and of what the run warns of, if anything is."""
+    if said := (*mechanism.remarks, *result.warnings):
+        yield Section("Remarks", tuple(f"{sentence[:1].upper()}{sentence[1:]}." for sentence in said))
+
+
 def _loads_section(result: Result, along: Labelled) -> Iterator[Section]:
     """Yield the section of the largest loads; a failed run has none, as its last loads tell of the failure alone."""
     if result.status == "failed":
         return
-    text = f"Largest absolute values over {plural(len(result.t), 'output')}; a peak between two outputs can be higher."
+    count, spans = int(np.sum(outside_passages(result))), passages(result) if result.rank_events else []
+    left = ", ".join(f"{begin:.4g} to {end:.4g} s" for begin, end in spans)
+    without = f" without those from {left}, near a singular position" if spans else ""
+    text = f"Largest absolute values over {plural(count, 'output')}{without}; a peak between two outputs can be higher."
     yield Section("Largest loads", (text,), tables=(*_load_tables(result, along),))
 
 
@@ -214,15 +226,15 @@ def _load_tables(result: Result, along: Labelled) -> Iterator[DocumentTable]:
     """Yield a table for each unit of loads: the largest value of each, when and where."""
     every = result.whole(("elements", "magnitudes"))
     every = columns_at(every, without_doubles(every.names))
-    where = along.names[0] != "t"
+    where, counted = along.names[0] != "t", outside_passages(result)
     headings = ("quantity", "largest", "at t [s]", *([f"at {along.names[0]} [{along.units[0]}]"] if where else []))
     for unit, title in LOADS.items():
         rows = []
         for i, name in enumerate(every.names):
             values = every.values[:, i]
-            if every.units[i] != unit or not np.nan_to_num(values).any():
+            if every.units[i] != unit or not np.nan_to_num(values[counted]).any():
                 continue
-            k = int(np.nanargmax(np.abs(values)))
+            k = int(np.nanargmax(np.where(counted, np.abs(values), np.nan)))
             place = (f"{along.values[k, 0]:.4g}",) if where else ()
             rows.append((abs(values[k]), (name, engineering_number(values[k], unit), f"{result.t[k]:.4g}", *place)))
         rows.sort(key=lambda row: -row[0])
@@ -235,6 +247,7 @@ def _load_tables(result: Result, along: Labelled) -> Iterator[DocumentTable]:
 def _curve_pictures(result: Result, along: Labelled) -> Iterator[Picture]:
     """Yield pictures of loads, of joints and of energies, over time or over a column."""
     loads, joints = result.whole(("elements", "magnitudes")), result.whole(("joint_coordinates", "outputs"))
+    loads = replace(loads, values=np.where(outside_passages(result)[:, np.newaxis], loads.values, np.nan))
     loads = columns_at(loads, [i for i in without_doubles(loads.names) if loads.units[i] in LOADS])
     joints = columns_at(joints, [i for i, name in enumerate(joints.names) if not name.endswith(_RATE)])
     errors = result.overview()

@@ -11,6 +11,7 @@ from symgen.analyses.reached_limits import ReachedLimit
 from symgen.base.errors import fit_lines, plural
 from symgen.study.report.document import TableCell
 from symgen.study.report.key_numbers import ROOM, KeyNumber
+from symgen.study.report.passages import sentence_on_passages
 from symgen.study.report.words import engineering_number, enumeration, rounded_number
 
 if TYPE_CHECKING:
@@ -21,7 +22,9 @@ MOST_NAMED = 4
 
 
 def verdict_on_run(result: Result, limits: Sequence[ReachedLimit], numbers: Sequence[KeyNumber] = ()) -> TableCell:
-    """Return one sentence, good or bad: a failure before limits that are exceeded, these before doubts.
+    """Return one sentence: a failure, then a passage of a singular position, limits that are exceeded, and doubts.
+
+    It is good where nothing is said of the run but what it reaches, and doubtful where it has a warning.
 
     Parameters
     ----------
@@ -35,6 +38,9 @@ def verdict_on_run(result: Result, limits: Sequence[ReachedLimit], numbers: Sequ
     if result.status == "failed":
         return TableCell(f"Failed{_end_of_run(result)}: {result.reason}.", "bad")
     broken = [each for each in limits if not each.is_met]
+    if result.rank_events:
+        exceeded = f" {_sentence_on_broken_limits(broken, len(limits))}" if broken else ""
+        return TableCell(f"{sentence_on_passages(result)}.{exceeded}", "bad")
     if broken:
         doubts = "" if result.status == "ok" else f" The run is not verified: {result.reason}."
         return TableCell(f"{_sentence_on_broken_limits(broken, len(limits))}{doubts}", "bad")
@@ -43,7 +49,9 @@ def verdict_on_run(result: Result, limits: Sequence[ReachedLimit], numbers: Sequ
     kept = f" and keeps {plural(len(limits), 'limit')} of the file" if limits else ""
     reached = f" reaches {result.t[-1]:g} s" if len(result.t) else " ends"
     room = "".join(f", {each.value} from a dead centre" for each in numbers if each.what == ROOM)
-    return TableCell(f"The run{reached}{kept}{room}{_trust_in_run(result)}.", "good")
+    doubts = f" Warning: {'; '.join(result.warnings)}." if result.warnings else ""
+    text = f"The run{reached}{kept}{room}{_trust_in_run(result)}.{doubts}"
+    return TableCell(text, "doubtful" if doubts else "good")
 
 
 def _end_of_run(result: Result) -> str:

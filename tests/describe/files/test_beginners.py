@@ -7,7 +7,6 @@ import pytest
 
 from symgen.api import load
 from symgen.base.errors import AssemblyError, InputError
-from symgen.describe.files.large_angles import warnings_on_angles
 from symgen.describe.files.problems import sentence_with_line
 
 CRANE = """\
@@ -181,10 +180,10 @@ def test_the_sentence_on_a_slip_names_its_line_and_what_was_meant(name, tmp_path
 def test_an_angle_of_many_turns_is_asked_about(tmp_path):
     file = tmp_path / "crane.toml"
     file.write_text(CRANE.replace('angle = "0 deg"', "angle = 30"))
-    (warning,) = warnings_on_angles(load(file).mechanism)
+    (warning,) = load(file).mechanism.remarks
     assert warning == 'bodies.boom.angle: 30 rad are 4.77 turns; an angle in degrees is written "30 deg"'
     file.write_text(CRANE.replace('angle = "0 deg"', "angle = 6.2"))
-    assert not [*warnings_on_angles(load(file).mechanism)]
+    assert not load(file).mechanism.remarks
 
 
 def test_a_loop_that_cannot_close_says_where_it_stays_open(tmp_path):

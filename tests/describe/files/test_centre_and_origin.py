@@ -6,7 +6,6 @@ import pytest
 from support.emitted import mechanism_of
 
 import symgen
-from symgen.describe.files.joints_at_centres import warnings_on_centres
 from symgen.describe.formulas.evaluate import evaluate
 
 BAR = {"mass": 2.0, "inertia": 0.5, "centre_of_mass": [0.45, -0.15], "position": [0.0, 0.0], "angle": 0.0}
@@ -52,7 +51,7 @@ def test_an_inertia_may_refer_to_the_origin():
     ],
 )
 def test_only_a_centre_beside_the_origin_is_warned_of(point, body, said):
-    assert len(list(warnings_on_centres(pinned(point, **body).mechanism))) == said
+    assert len(pinned(point, **body).mechanism.remarks) == said
 
 
 def test_check_says_what_where_and_what_to_write(cli, tmp_path):
