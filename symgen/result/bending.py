@@ -1,8 +1,9 @@
-"""Beam elements at the outputs of a run: whether any is bent or stretched more than an element should be."""
+"""Beam elements at some states: how far any is bent or stretched beside what an element should be."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ from symgen.base.vocabulary.expressions import Expr
 from symgen.base.vocabulary.measures import GROUND, Component, Direction, Flexure, Marker, Sum
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
+from symgen.result.part_limits import MotionOfBodies, PartLimit
 from symgen.result.points import rotation_matrices
 
 Array = NDArray[np.float64]
@@ -19,27 +21,30 @@ Array = NDArray[np.float64]
 MOST_BENT, MOST_STRETCHED = 1.0, 0.2
 
 
-def warning_on_bending(mechanism: Mechanism, parameters: Mapping[str, float], q: Array) -> str | None:
-    """Return a sentence about the beam element that is bent or stretched most, None where none is too much.
+def limits_of_elements(mechanism: Mechanism) -> Iterator[PartLimit]:
+    """Yield the limits of beam elements: the angle between their ends, and the change of their length.
 
     Parameters
     ----------
-    mechanism, parameters
-        The mechanism, and values of its parameters.
-    q : Array, shape (k, nq)
-        Coordinates of bodies at the outputs.
+    mechanism : Mechanism
+        The mechanism.
     """
-    poses, worst, sentence = _Poses(mechanism, parameters, q), 1.0, None
+
+    def measure(
+        flexure: Flexure, of: int, most: float, parameters: Mapping[str, float], motion: MotionOfBodies
+    ) -> Array:
+        return _Poses(mechanism, parameters, motion.q).bend_and_stretch(flexure)[of] / most
+
+    def say(name: str, words: str, most: float, factor: float) -> str:
+        return f"beam element {name} {words.format(factor * most)}"
+
     for force in mechanism.forces:
         for flexure in force.flexures:
-            bend, stretch = poses.bend_and_stretch(flexure)
-            for most, limit, words in (
-                (bend, MOST_BENT, "is bent by {:.2g} rad, more than 1 rad"),
-                (stretch, MOST_STRETCHED, "is stretched by {:.2g} of its length, more than 0.2"),
+            for of, most, words in (
+                (0, MOST_BENT, "is bent by {:.2g} rad, more than 1 rad"),
+                (1, MOST_STRETCHED, "is stretched by {:.2g} of its length, more than 0.2"),
             ):
-                if most / limit > worst:
-                    worst, sentence = most / limit, f"beam element {force.name} {words.format(most)}"
-    return sentence
+                yield PartLimit(partial(measure, flexure, of, most), partial(say, force.name, words, most))
 
 
 class _Poses:
@@ -71,8 +76,8 @@ class _Poses:
         centre = self.numbers_of_vector(body.centre_of_mass)
         return self.q[:, at : at + len(point)] + self.vector_in_ground(marker.body, point - centre)
 
-    def bend_and_stretch(self, flexure: Flexure) -> tuple[float, float]:
-        """Return the largest angle between the ends [rad] and the largest change of the length of the arc over it."""
+    def bend_and_stretch(self, flexure: Flexure) -> tuple[Array, Array]:
+        """Return the angle between the ends [rad], and the change of the length of the arc over it, at all times."""
         along = [m for m in flexure.measures if isinstance(m, Sum) and isinstance(m.terms[0][1], Component)]
         pairs = [[part for _, part in m.terms if isinstance(part, Component)] for m in along]
         frames = [[self._direction_in_ground(part.along) for part in pair] for pair in pairs]
@@ -80,8 +85,7 @@ class _Poses:
         bend = np.arccos(np.clip(0.5 * (cosine - (1.0 if self.spatial else 0.0)), -1.0, 1.0))
         chord = np.linalg.norm(self.places_of_marker(pairs[0][0].b) - self.places_of_marker(pairs[0][0].a), axis=1)
         length = evaluate(flexure.length, self.parameters, "forces")
-        stretch = np.abs(chord / np.sinc(0.5 * bend / np.pi) / length - 1.0)
-        return float(bend.max(initial=0.0)), float(stretch.max(initial=0.0))
+        return bend, np.abs(chord / np.sinc(0.5 * bend / np.pi) / length - 1.0)
 
     def _direction_in_ground(self, direction: Direction) -> Array:
         return self.vector_in_ground(direction.body, self.numbers_of_vector(direction.vector))

@@ -14,6 +14,7 @@ from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.judge import judge, reason_without_check
 from symgen.result.labelled import label_columns
 from symgen.result.motion_tables import Measured
+from symgen.result.part_limits import doubt_on_outputs
 from symgen.result.reactions import Forces, seats_of_reactions
 from symgen.result.result import FAILED, UNVERIFIED, Rank, Result, Seconds
 from symgen.run.layout import abi
@@ -145,16 +146,8 @@ def _judge_outcome(
 ) -> Verdict:
     """Judge an outcome in coordinates of bodies; say what bends too far, is undefined, or is at a dead centre."""
     mechanism, verdict = run.plan.mechanism, judge(run, outcome, verification)
-    if verdict.status != FAILED and any(force.flexures for force in mechanism.forces):
-        from symgen.result.bending import warning_on_bending
-
-        doubt = warning_on_bending(mechanism, values, outcome.states[:, : outcome.compiled.info.nq])
-        verdict = verdict if doubt is None else replace(verdict, status=UNVERIFIED, reason=doubt)
-    if verdict.status != FAILED and mechanism.has_modal_bodies:
-        from symgen.result.modal_limits import warning_on_modes
-
-        doubt = warning_on_modes(mechanism, values, outcome)
-        verdict = verdict if doubt is None else replace(verdict, status=UNVERIFIED, reason=doubt)
+    if verdict.status != FAILED and (doubt := doubt_on_outputs(mechanism, values, outcome)) is not None:
+        verdict = replace(verdict, status=UNVERIFIED, reason=doubt)
     if verdict.status == FAILED and (undefined := undefined_at_end(mechanism, outcome)):
         verdict = replace(verdict, reason=f"{str(verdict.reason).partition('; ')[0]}: {undefined}")
     if verdict.status == FAILED and (locked := dead_centre_at_end(mechanism, outcome)):

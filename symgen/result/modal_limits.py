@@ -1,4 +1,4 @@
-"""Modal bodies at the outputs of a run: whether linear modes still hold there.
+"""Modal bodies at some states: whether linear modes still hold there.
 
 Modes are linear: they leave out how forces along a body change its stiffness, and that a turn moves a point along an
 arc. Under a force N on an interface the stiffness that is left out is about N / (c k_t L) of what there is, where k_t
@@ -11,7 +11,7 @@ frequencies.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,10 +19,8 @@ from numpy.typing import NDArray
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import AnyBody, Mechanism
 from symgen.describe.modal_body import CarriedInterface, Modal
+from symgen.result.part_limits import MotionOfBodies, PartLimit
 from symgen.result.points import rotation_matrices
-
-if TYPE_CHECKING:
-    from symgen.run.single.outcome import Motion
 
 Array = NDArray[np.float64]
 
@@ -34,49 +32,65 @@ MOST_TURNED, MOST_SPUN = 0.1, 0.1
 ADVICE = "linear modes leave out what that does to the stiffness: more bodies in a row, or [beams], have it"
 
 
-class _Doubt(NamedTuple):
-    """How far a limit is exceeded, as a factor, and the sentence."""
-
-    factor: float
-    sentence: str
-
-
-def warning_on_modes(mechanism: Mechanism, parameters: Mapping[str, float], motion: Motion) -> str | None:
-    """Return a sentence about the modal body that is farthest beyond what linear modes can do, None where none is.
+def limits_of_modes(mechanism: Mechanism) -> Iterator[PartLimit]:
+    """Yield the limits of modal bodies: forces on interfaces, their turns, and how fast the body turns.
 
     Parameters
     ----------
-    mechanism, parameters
-        The mechanism, and values of its parameters.
-    motion : Motion
-        Its outputs, in coordinates of bodies.
+    mechanism : Mechanism
+        The mechanism.
     """
-    bent = (body for body in mechanism.bodies if body.modal is not None)
-    doubts = [doubt for body in bent for doubt in _doubts(mechanism, parameters, motion, body)]
-    worst = max(doubts, default=None)
-    return None if worst is None or worst.factor <= 1.0 else f"{worst.sentence}: {ADVICE}"
+    for body in mechanism.bodies:
+        if body.modal is not None:
+            yield from _limits_of_body(mechanism, body, body.modal)
 
 
-def _doubts(mechanism: Mechanism, parameters: Mapping[str, float], motion: Motion, body: AnyBody) -> Iterator[_Doubt]:
-    assert body.modal is not None
-    gravity = np.array([evaluate(e, parameters, "mechanism.gravity") for e in mechanism.gravity])
-    moving = _Moving.of_body(mechanism, motion, body, body.modal)
-    most = MOST_PUSHED if _holds_turn(mechanism, body.name) else MOST_PUSHED_ON_PINS
+def _limits_of_body(mechanism: Mechanism, body: AnyBody, modal: Modal) -> Iterator[PartLimit]:
+    pushed_most = MOST_PUSHED if _holds_turn(mechanism, body.name) else MOST_PUSHED_ON_PINS
+
+    def moving(motion: MotionOfBodies) -> _Moving:
+        return _Moving.of_body(mechanism, motion, body, modal)
+
     for other in mechanism.bodies:
         if (carried := other.carried) is None or carried.host != body.name:
             continue
-        limit = carried.load.stiffness * carried.load.length
-        pushed = float(np.linalg.norm(moving.forces_on(carried, gravity), axis=1).max(initial=0.0))
-        share = pushed / limit if limit > 0.0 else 0.0
-        words = f"interface {other.name} carries {pushed:.3g} N, {share:.2g} times k_t L = {limit:.3g} N"
-        yield _Doubt(share / most, f"{words}, where {most:g} is the most")
-        turned = float(np.linalg.norm(moving.m @ np.array(carried.turn), axis=1).max(initial=0.0))
-        words = f"interface {other.name} is turned by {turned:.2g} rad against its body"
-        yield _Doubt(turned / MOST_TURNED, f"{words}, where {MOST_TURNED:g} rad is the most")
-    spin = float(np.linalg.norm(moving.omega, axis=1).max(initial=0.0))
-    lowest = float(np.sqrt(min(body.modal.stiffness) / body.modal.mass))
-    words = f"{body.name} turns at {spin:.3g} rad/s, {spin / lowest:.2g} times its lowest frequency"
-    yield _Doubt(spin / lowest / MOST_SPUN, f"{words}, where {MOST_SPUN:g} is the most")
+        own, limit = carried, carried.load.stiffness * carried.load.length
+
+        def pushed(
+            parameters: Mapping[str, float],
+            motion: MotionOfBodies,
+            own: CarriedInterface = own,
+            limit: float = limit,
+        ) -> Array:
+            gravity = np.array([evaluate(e, parameters, "mechanism.gravity") for e in mechanism.gravity])
+            forces = np.linalg.norm(moving(motion).forces_on(own, gravity), axis=1)
+            return forces / (limit * pushed_most) if limit > 0.0 else np.zeros_like(forces)
+
+        def say_pushed(factor: float, name: str = other.name, limit: float = limit) -> str:
+            share = factor * pushed_most
+            words = f"interface {name} carries {share * limit:.3g} N, {share:.2g} times k_t L = {limit:.3g} N"
+            return f"{words}, where {pushed_most:g} is the most: {ADVICE}"
+
+        def turned(_: Mapping[str, float], motion: MotionOfBodies, own: CarriedInterface = own) -> Array:
+            return np.linalg.norm(moving(motion).m @ np.array(own.turn), axis=1) / MOST_TURNED
+
+        def say_turned(factor: float, name: str = other.name) -> str:
+            words = f"interface {name} is turned by {factor * MOST_TURNED:.2g} rad against its body"
+            return f"{words}, where {MOST_TURNED:g} rad is the most: {ADVICE}"
+
+        yield PartLimit(pushed, say_pushed)
+        yield PartLimit(turned, say_turned)
+    lowest = float(np.sqrt(min(modal.stiffness) / modal.mass))
+
+    def spun(_: Mapping[str, float], motion: MotionOfBodies) -> Array:
+        return np.linalg.norm(moving(motion).omega, axis=1) / (lowest * MOST_SPUN)
+
+    def say_spun(factor: float) -> str:
+        spin = factor * MOST_SPUN
+        words = f"{body.name} turns at {spin * lowest:.3g} rad/s, {spin:.2g} times its lowest frequency"
+        return f"{words}, where {MOST_SPUN:g} is the most: {ADVICE}"
+
+    yield PartLimit(spun, say_spun)
 
 
 def _holds_turn(mechanism: Mechanism, body: str) -> bool:
@@ -112,14 +126,14 @@ class _Moving(NamedTuple):
     rates: Array
 
     @classmethod
-    def of_body(cls, mechanism: Mechanism, motion: Motion, body: AnyBody, modal: Modal) -> _Moving:
-        q, v = motion.compiled.info.parts(motion.states)
+    def of_body(cls, mechanism: Mechanism, motion: MotionOfBodies, body: AnyBody, modal: Modal) -> _Moving:
         before = mechanism.bodies[: [b.name for b in mechanism.bodies].index(body.name)]
         first_q, first_v = sum(len(b.coordinates) for b in before), sum(len(b.speeds) for b in before)
         d, count = len(mechanism.gravity), len(modal.stiffness)
         turn, r = (1, 1) if d == 2 else (4, 3)
-        own_q, own_v = q[:, first_q : first_q + d + turn + count], v[:, first_v : first_v + d + r + count]
-        own_a = motion.accelerations[:, first_v : first_v + d + r + count]
+        own_q = motion.q[:, first_q : first_q + d + turn + count]
+        own_v = motion.v[:, first_v : first_v + d + r + count]
+        own_a = motion.a[:, first_v : first_v + d + r + count]
         return cls(
             rotation_matrices(own_q[:, d : d + turn]),
             own_a[:, :d],

@@ -38,7 +38,7 @@ class MeasuredData:
     units: Mapping[str, str] = field(default_factory=dict)
 
     def in_units(self, units: Mapping[str, str]) -> MeasuredData:
-        """Return the columns that are named with the units of their quantities; headings have the units of the data.
+        """Return the named columns in the units of their quantities, converted from the units of the headings.
 
         Raises
         ------

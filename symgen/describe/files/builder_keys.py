@@ -18,6 +18,7 @@ class MechanismKeys(TypedDict, total=False):
     source: str
     author: str
     revision: str
+    remarks: Iterable[str]
     space: Literal["planar", "spatial"]
     gravity: Vector
     shape: Mapping[str, Any] | Iterable[Mapping[str, Any]]

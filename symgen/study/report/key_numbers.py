@@ -13,7 +13,7 @@ from symgen.analyses.prescribed.dead_centre_room import room_to_dead_centre
 from symgen.analyses.prescribed.transmission import PIN, transmission_angles
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.measures import GROUND
-from symgen.study.report.passages import outside_passages
+from symgen.study.report.dead_points import outside_passages
 from symgen.study.report.words import engineering_number
 
 if TYPE_CHECKING:

@@ -21,10 +21,10 @@ from symgen.result.labelled import Labelled, columns_at
 from symgen.result.plots import figure_over_column, panels_of_table
 from symgen.result.summary import summary_lines
 from symgen.study.machine_class import machine_class, version_list
+from symgen.study.report.dead_points import outside_passages, passages
 from symgen.study.report.document import DocumentTable, Letterhead, Picture, ReportDocument, Section, TableCell
 from symgen.study.report.key_numbers import MOST_NUMBERS, KeyNumber, key_numbers
 from symgen.study.report.letterhead import origin_of_file
-from symgen.study.report.passages import outside_passages, passages
 from symgen.study.report.picture import MOST_BODIES, picture_of_figure
 from symgen.study.report.verdict import verdict_on_run
 from symgen.study.report.words import engineering_number, enumeration

@@ -9,9 +9,9 @@ import numpy as np
 
 from symgen.analyses.reached_limits import ReachedLimit
 from symgen.base.errors import fit_lines, plural
+from symgen.study.report.dead_points import sentence_on_passages
 from symgen.study.report.document import TableCell
 from symgen.study.report.key_numbers import ROOM, KeyNumber
-from symgen.study.report.passages import sentence_on_passages
 from symgen.study.report.words import engineering_number, enumeration, rounded_number
 
 if TYPE_CHECKING:

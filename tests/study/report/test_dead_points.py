@@ -15,8 +15,8 @@ from support.emitted import mechanism_of
 import symgen
 from symgen.analyses.reached_limits import reached_limits
 from symgen.run.single.outcome import RankEvent
+from symgen.study.report.dead_points import outside_passages, passages
 from symgen.study.report.key_numbers import key_numbers
-from symgen.study.report.passages import outside_passages, passages
 from symgen.study.report.verdict import verdict_on_run
 
 
