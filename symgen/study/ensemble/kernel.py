@@ -104,7 +104,7 @@ class RowKernel:
         """
         recipe, k, n_times = self.recipe, len(rows), len(self.recipe.spec.times)
         values, behind = (np.full((k, len(q), n_times), np.nan) for q in (recipe.columns, recipe.behind))
-        out = Results(values, np.zeros((k, e.N_SUMMARY)), np.zeros((k, recipe.further)), behind)
+        out = Results(values, np.zeros((k, e.N_SUMMARY)), np.zeros((k, recipe.of_events)), behind)
         everything = np.arange(k, dtype=np.int64)
         complete = self._run_with(self.first_model, rows, everything, out, control)
         light = np.flatnonzero((out.summary[:, e.LIGHT] == 1.0) & (out.summary[:, e.START] == e.ASSEMBLED))
@@ -112,11 +112,15 @@ class RowKernel:
             out.summary[light] = 0.0
             complete = self._run_with(spare, rows, light.astype(np.int64), out, control)
             out.summary[light, e.LIGHT] = 1.0
-        left = recipe.in_order(values, behind)
+        left, judged = recipe.in_order(values, behind), np.zeros((k, 0))
+        if recipe.judged is not None:
+            count = len(recipe.shown)
+            left, columns = left[:, :count], left[:, count:]
+            judged = recipe.judged.judge_rows(rows.parameters, columns)
         if recipe.over is not None:
             done = (out.summary[:, e.START] == e.ASSEMBLED) & (out.summary[:, e.CODE] == abi.DONE)
             left = recipe.over.evaluate_runs(left, recipe.times, done)
-        return Chunk(left, np.hstack([out.summary, out.events]), complete)
+        return Chunk(left, np.hstack([out.summary, out.events, judged]), complete)
 
     def _described_rows(self, model: _Prepared, rows: Rows) -> Instant:
         """Return rows as they are described."""
@@ -203,7 +207,7 @@ class RowKernel:
         if on_tree is None:
             return LoopRuns(recipe, compiled, integrator, setup, recipe.picks, watched, other)
         assert watch is not None and recipe.tree is not None, "runs on a tree have both"
-        info, plain = compiled.info, recipe.sources <= PLAIN and recipe.measures is None
+        info, plain = compiled.info, recipe.sources <= PLAIN and recipe.measures is None and recipe.judged is None
         turns = places_of_turns(watch.mechanism, recipe.tree, compiled.shape)
         picks = motion = motion_picks(info, own.info, turns)
         if plain:

@@ -32,6 +32,7 @@ from symgen.run.layout.compiled import CompiledModel
 from symgen.run.layout.ensemble_abi import SIDE
 from symgen.run.loops.run_spec import RunSpec
 from symgen.run.starts.held import Held
+from symgen.study.ensemble.judged_parts import WIDTH, JudgedParts
 from symgen.study.ensemble.measured_quantities import Measures, store_modules
 from symgen.study.ensemble.time_statistics import OverTime
 
@@ -193,6 +194,8 @@ class Recipe:
         What is taken of the quantities over the time of each run; None where their histories are kept.
     weighed : Mechanism or None
         The mechanism where its M is not diagonal, which starts may need.
+    judged : JudgedParts or None
+        Parts that bend, whose columns are the last quantities; None where there are none, or nothing judges them.
     """
 
     first: Code
@@ -213,11 +216,17 @@ class Recipe:
     datum: tuple[float, ...] = ()
     over: OverTime | None = None
     weighed: Mechanism | None = None
+    judged: JudgedParts | None = None
+
+    @property
+    def shown(self) -> tuple[Signal, ...]:
+        """The selected quantities."""
+        return self.quantities[: len(self.quantities) - (0 if self.judged is None else len(self.judged.columns))]
 
     @property
     def kept(self) -> tuple[Signal, ...]:
         """What each run leaves: the quantities, or numbers of them over time."""
-        return self.quantities if self.over is None else self.over.quantities
+        return self.shown if self.over is None else self.over.quantities
 
     @property
     def kept_times(self) -> Array:
@@ -245,9 +254,14 @@ class Recipe:
         return self.first.measures
 
     @property
-    def further(self) -> int:
+    def of_events(self) -> int:
         """Numbers that each run leaves of events."""
         return 0 if self.watch is None else self.watch.width
+
+    @property
+    def further(self) -> int:
+        """Numbers that each run leaves beside the numbers of every ensemble: of events, then of parts that bend."""
+        return self.of_events + (0 if self.judged is None else WIDTH)
 
     @property
     def columns(self) -> tuple[Signal, ...]:
@@ -287,6 +301,7 @@ class Recipe:
                 *(x if x is None else x.described for x in (self.first, self.spare, self.watch)),
                 None if self.tree is None else mechanism_digest(self.tree),
                 *([] if self.weighed is None else [mechanism_digest(self.weighed)]),
+                *([] if self.judged is None else [mechanism_digest(self.judged.mechanism)]),
             ],
             sort_keys=True,
         )

@@ -116,7 +116,7 @@ class RowSensitivities:
 
 
 def _quantities_with_labels(sweep: Sweep) -> Any:
-    quantities = sweep.ensemble.recipe.quantities
+    quantities = sweep.ensemble.recipe.shown
     return zip(dataset_names([q.name for q in quantities], sweep.ensemble.grid.axes), quantities, strict=True)
 
 

@@ -20,7 +20,8 @@ from symgen.describe.facts.sides import sided_joints
 from symgen.describe.facts.typed_units import units_of_number
 from symgen.describe.formulas.evaluate import dependent_parameters, parameter_values, scalar_values
 from symgen.describe.formulas.formula_text import to_text
-from symgen.describe.parts.event_sections import RECORD
+from symgen.describe.parts.event_sections import RECORD, STOP
+from symgen.result.part_limits import limits_of_parts
 from symgen.run.breaks.motions import refuse_jumps
 from symgen.run.breaks.seams import Foreseen, foresee_in_run, times_between
 from symgen.run.compiling.choices import LARGEST_STRAIGHT, mechanism_on_tree
@@ -35,11 +36,12 @@ from symgen.run.planning.tree_starts import tree_code
 from symgen.study.ensemble.axes import Grid, make_grid
 from symgen.study.ensemble.driving import Driving, read_by_motions
 from symgen.study.ensemble.ensemble import Ensemble
+from symgen.study.ensemble.judged_parts import JudgedParts
 from symgen.study.ensemble.kernel import kernel_of_recipe
 from symgen.study.ensemble.measured_quantities import first_integral, make_measures
 from symgen.study.ensemble.recipe import Code, EventPlan, Module, Recipe, run_code_identity
 from symgen.study.ensemble.row_quantities import choose_quantities
-from symgen.study.ensemble.time_statistics import read_statistics, split_statistic
+from symgen.study.ensemble.time_statistics import ends_of, read_statistics, split_statistic
 from symgen.study.ensemble.varied_names import METHOD, Names, start_targets
 
 if TYPE_CHECKING:
@@ -82,7 +84,7 @@ def make_ensemble(
     """
     _check_settings(settings, target)
     taken = (*settings.inputs, *settings.parameters, *settings.start)
-    settings, ends = _settings_for(model.mechanism, settings, quantities, target)
+    settings, ends, along = _settings_for(model.mechanism, settings, quantities, target)
     plan = make_plan(model.mechanism, settings, Purpose.ROWS)
     mechanism, spec = plan.mechanism, plan.spec
     names, grid = _names_and_grid(plan, vary, runs, taken)
@@ -108,7 +110,8 @@ def make_ensemble(
     _check_loop(target, plan.integrator, spec.adaptive)
     parts, choose = [*map(split_statistic, kept_names or ())], partial(choose_quantities, mechanism, compiled.info)
     kept = choose(None if kept_names is None else [name for _, name in parts])
-    over = read_statistics(parts, kept, choose)
+    over = read_statistics(parts, kept, choose) or (ends_of(kept) if along else None)
+    judged = JudgedParts.of_mechanism(mechanism, compiled.info) if target == "cpu" else None
     sums = _has_integrals(mechanism, kept, target)
     watch = EventPlan(mechanism, events, ends) if joint or events or looks or mechanism.bounded else None
     # single runs add up all that outputs ask for, which their steps follow, too
@@ -120,7 +123,7 @@ def make_ensemble(
         integrator=plan.integrator.name,
         spec=spec,
         method_parameters=dict(plan.method_parameters),
-        quantities=kept,
+        quantities=kept if judged is None else (*kept, *judged.columns),
         held=targets.held,
         strict=plan.settings.strict,
         code=run_code_identity(),
@@ -132,20 +135,28 @@ def make_ensemble(
         plugins=loaded_plugin_files(),
         over=over,
         weighed=mechanism if has_coupled_masses(mechanism) else None,
+        judged=judged,
         datum=tuple(origin_of_sizes(mechanism, scalar_values(parameter_values(mechanism, plan.parameters)))),
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of_recipe(recipe).first_model
     model = replace(model, mechanism=mechanism)
-    warnings = *plan.warnings, *_warnings_of_missed(plan, passed_times, grid), *_warnings_on_modes(mechanism)
+    warnings = (
+        *plan.warnings,
+        *_warnings_of_missed(plan, passed_times, grid),
+        *_warning_on_parts(mechanism, target, ends),
+    )
     notes = *mechanism.remarks, *plan.notes, *plan.bound
     return Ensemble(model, plan, compiled, grid, targets, recipe, driving, warnings, notes)
 
 
 def _settings_for(
     mechanism: Mechanism, settings: Settings, quantities: Sequence[str] | None, target: str
-) -> tuple[Settings, bool]:
-    """Return the settings of runs on a target, and whether only the end of each is kept."""
+) -> tuple[Settings, bool, bool]:
+    """Return the settings of runs on a target, whether only the end of each is an output, and whether it alone is kept.
+
+    Where parts bend, runs that no event ends have all outputs, at which the limits of parts are judged.
+    """
     size = mechanism.body_coordinates
     if size > LARGEST_STRAIGHT:
         raise InputError("sweep", f"a mechanism of at most {LARGEST_STRAIGHT} coordinates", f"{size} coordinates")
@@ -155,6 +166,9 @@ def _settings_for(
         and settings.output_step is None
         and not any(split_statistic(x)[0] for x in quantities or ())
     )
+    stopping = any(event.action == STOP for event in mechanism.events) or bool(settings.stop_when)
+    along = ends and target == "cpu" and not stopping and bool(limits_of_parts(mechanism))
+    ends = ends and not along
     if ends:
         end = mechanism.defaults.until if settings.until is None else settings.until
         settings = replace(settings, times=(end,))
@@ -163,7 +177,7 @@ def _settings_for(
         explicit = EXPLICIT if named == AUTO else named or CONSTANT  # others have no loop there
         settings = replace(settings, coordinates="absolute", integrator=explicit)
         refuse_events(f"target '{target}'", mechanism, settings)
-    return settings, ends
+    return settings, ends, along
 
 
 def _names_and_grid(
@@ -242,11 +256,13 @@ def _warnings_of_missed(plan: Plan, passed_times: Foreseen, grid: Grid) -> tuple
     return plan.missed if passed_times else ()
 
 
-def _warnings_on_modes(mechanism: Mechanism) -> tuple[str, ...]:
-    """Return a warning of what only single runs are examined for: whether linear modes hold."""
-    if not mechanism.has_modal_bodies:
+def _warning_on_parts(mechanism: Mechanism, target: str, ends: bool) -> tuple[str, ...]:
+    """Return a warning where the limits of parts that bend are not judged along whole runs."""
+    if not limits_of_parts(mechanism) or (target == "cpu" and not ends):
         return ()
-    return ("forces and turns beyond what linear modes can do are looked for in single runs alone",)
+    if target == "cpu":
+        return ("how far parts bend is judged at the ends of runs alone, as an event may end them before",)
+    return ("how far parts bend is not judged on this target; rows on 'cpu' and single runs judge it",)
 
 
 def _check_settings(settings: Settings, target: str) -> None:

@@ -103,6 +103,8 @@ class Sweep:
         modes = () if recipe.watch is None else mode_events(recipe.tree or recipe.watch.mechanism)
         named = EventNames(events, rows, recipe.tree is not None, tuple(event.name for event in modes))
         status, reason = judge_runs(self.summary, self.done, compiled.info, compiled.law, recipe.spec, named)
+        if recipe.judged is not None:
+            recipe.judged.doubt(status, reason, self.summary)
         failed = self.done & (summary_column(self.summary, "start") != ASSEMBLED)
         for row, why in self.ensemble.driving.rows_refused(self.ensemble, failed):
             reason[row] = why

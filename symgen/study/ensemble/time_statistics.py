@@ -88,6 +88,11 @@ class OverTime:
         return numbers
 
 
+def ends_of(kept: Sequence[Signal]) -> OverTime:
+    """Return the values of quantities at the end of each run."""
+    return OverTime(tuple(kept), ("",) * len(kept), tuple(range(len(kept))))
+
+
 def read_statistics(
     parts: Sequence[tuple[str, str]], kept: Sequence[Signal], choose: Callable[[Sequence[str]], tuple[Signal, ...]]
 ) -> OverTime | None:
