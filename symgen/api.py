@@ -102,6 +102,11 @@ class Model(Analysed, Shown):
         """Name of the mechanism."""
         return self.mechanism.name
 
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What a reader of any result has to know of the model; all results repeat it."""
+        return self.mechanism.remarks
+
     def parameters(self, changed: Mapping[str, float] | None = None) -> dict[str, float]:
         """Return the values of all parameters; values in `changed` replace the described ones.
 

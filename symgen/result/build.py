@@ -14,9 +14,8 @@ from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.judge import judge, reason_without_check
 from symgen.result.labelled import label_columns
 from symgen.result.motion_tables import Measured
-from symgen.result.part_limits import doubt_on_outputs
 from symgen.result.reactions import Forces, seats_of_reactions
-from symgen.result.result import FAILED, UNVERIFIED, Rank, Result, Seconds
+from symgen.result.result import FAILED, Rank, Result, Seconds
 from symgen.run.layout import abi
 from symgen.run.planning.automatic import stiff_by_steps
 from symgen.run.planning.continuation import settings_as_json
@@ -144,10 +143,8 @@ def _seconds_by_stage(run: Prepared, outcome: Outcome, run_spread: float) -> Sec
 def _judge_outcome(
     run: Prepared, outcome: Outcome, verification: Verification | None, values: Mapping[str, float]
 ) -> Verdict:
-    """Judge an outcome in coordinates of bodies; say what bends too far, is undefined, or is at a dead centre."""
+    """Judge an outcome in coordinates of bodies; say what is undefined, or is at a dead centre."""
     mechanism, verdict = run.plan.mechanism, judge(run, outcome, verification)
-    if verdict.status != FAILED and (doubt := doubt_on_outputs(mechanism, values, outcome)) is not None:
-        verdict = replace(verdict, status=UNVERIFIED, reason=doubt)
     if verdict.status == FAILED and (undefined := undefined_at_end(mechanism, outcome)):
         verdict = replace(verdict, reason=f"{str(verdict.reason).partition('; ')[0]}: {undefined}")
     if verdict.status == FAILED and (locked := dead_centre_at_end(mechanism, outcome)):

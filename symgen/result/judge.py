@@ -13,6 +13,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from symgen.base.ir.numerics import WARN
+from symgen.describe.formulas.evaluate import parameter_values
+from symgen.result.part_limits import doubt_on_outputs
 from symgen.result.result import FAILED, INTERRUPTED, OK, UNVERIFIED
 from symgen.run.layout import abi
 
@@ -82,15 +84,24 @@ def is_long(run: Prepared, outcome: Outcome) -> bool:
 
 
 def judge(run: Prepared, outcome: Outcome, second: Verification | None = None) -> Verdict:
-    """Judge a run by what its loop saw, and by a second run where there was one.
+    """Judge a run by what its loop saw, by a second run where there was one, and by how far its parts bend.
 
     Parameters
     ----------
     run, outcome : Prepared, Outcome
-        The run.
+        The run, and its outcome in coordinates of bodies.
     second : Verification, optional
-        Verification by a run with finer steps; it settles all doubts but those of energy that jumped.
+        Verification by a run with finer steps; it settles all doubts but those of energy that jumped and of parts.
     """
+    verdict, plan = _judge_motion(run, outcome, second), run.plan
+    if verdict.status == FAILED:
+        return verdict
+    doubt = doubt_on_outputs(plan.mechanism, parameter_values(plan.mechanism, plan.parameters), outcome)
+    return verdict if doubt is None else replace(verdict, status=UNVERIFIED, reason=doubt)
+
+
+def _judge_motion(run: Prepared, outcome: Outcome, second: Verification | None = None) -> Verdict:
+    """Judge a run by what its loop saw, and by a second run where there was one."""
     verdict = judge_alone(outcome, run.compiled.law)
     verdict = replace(
         verdict, warnings=(*verdict.warnings, *_velocity_warning(run, outcome), *_energy_warning(run, outcome, second))

@@ -72,7 +72,8 @@ def _limits_of_body(mechanism: Mechanism, body: AnyBody, modal: Modal) -> Iterat
             return f"{words}, where {pushed_most:g} is the most: {ADVICE}"
 
         def turned(_: Mapping[str, float], motion: MotionOfBodies, own: CarriedInterface = own) -> Array:
-            return np.linalg.norm(moving(motion).m @ np.array(own.turn), axis=1) / MOST_TURNED
+            turns = moving(motion).m @ np.array(own.turn)
+            return np.asarray(np.linalg.norm(turns, axis=1) / MOST_TURNED)
 
         def say_turned(factor: float, name: str = other.name) -> str:
             words = f"interface {name} is turned by {factor * MOST_TURNED:.2g} rad against its body"

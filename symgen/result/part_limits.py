@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
+#: What is said of parts that bend where nothing judges them.
+UNJUDGED = "how far parts bend is judged by runs, sweeps and analyses of symgen, and not here"
+
+
 class MotionOfBodies(NamedTuple):
     """Coordinates, velocities and accelerations of bodies at some times; arrays have one row a time."""
 
@@ -54,6 +58,11 @@ def limits_of_parts(mechanism: Mechanism) -> tuple[PartLimit, ...]:
 
         limits += limits_of_modes(mechanism)
     return tuple(limits)
+
+
+def remarks_without_limits(mechanism: Mechanism) -> tuple[str, ...]:
+    """Return the remarks on a model for what judges no limits: emitted code, environments, motions in a page."""
+    return (*mechanism.remarks, *((UNJUDGED,) if limits_of_parts(mechanism) else ()))
 
 
 def largest_excess(

@@ -19,6 +19,7 @@ from symgen.describe.parts.input_data import are_words_of_data
 from symgen.result.export import SAVED
 from symgen.result.labelled import Array, Labelled, columns_at, least_scale, unit_scales
 from symgen.result.live_run import LIVE_INTEGRATOR, is_live, live_of_run
+from symgen.result.part_limits import remarks_without_limits
 from symgen.result.player.live import NONE, Live
 from symgen.result.player.motion_page import Page, live_script, motion_page, page_data
 from symgen.result.player.recording import PlottedGroup, RecordedEvent, Recording, groups_by_unit, position_groups
@@ -111,7 +112,7 @@ def _recording_of_result(
     """Return a motion as a page plays it, with facts of its run by the names of JSON."""
     facts = [("", run["method"]), ("", run["integrator"]), ("status", run["status"])]
     facts += [("", run["reason"])] if run["reason"] else []
-    facts += [("remark", sentence) for sentence in mechanism.remarks]
+    facts += [("remark", sentence) for sentence in remarks_without_limits(mechanism)]
     moments = [
         RecordedEvent(e["t_in"], e["t_out"], "rank", f"rank {e['rank']}, smallest pivot {e['smallest_pivot']:.1e}")
         for e in run.get("rank_events", [])

@@ -26,6 +26,7 @@ from symgen.describe.parts.input_data import are_words_of_data
 from symgen.result.labelled import Labelled, label_columns
 from symgen.result.motion_tables import Tables
 from symgen.result.over_time import time_rms
+from symgen.result.part_limits import doubt_on_outputs
 from symgen.result.reactions import Forces, seats_of_reactions
 from symgen.result.saved import Recorded, read_recorded, recorded_motion
 from symgen.run.breaks.seams import seams_of_motion
@@ -270,6 +271,8 @@ def _efforts_of_record(
     power = balanced.efforts[:, columns] * balanced.rates
     if (motion.start.redundant_rows or info.dropped_rows) and forces.non_unique:
         balanced.notes.append("reactions are not unique at " + ", ".join(forces.non_unique))
+    if (doubt := doubt_on_outputs(loose, values, motion)) is not None:
+        balanced.notes.append(f"beyond the limits of its parts: {doubt}")
     return Inverse(
         mechanism=mechanism.name,
         t=motion.times,

@@ -298,7 +298,7 @@ def _fit_with_statistics(task: Identification, solution: Any) -> Fit:
 
     x, (residuals, slopes), labels = solution.x, task.residuals_and_slopes(solution.x), task.labels
     sizes = np.where(x != 0.0, np.abs(x), task.sizes)
-    null, notes = null_directions(slopes, sizes, labels), list[str]()
+    null, notes = null_directions(slopes, sizes, labels), [*task.free.mechanism.remarks]
     if solution.status == 0:
         notes.append(f"the search ended after {plural(solution.nfev, 'step')} before it was still")
     active = solution.active_mask != 0

@@ -23,6 +23,7 @@ from symgen.analyses.linear.linear_system import eigenvectors_of_states, vibrati
 from symgen.analyses.rest.steady import at_rest, named_states
 from symgen.analyses.state.algebra import json_form, null_space_split, rank_order, sort_eigenvalues
 from symgen.analyses.state.edges import sentence_on_edges
+from symgen.analyses.state.part_doubts import sentence_on_parts
 from symgen.analyses.state.reduced import StateTangent, descriptor_accelerations, tangent_system
 from symgen.analyses.state.subject import Subject
 from symgen.base.errors import plural
@@ -189,7 +190,12 @@ def modes_about(
         shapes = shapes / np.maximum(largest, 1e-300)
     tables, notes = (
         _shares_of_modes(x, vectors, bodies),
-        (*subject.notes, *subject.sentence_if_singular(subject.rows(x.base)), *sentence_on_edges(subject, y)),
+        (
+            *subject.notes,
+            *subject.sentence_if_singular(subject.rows(x.base)),
+            *sentence_on_parts(subject, y, x.a),
+            *sentence_on_edges(subject, y),
+        ),
     )
     shapes = shapes.T.astype(np.complex128)
     return Modes(sort_eigenvalues(values), squares, x.velocities, names, shapes, *tables, about, x.t, notes)

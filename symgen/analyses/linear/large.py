@@ -27,10 +27,12 @@ from symgen.analyses.state.algebra import (
 )
 from symgen.analyses.state.edges import sentence_on_edges
 from symgen.analyses.state.moving_drivers import note_on_forces_of_time, note_on_moving_drivers, refuse_moving_drivers
+from symgen.analyses.state.part_doubts import sentence_on_motion
 from symgen.analyses.state.sparse_statics import Sparse
 from symgen.analyses.state.subject import put_inputs_at_start
 from symgen.base.errors import AnalysisError, InputError
 from symgen.base.settings import Settings
+from symgen.result.part_limits import MotionOfBodies
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
 from symgen.run.loops.newton import Pattern
@@ -113,7 +115,7 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     about = {name: float(x) for name, x in zip(names, y, strict=False)}
     shapes = (motion @ vectors).T.astype(np.complex128)
     owners = np.array([v.name.rpartition(".")[0] for v in sparse.compiled.info.velocities])
-    notes = (*mechanism.remarks, *note_on_forces_of_time(sparse.mechanism, 0.0), *sentence_on_edges(sparse, y))
+    notes = (*_sentences_on_state(sparse, y), *sentence_on_edges(sparse, y))
     energy = vectors * (mass @ vectors)
     bodies = {body: energy[owners == body].sum(axis=0) / energy.sum(axis=0) for body in dict.fromkeys(owners.tolist())}
     return Modes(
@@ -170,11 +172,21 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
         y=y,
         lam=lam,
         notes=(
-            *mechanism.remarks,
             *note_on_moving_drivers(sparse.mechanism, sparse.compiled, sparse.p, 0.0),
-            *note_on_forces_of_time(sparse.mechanism, 0.0),
+            *_sentences_on_state(sparse, y),
             *sentence_on_edges(sparse, y),
         ),
+    )
+
+
+def _sentences_on_state(sparse: Sparse, y: Array) -> tuple[str, ...]:
+    """Return remarks on the model, and sentences on forces of time and on parts that bend at a state of rest."""
+    info, still = sparse.compiled.info, np.zeros((1, sparse.pattern.nv))
+    values = {q.name: float(x) for q, x in zip(info.parameters, sparse.p, strict=False)}
+    return (
+        *sparse.mechanism.remarks,
+        *note_on_forces_of_time(sparse.mechanism, 0.0),
+        *sentence_on_motion(sparse.mechanism, values, MotionOfBodies(y[np.newaxis, : info.nq], still, still)),
     )
 
 

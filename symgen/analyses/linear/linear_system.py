@@ -24,6 +24,7 @@ from symgen.analyses.state.algebra import (
     sum_of_parts,
 )
 from symgen.analyses.state.edges import sentence_on_edges
+from symgen.analyses.state.part_doubts import sentence_on_parts
 from symgen.analyses.state.reduced import StateTangent, tangent_system
 from symgen.analyses.state.subject import Subject
 from symgen.base.digits import clear_matrix_rounding
@@ -178,6 +179,7 @@ def linear_system(subject: Subject, y: Array, states: Sequence[str] = (), instan
         (
             *subject.notes,
             *subject.sentence_if_singular(subject.rows(x.base)),
+            *sentence_on_parts(subject, y, x.a),
             *sentence_on_edges(subject, y, x.a, outputs),
         ),
         tuple(eigenvectors_of_states(x, names, vibration_about_rest(x))[0].tolist()),

@@ -26,6 +26,7 @@ from symgen.analyses.state.algebra import (
 )
 from symgen.analyses.state.edges import sentence_on_edges
 from symgen.analyses.state.one_sided import fault_of_mode
+from symgen.analyses.state.part_doubts import sentence_on_parts
 from symgen.analyses.state.reduced import tangent_system
 from symgen.analyses.state.subject import Subject
 from symgen.base.errors import AnalysisError, InputError, plural
@@ -138,7 +139,12 @@ def judge_equilibrium(rest: Settled) -> Equilibrium:
         not_unique=joints_not_unique(subject.mechanism, info, share),
         y=y,
         lam=lam,
-        notes=(*subject.notes, *subject.sentence_if_singular(d), *sentence_on_edges(subject, y)),
+        notes=(
+            *subject.notes,
+            *subject.sentence_if_singular(d),
+            *sentence_on_parts(subject, y),
+            *sentence_on_edges(subject, y),
+        ),
     )
 
 

@@ -17,6 +17,7 @@ from symgen.compile.native.directed_functions import directed_function
 from symgen.compile.native.formula_lines import C, NotInLines
 from symgen.compile.native.read import Foreign
 from symgen.derive.emit.module import render_template
+from symgen.result.part_limits import remarks_without_limits
 from symgen.result.targets._c_names import defined_names, prefix_of
 from symgen.result.targets._c_reasons import c_text
 from symgen.result.targets._c_runs import cells_of, check_integrator, places_of_scales, values_of_run
@@ -127,7 +128,7 @@ class CModel:
         alone = "the FMU is for co-simulation alone: an importer that integrates does not find modes of contacts"
         has_contacts = any(row.in_contact for row in self.mechanism.bounded)
         holding = "the FMU is for co-simulation alone: an importer that integrates does not choose rows of joints anew"
-        notes = [*self.mechanism.remarks, *([words] if self.prefix != name else [])]
+        notes = [*remarks_without_limits(self.mechanism), *([words] if self.prefix != name else [])]
         of_fmu = ((alone, has_contacts), (holding, bool(self.mechanism.holding)))
         notes += [sentence for sentence, said in of_fmu if said and self.target == "fmu"]
         return tuple(notes)
@@ -172,7 +173,7 @@ class CModel:
         return {
             "name": mechanism.name,
             "title": mechanism.title or mechanism.name,
-            "remarks": [(sentence, c_text(sentence)) for sentence in mechanism.remarks],
+            "remarks": [(sentence, c_text(sentence)) for sentence in remarks_without_limits(mechanism)],
             "method": law.method,
             "prefix": self.prefix,
             "upper": self.prefix.upper(),

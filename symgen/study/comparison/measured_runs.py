@@ -84,7 +84,7 @@ def measure_run(
         relative_violation=None if distances is None else outcome.position_violation_max / (distances.size or 1.0),
         **_summaries_of_violations(violations),
         energy_drift_max=outcome.energy_drift_max,
-        warnings=(*plan.all_warnings, *outcome.start.warnings, *verdict.warnings),
+        warnings=(*plan.mechanism.remarks, *plan.all_warnings, *outcome.start.warnings, *verdict.warnings),
         law=law,
         creep=None if judged is None else judged.largest_creep(outcome),
         transitions=None if contact is None else contact.transitions,

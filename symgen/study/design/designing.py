@@ -231,7 +231,12 @@ class _Designing:
             reason = self._reason(best)
         if interrupted:
             reason = "interrupted: the values are the best so far"
-        notes = [*self.notes, *remarks_on_values(varied, x, best.fine), *self.watched.remarks(first.fine, best.fine)]
+        notes = [
+            *self.model.remarks,
+            *self.notes,
+            *remarks_on_values(varied, x, best.fine),
+            *self.watched.remarks(first.fine, best.fine),
+        ]
         if isinstance(aim, Aim):
             notes += remark_on_sign(aim, best.fine)
         if best is first and best.is_within and not interrupted:

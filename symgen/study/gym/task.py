@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from symgen.base import arguments
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.settings import Settings, change_settings, differs_from_default
+from symgen.result.part_limits import remarks_without_limits
 from symgen.run.integrators import INTEGRATORS
 
 if TYPE_CHECKING:
@@ -78,7 +79,7 @@ class Task:
     @property
     def remarks(self) -> dict[str, Any]:
         """Remarks on the model, as facts of a reset; empty without any."""
-        said = self.model.mechanism.remarks
+        said = remarks_without_limits(self.model.mechanism)
         return {"remarks": said} if said else {}
 
     def judge_step(self, values: Array, action: Array) -> tuple[Array, Any, Any]:

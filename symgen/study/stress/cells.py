@@ -162,7 +162,7 @@ def _run_cell(task: RunTask, searched: bool = False) -> Fields:
         raise KeyboardInterrupt
     if outcome.evaluations > budget or outcome.code == abi.STOPPED:
         return _outcome_not_run(judged.TOO_SLOW, f"more than {budget:.3g} evaluations", budget, chosen)
-    verdict = judge(run, outcome, verification)
+    verdict = judge(run, run.of_bodies(outcome), verification)
     assert verdict.reason != INTERRUPTED, "an interrupted run has raised"
     compared, note = _compare_with_reference(level, plan.parameters, run.of_bodies(outcome), motion), ""
     kind = classify_outcome(compared)
