@@ -21,6 +21,7 @@ from symgen.result.part_limits import remarks_without_limits
 from symgen.result.targets._c_names import defined_names, prefix_of
 from symgen.result.targets._c_reasons import c_text
 from symgen.result.targets._c_runs import cells_of, check_integrator, places_of_scales, values_of_run
+from symgen.result.targets._joint_outputs import with_joint_outputs
 from symgen.run.compiling.checked import check_kernels, checked_function
 from symgen.run.compiling.printed import WEIGHED, Printed, PrintedEvents
 from symgen.run.compiling.printed_meanings import OF_TRANSITIONS
@@ -93,6 +94,8 @@ class CModel:
         """
         check_integrator(request.integrator)
         run = prepare(request.mechanism, request.settings(target), Purpose.STATE)
+        if run.tree is not None:  # outputs take no part in the code of a state
+            run = prepare(with_joint_outputs(request.mechanism), request.settings(target), Purpose.STATE)
         model = cls(target, run, request.integrator is not None, request.derivatives)
         operations = model.compiled.law.operations.get("rhs", 0)
         if operations > MOST_OPERATIONS:
@@ -181,6 +184,7 @@ class CModel:
             "ni": len(COUNTERS),
             "columns": self.columns,
             "outputs": mechanism.outputs,
+            "state_names": [q.name for q in (*info.coordinates, *info.velocities)],
             "events": mechanism.events,
             "moded": bool(mechanism.bounded),
             "whole": self.printed_run is not None,

@@ -26,6 +26,7 @@ from symgen.result.targets._base_units import base_unit
 from symgen.result.targets._c_model import CModel, sources
 from symgen.result.targets._fmu_modes import indicator_names, values_of_exchange
 from symgen.result.targets._fmu_structure import outputs_of_states
+from symgen.result.targets._joint_outputs import names_of_states
 from symgen.result.targets._target import Request, Target
 from symgen.run.planning.package import Package
 
@@ -124,8 +125,8 @@ def _variables(model: CModel, values: Mapping[str, Any], fmi: int) -> dict[str, 
         variability = "discrete" if output.name in modes else "continuous"
         outputs.append(ModelVariable(name, _OUTPUT + i, "output", variability, unit=output.unit))
     count = values["states"]
-    what = "independent coordinate or velocity, state or integral"
-    states = [ModelVariable(f"state.{i + 1}", _STATE + i, "local", description=what) for i in range(count)]
+    what, own = "independent coordinate or velocity, state or integral", names_of_states(model.compiled.info, count)
+    states = [ModelVariable(f"state.{n}", _STATE + i, "local", description=what) for i, n in enumerate(own)]
     rates = [ModelVariable(f"der({s.name})", _RATE + i, "local", derivative=s) for i, s in enumerate(states)]
     marks = _named_apart([f"event.{name}" for name in indicator_names(model)]) if fmi == 3 else []
     indicators = [ModelVariable(name, _EVENT + i, "local") for i, name in enumerate(marks)]
