@@ -125,8 +125,8 @@ def _variables(model: CModel, values: Mapping[str, Any], fmi: int) -> dict[str, 
         variability = "discrete" if output.name in modes else "continuous"
         outputs.append(ModelVariable(name, _OUTPUT + i, "output", variability, unit=output.unit))
     count = values["states"]
-    what, own = "independent coordinate or velocity, state or integral", names_of_states(model.compiled.info, count)
-    states = [ModelVariable(f"state.{n}", _STATE + i, "local", description=what) for i, n in enumerate(own)]
+    what, called = "independent coordinate or velocity, state or integral", names_of_states(model.compiled.info, count)
+    states = [ModelVariable(f"state.{n}", _STATE + i, "local", description=what) for i, n in enumerate(called)]
     rates = [ModelVariable(f"der({s.name})", _RATE + i, "local", derivative=s) for i, s in enumerate(states)]
     marks = _named_apart([f"event.{name}" for name in indicator_names(model)]) if fmi == 3 else []
     indicators = [ModelVariable(name, _EVENT + i, "local") for i, name in enumerate(marks)]
