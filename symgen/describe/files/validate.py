@@ -51,7 +51,7 @@ from symgen.describe.parts.kinds import read_force
 from symgen.describe.parts.limits import read_limits_of_entry
 from symgen.describe.parts.meant_words import hint_on_section
 from symgen.describe.parts.numbers import read_run_defaults, read_table_function
-from symgen.describe.parts.own_units import check_own_unit
+from symgen.describe.parts.own_units import in_own_unit
 from symgen.describe.parts.parameters import Parameters
 from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.sections import MechanismSection, OutputSection
@@ -395,6 +395,6 @@ class _Validator:
         scope = self.scope_of_entry("outputs", name)
         value = scope.of_motion(key, section.value)
         unit = unit_of(section.unit, f"{where}.unit")
-        check_own_unit(scope, value, unit)
+        value = in_own_unit(scope, value, unit)
         self._limits += read_limits_of_entry(name, section, unit, self._numbers, where, si=False)
         return Output(name, value, unit.text)

@@ -153,7 +153,7 @@ Holds = Annotated[
 HoldsAt = Annotated[
     Literal["described", "present"], Meta(description="'described' or 'present', the positions that a catch keeps")
 ]
-PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]
+Duration = Annotated[float | str, Meta(description="a number of seconds above 0, or one with its unit")]
 
 #: Keys, with their types, that joints of any kind may have besides their own and those of rows with bounds.
 OF_ANY_JOINT: Mapping[str, Any] = {

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from symgen.base.errors import InputError
+from symgen.base.errors import InputError, quote
+from symgen.base.units import read_amount
 from symgen.describe.mechanism import Defaults
 from symgen.describe.parts.fields import read_table
 from symgen.describe.parts.sections import RunSection, TableSection
@@ -44,16 +45,32 @@ def read_table_function(name: str, raw: object, where: str) -> Table:
     return table
 
 
+#: Keys of ``[run]`` that are times.
+_TIMES = ("until", "step", "output_step", "max_step", "predictable_until")
+
+
 def read_run_defaults(raw: object, where: str, source: str) -> Defaults:
     """Return the defaults of runs; `source` says where the data of the mechanism come from."""
     run = read_table(RunSection, raw, where)
-    for key in ("until", "step", "output_step", "max_step", "predictable_until"):
-        value = getattr(run, key)
-        if value is not None and not math.isfinite(value):
-            raise InputError(f"{where}.{key}", "a finite number", str(value))
+    times = {key: _duration(getattr(run, key), f"{where}.{key}") for key in _TIMES}
+    until, own, output_step, max_step, predictable = times.values()
+    assert until is not None, "it has a default"
     usual = Defaults().step
-    step = run.step or (usual if run.until >= usual else 0.01 * run.until)
-    if step > run.until:
-        raise InputError(f"{where}.step", f"at most until = {run.until!r}", repr(step))
-    further = source, run.step, run.integrator, run.verify
-    return Defaults(run.until, step, run.output_step, run.predictable_until, run.max_step, *further)
+    step = own or (usual if until >= usual else 0.01 * until)
+    if step > until:
+        raise InputError(f"{where}.step", f"at most until = {until!r}", repr(step))
+    return Defaults(until, step, output_step, predictable, max_step, source, own, run.integrator, run.verify)
+
+
+def _duration(value: float | str | None, where: str) -> float | None:
+    """Return a time above 0 [s], of a number of seconds or a text with its unit."""
+    if isinstance(value, str):
+        amount = read_amount(value)
+        if amount is None:
+            raise InputError(where, "a number of seconds above 0, or one with its unit", quote(value))
+        value = amount.in_si(where, "s")
+    if value is not None and not value > 0.0:
+        raise InputError(where, "a number above 0", str(value))
+    if value is not None and not math.isfinite(value):
+        raise InputError(where, "a finite number", str(value))
+    return value

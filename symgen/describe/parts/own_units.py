@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from symgen.base.errors import InputError, quote
 from symgen.base.units import Unit, known_unit, read_amount, read_unit, unit_of
-from symgen.base.vocabulary.expressions import Call, Expr, Name, Number, Reading, names_in_expression
+from symgen.base.vocabulary.expressions import Call, Expr, Name, Number, Reading, call, names_in_expression
 from symgen.base.vocabulary.quantities import Quantity
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.parser import FormulaNames, parse
@@ -86,8 +86,8 @@ def as_written(mechanism: Mechanism, quantity: Quantity, values: Mapping[str, fl
     return (value, quantity.unit) if parameter is None else parameter.as_written(value)
 
 
-def check_own_unit(scope: Scope, value: Expr, unit: Unit) -> None:
-    """Refuse an output that is one quantity of the motion, with a unit in which its number is another.
+def in_own_unit(scope: Scope, value: Expr, unit: Unit) -> Expr:
+    """Return the formula of an output in its unit: of one quantity of the motion it is converted.
 
     Parameters
     ----------
@@ -95,17 +95,18 @@ def check_own_unit(scope: Scope, value: Expr, unit: Unit) -> None:
         The place of the output.
     value, unit : Expr, Unit
         Its formula and its unit; an empty one is none.
+
+    Raises
+    ------
+    InputError
+        If the output is one quantity, and the unit is one of another.
     """
     own = unit_of_quantity(scope, value) if unit.text else ""
     if not own or not isinstance(value, Name | Reading):
-        return
-    si = known_unit(own)
-    if not unit.fits(si):
+        return value
+    if not unit.fits(known_unit(own)):
         raise scope.error("unit", f"{own}, the unit of {value.name}", quote(unit.text))
-    if not unit.is_si:
-        factor = unit.from_si(1.0)
-        hint = f'the formula of the number in {unit.text} is "{factor:.12g}*{value.name}"'
-        raise scope.error("unit", f"{own}, the unit of {value.name}", quote(unit.text), hint)
+    return value if unit.is_si else call("mul", Number(unit.from_si(1.0)), value)
 
 
 def unit_of_quantity(scope: Scope, value: Expr) -> str:

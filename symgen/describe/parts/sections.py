@@ -7,13 +7,13 @@ from typing import Literal
 import msgspec
 
 from symgen.describe.parts.fields import (
+    Duration,
     Flag,
     Held,
     Numbers,
     OutputFunction,
     Point,
     Points,
-    PositiveNumber,
     Scalar,
     StateFunction,
     Tensor,
@@ -55,7 +55,7 @@ class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
 
 
 class RunSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """What a run uses where nothing else is asked for; all numbers in seconds.
+    """What a run uses where nothing else is asked for; numbers are in seconds, texts have their unit, as ``"4 min"``.
 
     Parameters
     ----------
@@ -73,11 +73,11 @@ class RunSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
     """
 
     integrator: Text | None = None
-    until: PositiveNumber = 10.0
-    step: PositiveNumber | None = None
-    output_step: PositiveNumber | None = None
-    max_step: PositiveNumber | None = None
-    predictable_until: PositiveNumber | None = None
+    until: Duration = 10.0
+    step: Duration | None = None
+    output_step: Duration | None = None
+    max_step: Duration | None = None
+    predictable_until: Duration | None = None
     verify: bool | None = None
 
 

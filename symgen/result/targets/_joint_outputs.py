@@ -1,4 +1,4 @@
-"""Outputs of emitted code whose state is that of joints: their coordinates and rates, and what exerts along them."""
+"""Outputs of emitted code in joint coordinates: coordinates and rates of joints, and what exerts along them."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _EFFORTS = ("N", "N m")
 
 
 def with_joint_outputs(mechanism: Mechanism) -> Mechanism:
-    """Return a mechanism whose outputs are followed by those of its joints, by the names of results.
+    """Return a mechanism with outputs of its joints after its own, by the names of results.
 
     These are the coordinates that joints report and their rates, and forces and torques of force elements.
     """
@@ -41,7 +41,7 @@ def _outputs_of_joints(mechanism: Mechanism) -> Iterator[Output]:
 
 
 def names_of_states(info: ModelInfo, count: int) -> list[str]:
-    """Return the names of the states of an importer: those of the code, if all of these are independent, else numbers.
+    """Return the names of an importer's states: names in the code, if all states there are independent, else numbers.
 
     Parameters
     ----------

@@ -16,6 +16,7 @@ from symgen.base import arguments
 from symgen.base.errors import InputError
 from symgen.base.unit_symbols import BASES, PLAIN, PREFIXABLE, PREFIXES, SYMBOLS
 from symgen.base.units import Unit, known_unit, read_amount, read_unit, unit_of
+from symgen.base.vocabulary.expressions import Call, Number
 from symgen.describe.facts.typed_units import Typed, typed_numbers_in_si, units_of_number
 from symgen.describe.files.load import parse_toml, set_parameters
 from symgen.describe.files.validate import validate
@@ -286,10 +287,9 @@ def test_a_file_in_other_units_is_that_in_si_units():
         ('"l/2", unit = "cm"', '"l - 5", unit = "cm"', "parameters.half: expected a formula of values in SI units"),
         (
             '"180/pi*rod.theta", unit = "deg"',
-            '"rod.theta", unit = "deg"',
+            '"rod.theta", unit = "mm"',
             "outputs.lean.unit: expected rad, the unit of",
         ),
-        ('"180/pi*rod.theta", unit = "deg"', '"rod.tip.x", unit = "mm"', 'the number in mm is "1000*rod.tip.x"'),
         (
             '"180/pi*rod.theta", unit = "deg"',
             '"pin.angle.rate", unit = "m"',
@@ -310,12 +310,37 @@ def test_a_unit_of_another_quantity_is_refused(written, other, message):
 
 
 def test_where_no_unit_is_read_the_number_in_si_units_is_said():
-    with pytest.raises(
-        InputError, match=re.escape("run.until: expected a number above 0, got '2 min'; numbers are in SI")
-    ):
-        rod(f'{ROD}[run]\nuntil = "2 min"\n')
     with pytest.raises(InputError, match=re.escape("got '600 mm'; numbers are in SI units here: 0.6")):
         arguments.number("parameters 'l'", "600 mm")
+
+
+@pytest.mark.parametrize(
+    ("quantity", "unit", "factor"),
+    [
+        ("rod.theta", "deg", 180.0 / math.pi),
+        ("rod.tip.x", "mm", 1000.0),
+        ("pin.angle.rate", "rpm", 30.0 / math.pi),
+        ("spring.force", "kN", 0.001),
+    ],
+)
+def test_an_output_of_one_quantity_is_converted_to_its_unit(quantity: str, unit: str, factor: float) -> None:
+    """It was refused, with the formula that does it."""
+    plain, converted = (
+        rod(ROD.replace('"180/pi*rod.theta", unit = "deg"', f'"{quantity}"{own}', 1)).outputs[0]
+        for own in ("", f', unit = "{unit}"')
+    )
+    value = converted.value
+    assert isinstance(value, Call) and value.function == "mul" and value.arguments[1] == plain.value
+    assert isinstance(value.arguments[0], Number) and value.arguments[0].value == pytest.approx(factor, rel=1e-15)
+    assert converted.unit == unit
+
+
+def test_times_of_runs_may_have_units() -> None:
+    times = rod(f'{ROD}[run]\nuntil = "2 min"\nstep = "5 ms"\noutput_step = 0.1\nmax_step = "0.5 s"\n').defaults
+    assert (times.until, times.step, times.output_step, times.max_step) == (120.0, 0.005, 0.1, 0.5)
+    for text, told in (("2 kg", "expected a unit such as s"), ("soon", "one with its unit"), ("-1 s", "above 0")):
+        with pytest.raises(InputError, match=f"run.until: .*{told}"):
+            rod(f'{ROD}[run]\nuntil = "{text}"\n')
 
 
 def test_values_from_python_are_in_si_units():
