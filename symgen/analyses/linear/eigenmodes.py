@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 from symgen.analyses.linear.linear_system import eigenvectors_of_states, vibration_about_rest
 from symgen.analyses.rest.steady import at_rest, named_states
 from symgen.analyses.state.algebra import json_form, null_space_split, rank_order, sort_eigenvalues
+from symgen.analyses.state.bent_parts import sentence_on_parts
 from symgen.analyses.state.edges import sentence_on_edges
-from symgen.analyses.state.part_doubts import sentence_on_parts
 from symgen.analyses.state.reduced import StateTangent, descriptor_accelerations, tangent_system
 from symgen.analyses.state.subject import Subject
 from symgen.base.errors import plural

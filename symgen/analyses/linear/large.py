@@ -25,9 +25,9 @@ from symgen.analyses.state.algebra import (
     symmetric_part,
     unit_stiffness,
 )
+from symgen.analyses.state.bent_parts import sentence_on_motion
 from symgen.analyses.state.edges import sentence_on_edges
 from symgen.analyses.state.moving_drivers import note_on_forces_of_time, note_on_moving_drivers, refuse_moving_drivers
-from symgen.analyses.state.part_doubts import sentence_on_motion
 from symgen.analyses.state.sparse_statics import Sparse
 from symgen.analyses.state.subject import put_inputs_at_start
 from symgen.base.errors import AnalysisError, InputError

@@ -23,8 +23,8 @@ from symgen.analyses.state.algebra import (
     squares_along,
     sum_of_parts,
 )
+from symgen.analyses.state.bent_parts import sentence_on_parts
 from symgen.analyses.state.edges import sentence_on_edges
-from symgen.analyses.state.part_doubts import sentence_on_parts
 from symgen.analyses.state.reduced import StateTangent, tangent_system
 from symgen.analyses.state.subject import Subject
 from symgen.base.digits import clear_matrix_rounding

@@ -24,9 +24,9 @@ from symgen.analyses.state.algebra import (
     squares_along,
     symmetric_part,
 )
+from symgen.analyses.state.bent_parts import sentence_on_parts
 from symgen.analyses.state.edges import sentence_on_edges
 from symgen.analyses.state.one_sided import fault_of_mode
-from symgen.analyses.state.part_doubts import sentence_on_parts
 from symgen.analyses.state.reduced import tangent_system
 from symgen.analyses.state.subject import Subject
 from symgen.base.errors import AnalysisError, InputError, plural

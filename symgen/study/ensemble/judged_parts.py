@@ -44,7 +44,7 @@ class JudgedParts:
 
     @classmethod
     def of_mechanism(cls, mechanism: Mechanism, info: ModelInfo) -> JudgedParts | None:
-        """Return those of a mechanism and its compiled model; None where no part bends."""
+        """Return the judged parts of a mechanism with a compiled model; None where no part bends."""
         if not limits_of_parts(mechanism):
             return None
         return cls(mechanism, tuple(q.name for q in info.parameters), (info.nq, info.nv))
