@@ -6,7 +6,7 @@ Whatever a message repeats of a file or an argument goes through `quote`, so tha
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -162,6 +162,13 @@ def quote(text: object, longest: int = LONGEST_QUOTE) -> str:
 def fit_lines(count: int, most: int) -> int:
     """Return how many of `count` lines to show: `most`, or all where only one would be left out."""
     return count if count <= most + 1 else most
+
+
+def enumeration(words: Sequence[str], last: str = "and") -> str:
+    """Return words as an enumeration: a, b and c."""
+    if len(words) < 2:
+        return "".join(words)
+    return f"{', '.join(words[:-1])} {last} {words[-1]}"
 
 
 def plural(n: int, one: str, many: str = "") -> str:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.errors import InputError, quote, suggest
+from symgen.base.errors import InputError, enumeration, quote, suggest
 from symgen.describe.facts.kinks import discontinuities_of
 from symgen.describe.facts.motion_quantities import QuantityNames
 from symgen.describe.formulas.reported_columns import TABLES as FORMULAS
@@ -173,8 +173,9 @@ class Differentiated:
         rows = own.resting_together
         if not rows:
             return ""
-        which = f"{', '.join(rows[:-1])} and {rows[-1]}"
-        return f"{which} rest together: derivatives of their forces there are those of one way to share them"
+        return (
+            f"{enumeration(rows)} rest together: derivatives of their forces there are those of one way to share them"
+        )
 
 
 class Sensitivities:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from symgen.base.errors import enumeration
+
 
 def unmoved_sentence(names: Sequence[str], among: str) -> str:
     """Return the sentence on numbers that change nothing.
@@ -15,6 +17,4 @@ def unmoved_sentence(names: Sequence[str], among: str) -> str:
     among : str
         Of what they change nothing, such as ``"that was measured"``.
     """
-    if len(names) == 1:
-        return f"{names[0]} changes nothing {among}"
-    return f"{', '.join(names[:-1])} and {names[-1]} change nothing {among}"
+    return f"{enumeration(names)} {'changes' if len(names) == 1 else 'change'} nothing {among}"

@@ -16,7 +16,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from symgen.analyses.fit.adjoint_gradient import adjoint_gradient, is_cheaper
-from symgen.analyses.fit.free_numbers import Bounds, FreeNumbers, arrays_of_bounds, names_with_bounds
+from symgen.analyses.search.free_numbers import FreeNumbers
+from symgen.analyses.search.measures import Remembering
+from symgen.analyses.search.ranges import Bounds, make_ranges, read_bounds
 from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError
 from symgen.describe.facts.lifted import lift_numbers
@@ -119,7 +121,7 @@ class Objective:
         by: Mapping[str, Bounds | None] | Sequence[str],
         way: str = "auto",
     ) -> None:
-        self._where, self.quantity, pairs = where, quantity, names_with_bounds(f"{where}: by", by)
+        self._where, self.quantity, pairs = where, quantity, read_bounds(f"{where}: by", by)
         own = lift_numbers(f"{where}: by", mechanism, tuple(pairs))
         mechanism, self._column = _add_output(where, own.mechanism, quantity)
         self._free = FreeNumbers(f"{where}: by", mechanism, settings, own.keys)
@@ -132,8 +134,8 @@ class Objective:
         self.doubt: str | None = None
         self.first, directions, prepared = self._run_with_derivatives(None)
         self.x0 = self._free.values(directions, prepared, self.first.result)
-        arrays_of_bounds(f"{where}: by", self.names, self.bounds, self.x0)
-        self._last: tuple[bytes, tuple[float, Array]] | None = None
+        make_ranges(f"{where}: by", pairs, self.x0, "the start")
+        self._gradient = Remembering(self._gradient_at)
 
     def __repr__(self) -> str:
         return f"<Objective {self.quantity} by {', '.join(self.names)}>"
@@ -149,10 +151,7 @@ class Objective:
 
     def __call__(self, x: ArrayLike) -> tuple[float, Array]:
         """Return the value and the gradient."""
-        array = self._check_values(x)
-        if self._last is None or self._last[0] != array.tobytes():
-            self._last = array.tobytes(), self._gradient_at(array)
-        value, slopes = self._last[1]
+        value, slopes = self._gradient(self._check_values(x))
         return value, slopes.copy()
 
     def _check_values(self, x: ArrayLike) -> Array:
@@ -164,7 +163,8 @@ class Objective:
 
     def _gradient_at(self, x: Array) -> tuple[float, Array]:
         try:
-            return self._value_and_gradient(self._run_with_derivatives(x)[0])
+            gradient, _, _ = self._run_with_derivatives(x)
+            return gradient.value, np.array([*gradient.by.values()])
         except Uncovered:
             raise
         except (InputError, AssemblyError, AnalysisError):
@@ -202,9 +202,6 @@ class Objective:
         }
         gradient = Gradient(adjoint.value, adjoint.unit, slopes, units, adjoint.result, "adjoint", adjoint.memory)
         return gradient, adjoint.directions, adjoint.run
-
-    def _value_and_gradient(self, gradient: Gradient) -> tuple[float, Array]:
-        return gradient.value, np.array([gradient.by[name] for name in self.names])
 
     def _gradient_of_result(self, result: Result) -> Gradient:
         table, place, unit = place_of_column(result, self._column)

@@ -12,10 +12,10 @@ from symgen.base.settings import Settings
 from symgen.base.units import known_unit
 
 if TYPE_CHECKING:
-    from symgen.analyses.fit.free_numbers import Bounds
     from symgen.analyses.fit.identification import Fit
     from symgen.analyses.fit.objective import Gradient, Objective
     from symgen.analyses.model_methods import Analysed
+    from symgen.analyses.search.ranges import Bounds
 
 #: Settings that count: not those of outputs and checks, which the data and the fit decide.
 COUNTING = tuple(

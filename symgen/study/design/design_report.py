@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symgen.analyses.kinds import AnalysisTable
 from symgen.base.errors import fit_lines
 from symgen.describe.drawing.drawing import Drawing
 from symgen.result.extremes import without_doubles
@@ -73,9 +74,9 @@ def _verdict(found: Design) -> TableCell:
     return TableCell(f"{found.aim} goes {change}{kept}.", "good")
 
 
-def _document_table(table: tables.Table, caption: str = "") -> DocumentTable:
+def _document_table(table: AnalysisTable, caption: str = "") -> DocumentTable:
     words = next((i for i, heading in enumerate(table.headings) if heading not in table.left), len(table.headings))
-    return DocumentTable(caption, table.headings, tuple(table.rows), words)
+    return DocumentTable(caption, tuple(table.headings), tuple(map(tuple, table.rows)), words)
 
 
 def _limits_section(found: Design) -> Iterator[Section]:
@@ -86,7 +87,7 @@ def _limits_section(found: Design) -> Iterator[Section]:
     for text, before, after, t, state, price in table.rows:
         rows.append((text, before, after, t, TableCell(state, _MOODS[state]), price))
     lead = "A price is what the aim would gain for one more unit of room at an active limit."
-    yield Section("Limits", (lead,), tables=(DocumentTable("", table.headings, tuple(rows)),))
+    yield Section("Limits", (lead,), tables=(DocumentTable("", tuple(table.headings), tuple(rows)),))
 
 
 def _pictures(found: Design, runs: tuple[Result, Result]) -> Iterator[Picture]:

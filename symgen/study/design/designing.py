@@ -10,10 +10,13 @@ from typing import TYPE_CHECKING, Unpack
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.fit.measured_data import measured_columns
 from symgen.analyses.kinds import change_settings_checked
+from symgen.analyses.search.measured_data import ColumnAim, MeasuredData, Residuals, measured_columns
+from symgen.analyses.search.measures import Aim
+from symgen.analyses.search.prices import ACTIVE, prices_of_limits
+from symgen.analyses.search.search import Candidate, Screened, Search, screen
 from symgen.base import arguments
-from symgen.base.errors import InputError, plural
+from symgen.base.errors import InputError, enumeration, plural
 from symgen.base.keywords import RunKeywords, keyword_names, make_entry
 from symgen.describe.edits.new_numbers import text_with_numbers
 from symgen.describe.facts.lifted import numbers_of_file
@@ -24,7 +27,6 @@ from symgen.result.labelled import Labelled
 from symgen.result.sensitivities import derivative_unit
 from symgen.study.design.found import Design, KeptLimit, SearchFromStart
 from symgen.study.design.motions import motions_of
-from symgen.study.design.prices import ACTIVE, prices_of_limits
 from symgen.study.design.problem import (
     QuantityReader,
     limits_of_file,
@@ -33,12 +35,7 @@ from symgen.study.design.problem import (
     read_varied,
     sized,
 )
-from symgen.study.design.remarks import Watched, remark_on_sign, remarks_on_values, sentence_on_limits
-from symgen.study.design.residuals import DataAim, data_aim
-from symgen.study.design.rows import Aim
-from symgen.study.design.search import Candidate, Programme, Search
-from symgen.study.design.starts import Screened, screen
-from symgen.study.report.words import enumeration
+from symgen.study.design.remarks import Watched, remark_on_sign, remarks_on_means, remarks_on_values, sentence_on_limits
 
 if TYPE_CHECKING:
     from symgen import Model
@@ -132,12 +129,12 @@ class _Designing:
         self.varied = read_varied(model.mechanism, vary, settings)
         self.reader = QuantityReader(self.varied.mechanism)
         until = settings.until
-        self.aim: Aim | DataAim
+        self.aim: Aim | ColumnAim
         if isinstance(aim, str) and not aim.strip().lower().endswith((".csv", ".parquet", ".nc")):
             self.aim = read_aim(self.reader, aim)
         elif isinstance(aim, str | Path | Mapping):
-            self.aim = data_aim(self.reader, measured_columns(aim, where="design: aim"), until)
-            until = until or float(self.aim.data.t[-1])
+            self.aim = _column_aim(self.reader, measured_columns(aim, where="design: aim"), until)
+            until = until or float(self.aim.times[-1])
         else:
             expected = "a text such as peak(motor.effort), or columns over t"
             raise InputError("design: aim", expected, arguments.kind_of_value(aim))
@@ -167,8 +164,7 @@ class _Designing:
                 searches.append(SearchFromStart(whence, *values, end.is_within, search.runs - runs))
             show(starts, starts)
             if not search.best.is_within:
-                for u in Programme(search, search.even, search.best, elastic=True).solve():
-                    search.check(u)
+                search.relax(search.best)
         except KeyboardInterrupt:
             interrupted = True
         return self._answer(first, search.best, searches, interrupted)
@@ -237,19 +233,22 @@ class _Designing:
             *remarks_on_values(varied, x, best.fine),
             *self.watched.remarks(first.fine, best.fine),
         ]
-        if isinstance(aim, Aim):
+        if isinstance(aim, ColumnAim):
+            notes += aim.columns.gaps_in_words()
+        else:
             notes += remark_on_sign(aim, best.fine)
+            if aim.taken.word == "rms":
+                notes += remarks_on_means(varied, aim, x, best.fine)
         if best is first and best.is_within and not interrupted:
             notes.append("no candidate is better than the file")
         text, changed = self._new_file(dict(zip(varied.names, x.tolist(), strict=True)))
-        parameters = {p.name: p.unit for p in varied.mechanism.parameters}
         return Design(
             mechanism=self.model.name,
             aim=aim.taken.text,
             unit=aim.unit,
             values=dict(zip(varied.names, x.tolist(), strict=True)),
             start_values=dict(zip(varied.names, varied.start.tolist(), strict=True)),
-            units={name: parameters[key] for name, key in zip(varied.names, varied.keys, strict=True)},
+            units=dict(zip(varied.names, varied.units, strict=True)),
             ranges={
                 name: (float(a), float(b)) for name, a, b in zip(varied.names, varied.low, varied.high, strict=True)
             },
@@ -284,21 +283,15 @@ class _Designing:
         prices = prices_of_limits(aim, self.search.limits, best.u, best.fine)
         for limit, price in zip(self.search.limits, prices, strict=True):
             before, after = limit.reached(first.fine), limit.reached(best.fine)
-            active = bool(limit.rooms(best.fine)[0].min() <= ACTIVE)
             rows.append(
                 KeptLimit(
-                    text=limit.text,
-                    side=limit.side,
-                    unit=limit.unit,
-                    bound=limit.bound,
+                    **vars(limit),
                     before=before.value,
                     after=after.value,
                     t=after.t,
-                    size=limit.size,
-                    active=active,
+                    active=bool(limit.rooms(best.fine)[0].min() <= ACTIVE),
                     price=price,
                     price_unit=derivative_unit(aim.unit, limit.unit),
-                    of_file=limit.of_file,
                 )
             )
         return tuple(rows)
@@ -326,6 +319,23 @@ class _Designing:
         file = _file_of_source(origin.source)
         text = text_with_numbers(None if file is None else read_text(file), origin.raw, numbers)
         return text, Model(validate(parse_toml(text, origin.source), origin.source))
+
+
+def _column_aim(reader: QuantityReader, data: MeasuredData, until: float | None) -> ColumnAim:
+    """Return columns over time as an aim.
+
+    Raises
+    ------
+    InputError
+        If there are none, or they go on after the last time that is asked for [s].
+    """
+    if not data.columns:
+        raise InputError(data.whence, "columns of the machine over t, such as coupler.x", "none")
+    if until is not None and data.t[-1] > until:
+        raise InputError(data.whence, f"times up to {until:g} s", f"{data.t[-1]:g} s")
+    places = {name: reader.place(data.whence, name) for name in data.columns}
+    units = {name: reader.quantities[place].unit for name, place in places.items()}
+    return ColumnAim(Residuals([data], units, {}), tuple(places.values()))
 
 
 def _file_of_source(source: str) -> Path | None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.analyses.search.measures import Limit
 from symgen.base import arguments
 from symgen.base.errors import InputError, quote
 from symgen.base.files import write_whole
@@ -25,8 +26,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class KeptLimit:
+@dataclass(frozen=True, kw_only=True)
+class KeptLimit(Limit):
     """A limit before and after.
 
     Attributes
@@ -53,24 +54,17 @@ class KeptLimit:
         Whether it is a limit of the file.
     """
 
-    text: str
-    side: str
-    unit: str
-    bound: float
     before: float
     after: float
     t: float | None
-    size: float
     active: bool
     price: float | None
     price_unit: str
-    of_file: bool
 
     @property
     def is_met(self) -> bool:
         """Whether it holds after, to a millionth of its size."""
-        sign = 1.0 if self.side == "largest" else -1.0
-        return sign * (self.after - self.bound) <= 1e-6 * self.size
+        return self.excess(self.after) <= 1e-6
 
 
 @dataclass(frozen=True)
@@ -217,32 +211,12 @@ class Design:
         """Return the contract of ``symgen design --json``; numbers that are not finite become None."""
         from symgen.result.contract import json_value
 
+        own = ("mechanism", "aim", "unit", "values", "units", "before", "after", "runs", "failed", "notes", "reason")
+        kept = ("text", "side", "unit", "bound", "before", "after", "t", "active", "price", "price_unit", "of_file")
         facts: dict[str, Any] = json_value(
-            {
-                "mechanism": self.mechanism,
-                "aim": self.aim,
-                "unit": self.unit,
-                "values": dict(self.values),
-                "start": dict(self.start_values),
-                "units": dict(self.units),
-                "bounds": {name: list(pair) for name, pair in self.ranges.items()},
-                "before": self.before,
-                "after": self.after,
-                "limits": [
-                    {
-                        **{name: getattr(limit, name) for name in ("text", "side", "unit", "bound", "before", "after")},
-                        **{name: getattr(limit, name) for name in ("t", "active", "price", "price_unit", "of_file")},
-                        "met": limit.is_met,
-                    }
-                    for limit in self.limits
-                ],
-                "starts": [vars(each) for each in self.starts],
-                "runs": self.runs,
-                "failed": dict(self.failed),
-                "notes": list(self.notes),
-                "status": self.status,
-                "reason": self.reason,
-            }
+            {name: getattr(self, name) for name in (*own, "status")}
+            | {"start": self.start_values, "bounds": self.ranges, "starts": [vars(each) for each in self.starts]}
+            | {"limits": [{name: getattr(x, name) for name in kept} | {"met": x.is_met} for x in self.limits]}
         )
         return facts
 

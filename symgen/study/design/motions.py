@@ -4,46 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.fit.free_numbers import FreeNumbers
 from symgen.analyses.prescribed.kept_motion import KeptMotion
 from symgen.analyses.prescribed.prescribed import NotPrescribed, driver_names
-from symgen.base.errors import AssemblyError, InputError, SymgenError
+from symgen.analyses.search.free_numbers import FreeNumbers
+from symgen.analyses.search.measures import Motions, NoMotion
+from symgen.base.errors import AssemblyError, InputError
 from symgen.base.vocabulary.expressions import readings_in
 from symgen.base.vocabulary.measures import Integral
 from symgen.describe.facts.motion_quantities import MotionQuantity
 from symgen.describe.mechanism import Mechanism, Output
-from symgen.run.layout import abi
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
 
 Array = NDArray[np.float64]
-
-
-class NoMotion(Exception):
-    """Values with which the machine does not move through all times; the text says why."""
-
-
-class Motions(Protocol):
-    """Motions for values of the numbers that vary."""
-
-    def at(self, x: Array, times: Array) -> tuple[Array, Array]:
-        """Return quantities at times and their derivatives, shapes (k, quantities), (k, quantities, n).
-
-        Raises
-        ------
-        NoMotion
-            If the motion does not reach all times.
-        """
-
-    def screen(self, xs: Array, times: Array) -> list[Array | str]:
-        """Return the quantities for rows of values, each shape (k, quantities), or why there are none."""
 
 
 def motions_of(
@@ -126,28 +106,10 @@ class IntegratedMotions:
         self._mechanism = msgspec.structs.replace(mechanism, outputs=(*mechanism.outputs, *outputs))
         self._keys, self._quantities = tuple(keys), quantities
         self._free = FreeNumbers("design", self._mechanism, settings, {key: key for key in keys})
-        self._first = True
 
     def at(self, x: Array, times: Array) -> tuple[Array, Array]:
         """Return quantities and derivatives; see `Motions`."""
-        try:
-            _, result = self._free.run(times.tolist(), x)
-        except AssemblyError as error:
-            raise NoMotion(str(error)) from None
-        except InputError as error:
-            if self._first:  # of the settings, or of a machine whose motion has no derivatives
-                raise
-            raise NoMotion(str(error)) from None
-        except SymgenError as error:
-            raise NoMotion(str(error)) from None
-        self._first = False
-        if result.interrupted:
-            raise KeyboardInterrupt
-        if result.outcome.code != abi.DONE or len(result.t) != len(times):
-            raise NoMotion(result.reason or "the run ends early")
-        values = np.column_stack([result[name] for name in self._names])
-        slopes = np.stack([result.gradient(name).values for name in self._names], axis=1)
-        return _finite(values, slopes, times, self._quantities)
+        return _finite(*self._free.motion(x, times, self._names), times, self._quantities)
 
     def screen(self, xs: Array, times: Array) -> list[Array | str]:
         """Return the quantities for rows of values by one sweep; see `Motions`."""

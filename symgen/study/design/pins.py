@@ -16,6 +16,7 @@ from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare
 
 if TYPE_CHECKING:
+    from symgen.analyses.search.ranges import Ranges
     from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
 
@@ -81,7 +82,7 @@ def check_pins(
     places: PinPlaces,
     mechanism: Mechanism,
     keys: Mapping[str, str],
-    bounds: Mapping[str, tuple[float, float]],
+    ranges: Ranges,
     settings: Settings,
 ) -> None:
     """Refuse pins that do not come to their places while numbers vary, as bodies do not stay where they start.
@@ -94,8 +95,10 @@ def check_pins(
         The pins.
     mechanism : Mechanism
         The machine with all numbers that vary as parameters.
-    keys, bounds : mapping
-        Names of all of these, as parameters and with their bounds.
+    keys : mapping of str to str
+        Names of all of these as parameters.
+    ranges : Ranges
+        Their bounds.
     settings : Settings
         Of the runs.
 
@@ -107,12 +110,12 @@ def check_pins(
     values = parameter_values(mechanism, settings.parameters)
     # a pin at the ground is where the ground has it
     loose = [name for name in places.keys if places.spots[name][0].body != GROUND]
-    for name, (low, high) in bounds.items():
+    for name, low, high in zip(ranges.names, ranges.low, ranges.high, strict=True):
         if name not in places.keys and not loose:
             continue
         before = values[keys[name]]
         step = STEP * (high - low)
-        now = before + step if before + step <= high else before - step
+        now = float(before + step if before + step <= high else before - step)
         given = {**settings.parameters, keys[name]: now}
         try:
             q = start_of(mechanism, settings, given)

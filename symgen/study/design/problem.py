@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.analyses.search.measures import Aim, Limit, Taken
+from symgen.analyses.search.ranges import Ranges, make_ranges, read_bounds
 from symgen.base import arguments
-from symgen.base.errors import InputError, quote, suggest
+from symgen.base.errors import InputError, enumeration, quote, suggest
 from symgen.base.units import known_unit, read_unit
 from symgen.base.vocabulary.expressions import Name, names_in_expression
 from symgen.describe.edits.handles import PINS
@@ -20,9 +22,7 @@ from symgen.describe.facts.pins import AXES, PinPlaces, pin_of_place
 from symgen.describe.files.origins import origin_of
 from symgen.describe.formulas.evaluate import evaluate, parameter_values
 from symgen.study.design.pins import check_pins, read_pins
-from symgen.study.design.rows import Aim, Limit
-from symgen.study.design.wording import Taken, WrittenLimit, read_limits, read_taken, unknown_word
-from symgen.study.report.words import enumeration
+from symgen.study.design.wording import WrittenLimit, read_limits, read_taken, unknown_word
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
@@ -36,36 +36,28 @@ MOST_VARIED = 200
 
 
 @dataclass(frozen=True)
-class Varied:
+class Varied(Ranges):
     """The numbers that vary.
 
     Attributes
     ----------
     mechanism : Mechanism
         The machine, with all of them as parameters.
-    names, keys : tuple of str
-        As written, and as parameters of `mechanism`.
-    low, high, start : Array, shape (n,)
-        Bounds, and the values of the file, in SI units.
+    keys : tuple of str
+        Their names as parameters of `mechanism`.
     pins : PinPlaces or None
         Places of pins among them.
     """
 
     mechanism: Mechanism
-    names: tuple[str, ...]
     keys: tuple[str, ...]
-    low: Array
-    high: Array
-    start: Array
     pins: PinPlaces | None = None
 
-    def values(self, u: Array) -> Array:
-        """Return values from parts of the ranges."""
-        return np.asarray(np.clip(self.low + u * (self.high - self.low), self.low, self.high))
-
-    def parts(self, x: Array) -> Array:
-        """Return values as parts of the ranges, from 0 to 1."""
-        return np.asarray(np.clip((x - self.low) / (self.high - self.low), 0.0, 1.0))
+    @property
+    def units(self) -> list[str]:
+        """Their units."""
+        own = {p.name: p.unit for p in self.mechanism.parameters}
+        return [own[key] for key in self.keys]
 
 
 def read_varied(mechanism: Mechanism, vary: object, settings: Settings) -> Varied:
@@ -86,8 +78,7 @@ def read_varied(mechanism: Mechanism, vary: object, settings: Settings) -> Varie
         If one is no number of the file, follows others by a formula, or its bounds do not hold its value.
     """
     parameters = settings.parameters
-    expected = "bounds by the names of numbers, such as {'a': (0.2, 0.4)}"
-    given = arguments.mapping("design: vary", vary, expected)
+    given = read_bounds("design: vary", vary, closed=True)
     if not 0 < len(given) <= MOST_VARIED:
         raise InputError("design: vary", f"1 to {MOST_VARIED} numbers with bounds", f"{len(given)}")
     own, origin = {p.name: p for p in mechanism.parameters}, origin_of(mechanism)
@@ -102,15 +93,11 @@ def read_varied(mechanism: Mechanism, vary: object, settings: Settings) -> Varie
     lifted = lift_numbers("design: vary", mechanism, others)
     values = parameter_values(lifted.mechanism, parameters)
     all_keys = {**lifted.keys, **(pins.keys if pins else {})}
-    bounds = {
-        name: _read_bounds(f"design: vary '{name}'", pair, values[all_keys[name]]) for name, pair in given.items()
-    }
-    if pins:
-        check_pins("design: vary", pins, lifted.mechanism, all_keys, bounds, settings)
-    low, high = np.array([*bounds.values()]).T
     keys = tuple(all_keys[name] for name in given)
-    start = np.array([values[key] for key in keys])
-    return Varied(lifted.mechanism, tuple(given), keys, low, high, start, pins)
+    ranges = make_ranges("design: vary", given, [values[key] for key in keys], "the value of the file")
+    if pins:
+        check_pins("design: vary", pins, lifted.mechanism, all_keys, ranges, settings)
+    return Varied(**vars(ranges), mechanism=lifted.mechanism, keys=keys, pins=pins)
 
 
 def _refuse_name(
@@ -143,19 +130,6 @@ def _roots(formula: Expr, own: Mapping[str, Parameter]) -> list[str]:
             else:
                 waiting.append(inner)
     return sorted(found)
-
-
-def _read_bounds(where: str, bounds: object, value: float) -> tuple[float, float]:
-    expected = "a lower and an upper bound, such as (0.2, 0.4)"
-    pair = arguments.list_entries(where, bounds, expected)
-    if len(pair) != 2:
-        raise InputError(where, expected, arguments.kind_of_value(bounds))
-    low, high = (arguments.number(where, x) for x in pair)
-    if not low < high:
-        raise InputError(where, "a lower bound below the upper one", f"{low:g} and {high:g}")
-    if not low <= value <= high:
-        raise InputError(where, f"bounds that hold the value of the file, {value:g}", f"{low:g} and {high:g}")
-    return low, high
 
 
 class QuantityReader:
@@ -209,7 +183,8 @@ def read_aim(reader: QuantityReader, aim: str) -> Aim:
     """Return an aim from its text."""
     taken = read_taken("design: aim", aim)
     place = reader.place("design: aim", taken.quantity)
-    return Aim(taken, place, reader.quantities[place].unit)
+    side = "smallest" if taken.word == "min" else "largest"
+    return Aim(taken, place, reader.quantities[place].unit, side)
 
 
 def read_keep(reader: QuantityReader, keep: object) -> Iterator[Limit]:
@@ -219,7 +194,7 @@ def read_keep(reader: QuantityReader, keep: object) -> Iterator[Limit]:
             place = reader.place("design: keep", written.taken.quantity)
             bound = _bound_in_own_unit(written, reader.quantities[place].unit)
             unit = reader.quantities[place].unit or written.bound.unit
-            yield Limit(written.taken, place, written.side, bound, abs(bound) or 1.0, unit, written.text)
+            yield Limit(written.taken, place, unit, written.side, bound, abs(bound) or 1.0, written.text)
 
 
 def _bound_in_own_unit(written: WrittenLimit, own: str) -> float:
@@ -258,7 +233,7 @@ def limits_of_file(reader: QuantityReader, varied: Varied, parameters: Mapping[s
             bound, unit = evaluate(end, values, f"{limit.name}.{side}"), reader.quantities[place].unit
             sign = "<=" if side == "largest" else ">="
             text = f"{limit.name} {sign} {bound:g} {unit}".rstrip()
-            yield Limit(Taken("", limit.name), place, side, bound, abs(bound) or 1.0, unit, text, of_file=True)
+            yield Limit(Taken("", limit.name), place, unit, side, bound, abs(bound) or 1.0, text, of_file=True)
 
 
 def sized(limits: Sequence[Limit], values: Array) -> list[Limit]:

@@ -6,6 +6,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from symgen.analyses.search.measures import Aim, Sampled, mean_weights
+from symgen.base.errors import enumeration
 from symgen.base.vocabulary.expressions import ZERO, Call, Expr
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.facts.kinks import discontinuities_of
@@ -15,11 +17,11 @@ from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.formulas.readings import OUTPUT, readings_of_joint
 from symgen.describe.mechanism import Mechanism
 from symgen.study.design.problem import QuantityReader, Varied
-from symgen.study.design.rows import Aim, Sampled
-from symgen.study.report.words import enumeration
 
 #: Angles of drivers that end as near as this to a turn have made one [rad].
 TURNED = 1e-6
+#: Half a unit of the last digit that is printed of a number, in parts of it.
+PRINTED = 5e-7
 
 
 class Watched:
@@ -75,11 +77,7 @@ def _angles_of_drivers(mechanism: Mechanism, reader: QuantityReader) -> Iterator
 def remarks_on_values(varied: Varied, values: np.ndarray, after: Sampled) -> Iterator[str]:
     """Yield which bounds are met, which numbers change nothing, and which points move alone."""
     for side, ends in (("lower", varied.low), ("upper", varied.high)):
-        size = 1e-9 * (varied.high - varied.low)
-        met = [
-            name for name, x, end, part in zip(varied.names, values, ends, size, strict=True) if abs(x - end) <= part
-        ]
-        if met:
+        if met := [name for name, is_met in zip(varied.names, _meets(varied, values, ends), strict=True) if is_met]:
             verb, bound = ("meets its", "bound") if len(met) == 1 else ("meet their", "bounds")
             yield f"{enumeration(met)} {verb} {side} {bound}: a wider range may give more"
     still = [name for i, name in enumerate(varied.names) if not after.slopes[:, :, i].any()]
@@ -88,6 +86,11 @@ def remarks_on_values(varied: Varied, values: np.ndarray, after: Sampled) -> Ite
     yield from literal_points_in_words(varied.names)
     if varied.pins:
         yield _sentence_on_pins(varied.pins)
+
+
+def _meets(varied: Varied, values: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    """Return which numbers meet a bound."""
+    return np.asarray(np.abs(values - ends) <= 1e-9 * (varied.high - varied.low))
 
 
 def _sentence_on_pins(pins: PinPlaces) -> str:
@@ -100,6 +103,20 @@ def _sentence_on_pins(pins: PinPlaces) -> str:
         noun = "centre" if len(centres) == 1 else "centres"
         what += f", and the {noun} of mass of {enumeration([*centres])} in the middle of them"
     return f"{names} {verb} {what}: mass and inertia stay"
+
+
+def remarks_on_means(varied: Varied, aim: Aim, values: np.ndarray, after: Sampled) -> Iterator[str]:
+    """Yield how far numbers are known whose aim is a mean, where half of the times give others."""
+    free = np.flatnonzero(~_meets(varied, values, varied.low) & ~_meets(varied, values, varied.high))
+    (size, slope), (half, other) = (after.mean_square(aim.quantity, every) for every in (1, 2))
+    dy = after.slopes[after.even][:, aim.quantity, free]
+    curvature = dy.T @ (mean_weights(len(dy))[:, np.newaxis] * dy)
+    # the step of least squares from where the slopes of one mean vanish to where those of the other do
+    steps = np.linalg.pinv(curvature, hermitian=True) @ (size * slope - half * other)[free]
+    for i, step in zip(free, np.abs(steps * (varied.high - varied.low)[free]), strict=True):
+        if step > PRINTED * abs(values[i]):
+            unit = f" {varied.units[i]}".rstrip()
+            yield f"{varied.names[i]} is known to {step:.1g}{unit}, as its mean over {len(dy)} times is no better"
 
 
 def remark_on_sign(aim: Aim, after: Sampled) -> Iterator[str]:

@@ -2,29 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
-
+from symgen.analyses.kinds import AnalysisTable
 from symgen.base.units import known_unit
 from symgen.study.design.found import Design, KeptLimit
-
-
-class Table(NamedTuple):
-    """A table.
-
-    Attributes
-    ----------
-    headings : tuple of str
-        Of the columns.
-    rows : sequence of tuple of str
-        The cells.
-    left : tuple of str
-        Headings of columns of words.
-    """
-
-    headings: tuple[str, ...]
-    rows: Sequence[tuple[str, ...]]
-    left: tuple[str, ...]
 
 
 def sentence_of_aim(found: Design) -> str:
@@ -34,7 +14,7 @@ def sentence_of_aim(found: Design) -> str:
     return f"{found.mechanism}: {found.aim}: {change}, {found.runs} motions"
 
 
-def table_of_values(found: Design) -> Table:
+def table_of_values(found: Design) -> AnalysisTable:
     """Return the numbers that varied, in the units of the file."""
     own = {p.name: p.own_unit for p in found.first_model.mechanism.parameters}
     rows = []
@@ -42,16 +22,16 @@ def table_of_values(found: Design) -> Table:
         unit = own.get(name, known_unit(""))
         numbers = (found.start_values[name], value, *found.ranges[name])
         rows.append((name, *(f"{unit.from_si(x):.6g}" for x in numbers), unit.text or found.units[name]))
-    return Table(("number", "before", "after", "least", "most", "unit"), rows, ("number", "unit"))
+    return AnalysisTable(("number", "before", "after", "least", "most", "unit"), rows, ("number", "unit"))
 
 
-def table_of_limits(found: Design) -> Table:
+def table_of_limits(found: Design) -> AnalysisTable:
     """Return the limits with what they reached."""
     rows = [
         (each.text, f"{each.before:.6g}", f"{each.after:.6g}", time_in_words(each), state_of_limit(each), price(each))
         for each in found.limits
     ]
-    return Table(("limit", "before", "after", "at t [s]", "", "price"), rows, ("limit", "", "price"))
+    return AnalysisTable(("limit", "before", "after", "at t [s]", "", "price"), rows, ("limit", "", "price"))
 
 
 def time_in_words(each: KeptLimit) -> str:
@@ -76,16 +56,16 @@ def price(each: KeptLimit) -> str:
     return f"{cost:.4g} {unit}".rstrip()
 
 
-def table_of_starts(found: Design) -> Table:
+def table_of_starts(found: Design) -> AnalysisTable:
     """Return the searches."""
     rows = [
         (each.whence, f"{each.before:.6g}", f"{each.after:.6g}", "yes" if each.is_within else "no", f"{each.runs}")
         for each in found.starts
     ]
-    return Table(("start", "before", "after", "within limits", "motions"), rows, ("start", "within limits"))
+    return AnalysisTable(("start", "before", "after", "within limits", "motions"), rows, ("start", "within limits"))
 
 
-def table_of_failures(found: Design) -> Table:
+def table_of_failures(found: Design) -> AnalysisTable:
     """Return why candidates did not move."""
     rows = [(reason, f"{count}") for reason, count in found.failed.items()]
-    return Table(("candidates without a motion", "number"), rows, ("candidates without a motion",))
+    return AnalysisTable(("candidates without a motion", "number"), rows, ("candidates without a motion",))

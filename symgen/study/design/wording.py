@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
+from symgen.analyses.search.measures import Taken
 from symgen.base import arguments
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.units import Amount, read_amount
@@ -17,26 +18,6 @@ _CALL = re.compile(r"\s*([A-Za-z_]\w*)\s*\((.*)\)\s*", re.DOTALL)
 _COMPARED = re.compile(r"(<=|>=|==|!=|<|>|=)")
 #: The other way round.
 _TURNED = {"<=": ">=", "<": ">", ">=": "<=", ">": "<"}
-
-
-class Taken(NamedTuple):
-    """A number of a quantity over time.
-
-    Attributes
-    ----------
-    word : str
-        One of `WORDS`; empty for the quantity itself, at every time in a limit and at the end in an aim.
-    quantity : str
-        A column of results, an output, or a formula of such.
-    """
-
-    word: str
-    quantity: str
-
-    @property
-    def text(self) -> str:
-        """As it is written."""
-        return f"{self.word}({self.quantity})" if self.word else self.quantity
 
 
 class WrittenLimit(NamedTuple):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.fit.free_numbers import put_numbers
+from symgen.analyses.search.free_numbers import put_numbers
 from symgen.base.errors import SymgenError
 from symgen.result.build import build_result
 from symgen.run.layout.ensemble_abi import ASSEMBLED

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.fit.free_numbers import put_numbers
+from symgen.analyses.search.free_numbers import put_numbers
 from symgen.base import arguments
 from symgen.base.errors import InputError, SymgenError, plural, quote, suggest
 from symgen.base.files import check_path, need_library, write_whole

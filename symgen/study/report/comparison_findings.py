@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Sequence
 from statistics import median
 
+from symgen.base.errors import enumeration
 from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.study.comparison.comparison_rows import Row, Trace
 from symgen.study.comparison.comparison_study import Study
@@ -155,7 +156,7 @@ def _finding_on_statuses(study: Study) -> list[str]:
             if len(rows) == 1:
                 sentences.append(f"1 run {one}: {first}")
             else:
-                each = words.enumeration([f"{m} ({n})" for m, n in _counts_by_name(r.label for r in rows)])
+                each = enumeration([f"{m} ({n})" for m, n in _counts_by_name(r.label for r in rows)])
                 sentences.append(f"{len(rows)} runs {many} for one reason: {each}; e.g. {first}")
     return sentences
 
@@ -173,7 +174,7 @@ def _finding_on_wrong(study: Study) -> str:
         return f"no run that ended ok is off by more than {words.exact_number(WRONG)} m"
     worst = max(rows, key=lambda r: r.error or 0.0)
     count = words.plural(len(rows), "run")
-    each = words.enumeration([f"{m} ({n})" for m, n in _counts_by_name(r.label for r in rows)])
+    each = enumeration([f"{m} ({n})" for m, n in _counts_by_name(r.label for r in rows)])
     return (
         f"{count} ended ok although off by more than {words.exact_number(WRONG)} m, as steps or tolerances were too "
         f"coarse or another branch was taken: {each}; the worst is {_name_of_row(worst)}, "
@@ -187,7 +188,7 @@ def _methods_at_rounding(study: Study, values: dict[str, float], unit: str) -> s
     large = sorted(((x, m) for m, x in values.items() if x >= ROUNDING), reverse=True)
     parts = []
     if small:
-        parts.append(f"below {words.exact_number(ROUNDING)} with {words.enumeration(small)}")
+        parts.append(f"below {words.exact_number(ROUNDING)} with {enumeration(small)}")
     if large:
         rest = f" and less with {words.plural(len(large) - MOST, 'other')}" if len(large) > MOST else ""
         parts.append(", ".join(f"{words.rounded_number(x)} {unit} with {m}" for x, m in large[:MOST]) + rest)
@@ -237,7 +238,7 @@ def _finding_on_costs(study: Study) -> str:
     parts = [f"{method} {words.ratio_in_words(middle)}" for method, middle, *_ in medians]
     if len(parts) > 2 * MOST:
         parts = [*parts[:MOST], "...", *parts[-MOST:]]
-    listed = words.enumeration(parts)
+    listed = enumeration(parts)
     return f"run time as a multiple of that of {YARDSTICK} at the same integrator and step, medians: {listed}"
 
 

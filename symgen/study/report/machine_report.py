@@ -13,7 +13,7 @@ import numpy as np
 from symgen.analyses.kinds import AnalysisTable
 from symgen.analyses.kinds.modes import mode_lines as shown_modes
 from symgen.analyses.reached_limits import ReachedLimit, reached_limits
-from symgen.base.errors import SymgenError, fit_lines, plural
+from symgen.base.errors import SymgenError, enumeration, fit_lines, plural
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.drawing.drawing import Drawing
 from symgen.result.extremes import without_doubles
@@ -27,7 +27,7 @@ from symgen.study.report.key_numbers import MOST_NUMBERS, KeyNumber, key_numbers
 from symgen.study.report.letterhead import origin_of_file
 from symgen.study.report.picture import MOST_BODIES, picture_of_figure
 from symgen.study.report.verdict import verdict_on_run
-from symgen.study.report.words import engineering_number, enumeration
+from symgen.study.report.words import engineering_number
 
 if TYPE_CHECKING:
     from symgen.api import Model

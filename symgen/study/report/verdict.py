@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.analyses.reached_limits import ReachedLimit
-from symgen.base.errors import fit_lines, plural
+from symgen.base.errors import enumeration, fit_lines, plural
 from symgen.study.report.dead_points import sentence_on_passages
 from symgen.study.report.document import TableCell
 from symgen.study.report.key_numbers import ROOM, KeyNumber
-from symgen.study.report.words import engineering_number, enumeration, rounded_number
+from symgen.study.report.words import engineering_number, rounded_number
 
 if TYPE_CHECKING:
     from symgen.result.result import Result

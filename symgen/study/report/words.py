@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
 
 from symgen.base.errors import plural as plural
 
@@ -99,13 +98,6 @@ def range_in_words(low: float | None, high: float | None) -> str:
 def value_with_spread(x: float | None, spread: float | None) -> str:
     """Return a ratio with its spread."""
     return f"{ratio_in_words(x)} ± {ratio_in_words(spread)}" if spread is not None else ratio_in_words(x)
-
-
-def enumeration(words: Sequence[str], last: str = "and") -> str:
-    """Return words as an enumeration: a, b and c."""
-    if len(words) < 2:
-        return "".join(words)
-    return f"{', '.join(words[:-1])} {last} {words[-1]}"
 
 
 def as_sentence(text: str) -> str:

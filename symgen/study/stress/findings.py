@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from symgen.base.errors import plural
+from symgen.base.errors import enumeration, plural
 from symgen.run.planning.automatic import AUTO
 from symgen.study.stress.beside import beside_yardstick
 from symgen.study.stress.cell_outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, WRONG_BRANCH, count_outcomes
@@ -193,11 +193,11 @@ def _finding_on_penalties(study: Stress) -> Iterator[str]:
         shares = {a: good[a] / runs[a] for a in sorted(runs)}
         best = [a for a, share in shares.items() if share == max(shares.values())]
         cells = f"{good[best[0]]} of {runs[best[0]]} cells" if max(shares.values()) < 1.0 else "all cells"
-        text = f"accurate most often with a = {_names_in_words([f'{a:g}' for a in best])}, in {cells}"
+        text = f"accurate most often with a = {enumeration([f'{a:g}' for a in best])}, in {cells}"
         if len(best) == len(shares) > 1:
             text = f"the factor makes no difference from {best[0]:g} to {best[-1]:g}, in {cells}"
         alike.setdefault(text, []).append(_line_of_finding(line))
-    yield from (f"Penalty of {_names_in_words(lines)}: {text}." for text, lines in alike.items())
+    yield from (f"Penalty of {enumeration(lines)}: {text}." for text, lines in alike.items())
 
 
 def _finding_on_steps(study: Stress) -> Iterator[str]:
@@ -212,7 +212,7 @@ def _finding_on_steps(study: Stress) -> Iterator[str]:
         if several:
             lines = Counter(line for steps in several for step, line in steps if step == max(steps)[0])
             parts = [f"{line} in {count}" for line, count in lines.most_common()]
-            yield f"Largest stable steps in {family}, of {_most_of(len(several), 'case')}: {_names_in_words(parts)}."
+            yield f"Largest stable steps in {family}, of {_most_of(len(several), 'case')}: {enumeration(parts)}."
 
 
 # -- can a status be trusted? ------------------------------------------------------------------------------------------
@@ -272,10 +272,6 @@ def _title_of_case(family: str) -> str:
     return family.replace("-", " ").capitalize()
 
 
-def _names_in_words(parts: Sequence[str]) -> str:
-    return " and ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)
-
-
 def _first_with_others(names: Sequence[str]) -> str:
     """Return the first of some names, and the number of the others."""
     return names[0] if len(names) == 1 else f"{names[0]} and {_most_of(len(names) - 1, 'other')}"
@@ -283,7 +279,7 @@ def _first_with_others(names: Sequence[str]) -> str:
 
 def _outcomes_in_words(rows: Sequence[StressRow]) -> str:
     numbers = count_outcomes([row.outcome for row in rows])
-    return _names_in_words([f"{numbers[name]} {name}" for name in OUTCOMES if numbers[name]])
+    return enumeration([f"{numbers[name]} {name}" for name in OUTCOMES if numbers[name]])
 
 
 def _most_of(count: int, thing: str) -> str:

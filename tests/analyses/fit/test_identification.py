@@ -7,7 +7,7 @@ import pytest
 from run.directions.lengths import FOUR_BAR, ROD, model
 
 from symgen import InputError
-from symgen.analyses.fit.null_directions import null_directions
+from symgen.analyses.search.squares import null_directions
 from symgen.cli import main
 
 TRUE = {"k": 300.0, "rest": 0.5, "damping": 8.0, "m2": 8.0, "m3": 5.0}
@@ -162,7 +162,11 @@ def test_the_command(rod, tmp_path, capsys, monkeypatch):
         ({"t": [0.1, 0.2], "rod.thete": [1.0, 1.0]}, "length", "a column of rod-on-a-pin"),
         ({"rod.theta": [1.0, 1.0]}, "length", "a column 't' of times"),
         ({"t": [0.1, 0.2], "rod.theta": [1.0, 1.0]}, "lenght", "did you mean 'length'"),
-        ({"t": [0.1, 0.2], "rod.theta": [1.0, 1.0]}, {"length": (2.0, 3.0)}, "a start between 2 and 3, got 1"),
+        (
+            {"t": [0.1, 0.2], "rod.theta": [1.0, 1.0]},
+            {"length": (2.0, 3.0)},
+            "bounds that hold the start, 1, got 2 and 3",
+        ),
         ({"t": [0.1, 0.2], "rod.theta": [1.0, 1.0]}, (), "numbers to be found"),
         (3, "length", "files, or mappings"),
     ],

@@ -120,7 +120,7 @@ def test_a_value_at_which_nothing_closes_is_infinite(four_bar):
         (3, {}, "a text"),
         ("crank.theta", {"by": ("lenght",)}, "got 'lenght'"),
         ("crank.theta", {"by": ()}, "numbers to be found, got none"),
-        ("crank.theta", {"by": {"a": (3.0, 4.0)}}, "by 'a': expected a start between 3 and 4, got 2"),
+        ("crank.theta", {"by": {"a": (3.0, 4.0)}}, "by 'a': expected bounds that hold the start, 2, got 3 and 4"),
         ("crank.theta", {"by": {"a": (4.0, 3.0)}}, "a lower bound below the upper one"),
         (
             "crank.theta",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from symgen.base.errors import enumeration
 from symgen.describe.bounds.keys import nouns_of_families
 from symgen.describe.bounds.smooth import WITH_LAWS
 from symgen.study.comparison.across import across_mechanisms
@@ -67,7 +68,7 @@ def comparison_report(
     source = section_beside_source(list(studies))
     if source is not None:
         sections.append(source)
-    title = f"Error against run time: {words.enumeration(names)}"
+    title = f"Error against run time: {enumeration(names)}"
     return ReportDocument(title, tuple(lead), tuple(facts), command, tuple(sections))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from symgen.base.errors import InputError, plural
+from symgen.base.errors import InputError, enumeration, plural
 from symgen.run.planning.automatic import AUTO
 from symgen.study.machine_class import machine_class, version_list
 from symgen.study.references.effort import IMPLICIT_BUDGET, explicit_limits
@@ -72,7 +72,7 @@ def stress_report(study: Stress, command: str = "", sketches: Mapping[str, str] 
         *sketches_section(sketches or {}),
         _cells_section(study),
     ]
-    title = f"Stiff and extreme cases: {words.enumeration([Path(model).stem for model in study.models])}"
+    title = f"Stiff and extreme cases: {enumeration([Path(model).stem for model in study.models])}"
     return ReportDocument(title, tuple(lead), facts, command, tuple(sections))
 
 
@@ -110,7 +110,7 @@ def _beside_table(study: Stress) -> tuple[DocumentTable, ...]:
     )
     rows = tuple(
         (
-            *(words.enumeration(x.methods), x.integrator),
+            *(enumeration(x.methods), x.integrator),
             *(c or words.NONE for c in cells_beside(x, families, searched, extremes)),
         )
         for x in lines

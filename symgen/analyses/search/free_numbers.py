@@ -1,22 +1,21 @@
-"""Numbers of a model that a search varies: their values, their bounds, and runs that are differentiated by them."""
+"""Numbers of a model that a search varies: their values, and runs that are differentiated by them."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from numbers import Real
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base import arguments
-from symgen.base.errors import InputError
+from symgen.analyses.search.measures import NoMotion
+from symgen.base.errors import InputError, SymgenError
 from symgen.base.settings import Settings, differs_from_default
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.build import build_result
 from symgen.result.sensitivities import Differentiated
+from symgen.run.layout import abi
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -25,8 +24,6 @@ if TYPE_CHECKING:
     from symgen.run.planning.prepare import Prepared
 
 Array = NDArray[np.float64]
-#: Bounds of a number.
-Bounds = tuple[float | None, float | None]
 
 #: Tolerances of runs whose derivatives guide a search, unless they are set.
 _RTOL = _ATOL = 1e-10
@@ -83,6 +80,7 @@ class FreeNumbers:
 
     def __init__(self, where: str, mechanism: Mechanism, settings: Settings, keys: Mapping[str, str]) -> None:
         self.where, self.mechanism, self.keys, self.names, self.runs = where, mechanism, keys, tuple(keys), 0
+        self._moved = False
         self.settings = tighten_tolerances(where, settings)
 
     def settings_at(self, x: Array) -> Settings:
@@ -95,7 +93,32 @@ class FreeNumbers:
         settings = self.settings if x is None else self.settings_at(x)
         run = Differentiated(self.mechanism, replace(settings, times=[*times], until=float(times[-1])), self.keys)
         self.runs += 1
-        return run, run.result(build_result(run.run, run.integrate()))
+        result = run.result(build_result(run.run, run.integrate()))
+        self._moved = True
+        return run, result
+
+    def motion(self, x: Array, times: Array, names: Sequence[str]) -> tuple[Array, Array]:
+        """Return columns of a run at times and their derivatives, shapes (k, columns), (k, columns, n).
+
+        Raises
+        ------
+        InputError
+            If no run was made before, and the settings, or the machine, allow no derivatives.
+        NoMotion
+            If the run does not reach all times.
+        """
+        try:
+            _, result = self.run(times.tolist(), x)
+        except SymgenError as error:
+            if isinstance(error, InputError) and not self._moved:
+                raise
+            raise NoMotion(str(error)) from None
+        if result.interrupted:
+            raise KeyboardInterrupt
+        if result.outcome.code != abi.DONE or len(result.t) != len(times):
+            raise NoMotion(result.reason or "the run ends early")
+        slopes = [result.gradient(name).values for name in names]
+        return np.column_stack([result[name] for name in names]), np.stack(slopes, axis=1)
 
     def values(self, directions: Sequence[RunDirection], run: Prepared, result: Result) -> Array:
         """Return the values of the numbers in a run that was made without `x`."""
@@ -114,43 +137,3 @@ class FreeNumbers:
             expected = f"the value of {d.key} at the start, where the search begins"
             raise InputError(self.where, expected, "none", f"give start={{'{d.key}': VALUE}}")
         return float(start[d.key])
-
-
-def names_with_bounds(where: str, free: Mapping[str, Bounds | None] | Sequence[str]) -> dict[str, Bounds]:
-    """Return names of free numbers with their bounds, which a sequence of names leaves open.
-
-    Raises
-    ------
-    InputError
-        If there are no names, or a bound is no number.
-    """
-    if isinstance(free, str) or not isinstance(free, Mapping):
-        free = dict.fromkeys(arguments.words(where, free), (None, None))
-    if not free:
-        raise InputError(where, "numbers to be found", "none")
-    return {name: _read_bounds(f"{where} '{name}'", pair) for name, pair in free.items()}
-
-
-def _read_bounds(where: str, bounds: object) -> Bounds:
-    expected = "a lower and an upper bound, each a number or None"
-    pair = arguments.list_entries(where, bounds, expected) or [None, None]
-    if len(pair) != 2 or not all(x is None or isinstance(x, Real) for x in pair):
-        raise InputError(where, expected, arguments.kind_of_value(bounds))
-    return pair[0], pair[1]
-
-
-def arrays_of_bounds(where: str, names: Sequence[str], bounds: Iterable[Bounds], start: Array) -> tuple[Array, Array]:
-    """Return lower and upper bounds, infinite where there are none.
-
-    Raises
-    ------
-    InputError
-        If a lower bound is not below the upper one, or the start lies outside.
-    """
-    pairs = [(-math.inf if a is None else float(a), math.inf if b is None else float(b)) for a, b in bounds]
-    for name, (low, high), x in zip(names, pairs, start, strict=True):
-        if not low < high:
-            raise InputError(f"{where} '{name}'", "a lower bound below the upper one", f"{low:g}, {high:g}")
-        if not low <= x <= high:
-            raise InputError(f"{where} '{name}'", f"a start between {low:g} and {high:g}", f"{x:g}")
-    return np.array([low for low, _ in pairs]), np.array([high for _, high in pairs])

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.study.design.residuals import DataAim
-from symgen.study.design.rows import Aim, Limit, Sampled, local_minima
+from symgen.analyses.search.measured_data import ColumnAim
+from symgen.analyses.search.measures import Aim, Limit, Sampled, local_minima
 
 Array = NDArray[np.float64]
 
@@ -20,7 +20,7 @@ AT_BOUND = 1e-6
 BALANCED = 0.05
 
 
-def prices_of_limits(aim: Aim | DataAim, limits: Sequence[Limit], u: Array, fine: Sampled) -> list[float | None]:
+def prices_of_limits(aim: Aim | ColumnAim, limits: Sequence[Limit], u: Array, fine: Sampled) -> list[float | None]:
     """Return what a unit of each limit costs of the aim: 0 where it is not active, None where nothing tells.
 
     Parameters
@@ -36,7 +36,7 @@ def prices_of_limits(aim: Aim | DataAim, limits: Sequence[Limit], u: Array, fine
 
     n, times, columns, owners = len(u), len(fine.times), list[Array](), list[int]()
     goal = np.zeros(n)
-    if aim.signs:
+    if isinstance(aim, Aim) and aim.is_bounded:
         y, dy = aim.signed(fine)
         rest = (y.max() - y) / max(abs(y.max()), 1e-300)
         peaks = [np.append(dy[k], 1.0) for k in local_minima(rest, times) if rest[k] <= ACTIVE]
