@@ -2,5 +2,5 @@
 
 In: a model, data, and which numbers are free.
 Out: values with intervals, and what the data do not determine.
-Imports: msgspec, NumPy, SciPy; `search` and streets below.
+Imports: msgspec, NumPy; `search` and streets below.
 """

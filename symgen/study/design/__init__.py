@@ -2,5 +2,5 @@
 
 In: a model, the numbers that vary, an aim and limits.
 Out: a `Design`: values, limits with their prices, the file with the new numbers, reports before and after.
-Imports: msgspec, NumPy, SciPy; rooms beside and streets below.
+Imports: msgspec, NumPy; rooms beside and streets below.
 """
