@@ -70,6 +70,20 @@ def test_a_four_bar_is_found_from_positions_of_its_coupler():
     assert max(abs(found.values[name] - x) for name, x in answer.items()) < 1e-9
 
 
+@pytest.mark.slow
+def test_columns_as_an_aim_have_units_and_gaps_as_data_of_a_fit_have():
+    names = ("ax", "ay", "bx", "by", "cx", "cy", "dx", "dy")
+    answer = dict(zip(names, (0.0, 0.0, 40.0, 200.0, 360.0, 600.0, 400.0, 0.0), strict=True))
+    vary = {name: (x - 400.0, x + 400.0) for name, x in answer.items()}
+    data = coupler_of_pivots(np.linspace(0.0, 2.0, 41))
+    scaled = {"t": data["t"], "coupler.x [mm]": 1e3 * data["coupler.x"], "coupler.y": data["coupler.y"]}
+    scaled["coupler.theta [deg]"] = np.degrees(data["coupler.theta"])
+    scaled["coupler.x [mm]"][5:8] = np.nan
+    found = of_raw(four_bar_of_pivots()).design(vary, scaled, parameters={name: x + 5.0 for name, x in answer.items()})
+    assert found.ok and max(abs(found.values[name] - x) for name, x in answer.items()) < 1e-6
+    assert "3 cells of 'coupler.x' without a number left out" in found.notes
+
+
 @pytest.mark.by_turns(2)
 @pytest.mark.slow
 def test_a_machine_without_drivers_is_integrated():
