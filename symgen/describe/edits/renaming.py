@@ -11,6 +11,7 @@ from symgen.describe.bounds.keys import sections_of_files
 from symgen.describe.edits.new_numbers import value_at_path
 from symgen.describe.edits.snippet_tables import blocks_of_headers
 from symgen.describe.edits.text_changes import Change, apply_changes
+from symgen.describe.files.builder import toml_text
 from symgen.describe.files.load import parse_toml
 from symgen.describe.files.places import Outline, Path, outline_of_document
 from symgen.describe.files.validate import collect_errors
@@ -109,18 +110,13 @@ def _texts_to_change(
     for path, (start, end) in parts.values.items():
         value = value_at_path(raw, path)
         if isinstance(value, str) and (new := change(path, value)) != value:
-            yield (start, end), _toml_string(new)
+            yield (start, end), toml_text(new)
     for mention in parts.mentions:
         key = str(mention.path[-1])
         if len(mention.path) > 2 and "." in key and (new := _formula_changer(where, name)(key)) != key:
-            yield (mention.start, mention.end), _toml_string(new)
+            yield (mention.start, mention.end), toml_text(new)
         elif where[0] == "joints" and mention.path[-2:] == ("terms", where[1]):
             yield (mention.start, mention.end), name
-
-
-def _toml_string(text: str) -> str:
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n").replace("\t", "\\t")
-    return f'"{escaped}"' if text.isprintable() or not text.strip() else repr(text)
 
 
 def _formula_changer(where: Path, name: str) -> Callable[[str], str]:

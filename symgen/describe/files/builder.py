@@ -198,10 +198,11 @@ def _toml_table(header: str, content: Mapping[str, Any]) -> str:
 
 
 def _toml_key(key: str) -> str:
-    return key if _BARE.fullmatch(key) else _toml_text(key)
+    return key if _BARE.fullmatch(key) else toml_text(key)
 
 
-def _toml_text(text: str) -> str:
+def toml_text(text: str) -> str:
+    """Return a text as a TOML file has it on one line, in quotation marks."""
     # A JSON string is a TOML basic string, except that TOML wants DEL escaped too.
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
@@ -212,7 +213,7 @@ def _toml_value(value: object) -> str:
     if isinstance(value, int | float):
         return repr(value)
     if isinstance(value, str):
-        return _toml_text(value)
+        return toml_text(value)
     if isinstance(value, Mapping):
         inner = ", ".join(f"{_toml_key(key)} = {_toml_value(item)}" for key, item in value.items() if item is not None)
         return f"{{ {inner} }}" if inner else "{}"

@@ -2,5 +2,5 @@
 
 In: tables of bodies, and files that `symgen.reduced` has written.
 Out: a body with modes, bodies without coordinates for its interfaces, and the force of its springs.
-Imports: msgspec; `parts`, `formulas`.
+Imports: msgspec, NumPy (for the file alone); `parts`, `formulas`.
 """

@@ -1,15 +1,16 @@
-"""The file of a modal body: plain arrays of NumPy's format, read without NumPy and without running anything in them.
+"""The file of a modal body: plain arrays of NumPy's format, read without running anything in them.
 
-Describing a mechanism imports no numerical library, so arrays become nested tuples of numbers here.
+Descriptions hold no arrays of NumPy, so these become nested tuples of numbers; reading the first file imports NumPy.
 """
 
 from __future__ import annotations
 
-import ast
 import functools
+import io
 import math
 import os
-import struct
+import tokenize
+import warnings
 import zipfile
 import zlib
 from collections.abc import Mapping
@@ -25,7 +26,11 @@ from symgen.describe.parts.bodies import is_modal
 SUFFIX, VERSION = ".npz", 1
 #: Bytes of the file, and of all that is in it, at most.
 LARGEST, LARGEST_CONTENT = 4_000_000, 40_000_000
-_MAGIC = b"\x93NUMPY"
+#: What NumPy raises at bytes that are no array.
+_DAMAGED = (
+    *(ValueError, TypeError, KeyError, SyntaxError, OverflowError, MemoryError, RecursionError, EOFError),
+    tokenize.TokenError,
+)
 #: Array -> its shape: d components of a place, r of a turn, k modes, n interfaces, and any number of others.
 _SHAPES: dict[str, tuple[str, ...]] = {
     **{"version": (), "mass": (), "inner": (), "centre": ("d",), "inertia": ("r", "r"), "stiffness": ("k",)},
@@ -253,43 +258,19 @@ def _arrays_of_file(path: str) -> dict[str, Any]:
 
 def _array_of_bytes(name: str, content: bytes) -> Any:
     """Return an array: a number or a text, or nested tuples of these."""
-    wrong = _NotModal(f"whose part {quote(name)} is no plain array")
-    if not name.endswith(".npy") or content[:6] != _MAGIC or len(content) < 12:
-        raise wrong
-    wide = content[6] > 1
-    (length,) = struct.unpack_from("<I" if wide else "<H", content, 8)
-    start = (12 if wide else 10) + length
+    from numpy.lib.format import read_array
+
     try:
-        header = ast.literal_eval(content[12 if wide else 10 : start].decode("latin1"))
-        kind, shape, fortran = header["descr"], header["shape"], header["fortran_order"]
-    except (SyntaxError, ValueError, KeyError, TypeError, MemoryError, RecursionError):
-        raise wrong from None
-    if not isinstance(kind, str) or "O" in kind:
-        raise _NotModal(f"whose array '{name.removesuffix('.npy')}' is a pickle, which nothing here runs")
-    sizes_right = isinstance(shape, tuple) and len(shape) <= 4 and all(isinstance(n, int) and n >= 0 for n in shape)
-    if not sizes_right or (fortran and len(shape) > 1):
-        raise wrong
-    values = _values(kind, content[start:], math.prod(shape), wrong)
-    return _nested(values, shape)
+        with warnings.catch_warnings(action="ignore"):  # of headers that other programs wrote
+            array = read_array(io.BytesIO(content), allow_pickle=False)
+        if array.dtype.kind in "fiuU":
+            return _nested(array.tolist())
+    except _DAMAGED as error:
+        if "allow_pickle" in str(error):
+            got = f"whose array '{name.removesuffix('.npy')}' is a pickle, which nothing here runs"
+            raise _NotModal(got) from None
+    raise _NotModal(f"whose part {quote(name)} is no plain array")
 
 
-def _values(kind: str, content: bytes, count: int, wrong: _NotModal) -> list[Any]:
-    letter = {"<f8": "d", "<i8": "q"}.get(kind)
-    if letter is not None:
-        if len(content) != 8 * count:
-            raise wrong
-        return list(struct.unpack(f"<{count}{letter}", content))
-    if kind[:2] != "<U" or not kind[2:].isdigit() or len(kind) > 6 or len(content) != 4 * int(kind[2:]) * count:
-        raise wrong
-    width = 4 * int(kind[2:])
-    try:
-        return [content[width * i : width * (i + 1)].decode("utf-32-le").rstrip("\0") for i in range(count)]
-    except UnicodeDecodeError:
-        raise wrong from None
-
-
-def _nested(values: list[Any], shape: tuple[int, ...]) -> Any:
-    if not shape:
-        return values[0]
-    step = len(values) // shape[0] if shape[0] else 0
-    return tuple(_nested(values[step * i : step * (i + 1)], shape[1:]) for i in range(shape[0]))
+def _nested(values: Any) -> Any:
+    return tuple(map(_nested, values)) if isinstance(values, list) else values

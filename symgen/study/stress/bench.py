@@ -222,13 +222,13 @@ class Base:
         for key in ("mass", "inertia" if own else "rotary"):
             value = heavy.get(key, 0.0)
             if isinstance(value, list):  # the inertia of a spatial body
-                heavy[key] = [f"({_toml_text(x)})*{MASS}" if x != 0.0 else 0.0 for x in value]
+                heavy[key] = [f"({_formula_text(x)})*{MASS}" if x != 0.0 else 0.0 for x in value]
             elif value != 0.0:
-                heavy[key] = f"({_toml_text(value)})*{MASS}"
+                heavy[key] = f"({_formula_text(value)})*{MASS}"
         dimensions = len(self.anchor)
         gravity = raw["mechanism"].get("gravity", [0.0] * dimensions)
         if any(component != 0.0 for component in gravity):
-            raw["mechanism"]["gravity"] = [f"({_toml_text(g)})*{GRAVITY}" if g != 0.0 else 0.0 for g in gravity]
+            raw["mechanism"]["gravity"] = [f"({_formula_text(g)})*{GRAVITY}" if g != 0.0 else 0.0 for g in gravity]
         else:
             raw["parameters"][GRAVITY]["value"] = 0.0
             raw["mechanism"]["gravity"] = [0.0, f"-{STANDARD_GRAVITY}*{GRAVITY}", 0.0][:dimensions]
@@ -301,5 +301,5 @@ class Base:
         return math.hypot(*components) or STANDARD_GRAVITY
 
 
-def _toml_text(value: Any) -> str:
+def _formula_text(value: Any) -> str:
     return value if isinstance(value, str) else repr(float(value))

@@ -2,6 +2,7 @@
 
 import difflib
 import math
+import tomllib
 from collections.abc import Mapping
 
 import numpy as np
@@ -392,6 +393,34 @@ def test_a_body_is_renamed_wherever_it_is_named_and_nowhere_else() -> None:
         'when = "wheel.arm.y < -0.5"',
         'reset = { "wheel.omega" = "-0.5*wheel.omega" }',
     ]
+
+
+#: One formula in all forms that TOML has for texts: lines, tabs, escapes, both kinds of quotation marks.
+FORMS = {
+    "lines": '"""\nrod.x\n + 1"""',
+    "literal lines": "'''rod.x\n\t+ 1'''",
+    "a line that goes on": '"""rod.x \\\n   + 1"""',
+    "carriage returns": '"""rod.x\r\n + 1"""',
+    "a tab": '"rod.x +\t1"',
+    "escapes": '"rod.x\\t+\\n1"',
+    "a code point": '"rod.x + \\u0031"',
+    "a literal": "'rod.x + 1'",
+}
+BROKEN = '[outputs]\nother = "nothing.x"\n'
+
+
+@pytest.mark.parametrize("heading", ["[outputs]\n", BROKEN], ids=["a valid file", "a file with another error"])
+@pytest.mark.parametrize("form", FORMS)
+def test_a_formula_keeps_its_meaning_in_every_form_of_a_text(form: str, heading: str) -> None:
+    text = (
+        '[mechanism]\nname = "bob"\n[bodies.rod]\nmass = 1.0\ninertia = 0.1\n[joints.pin]\ntype = "revolute"\n'
+        f'between = ["ground", "rod"]\nat = [[0.0, 0.0], [-1.0, 0.0]]\n{heading}far = {FORMS[form]}\n'
+    )
+    before = tomllib.loads(text)["outputs"]["far"]
+    after = rename_in_text(text, "bodies.rod", "arm", "x")
+    assert tomllib.loads(after)["outputs"]["far"] == before.replace("rod", "arm")
+    problems = [len(collect_errors(parse_toml(each, "x"), "x")) for each in (text, after)]
+    assert problems[0] == problems[1] == (heading is BROKEN)
 
 
 def test_a_parameter_a_point_and_a_joint_of_one_name_are_told_apart() -> None:
