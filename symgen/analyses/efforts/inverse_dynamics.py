@@ -283,5 +283,5 @@ def _efforts_of_record(
         forces=forces,
         q=label_columns(motion.states[:, : info.nq], info.coordinates),
         parameters={q.name: values[q.name] for q in info.parameters if q.name not in loose.inputs},
-        notes=(*motion.start.notes, *balanced.notes),
+        notes=(*loose.remarks, *motion.start.notes, *balanced.notes),
     )

@@ -93,17 +93,23 @@ class Drives:
 
     # -- tables
 
-    def force_tables(self) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Return the tables of forces and inputs."""
-        efforts, inputs = dict[str, list[str]](), dict[str, Any]()
+    def force_tables(self) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
+        """Return the tables of forces, inputs and states."""
+        efforts, inputs, states = dict[str, list[str]](), dict[str, Any](), dict[str, Any]()
         for actuator in self.robot.actuators:
             driven = {name: w for name, w in actuator.weights.items() if w and self._is_known({name: w})}
             if not driven:
                 continue
             name = self.names.name_for("input", actuator.name)
-            if actuator.gain:
+            value = name
+            if actuator.driven:
                 inputs[name] = {"default": 0.0} | ({"unit": actuator.unit} if actuator.unit else {})
-            for joint, text in self._actuator_formulas(actuator, driven, name).items():
+                value = self._bounded_text(name, actuator.bounds)
+            if actuator.lag and actuator.driven:
+                state = self.names.name_for("state", actuator.name)
+                states[state] = {"rate": _rate_of_lag(actuator, state, value)}
+                value = state
+            for joint, text in self._actuator_formulas(actuator, driven, value).items():
                 efforts.setdefault(joint, []).append(text)
         forces = dict[str, Any]()
         for name, c in self.joints.items():
@@ -128,14 +134,18 @@ class Drives:
         for name, span in self.spans.items():
             if name in efforts:
                 forces[self.names.name_for("drive", name)] = self._span_table(span, " + ".join(efforts[name]))
-        return forces, inputs
+        return forces, inputs, states
 
-    def _actuator_formulas(self, actuator: RobotActuator, driven: dict[str, float], name: str) -> dict[str, str]:
-        """Return joint -> formula of the effort of an actuator."""
-        value = name
-        if actuator.bounds is not None:
-            value = f"min(max({name}, {number_text(actuator.bounds[0])}), {number_text(actuator.bounds[1])})"
+    @staticmethod
+    def _bounded_text(value: str, bounds: tuple[float, float] | None) -> str:
+        """Return a formula between bounds, if there are any."""
+        return value if bounds is None else f"min(max({value}, {number_text(bounds[0])}), {number_text(bounds[1])})"
+
+    def _actuator_formulas(self, actuator: RobotActuator, driven: dict[str, float], value: str) -> dict[str, str]:
+        """Return joint -> formula of the effort of an actuator; `value` is the formula of its u."""
         terms = [value if actuator.gain == 1.0 else f"{number_text(actuator.gain)}*{value}"] if actuator.gain else []
+        for factor, text in ((actuator.gain_along, self.coordinate_text), (actuator.gain_against, self.rate_text)):
+            terms += [f"{number_text(factor * w)}*{text(n)}*{value}" for n, w in driven.items() if factor]
         if actuator.offset:
             terms.append(number_text(actuator.offset))
         if actuator.along and actuator.slack is not None:
@@ -148,7 +158,7 @@ class Drives:
             terms += [f"{number_text(actuator.against * w)}*{self.rate_text(n)}" for n, w in driven.items()]
         whole = " + ".join(terms)
         if actuator.limits is not None:
-            whole = f"min(max({whole}, {number_text(actuator.limits[0])}), {number_text(actuator.limits[1])})"
+            whole = self._bounded_text(whole, actuator.limits)
         elif len(terms) > 1:
             whole = f"({whole})"
         moved = {joint: w for joint, w in driven.items() if not self._is_stiff(joint)}
@@ -180,6 +190,16 @@ class Drives:
             for side, gap in gaps.items():
                 stops[self.names.name_for("stop", f"{r.name}_{side}")] = {"gap": gap}
         return stops
+
+
+def _rate_of_lag(actuator: RobotActuator, state: str, value: str) -> str:
+    """Return the rate of the state between an input and what it drives."""
+    if actuator.lag == "filter":
+        return f"({value} - {state})/{number_text(actuator.time)}"
+    if actuator.reach is None:
+        return value
+    low, high = map(number_text, actuator.reach)
+    return f"0 if ({state} >= {high} and {value} > 0) or ({state} <= {low} and {value} < 0) else {value}"
 
 
 def number_text(number: float) -> str:

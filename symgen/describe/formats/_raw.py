@@ -264,13 +264,13 @@ class _Description:
             if f.joint in self.joints and (f.of is None or f.of in self.joints):
                 joints[self.names.name_for("follower", f.name)] = self._follower_table(f)
         self._note_limits()
-        forces, inputs = self.drives.force_tables()
+        forces, inputs, states = self.drives.force_tables()
         stops = self.drives.stop_tables() if self.stops else {}
         if self.drives.limited and not self.stops:
             limited = names_with_count([r.name for r in self.drives.limited])
             why = "their lengths go beyond their ranges; --stops keeps them in"
             self.left_out.append(LeftOut("limits of tendons", limited, why, True))
-        parts = ("inputs", inputs), ("joints", joints), ("forces", forces), ("stops", stops)
+        parts = ("inputs", inputs), ("states", states), ("joints", joints), ("forces", forces), ("stops", stops)
         raw |= {key: x for key, x in parts if x}
         return raw, tuple(self.left_out)
 

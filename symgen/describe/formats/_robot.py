@@ -163,6 +163,14 @@ class RobotActuator:
         Of the input u, and of the formula's value.
     unit : str
         Of the input; empty where a file does not say.
+    gain_along, gain_against : float
+        What a weighted coordinate, and its rate, add to the gain.
+    lag : {"", "filter", "integrator"}
+        What stands between the input and u: nothing, a first-order lag of the input, or its integral.
+    time : float
+        Time constant of a filter [s].
+    reach : (float, float) or None
+        Between which an integral stays.
     slack : (float, float) or None
         Sums of weighted coordinates between which `along` gives nothing, below and above which it counts from there.
     """
@@ -177,6 +185,16 @@ class RobotActuator:
     limits: tuple[float, float] | None = None
     unit: str = ""
     slack: tuple[float, float] | None = None
+    gain_along: float = 0.0
+    gain_against: float = 0.0
+    lag: str = ""
+    time: float = 0.0
+    reach: tuple[float, float] | None = None
+
+    @property
+    def driven(self) -> bool:
+        """Whether it has an input."""
+        return any((self.gain, self.gain_along, self.gain_against))
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -270,19 +271,32 @@ class _Reader:
             weights = {self._name_of_object("joint", at): gear} if self._is_hinge_or_slide(at) else {}
         elif sort == int(m.mjtTrn.mjTRN_TENDON):
             weights = {name: gear * w for name, w in self.tendons.weights[at].items()}
-        plain = int(model.actuator_dyntype[i]) == int(m.mjtDyn.mjDYN_NONE)
-        fixed = int(model.actuator_gaintype[i]) == int(m.mjtGain.mjGAIN_FIXED)
-        bias = int(model.actuator_biastype[i])
+        lag = self._lags.get(int(model.actuator_dyntype[i]))
+        gain_type, bias = int(model.actuator_gaintype[i]), int(model.actuator_biastype[i])
+        fixed, by_state = int(m.mjtGain.mjGAIN_FIXED), int(m.mjtGain.mjGAIN_AFFINE)
         affine = bias == int(m.mjtBias.mjBIAS_AFFINE)
-        if not weights or not plain or not fixed or not (affine or bias == int(m.mjtBias.mjBIAS_NONE)):
-            why = "it is no effort along joints that is affine in its input, coordinates and rates"
+        early = bool(model.actuator_actearly[i])
+        reach = _as_pair(model.actuator_actrange[i]) if model.actuator_actlimited[i] else None
+        known = lag is not None and not early and not (reach and lag == "filter") and gain_type in (fixed, by_state)
+        if not weights or not known or not (affine or bias == int(m.mjtBias.mjBIAS_NONE)):
+            why = "it is no effort along joints that is affine in its input, or a lag of it, in coordinates and rates"
             self.left_out.append(LeftOut("an actuator", name, why, True))
             return None
         offset, along, against = model.actuator_biasprm[i].tolist()[:3] if affine else (0.0, 0.0, 0.0)
         bounds = _as_pair(model.actuator_ctrlrange[i]) if model.actuator_ctrllimited[i] else None
         limits = _as_pair(model.actuator_forcerange[i]) if model.actuator_forcelimited[i] else None
-        gain = float(model.actuator_gainprm[i][0])
-        return RobotActuator(name, weights, gain, offset, along, against, bounds, limits)
+        gains = model.actuator_gainprm[i].tolist()[:3]
+        by_gain = {"gain_along": gains[1], "gain_against": gains[2]} if gain_type == by_state else {}
+        time = float(model.actuator_dynprm[i][0])
+        plain = RobotActuator(name, weights, gains[0], offset, along, against, bounds, limits)
+        return replace(plain, **by_gain, lag=lag or "", time=time, reach=reach)
+
+    @property
+    def _lags(self) -> dict[int, str]:
+        """What stands between an input and what it drives, by MuJoCo's types."""
+        kinds = self.mujoco.mjtDyn
+        names = {"NONE": "", "INTEGRATOR": "integrator", "FILTER": "filter", "FILTEREXACT": "filter"}
+        return {int(getattr(kinds, f"mjDYN_{kind}")): lag for kind, lag in names.items()}
 
     def _is_hinge_or_slide(self, joint: int) -> bool:
         sorts = self.mujoco.mjtJoint

@@ -121,7 +121,7 @@ def _lead_sentence(result: Result) -> str:
 def _remarks_section(mechanism: Mechanism, result: Result) -> Iterator[Section]:
     """Yield the section of what is known of the model, and of what the run warns of, if anything is."""
     if said := (*mechanism.remarks, *result.warnings):
-        yield Section("Remarks", tuple(f"{sentence[:1].upper()}{sentence[1:]}." for sentence in said))
+        yield Section("Remarks", tuple(f"{sentence}." for sentence in said))
 
 
 def _loads_section(result: Result, along: Labelled) -> Iterator[Section]:
