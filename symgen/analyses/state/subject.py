@@ -21,7 +21,7 @@ from symgen.derive.lower.windings import winding_order
 from symgen.describe.bounds.bounded_modes import one_sided_rows, without_bounds
 from symgen.describe.facts.digest import digest
 from symgen.describe.formulas.evaluate import evaluate, parameter_values
-from symgen.describe.parts.holding_joints import in_modes
+from symgen.describe.parts.holding_joints import has_modes_of_joints, in_modes
 from symgen.run.compiling.linearised import DescriptorForm, LinearisedState, compile_linearised
 from symgen.run.compiling.pipeline import straight_alone
 from symgen.run.compiling.side import compile_side
@@ -358,7 +358,7 @@ def _without_bounded_state(mechanism: Mechanism, settings: Settings) -> Settings
 
 def _in_modes_at_start(mechanism: Mechanism, settings: Settings) -> tuple[Mechanism, Settings]:
     """Return a mechanism whose joints hold for good, or not at all, as at the start, and settings for it."""
-    if not mechanism.holding:
+    if not has_modes_of_joints(mechanism):
         return mechanism, settings
     last = None if isinstance(settings.start, Mapping) else settings.start.last_state
     states = dict[str, float]() if last is None else dict(last.states or {})

@@ -7,6 +7,7 @@ table from function name to action.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -94,6 +95,8 @@ FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
     "both": (2, min),
     "either": (2, max),
 }
+#: End of the name of a state that is 1 while a rope is on a sheave: its number in `over` follows.
+ON_SHEAVE = re.compile(r"\.on[1-9][0-9]*$")
 #: Functions with a kink where their argument is 0, or their two arguments are equal.
 BENT = ("abs", "min", "max", "both", "either")
 
@@ -123,9 +126,14 @@ def _leaf_expressions(expression: Expr) -> Iterator[Number | Name | Reading]:
 
 
 def moving_quantities(expression: Expr) -> tuple[Name | Reading, ...]:
-    """Return the coordinates, velocities and readings in `expression`, each once, in order of appearance."""
+    """Return the coordinates, velocities and readings in `expression`, each once, in order of appearance.
+
+    States that say whether a rope is on a sheave are constants between events, and none of them.
+    """
     leaves = (
-        e for e in _leaf_expressions(expression) if isinstance(e, Reading) or (isinstance(e, Name) and "." in e.name)
+        e
+        for e in _leaf_expressions(expression)
+        if isinstance(e, Reading) or (isinstance(e, Name) and "." in e.name and not ON_SHEAVE.search(e.name))
     )
     return tuple(dict.fromkeys(leaves))
 

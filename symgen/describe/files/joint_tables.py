@@ -19,6 +19,7 @@ from symgen.describe.parts.held_places import at_present_place
 from symgen.describe.parts.holding_keys import ReadHolding, read_holding
 from symgen.describe.parts.holds import joint_holds
 from symgen.describe.parts.kinds import JOINTS, check_points, kind_and_keys
+from symgen.describe.parts.passing_ropes import RopeSheave
 from symgen.describe.parts.topology import articulation_of_joint
 
 if TYPE_CHECKING:
@@ -65,6 +66,7 @@ class JointTables:
         self.cuts: list[str] = []
         self.forces: dict[str, Force] = {}
         self.holding: dict[str, ReadHolding] = {}
+        self.sheaves: list[RopeSheave] = []
         self._joints: dict[str, Joint | None] = {}
         self._open = 0  # joints being resolved, each because the one before refers to it
         self._scopes: dict[str, tuple[Scope, Joint]] = {}  # in the order in which joints are resolved
@@ -121,6 +123,8 @@ class JointTables:
         joint = at_present_place(scope, section.build(scope), whole)
         if (give := getattr(section, "give", None)) is not None and (force := give(scope)) is not None:
             self.forces[name] = force
+        if (sheaves := getattr(section, "sheaves", None)) is not None:
+            self.sheaves += sheaves(scope)
         scope.coordinates = {label: joint.unit(label) for label, _ in joint.coordinates}
         at = getattr(section, "at", None)
         if at is not None:

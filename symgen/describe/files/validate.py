@@ -53,6 +53,7 @@ from symgen.describe.parts.meant_words import hint_on_section
 from symgen.describe.parts.numbers import read_run_defaults, read_table_function
 from symgen.describe.parts.own_units import in_own_unit
 from symgen.describe.parts.parameters import Parameters
+from symgen.describe.parts.passing_ropes import with_rope_sheaves
 from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.sections import MechanismSection, OutputSection
 from symgen.describe.parts.states import read_state
@@ -230,7 +231,7 @@ class _Validator:
             remarks=tuple(map(one_line, head.remarks)),
         )
         with self.errors.part_of_description():
-            mechanism = with_holding(mechanism, holding)
+            mechanism = with_rope_sheaves(with_holding(mechanism, holding), self.joints.sheaves)
             mechanism = rows_as_forces(with_bounded_outputs(mechanism), [row for row in bounded if row.smooth])
             check_columns(mechanism, self.source)
             check_bounds(mechanism, self.source)

@@ -15,9 +15,11 @@ from symgen.base.vocabulary.expressions import (
 from symgen.base.vocabulary.measures import GROUND, FormulaMeasure, Holonomic
 from symgen.describe.joints._giving import force_of_pull, refuse_damping
 from symgen.describe.joints._paired import Paired
-from symgen.describe.joints._way_of_rope import Stop, way_of_rope
+from symgen.describe.joints._stops_of_rope import Stop
+from symgen.describe.joints._way_of_rope import Way, way_of_rope
 from symgen.describe.mechanism import Force, Joint
-from symgen.describe.parts.fields import Axis, BodyName, Point, Scalar
+from symgen.describe.parts.fields import Axis, BodyName, Flag, Point, Scalar
+from symgen.describe.parts.passing_ropes import RopeSheave
 from symgen.describe.parts.scope import CENTRE, Scope
 from symgen.describe.parts.triads import make_triad
 
@@ -37,6 +39,9 @@ class Sheave(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
         Of a sheave, which way the rope turns round it, from the first end on; in space as seen against the axis.
     axis : direction
         Of a sheave in space, in the frame of the body. Its length does not matter.
+    wound : bool
+        Of a sheave, whether the rope is on it at the start: true for one that turns by more than half a turn although
+        its straight way would pass by. By default it is unless the straight way passes by.
     """
 
     at: Point
@@ -44,6 +49,7 @@ class Sheave(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     turn: Literal["left", "right"] | None = None
     axis: Axis | None = None
     body: BodyName = GROUND
+    wound: Flag | None = None
 
 
 class Rope(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -57,8 +63,9 @@ class Rope(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
         The ends.
     over : list of tables
         The sheaves on its way, each ``{ body, at, radius, turn }``, in space with an `axis`; the rope turns round each
-        by less than a turn at the start. In space what is before and after a sheave starts in its plane. Without
-        `radius` there is an eyelet.
+        by less than a turn at the start. It leaves a sheave whose arc has come to 0, passes by, and touches it again
+        from the same side. In space what is before and after a sheave starts in its plane. Without `radius` there is an
+        eyelet.
     length : scalar
         Length [m]; that of the way as the bodies are described to start by default.
     stiffness : scalar
@@ -72,7 +79,8 @@ class Rope(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     -----
     One row. Multiplier ``NAME.tension`` [N]. With `stiffness` there is a force in its place, which reports
     ``NAME.length`` [m] and ``NAME.force`` [N], below 0 where it pulls, as springs do; the joint then reports
-    ``NAME.stretch`` [m], below 0 where the rope is slack.
+    ``NAME.stretch`` [m], below 0 where the rope is slack. The state ``NAME.onK`` is 1 while the rope is on the sheave
+    that is number K in `over`, else 0; the events ``NAME.leavesK`` and ``NAME.comesK`` change it.
     """
 
     SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
@@ -87,8 +95,8 @@ class Rope(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
         refuse_damping(scope, self.stiffness, self.damping)
         bodies, way, length = self._way(scope)
         if self.stiffness is None:
-            return Joint(scope.name, scope.kind, bodies, (Holonomic("tension", FormulaMeasure(way), length),))
-        stretch = FormulaMeasure(call("sub", way, length))
+            return Joint(scope.name, scope.kind, bodies, (Holonomic("tension", FormulaMeasure(way.length), length),))
+        stretch = FormulaMeasure(call("sub", way.length, length))
         return Joint(scope.name, scope.kind, bodies, (), (("stretch", stretch),))
 
     def give(self, scope: Scope) -> Force | None:
@@ -96,15 +104,19 @@ class Rope(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
         if self.stiffness is None:
             return None
         bodies, way, length = self._way(scope)
-        return force_of_pull(scope, bodies, "force", FormulaMeasure(way), length, self.stiffness, self.damping)
+        return force_of_pull(scope, bodies, "force", FormulaMeasure(way.length), length, self.stiffness, self.damping)
 
-    def _way(self, scope: Scope) -> tuple[tuple[str, ...], Expr, Expr]:
-        """Return the bodies, the length of the way as a formula, and the length of the rope."""
+    def sheaves(self, scope: Scope) -> tuple[RopeSheave, ...]:
+        """Return the sheaves that the rope may leave."""
+        return self._way(scope)[1].sheaves
+
+    def _way(self, scope: Scope) -> tuple[tuple[str, ...], Way, Expr]:
+        """Return the bodies, the way, and the length of the rope."""
         (a, b), ends = self.ends(scope, turns=(False, False))
         stops = [Stop("at[0]", ends[0], ZERO), *(_stop(scope, i, x) for i, x in enumerate(self.over))]
         stops.append(Stop("at[1]", ends[1], ZERO))
-        way, start = way_of_rope(scope, stops)
-        length: Expr = literal_of(start)
+        way = way_of_rope(scope, stops)
+        length: Expr = literal_of(way.start)
         if self.length is not None:
             length = scope.constant("length", self.length, positive=True)
         carried = (stop.centre.body for stop in stops[1:-1] if stop.centre.body != GROUND)
@@ -115,6 +127,8 @@ def _stop(scope: Scope, i: int, sheave: Sheave) -> Stop:
     """Return a sheave, or an eyelet."""
     key = f"over[{i}]"
     axial = (("axis", sheave.axis),) if scope.spatial else ()
+    if sheave.wound is not None and sheave.radius is None:
+        raise scope.error(f"{key}.wound", "no such key without a radius", "one", "an eyelet holds the rope for good")
     if sheave.axis is not None and not scope.spatial:
         raise scope.error(f"{key}.axis", "no such key in the plane", "a direction")
     body = scope.body(f"{key}.body", sheave.body, turns=sheave.axis is not None)
@@ -130,7 +144,7 @@ def _stop(scope: Scope, i: int, sheave: Sheave) -> Stop:
     radius = scope.constant(f"{key}.radius", sheave.radius, positive=True)
     signed = radius if sheave.turn == "left" else call("neg", radius)
     triad = None if sheave.axis is None else make_triad(scope, body, sheave.axis, keys=(f"{key}.axis", ""))
-    return Stop(key, centre, signed, triad)
+    return Stop(key, centre, signed, triad, sheave.wound)
 
 
 KIND = Rope

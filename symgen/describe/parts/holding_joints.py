@@ -21,7 +21,6 @@ from symgen.base.vocabulary.expressions import (
     Call,
     Expr,
     Name,
-    Number,
     Reading,
     call,
     names_in_expression,
@@ -30,65 +29,16 @@ from symgen.base.vocabulary.measures import GROUND, Angle, Holonomic
 from symgen.describe.coordinate_names import is_speed
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.start import described_start
+from symgen.describe.formulas.symbols import Symbols, formula_of
 from symgen.describe.mechanism import Hold, Holding, Joint, Mechanism, ModeEvent, Output, StateVariable
 from symgen.describe.parts.driven_mechanism import replace_names
 from symgen.describe.parts.event_sections import RESET
 from symgen.describe.parts.held_places import at_place_of_states, measure_beyond_value, name_of_place, places_of
 from symgen.describe.parts.holding_keys import HOLDS, ReadHolding
+from symgen.describe.parts.passing_ropes import has_rope_sheaves, without_rope_sheaves
 
 #: Last words of the names of events, states and the mode.
 CATCHES, RELEASES, CHANGED, DISSIPATED, MODE = "holds", "releases", "changed", "dissipated", "mode"
-
-
-class _Symbol:
-    """A formula with the operators of numbers, for the described start as formulas of parameters."""
-
-    def __init__(self, of: Expr) -> None:
-        self.of = of
-
-    def __add__(self, other: _Symbol | float) -> _Symbol:
-        return _Symbol(call("add", self.of, _formula(other)))
-
-    def __sub__(self, other: _Symbol | float) -> _Symbol:
-        return _Symbol(call("sub", self.of, _formula(other)))
-
-    def __mul__(self, other: _Symbol | float) -> _Symbol:
-        return _Symbol(call("mul", self.of, _formula(other)))
-
-    def __truediv__(self, other: _Symbol | float) -> _Symbol:
-        return _Symbol(call("div", self.of, _formula(other)))
-
-    def __neg__(self) -> _Symbol:
-        return _Symbol(call("neg", self.of))
-
-    def __radd__(self, other: _Symbol | float) -> _Symbol:
-        return _Symbol(_formula(other)) + self
-
-    def __rsub__(self, other: _Symbol | float) -> _Symbol:
-        return _Symbol(_formula(other)) - self
-
-    def __rmul__(self, other: _Symbol | float) -> _Symbol:
-        return _Symbol(_formula(other)) * self
-
-
-def _formula(x: _Symbol | float) -> Expr:
-    return x.of if isinstance(x, _Symbol) else Number(float(x))
-
-
-class _Symbols:
-    """Formulas as the numbers of a start (`symgen.describe.formulas.start.Numbers`)."""
-
-    def value(self, expression: Expr, where: str) -> _Symbol:
-        """Return a formula."""
-        return _Symbol(expression)
-
-    def apply_function(self, function: str, *arguments: _Symbol | float) -> _Symbol:
-        """Return a function of formulas."""
-        return _Symbol(call(function, *map(_formula, arguments)))
-
-    def check_above(self, limit: object, x: _Symbol, where: str, expected: str, got: str) -> _Symbol:
-        """Return `x`: a run checks its numbers."""
-        return x
 
 
 def _value_at_start(mechanism: Mechanism, read: ReadHolding) -> Expr:
@@ -101,12 +51,12 @@ def _value_at_start(mechanism: Mechanism, read: ReadHolding) -> Expr:
     """
     if isinstance(read.first, bool):
         return ONE if read.first else ZERO
-    q, v = described_start(mechanism, _Symbols())
+    q, v = described_start(mechanism, Symbols())
     names = [f"{body.name}.{name}" for body in mechanism.bodies for name in body.coordinates]
     speeds = [f"{body.name}.{name}" for body in mechanism.bodies for name in body.speeds]
     known: dict[str, Expr] = {"t": ZERO, **{p.name: Name(p.name) for p in mechanism.parameters if not p.input}}
-    known |= {name: _formula(x) for name, x in zip(names, q, strict=True)}
-    known |= {name: _formula(x) for name, x in zip(speeds, v, strict=True) if x is not None}
+    known |= {name: formula_of(x) for name, x in zip(names, q, strict=True)}
+    known |= {name: formula_of(x) for name, x in zip(speeds, v, strict=True) if x is not None}
 
     def unknown(name: str) -> InputError:
         hint = "holds = { during = ..., at_start = true }"
@@ -214,8 +164,13 @@ def with_holding(mechanism: Mechanism, read: Sequence[ReadHolding]) -> Mechanism
     )
 
 
+def has_modes_of_joints(mechanism: Mechanism) -> bool:
+    """Whether joints hold for a while, or ropes may leave sheaves."""
+    return bool(mechanism.holding) or has_rope_sheaves(mechanism)
+
+
 def in_modes(mechanism: Mechanism, values: Mapping[str, float], states: Mapping[str, float] | None = None) -> Mechanism:
-    """Return a mechanism whose joints hold for good, or not at all, as they do in one state.
+    """Return a mechanism whose joints hold for good, or not at all, and whose ropes stay where they are in one state.
 
     Parameters
     ----------
@@ -226,6 +181,7 @@ def in_modes(mechanism: Mechanism, values: Mapping[str, float], states: Mapping[
     states : mapping of str to float, optional
         States of the file's own by name; those of the start by default.
     """
+    mechanism = without_rope_sheaves(mechanism, values, states)
     if not mechanism.holding:
         return mechanism
     where, joints, own = mechanism.name, list[Joint](), set[str]()

@@ -176,6 +176,8 @@ def turning_length(geometry: abi.Measure, layout: Layout, now: Instant, work: Wo
         there[i] = w[i]
     while count > 0 and step < LONGEST:
         j = 0
+        for i in range(layout.nq, y.shape[0]):
+            other[i] = y[i]  # rows may read states of the file
         for i in range(layout.nq):
             other[i] = y[i]
             if layout.lengths[i] != 0.0:

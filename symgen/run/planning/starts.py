@@ -147,14 +147,13 @@ class DescribedStart:
         held = holds if isinstance(holds, Held) else held_quantities(compiled.info, holds, numbers, self._v)
         assembly, reported = self._assembly(held), partial(displacements_of_bodies, mechanism, numbers)
         try:
-            start = closed_start(assembly, held, assembly.close, q, self._v, self._p.copy(), reported)
+            start = closed_start(assembly, held, assembly.close, q, self._v, self._p.copy(), reported, states)
         except UndeterminedError as error:
             if rows := balance_rows(mechanism, error.body):
                 raise error.with_hint(f'springs alone hold it by a joint of type = "rows" with {rows}') from None
             raise
         if lines := _opposite_sides(mechanism, compiled.info, start.y):
             start = replace(start, warnings=(*start.warnings, *lines))
-        start.y[compiled.info.own_states] = states
         return start
 
     def state(self, holds: Sequence[Hold]) -> tuple[Instant, bool]:
@@ -170,10 +169,10 @@ class DescribedStart:
         mechanism, compiled, p = self.mechanism, self.compiled, self._p.copy()
         held = held_quantities(compiled.info, holds, self._numbers, self._v, self._indices)
         kept = self._kept_start(held)
-        y, w, summary = closed_state(compiled, held, partial(kept.close, held), self._q, self._velocities.copy(), p)
+        states = states_at_start(mechanism, self._numbers, holds)
+        close, velocities = partial(kept.close, held), self._velocities.copy()
+        y, w, summary = closed_state(compiled, held, close, self._q, velocities, p, states)
         _opposite_sides(mechanism, compiled.info, y)
-        if mechanism.states:
-            y[compiled.info.own_states] = states_at_start(mechanism, self._numbers, holds)
         return Instant(y, p, w), bool(summary[e.LIGHT])
 
     def again(self, holds: Sequence[Hold], names: Sequence[str]) -> Again | None:
@@ -209,7 +208,7 @@ class DescribedStart:
                 places.append(info.nv + order.index(("value" if of == name else "rate", indices.joints[of])))
             else:
                 return None
-        described, states = described_state(info, self._q), states_at_start(mechanism, self._numbers, holds)
+        described = described_state(info, self._q, states_at_start(mechanism, self._numbers, holds))
         sides, v, targets = sided_joints(mechanism), numbers[: info.nv], numbers[info.nv :]
 
         def closed(values: Sequence[float]) -> Instant | None:
@@ -217,8 +216,6 @@ class DescribedStart:
             now, summary = kept.enter(described, v, targets)
             if summary[e.START] != e.ASSEMBLED or summary[e.LIGHT] or any(side.cosine(now.y) < 0.0 for side in sides):
                 return None
-            if states:
-                now.y[info.own_states] = states
             return now
 
         return closed

@@ -16,7 +16,7 @@ from symgen.describe.bounds.bounded_modes import one_sided_rows, refuse_bounds, 
 from symgen.describe.bounds.smooth import sliding_rows_as_forces
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.describe.parts.holding_joints import in_modes
+from symgen.describe.parts.holding_joints import has_modes_of_joints, in_modes
 from symgen.describe.parts.topology import state_quantities
 from symgen.run.compiling.choices import choose_coordinates, mechanism_on_tree, take_tree_of
 from symgen.run.planning.plan import Purpose
@@ -61,7 +61,7 @@ class StateModel:
 
     def __init__(self, where: str, mechanism: Mechanism, coordinates: str, parameters: Mapping[str, float]) -> None:
         coordinates = arguments.one_word_of("coordinates", coordinates, COORDINATES)
-        if mechanism.holding:
+        if has_modes_of_joints(mechanism):
             given = arguments.mapping("set", parameters, "numbers by the names of parameters")
             own = {p.name for p in mechanism.parameters}
             values = {name: x for name, x in given.items() if name in own}

@@ -177,6 +177,7 @@ def closed_start(
     v: Sequence[float | None],
     p: Array,
     moved: Moved | None = None,
+    states: Sequence[float] = (),
 ) -> Start:
     """Close a start, and return it with its reports.
 
@@ -190,6 +191,8 @@ def closed_start(
         Closes a state in place.
     q, v, p, moved
         As for `assemble`.
+    states : sequence of float
+        States of the file, which rows may read; 0 unless given.
 
     Raises
     ------
@@ -198,7 +201,7 @@ def closed_start(
     """
     compiled = assembly.compiled
     info, velocities = compiled.info, np.array([np.nan if x is None else x for x in v], dtype=np.float64)
-    y, w, summary = closed_state(compiled, held, close, q, velocities, p)
+    y, w, summary = closed_state(compiled, held, close, q, velocities, p, states)
     velocities[list(held.velocities)] = list(held.velocities.values())
     changes = changes_of(info, np.concatenate([q, velocities]), y, state_scales(compiled, w, math.inf))
     return Start(
@@ -213,7 +216,13 @@ def closed_start(
 
 
 def closed_state(
-    compiled: CompiledModel, held: Held, close: Closing, q: Array, velocities: Array, p: Array
+    compiled: CompiledModel,
+    held: Held,
+    close: Closing,
+    q: Array,
+    velocities: Array,
+    p: Array,
+    states: Sequence[float] = (),
 ) -> tuple[Array, Array, Array]:
     """Close a start without reports; return its state, scratch and summary.
 
@@ -221,7 +230,7 @@ def closed_state(
     ----------
     compiled : CompiledModel
         Model and method.
-    held, close, q, p
+    held, close, q, p, states
         As for `closed_start`.
     velocities : Array, shape (nv,)
         Specified velocities, nan for the others.
@@ -231,7 +240,7 @@ def closed_state(
     AssemblyError, InputError
         As `assemble`.
     """
-    info, y = compiled.info, described_state(compiled.info, q)
+    info, y = compiled.info, described_state(compiled.info, q, states)
     w, summary = close(y, velocities, p)
     if summary[e.START] != e.ASSEMBLED:
         error = without_derivative(compiled, q, p) or start_refusal(summary, info, held)
@@ -279,6 +288,9 @@ def far_moved_warning(
     return warnings_of(changes, info, length, moved(q, y[: info.nq]) if moved else ())
 
 
-def described_state(info: ModelInfo, q: Array) -> Array:
-    """Return a state at rest with these coordinates."""
-    return np.concatenate([q, np.zeros(info.ny - info.nq)])
+def described_state(info: ModelInfo, q: Array, states: Sequence[float] = ()) -> Array:
+    """Return a state at rest with these coordinates and states of the file."""
+    y = np.concatenate([q, np.zeros(info.ny - info.nq)])
+    if len(states):
+        y[info.own_states] = states
+    return y

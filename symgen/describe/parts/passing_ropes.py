@@ -1,0 +1,101 @@
+"""Ropes that leave their sheaves and come back: states and events of a mechanism.
+
+A rope over sheaves has a state for each, ``NAME.onK``, 1 while the rope is on the sheave, else 0; K counts the entries
+of ``over``. An event takes the rope off where its arc has come to 0, ``NAME.leavesK``, another one puts it on where its
+straight part touches again, ``NAME.comesK``. Length and direction of the rope go on there, so nothing jumps but
+accelerations. All else that runs have for states and events they have for these.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import msgspec
+
+from symgen.base.vocabulary.expressions import ON_SHEAVE, ONE, ZERO, Expr, Name, Number, call
+from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.mechanism import Mechanism, ModeEvent, StateVariable
+from symgen.describe.parts.driven_mechanism import put_formulas
+from symgen.describe.parts.event_sections import RESET
+
+#: Last words of the names of states and events, before the number of the sheave.
+ON, LEAVES, COMES = "on", "leaves", "comes"
+_OF_ROPES = re.compile(rf"\.(?:{LEAVES}|{COMES})[1-9][0-9]*$")
+
+
+class RopeSheave(msgspec.Struct, frozen=True):
+    """A sheave that a rope may leave.
+
+    Parameters
+    ----------
+    rope : str
+        The joint.
+    sheave : int
+        Number of the sheave in `over`, from 1.
+    first : Expr
+        A formula of parameters, 1 where the rope is on the sheave at the start, else 0.
+    arc : Expr
+        The angle that the rope turns by on the sheave, or would turn by [rad]; below 0 it passes by.
+    """
+
+    rope: str
+    sheave: int
+    first: Expr
+    arc: Expr
+
+
+def name_of_state(rope: str, sheave: int) -> str:
+    """Return the name of the state that is 1 while a rope is on a sheave."""
+    return f"{rope}.{ON}{sheave}"
+
+
+def with_rope_sheaves(mechanism: Mechanism, sheaves: Sequence[RopeSheave]) -> Mechanism:
+    """Return a mechanism with the states and events of ropes that may leave their sheaves."""
+    states, events = list[StateVariable](), list[ModeEvent]()
+    for x in sheaves:
+        state = Name(name_of_state(x.rope, x.sheave))
+        states.append(StateVariable(state.name, x.first, ZERO))
+        off = call("sub", ONE, state)  # functions of what cannot happen are -1
+        leaves = call("sub", call("neg", call("mul", state, x.arc)), off)
+        comes = call("sub", call("mul", off, x.arc), state)
+        for word, when, value in ((LEAVES, leaves, ZERO), (COMES, comes, ONE)):
+            name, text = f"{x.rope}.{word}{x.sheave}", f"{x.rope} {word} sheave {x.sheave}"
+            events.append(ModeEvent(name, when, "rising", RESET, ((state, value),), text, word))
+    if not sheaves:
+        return mechanism
+    states, events = [*mechanism.states, *states], [*mechanism.events, *events]
+    return msgspec.structs.replace(mechanism, states=tuple(states), events=tuple(events))
+
+
+def has_rope_sheaves(mechanism: Mechanism) -> bool:
+    """Whether ropes may leave sheaves."""
+    return any(ON_SHEAVE.search(x.name) for x in mechanism.states)
+
+
+def without_rope_sheaves(
+    mechanism: Mechanism, values: Mapping[str, float], states: Mapping[str, float] | None = None
+) -> Mechanism:
+    """Return a mechanism whose ropes stay on the sheaves that they are on in one state, and off the others.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    values : mapping of str to float
+        Values of all parameters.
+    states : mapping of str to float, optional
+        States of the file's own by name; those of the start by default.
+    """
+    own = [x for x in mechanism.states if ON_SHEAVE.search(x.name)]
+    if not own:
+        return mechanism
+    known = states or {}
+    on = {x.name: Number(known.get(x.name, evaluate(x.start, values, mechanism.name))) for x in own}
+    changed: dict[str, Any] = {
+        part: put_formulas(getattr(mechanism, part), on) for part in ("joints", "forces", "outputs")
+    }
+    changed["states"] = tuple(x for x in mechanism.states if x.name not in on)
+    changed["events"] = tuple(x for x in mechanism.events if not _OF_ROPES.search(x.name))
+    return msgspec.structs.replace(mechanism, **changed)
