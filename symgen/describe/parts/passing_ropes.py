@@ -65,8 +65,8 @@ def with_rope_sheaves(mechanism: Mechanism, sheaves: Sequence[RopeSheave]) -> Me
             events.append(ModeEvent(name, when, "rising", RESET, ((state, value),), text, word))
     if not sheaves:
         return mechanism
-    states, events = [*mechanism.states, *states], [*mechanism.events, *events]
-    return msgspec.structs.replace(mechanism, states=tuple(states), events=tuple(events))
+    together = {"states": (*mechanism.states, *states), "events": (*mechanism.events, *events)}
+    return msgspec.structs.replace(mechanism, **together)
 
 
 def has_rope_sheaves(mechanism: Mechanism) -> bool:
