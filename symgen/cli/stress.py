@@ -144,10 +144,13 @@ def show_stress(study: Stress) -> None:
         )
         show_rows(out, headings, cells, headings[:2], title, first=2)
     if study.limits:
-        out.print("largest constant step [s] that follows the motion, and with an error below 1e-3 of the length")
-        steps = [["none" if h is None else f"{h:.3g}" for h in (x.stable_step, x.accurate_step)] for x in study.limits]
+        out.print(
+            "largest constant step [s] that follows the motion, and with an error below 1e-3 of the length; >= a bound"
+        )
         words = [(x.model, f"{x.family} {x.case}", x.method, x.integrator) for x in study.limits]
         headings = ("model", "case", "method", "integrator", "stable", "accurate")
-        show_rows(out, headings, [(*a, *b) for a, b in zip(words, steps, strict=True)], headings[:4], first=4)
+        show_rows(
+            out, headings, [(*a, *x.words) for a, x in zip(words, study.limits, strict=True)], headings[:4], first=4
+        )
     for sentence in findings_of_study(study):
         out.print(sentence)

@@ -23,6 +23,9 @@ from symgen.result.interface_poses import interface_poses
 
 Array = NDArray[np.float64]
 
+#: A motion below the first share of the mechanism's size is rounding, and one below the second is small against it.
+STILL, SMALL = 1e-13, 0.1
+
 
 @dataclass(frozen=True)
 class Points:
@@ -88,6 +91,20 @@ class Points:
         places = np.concatenate([q[:, i : i + self.dimension] for i, _ in self.bodies])
         extent = float(np.linalg.norm(np.ptp(places, axis=0)))
         return max(longest, extent) or float(np.linalg.norm(places[0] - self.datum))
+
+    def scale_of_errors(self, q: Array) -> float:
+        """Return what errors of a motion are shares of [m]: the mechanism's size, or the range of a small motion.
+
+        A mechanism that stands still would follow every motion far smaller than itself.
+
+        Parameters
+        ----------
+        q : Array, shape (k, nq)
+            The motion, from its start.
+        """
+        size = self.size(q)
+        moved = self.distances_over_time(q, np.repeat(q[:1], len(q), axis=0)).max(initial=0.0)
+        return float(moved) if STILL * size < moved < SMALL * size else size
 
     def largest_distance(self, a: Array, b: Array) -> float:
         """Return the largest distance [m] between corresponding points, over all bodies and times.

@@ -1,4 +1,4 @@
-"""Simulate the mechanism of this folder by the classical Runge-Kutta scheme with constant steps.
+"""Simulate the mechanism of this folder with constant steps, by a method's own scheme or by rk4.
 
     python simulate.py [METHOD [UNTIL [STEP]]]
 
@@ -85,12 +85,79 @@ def loop_of(law):
     return run
 
 
+@njit
+def nothing(*arguments):
+    """Replace functions that a model or a law does not have and a scheme does not enter."""
+    return 0
+
+
+def own_steps(system, scheme, states, step):
+    """Fill the rows of states behind the first one by the scheme of a method; return the number of whole steps."""
+    model, module = import_module("model"), import_module(scheme["module"])
+    sizes, law = module.Sizes(*scheme["sizes"]), system.law
+    width = sizes.width
+    functions = [getattr(law, name, law.rhs) for name in ("rhs", "confirm", "accept")]
+    functions += [getattr(part, name, nothing) for part, name in ((model, "turn"), (law, "residual"), (law, "tangent"))]
+    kinds = {"integers": np.int64, "numbers": np.float64}
+
+    def read(value):
+        if not isinstance(value, dict):
+            return value
+        ((kind, content),) = value.items()
+        if isinstance(content, dict):
+            return getattr(module, kind)(**{name: read(each) for name, each in content.items()})
+        return getattr(model, content) if kind == "function" else np.array(content, dtype=kinds[kind])
+
+    kept = {name: np.array(numbers) for name, numbers in scheme["arrays"].items()}
+    own = {name: np.zeros(n, dtype=np.int64 if name == "control" else float) for name, n in scheme["lengths"].items()}
+    y, trial = np.zeros(width), np.zeros(width)
+    y[: len(system.y)] = system.y
+    arrays = {"memory": np.zeros(scheme["memory"]), "room": np.zeros(scheme["room"])}
+    arrays |= {"y": y, "trial": trial, "p": system.p, "w": system.w, "iw": system.iw}
+    run = module.Run(**kept, **own, **arrays)
+    span = module.Span(*map(float, scheme["span"]))._replace(step=step)
+    return loop_of_scheme(module)(module.ModelSystem(sizes, *functions), read(scheme["record"]), span, run, states)
+
+
+def loop_of_scheme(module):
+    """Return the loop over steps of a scheme, compiled with its functions."""
+    prepare, attempt, renew = module.prepare, module.attempt, module.renew
+    correct, note = module.correct, module.note_step
+
+    @njit(error_model="numpy")
+    def loop(system, scheme, span, run, states):
+        n, h = states.shape[1], span.step
+        note(run, h)
+        prepare(system, scheme, span, run)
+        for i in range(len(states) - 1):
+            note(run, h)
+            following = (i + 1) * h
+            if attempt(system, scheme, span, run, i * h, following, h, False) < 0.0:
+                return i
+            bits = correct(system, run, following, run.trial, False)
+            if bits & 1 or not np.isfinite(run.trial).all():
+                return i
+            run.y[:] = run.trial
+            run.clock[0] = following
+            renew(system, scheme, span, run, following, bits & 2 != 0)
+            states[i + 1] = run.y[:n]
+        return len(states) - 1
+
+    return loop
+
+
 def simulate(method=RUN["method"], until=RUN["until"], step=RUN["step"]):
     """Return times and states: positions, velocities, and the work of forces without potential and of drivers."""
     system, count = System(method, step), round(until / step)
     states = np.zeros((count + 1, len(system.y)))
     states[0] = system.y
-    done = loop_of(system.law)(states, step, system.p, system.w, system.iw)
+    scheme = MODEL["methods"][method.replace("-", "_")].get("scheme")
+    if scheme is not None and "refused" in scheme:
+        raise SystemExit(f"simulate.py: {method}: {scheme['refused']}")
+    if scheme is not None:
+        done = own_steps(system, scheme, states, step)
+    else:
+        done = loop_of(system.law)(states, step, system.p, system.w, system.iw)
     if done < count:
         raise ArithmeticError(f"the state at t = {(done + 1) * step} cannot be corrected")
     return step * np.arange(count + 1), states

@@ -138,6 +138,43 @@ def test_a_package_gives_the_numbers_of_runs_by_other_methods(method, alone, tmp
     agrees("four-bar", alone, tmp_path, method=method)
 
 
+#: Methods with a scheme of their own: constant steps of their default integrator.
+OWN_SCHEMES = ("rattle", "half-explicit", "generalized-alpha", "ggl", "discrete-gradient")
+OWN_SCHEMES += ("index3-augmented-lagrangian", "symmetric-projection", "implicit-constraint")
+
+
+@pytest.mark.fast("rattle-four-bar")
+@pytest.mark.by_turns(3)
+@pytest.mark.parametrize("name", ["four-bar", "slider-crank", "pendulum", "spatial-slider-crank"])
+@pytest.mark.parametrize("method", OWN_SCHEMES)
+def test_a_package_runs_the_scheme_of_its_method(method, name, tmp_path):
+    """The classical Runge-Kutta scheme, which packages had for all of them, differs in the fourth digit."""
+    model, folder, steps = symgen.load(name), tmp_path / "emitted", 8
+    model.generate(folder, method)
+    step = 5.0 * json.loads((folder / "model.json").read_text())["run"]["step"]
+    environment = os.environ | {"NUMBA_DISABLE_JIT": "1"}
+    command = [sys.executable, str(folder / "simulate.py"), method, repr(steps * step), repr(step)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    assert done.returncode == 0, done.stderr[-2000:]
+    found = json.loads(done.stdout)
+    options = {"integrator.adaptive": "false"} if method == "ggl" else {}
+    limits = {"max_violation": 1.0, "max_energy_error": 10.0}
+    settings = {"step": step, "until": steps * step, "shape": "straight", "coordinates": "absolute"}
+    final = model.simulate(method=method, options=options, **settings, **limits).to_json()["final"]
+    expected = {**final["q"], **final["v"]}
+    scale = max(map(abs, expected.values()))
+    assert max(abs(found[key] - expected[key]) for key in expected) < 1e-12 * max(1.0, scale)
+
+
+@pytest.mark.slow
+def test_numba_compiles_the_step_of_a_scheme(alone, tmp_path):
+    symgen.load("pendulum").generate(tmp_path / "emitted", "rattle")
+    run = tmp_path / "emitted", alone, tmp_path, "rattle", 0.05, 0.01
+    plainly, compiled = (simulated(*run, compiled=c) for c in (False, True))
+    assert plainly.keys() == compiled.keys()
+    assert max(abs(plainly[key] - compiled[key]) for key in plainly) < 1e-10
+
+
 @pytest.mark.parametrize("target", ["cuda", "lanes"])
 def test_code_for_other_targets_is_a_model_and_a_method(target, tmp_path):
     found = symgen.load("pendulum").generate(tmp_path / "emitted", "lagrange", target=target)
@@ -177,12 +214,11 @@ OPEN = (
         (FLIP, ["--coordinates", "absolute"], "jumps by 0.3 rad at t = 0.5 s"),
         (FLIP, ["--coordinates", "joint"], "jumps by 0.3 rad at t = 0.5 s"),
         (OPEN, ["--method", "lagrange"], "cannot be assembled"),
-        ("", ["--method", "ggl"], "no method here is for explicit integrators"),
     ],
 )
 def test_what_cannot_be_run_has_code_and_a_reason(text, arguments, why, tmp_path):
     (tmp_path / "model.toml").write_text(text)
-    folder, model = tmp_path / "emitted", str(tmp_path / "model.toml") if text else "pendulum"
+    folder, model = tmp_path / "emitted", str(tmp_path / "model.toml")
     assert main(["generate", model, "-o", str(folder), *arguments]) == 0
     assert not (folder / "simulate.py").exists()
     assert re.search(rf"There is no `simulate\.py`: [^\n]*{re.escape(why)}", (folder / "README.md").read_text())

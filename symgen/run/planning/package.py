@@ -35,6 +35,7 @@ from symgen.run.compiling.method_choice import (
     takes_bounded_rows,
 )
 from symgen.run.compiling.pipeline import generate
+from symgen.run.planning.package_schemes import PackageScheme, scheme_of_package
 from symgen.run.planning.plan import Plan, Purpose
 from symgen.run.planning.prepare import code_and_start, make_plan, prepared_run
 
@@ -124,8 +125,13 @@ def write_package(
     generated = generate(derived, choices, shape, target, whole=True)
     modules, laws = _modules_by_method(generated.modules, choices, SUFFIXES[target])
     files: dict[str, Content] = {f"{stem}.py": source for stem, (source, _) in modules.items()}
-    files["model.json"] = _metadata(modules, laws, run)
-    files["README.md"] = _readme(mechanism, modules, reason)
+    schemes: dict[str, PackageScheme] = {}
+    if run is not None:
+        own_schemes = ((_stem(plan.choice), scheme_of_package(plan)) for plan in plans)
+        schemes = {law: scheme for law, scheme in own_schemes if scheme is not None}
+    files |= {f"{scheme.stem}.py": scheme.text for scheme in schemes.values() if scheme.text}
+    files["model.json"] = _metadata(modules, laws, run, schemes)
+    files["README.md"] = _readme(mechanism, modules, reason, schemes)
     script = folder / "simulate.py"
     if run is not None:
         files[script.name] = (templates_folder() / "package" / script.name).read_text(encoding="utf-8")
@@ -187,10 +193,8 @@ def _plans_at_start(plans: Sequence[Plan]) -> tuple[list[Plan], dict[str, Any] |
 
     Where light bodies make a run take another solver, the package does too.
     """
-    explicit = sorted((plan for plan in plans if not plan.choice.implicit), key=lambda plan: not plan.solver_is_free)
-    if not explicit:
-        return list(plans), None, "no method here is for explicit integrators"
-    usual = next((plan for plan in explicit if plan.choice.method.name == "direct-correction"), explicit[0])
+    ordered = sorted(plans, key=lambda plan: (plan.choice.implicit, not plan.solver_is_free))
+    usual = next((plan for plan in ordered if plan.choice.method.name == "direct-correction"), ordered[0])
     try:
         assembled = code_and_start(usual)
     except AssemblyError as error:
@@ -229,20 +233,25 @@ def _finite_or_none(number: float) -> float | str:
     return float(number) if math.isfinite(number) else str(float(number))
 
 
-def _metadata(modules: Modules, laws: Sequence[str], run: Mapping[str, Any] | None) -> str:
+def _metadata(
+    modules: Modules, laws: Sequence[str], run: Mapping[str, Any] | None, schemes: Mapping[str, PackageScheme]
+) -> str:
     """Return the facts of modules that programs need, and the start of a run, as JSON with short lists in one line."""
     others = {stem: info for stem, (_, info) in modules.items() if stem not in laws and info}
     model = next((others.pop(stem) for stem in list(others) if stem.startswith("model")), {"kernels": others})
-    content = {**model, "methods": {stem: modules[stem][1] for stem in laws}, **({"run": run} if run else {})}
+    numbers = {law: {"scheme": scheme.numbers} for law, scheme in schemes.items()}
+    methods = {stem: {**modules[stem][1], **numbers.get(stem, {})} for stem in laws}
+    content = {**model, "methods": methods, **({"run": run} if run else {})}
     text = json.dumps(content, allow_nan=False, indent=1)
     for innermost in (r"\{[^\[\]{}]*\}", r"\[[^\[\]{}]*\]"):
         text = re.sub(innermost, lambda match: re.sub(r"\s*\n\s*", " ", match[0]), text)
     return text + "\n"
 
 
-def _readme(mechanism: Mechanism, modules: Modules, reason: str) -> str:
+def _readme(mechanism: Mechanism, modules: Modules, reason: str, schemes: Mapping[str, PackageScheme]) -> str:
     """Return the page of a package; `reason` says why nothing simulates it."""
     files = {f"{stem}.py": source.split('"""')[1].split(" Emitted by")[0] for stem, (source, _) in modules.items()}
+    files |= {f"{s.stem}.py": s.text.split("\n")[0].strip('"').rstrip(".") for s in schemes.values() if s.text}
     files["model.json"] = "The same for programs: names, units, places in arrays"
     if not reason:
         files["model.json"] += "; parameters and a consistent start"

@@ -113,6 +113,11 @@ class Distances:
         return self.points.size(self.reference.q)
 
     @cached_property
+    def scale(self) -> float:
+        """Length that errors are shares of [m]: the mechanism's, or the range of a motion that is small against it."""
+        return self.points.scale_of_errors(self.reference.q)
+
+    @cached_property
     def speed(self) -> float:
         """Largest speed of a point [m/s]."""
         return float(self.points.speed_distances((self.reference.q, self.reference.v)).max(initial=0.0))

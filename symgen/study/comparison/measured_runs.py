@@ -70,7 +70,7 @@ def measure_run(
         status=verdict.status,
         reason=verdict.reason,
         error=error,
-        relative_error=error / judged.size if error is not None and judged and judged.size > 0.0 else None,
+        relative_error=error / judged.scale if error is not None and judged and judged.scale > 0.0 else None,
         velocity_error=None if judged is None else _largest_value(judged.velocity_errors(outcome)),
         reaction_error=None if judged is None else _largest_value(judged.reaction_errors(outcome)),
         beyond_limits=stopped is not None and outcome.code == abi.DONE,

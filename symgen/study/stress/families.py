@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from itertools import product
 from typing import Any
 
@@ -13,13 +12,19 @@ import numpy as np
 
 from symgen.base.vocabulary.expressions import ZERO
 from symgen.derive.methods import METHODS
-from symgen.describe.files.builder import MechanismBuilder
-from symgen.describe.files.builder_keys import BodyKeys
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.joints import JOINTS
-from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.scope import CENTRE, ORIGIN
 from symgen.study.stress.bench import DAMPING, GRAVITY, MASS, STIFFNESS, Base, Level, NotApplicable
+from symgen.study.stress.own_mechanisms import bodies, driver_rate, length_ratio, scale, singular_passage
+
+#: Parameter of the family that changes inertia alone.
+INERTIA = "stress_inertia"
+#: Unit in the last place of numbers from 1 to 2.
+EPSILON = 2.0**-52
+#: Stiffness beside light bodies, and those of the families of springs and dampers [N/m, N s/m].
+_SPRING = 1e4
+_SPRINGS, _QUICK_SPRINGS = (1e2, 1e4, 1e6, 1e8, 1e10), (1e4, 1e6)
 
 
 @dataclass(frozen=True)
@@ -78,6 +83,38 @@ def mass_ratio(base: Base, factor: float) -> Level:
     if len(base.mechanism.bodies) < 2:
         raise NotApplicable("it has one body, so no ratio of masses")
     return base.build_level(f"mass x {factor:g}", factor, parameters={MASS: factor})
+
+
+def inertia_ratio(base: Base, factor: float) -> Level:
+    """Return the case of a factor on the moments of inertia of the middle body alone."""
+    inertia = base.raw.get("bodies", {}).get(base.middle, {}).get("inertia", 0.0)
+    if inertia == 0.0 or len(base.mechanism.bodies) < 2:
+        raise NotApplicable("its middle body has no inertia to change beside another body")
+    scaled = [f"({x})*{INERTIA}" if x != 0.0 else 0.0 for x in inertia] if isinstance(inertia, list) else None
+    change = {
+        "parameters": {INERTIA: {"value": 1.0, "unit": "1"}},
+        "bodies": {base.middle: {"inertia": f"({inertia})*{INERTIA}" if scaled is None else scaled}},
+    }
+    return base.build_level(
+        *(f"inertia x {factor:g}", factor),
+        mechanism=base.build(change, "inertia"),
+        parameters={INERTIA: factor},
+    )
+
+
+def light_and_stiff(base: Base, factor: float) -> Level:
+    """Return the case of a light middle body on a spring of 1e4 N/m: the motion is as fast as both make it."""
+    if len(base.mechanism.bodies) < 2:
+        raise NotApplicable("it has one body, so no ratio of masses")
+    spring = stiffness(base, _SPRING)
+    label, parameters = f"mass x {factor:g}, {_SPRING:g} N/m", {**spring.parameters, MASS: factor}
+    return replace(spring, label=label, values=(factor,), parameters=parameters)
+
+
+def rounded_start(base: Base, bits: float) -> Level:
+    """Return the case of a start whose middle body is described some units in the last place of the size away."""
+    away = inconsistent_start(base, bits * EPSILON)
+    return replace(away, label=f"{bits:g} units in the last place", values=(bits,))
 
 
 def gravity(base: Base, g: float) -> Level:
@@ -242,90 +279,29 @@ def step_stiffness(base: Base, point: tuple[float, float]) -> Level:
     return replace(spring, label=label, values=values, step=h, pairs=pairs, watched=False)
 
 
-# -- mechanisms of their own -------------------------------------------------------------------------------------------
-
-
-def length_ratio(base: Base, ratio: float) -> Level:
-    """Return the case of a four-bar linkage with a crank of 1 m and other links that are longer by a ratio.
-
-    Errors count in lengths of the crank: on the other links its motion is none.
-    """
-    mechanism = quadrilateral(1.0, 4.0 * ratio, 2.5 * ratio, 5.0 * ratio, math.pi / 3.0)
-    return Level(f"1 : {ratio:g}", (ratio,), mechanism, until=2.0, step=1e-3, length=1.0)
-
-
-def singular_passage(base: Base, gap: float) -> Level:
-    """Return the case of a parallelogram whose base is longer than the coupler by a gap [m]; 0 is singular."""
-    mechanism = quadrilateral(1.0, 1.0, 1.0, 1.0 + gap, math.pi / 2.0, -1.0)
-    closed = None if gap else "parallelogram"
-    return Level(f"gap {gap:g} m", (gap,), mechanism, until=4.0, step=1e-3, outputs=160, closed=closed)
-
-
-@lru_cache(maxsize=64)
-def quadrilateral(
-    crank: float, coupler: float, rocker: float, base: float, angle: float, spin: float = 0.0
-) -> Mechanism:
-    """Return a four-bar linkage, each rod uniform and of 1 kg, closed with the joint of coupler and rocker above.
-
-    Parameters
-    ----------
-    crank, coupler, rocker, base : float
-        Lengths [m]; they are parameters, so all these mechanisms have the same equations.
-    angle, spin : float
-        Of the crank at the start [rad, rad/s].
-    """
-    bx, by = crank * math.cos(angle), crank * math.sin(angle)
-    dx, dy = base - bx, -by
-    d = math.hypot(dx, dy)
-    along = (d * d + coupler * coupler - rocker * rocker) / (2.0 * d)
-    across = math.sqrt(max(0.0, coupler * coupler - along * along))
-    cx, cy = bx + (along * dx - across * dy) / d, by + (along * dy + across * dx) / d
-    builder = MechanismBuilder("quadrilateral", gravity=(0.0, -9.81)).run(until=5.0, step=1e-3)
-    lengths = {"crank": crank, "coupler": coupler, "rocker": rocker, "base": base}
-    for name, length in lengths.items():
-        builder.parameter(f"{name}_length", length, unit="m")
-    ends = {
-        "crank": ((0.0, 0.0), (bx, by), "A", "B"),
-        "coupler": ((bx, by), (cx, cy), "B", "C"),
-        "rocker": ((base, 0.0), (cx, cy), "D", "C"),
-    }
-    for name, (start, end, first, second) in ends.items():
-        turning: BodyKeys = {"angular_velocity": spin} if name == "crank" else {}
-        builder.body(
-            name,
-            mass=1.0,
-            inertia=f"{name}_length**2/12",
-            points={first: (f"-{name}_length/2", 0.0), second: (f"{name}_length/2", 0.0)},
-            position=((start[0] + end[0]) / 2.0, (start[1] + end[1]) / 2.0),
-            angle=math.atan2(end[1] - start[1], end[0] - start[0]),
-            **turning,  # type: ignore[misc]  # it has no other keys
-        )
-    builder.joint("A", "revolute", between=("ground", "crank"), at=((0.0, 0.0), "A"))
-    builder.joint("B", "revolute", between=("crank", "coupler"), at=("B", "B"))
-    builder.joint("C", "revolute", between=("coupler", "rocker"), at=("C", "C"))
-    builder.joint("D", "revolute", between=("ground", "rocker"), at=(("base_length", 0.0), "D"))
-    return builder.build()
-
-
 # -- all of them -------------------------------------------------------------------------------------------------------
 
-# a quick study has the spring of the searches and a stiffer one
-_SPRINGS, _QUICK_SPRINGS = (1e2, 1e4, 1e6, 1e8, 1e10), (1e4, 1e6)
 # five gains tell the limit of stability to a factor of 4
 _GRID, _QUICK_GRID = (np.geomspace(0.05, 12.8, points).tolist() for points in (15, 5))
 
 FAMILIES: Mapping[str, Family] = {
     "alpha-beta": Family(alpha_beta, tuple(product(_GRID, _GRID)), tuple(product(_QUICK_GRID, _QUICK_GRID))),
     "baumgarte-gain": Family(baumgarte_gain, (1e-3, 1e-2, 1e-1, 1.0, 2.5, 3.0, 1e1), (1e-2, 3.0)),
+    "bodies": Family(bodies, (1.0, 4.0, 16.0), (4.0,), own=True),
     "damping": Family(damping, _SPRINGS, _QUICK_SPRINGS),
+    "driver-rate": Family(driver_rate, (1e1, 1e3, 1e5, 1e7), (1e1, 1e5), own=True),
     "duration": Family(duration, (1e4, 1e5, 2e6), (1e4,)),
     "gain": Family(motion_gain, np.geomspace(0.01, 31.6, 15).tolist(), np.geomspace(0.01, 31.6, 8).tolist()),
     "gravity": Family(gravity, (0.0, 1e1, 1e2, 1e3, 1e4), (0.0, 1e3)),
     "inconsistent-start": Family(inconsistent_start, (1e-6, 1e-3, 1e-2, 1e-1), (1e-2,)),
+    "inertia-ratio": Family(inertia_ratio, (1e-9, 1e-3, 1e3, 1e9), (1e-9,)),
     "length-ratio": Family(length_ratio, (1.0, 1e1, 1e2, 1e4, 1e6), (1.0, 1e2), own=True),
+    "light-stiff": Family(light_and_stiff, (1e-6, 1e-3, 1e-1), (1e-3,)),
     "mass-ratio": Family(mass_ratio, (1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9), (1e-9, 1e3)),
     "penalty-factor": Family(penalty_factor, (1e2, 1e4, 1e6, 1e8, 1e10, 1e12), (1e4, 1e8, 1e12)),
     "redundancy": Family(redundancy, (1.0, 2.0), (1.0,)),
+    "rounded-start": Family(rounded_start, (1.0, 1e3), (1.0,)),
+    "scale": Family(scale, tuple(product((-9.0, -3.0, 0.0, 9.0), (-12.0, -9.0, 0.0, 9.0))), ((-3.0, -6.0),), own=True),
     "singular-passage": Family(singular_passage, (0.0, 1e-4, 1e-3, 1e-2, 1e-1), (0.0, 1e-1), own=True),
     "spin-rate": Family(spin_rate, (1e1, 1e2, 1e3, 1e4), (1e2, 1e4)),
     "step": Family(step, (1e-2, 1e-1, 1.0, 1e1, 1e2), (1.0, 1e1)),

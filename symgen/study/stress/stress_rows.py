@@ -90,7 +90,11 @@ class StressRow:
 
 @dataclass(frozen=True)
 class Limit:
-    """The largest constant steps of a method on a case [s]; None where the smallest one tried is too large."""
+    """The largest constant steps of a method on a case [s].
+
+    None where the smallest one tried is too large; `until` where the whole run is one step, which bounds a limit that
+    the run is too short for.
+    """
 
     model: str
     family: str
@@ -100,6 +104,14 @@ class Limit:
     stable_step: float | None
     accurate_step: float | None
     until: float
+
+    @property
+    def words(self) -> tuple[str, str]:
+        """Both steps to three digits, ``>=`` before bounds."""
+        return self._in_words(self.stable_step), self._in_words(self.accurate_step)
+
+    def _in_words(self, step: float | None) -> str:
+        return "none" if step is None else f"{'>= ' if step >= self.until else ''}{step:.3g}"
 
 
 @dataclass(frozen=True)

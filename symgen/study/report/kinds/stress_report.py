@@ -146,14 +146,15 @@ def _limits_section(study: Stress) -> list[Section]:
     rows = tuple(
         (
             *(limit.model, f"{limit.family} {limit.case}", limit.method, limit.integrator),
-            *("none" if x is None else words.rounded_number(x, 3) for x in (limit.stable_step, limit.accurate_step)),
+            *limit.words,
         )
         for limit in study.limits
     )
     text = (
         f"Found by bisection to about {9 if study.quick else 1} percent, with runs that do not watch themselves: the "
         "largest constant step up to which a run stays within a tenth of the mechanism's length of the reference, and "
-        f"the largest one up to which its error stays below {ACCURATE:g} of it. Methods with their own integrator."
+        f"the largest one up to which its error stays below {ACCURATE:g} of it, of the range of motions that are small "
+        "against it; >= marks the whole run in one step. Methods with their own integrator."
     )
     headings = ("model", "case", "method", "integrator", "stable up to [s]", "accurate up to [s]")
     return [Section("Largest steps", (text,), tables=(DocumentTable("", headings, rows, words=4),))]
