@@ -178,19 +178,25 @@ def test_families_make_cases(family, quick):
     levels = levels_of_family(family, Base.of_mechanism("four-bar"), quick)
     assert levels and len({level.label for level in levels}) == len(levels)
     for level in levels:
-        assert level.family == family and len(level.values) == (2 if family in ("alpha-beta", "step-stiffness") else 1)
+        assert level.family == family and len(level.values) == (
+            2 if family in ("alpha-beta", "scale", "step-stiffness") else 1
+        )
         assert level.until > 0.0 and level.step > 0.0
         known = {p.name for p in level.mechanism.parameters}
         assert set(level.parameters) <= known
 
 
 def test_one_compiled_module_serves_all_cases_but_those_with_other_joints():
-    """What compiles is told by the digest: the base, two redundant ones, and the linkage of adjustable lengths."""
+    """What compiles is told by the digest.
+
+    These are the base, two redundant ones, one of another inertia, the linkage of adjustable lengths, the same with a
+    driver, and three chains.
+    """
     from symgen.describe.facts.digest import digest
 
     base = Base.of_mechanism("four-bar")
     found = {digest(level.mechanism) for name in FAMILIES for level in levels_of_family(name, base, False)}
-    assert len(found) == 4
+    assert len(found) == 9
 
 
 @pytest.mark.slow

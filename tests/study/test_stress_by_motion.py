@@ -1,0 +1,54 @@
+"""Errors of stress studies count in the motion: what stands still follows nothing, and limits are those of theory."""
+
+import numpy as np
+import pytest
+
+from symgen.result.points import SMALL, Points
+from symgen.study.stress.bench import Base
+from symgen.study.stress.cell_outcome import ACCURATE, GOOD, CellRun, classify_outcome
+from symgen.study.stress.cell_references import reference_of_cell
+from symgen.study.stress.families import levels_of_family
+from symgen.study.stress.stress_rows import Limit
+from symgen.study.stress.study import stress
+
+
+@pytest.mark.parametrize("reach", np.geomspace(1e-9, 3.0, 20))
+def test_small_motions_are_the_scale_of_their_errors(reach):
+    """A point on a line: the scale is the size of the mechanism, or the range of a motion below a tenth of it."""
+    points = Points(bodies=((0, 1.0),))
+    q = np.zeros((50, 3))
+    q[:, 0] = reach * np.sin(np.linspace(0.0, 6.0, 50))
+    moved = np.abs(q[:, 0]).max()
+    assert points.scale_of_errors(q) == pytest.approx(1.0 if moved >= SMALL else moved)
+    still = points.distances_over_time(np.zeros_like(q), q)
+    run = CellRun(True, still, np.ones(50), 0.0, points.scale_of_errors(q))
+    assert classify_outcome(run) != GOOD, "it has not moved at all"
+
+
+def test_nothing_that_moves_counts_in_the_size():
+    assert Points(bodies=((0, 2.0),)).scale_of_errors(np.zeros((5, 3))) == 2.0
+
+
+@pytest.mark.slow
+def test_no_stiff_level_passes_a_mechanism_that_stands_still():
+    base = Base.of_mechanism("four-bar")
+    for family in ("stiffness", "damping"):
+        for level in levels_of_family(family, base, True):
+            motion = reference_of_cell(level, True)
+            q = np.array(motion["q"])
+            points = Points.of_mechanism(level.mechanism, {**{p.name: p.value for p in level.mechanism.parameters}})
+            still = points.distances_over_time(np.repeat(q[:1], len(q), axis=0), q).max()
+            assert still > ACCURATE * motion["length"]
+
+
+@pytest.mark.slow
+def test_the_largest_step_on_a_spring_is_that_of_the_polynomial():
+    """RK4 ends at 2.828 on the imaginary axis, 0.172 s for the spring of 1e4 N/m at 16.44 1/s; 0.197 s stood."""
+    study = stress(["four-bar"], ["stiffness"], ["lagrange"], quick=True)
+    (limit,) = (x for x in study.limits if x.integrator == "rk4" and x.case == "10000 N/m")
+    assert limit.stable_step <= 2.8285 / 16.44 * 1.01
+
+
+@pytest.mark.parametrize(("step", "word"), [(None, "none"), (1.0, ">= 1"), (0.25, "0.25")])
+def test_a_bound_is_marked(step, word):
+    assert Limit("m", "f", "c", "lagrange", "rk4", step, step, 1.0).words == (word, word)
