@@ -5,7 +5,8 @@
 Each table is the output of a module, whose command the page names before the table. Cells that agree with what is
 measured stay as they are, and with all of them the date does. Run times are measured with ``--times`` only, on a quiet
 machine; else the page keeps its own. Tables of records (`benchmarks.records`) follow from what is stored. Sentences
-that follow from the same numbers are compared with the page, and those that it has otherwise are printed.
+that follow from the same numbers are compared with the page, and those that it has otherwise are printed. Run times
+belong to a code (`benchmarks.code_of_times`): without ``--times``, tables whose times are of an older one are refused.
 """
 
 from __future__ import annotations
@@ -36,7 +37,8 @@ from benchmarks import (
     stress_cells,
     stress_quick,
 )
-from benchmarks.page_tables import ROOT, PageTable, missing, written
+from benchmarks.code_of_times import code_of_times
+from benchmarks.page_tables import ROOT, PageTable, is_older, missing, written
 
 
 def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
@@ -67,14 +69,20 @@ TABLES = measured_tables()
 
 def main(arguments: list[str]) -> int:
     """Measure the tables that are named, or all, and write them into their pages; 1 if a study lacks a sentence."""
-    tables = measured_tables(times="--times" in arguments)
+    timed, code = "--times" in arguments, code_of_times()
+    tables = measured_tables(times=timed)
+    with_times = measured_tables(times=True)
     names, lacking = [name for name in arguments if name != "--times"], 0
     for table in tables:
         if names and not {table.command, table.command.split()[-1], table.command.split()[0]} & set(names):
             continue
         page = ROOT / table.page
         text = page.read_text(encoding="utf-8")
-        new = written(table, text, table.measured(), date.today().isoformat())
+        if not timed and any(is_older(t, text, code) for t in with_times if t.command == table.command):
+            lacking += 1
+            sys.stdout.write(f"{table.command}: {table.page} has times of older code; measure them with --times\n")
+            continue
+        new = written(table, text, table.measured(), date.today().isoformat(), code)
         page.write_text(new, encoding="utf-8")
         sys.stdout.write(f"{table.command}: {'written into' if new != text else 'as in'} {table.page}\n")
         for claim in missing(table, (ROOT / table.study).read_text(encoding="utf-8")):

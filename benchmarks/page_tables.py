@@ -24,7 +24,11 @@ DECADE = 10.0
 KEPT = "-"
 
 _NUMBER = re.compile(r"-?\d[\d,]*\.?\d*(?:e[-+]?\d+)?")
-_DATE = "*Measured on {date}, {machine}.*"
+_DATE = "*Measured on {date}, {machine}{times}.*"
+#: What that line says of run times: the digest of their code (`benchmarks.code_of_times`), or that an older code had
+#: them.
+CODE, OLDER = "; times by code {code}", "; times by older code"
+_CLAUSE = re.compile(r"; times by (?:code [0-9a-f]{8}|older code)")
 
 Row = tuple[tuple[str, ...], Callable[[], Sequence[str]]]
 
@@ -192,8 +196,29 @@ def stays(table: PageTable, column: int, printed: str, measured: str) -> bool:
     return measured == KEPT or (not table.stored and agrees(printed, measured, band))
 
 
-def written(table: PageTable, text: str, measured: Sequence[Sequence[str]], date: str) -> str:
-    """Return the text of a page with a measured table; cells that agree stay, and with all of them the date does."""
+def clause_of(table: PageTable, text: str) -> str:
+    """Return what a page says of the code of a table's times; empty where it says nothing."""
+    found = _CLAUSE.search(next(iter(text.splitlines()[place(table, text)[1] + 1 :]), ""))
+    return found[0] if found else ""
+
+
+def is_stale(table: PageTable, text: str, code: str) -> bool:
+    """Whether a page shows run times that neither the present code had nor the page calls older."""
+    return bool(table.times) and clause_of(table, text) not in (CODE.format(code=code), OLDER)
+
+
+def is_older(table: PageTable, text: str, code: str) -> bool:
+    """Whether run times of a page have to be measured anew."""
+    return bool(table.times) and clause_of(table, text) != CODE.format(code=code)
+
+
+def written(table: PageTable, text: str, measured: Sequence[Sequence[str]], date: str, code: str = "") -> str:
+    """Return the text of a page with a measured table; cells that agree stay, and with all of them the date does.
+
+    Where times were measured their code is written down, and all of them are those of this measurement.
+    """
+    clause = CODE.format(code=code) if table.times and code else clause_of(table, text)
+    anew = clause != clause_of(table, text)
     first, end = place(table, text)
     lines = text.splitlines()
     printed = [cells_of(line) for line in lines[first + 2 : end]]
@@ -203,13 +228,19 @@ def written(table: PageTable, text: str, measured: Sequence[Sequence[str]], date
     for (names, _), row in zip(table.rows, measured, strict=True):
         old = named.get(names) if same else None
         pairs = enumerate(zip(old or [KEPT] * len(row), row, strict=True))
-        rows.append([a if old and stays(table, i, a, b) else b for i, (a, b) in pairs])
+        kept = [a if old and stays(table, i, a, b) else b for i, (a, b) in pairs]
+        rows.append(
+            [
+                b if anew and i in table.times and b != KEPT else a
+                for i, (a, b) in enumerate(zip(kept, row, strict=True))
+            ]
+        )
     behind = end + 1
     stamped = behind < len(lines) and lines[behind].startswith(_DATE.partition("{")[0])
     whole = not any(KEPT in row[1:] for row in measured)
-    if same and rows == printed and (stamped or not whole):
+    if same and not anew and rows == printed and (stamped or not whole):
         return text
-    stamp = ["", _DATE.format(date=date, machine=platform.machine())] if whole or not table.stored else []
+    stamp = ["", _DATE.format(date=date, machine=platform.machine(), times=clause)] if whole or not table.stored else []
     return (
         "\n".join([*lines[:first], *markdown(table.headings, rows), *stamp, *lines[behind + 1 if stamped else end :]])
         + "\n"

@@ -195,7 +195,7 @@ def families() -> PageTable:
             count = outcomes(lines_of(family=family), partial(of_column, column))
             yield f"{count[GOOD]} of {judged(count)}"
 
-    named = [*OWN_FAMILIES, *(family for family in FAMILIES if family not in (*OWN_FAMILIES, *PLANES))]
+    named = [*OWN_FAMILIES, *(family for family in FAMILIES if family not in (*OWN_FAMILIES, *PLANES, *LATER))]
     rows = tuple(((family,), partial(list_of, cells, family)) for family in named)
     headings = ("family", *(f"`{name}`" for name in COLUMNS))
     return PageTable("stress_cells families", PAGE, headings, rows, stored=True, claims=shares)

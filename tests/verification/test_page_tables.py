@@ -6,6 +6,7 @@ import re
 import pytest
 from support.rotation import number_of_turn
 
+from benchmarks.code_of_times import code_of_times, texts
 from benchmarks.findings import TABLES, measured_tables
 from benchmarks.page_tables import (
     BAND,
@@ -17,9 +18,12 @@ from benchmarks.page_tables import (
     cells_of,
     differences,
     drawn,
+    is_older,
+    is_stale,
     markdown,
     missing,
     place,
+    two_digits,
     written,
 )
 from benchmarks.records import NAMES, Pair, Record, record_of, shortened
@@ -238,3 +242,32 @@ def test_stored_numbers_have_three_digits_and_are_finite():
         "b": "x",
         "c": 12345,
     }
+
+
+@pytest.mark.parametrize("table", TIMED, ids=lambda table: f"{table.page} {table.command}")
+def test_times_of_a_page_are_by_the_present_code_or_called_older(table):
+    """A loop that changes changes the digest: its tables are measured again, or say that an older code had them."""
+    assert not is_stale(table, text_of(table), code_of_times())
+
+
+def test_a_change_of_a_loop_or_of_emitted_code_is_another_code(monkeypatch):
+    own = list(texts())
+    assert any("def integrate(" in text for text in own) and any("def rhs(" in text for text in own)
+    assert not any('"""' in text for text in own)
+    monkeypatch.setattr("benchmarks.code_of_times.texts", lambda: [*own[:-1], own[-1].replace("0.5", "0.25")])
+    changed = code_of_times.__wrapped__()
+    assert changed != code_of_times()
+    table = TIMED[0]
+    page = written(table, text_of(table), printed(table), "2031-01-02", code_of_times())
+    assert not is_stale(table, page, code_of_times()) and not is_older(table, page, code_of_times())
+    assert is_stale(table, page, changed) and is_older(table, page, changed)
+
+
+def test_times_of_another_code_are_not_kept_for_agreeing():
+    """A ratio of 1.18 agrees with 1.41 within the bands, but an older code had it."""
+    table = next(table for table in TIMED if table.command == "literature closing")
+    rows, (column, *_) = printed(table), table.times
+    new = [list(row) for row in rows]
+    new[0][column] = two_digits(1.1 * float(rows[0][column].replace(",", "")))
+    page = written(table, text_of(table), new, "2031-01-02", "0123abcd")
+    assert f"| {new[0][column]} |" in page and "times by code 0123abcd" in page

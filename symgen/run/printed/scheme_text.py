@@ -12,7 +12,7 @@ import inspect
 import math
 import textwrap
 import types
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -27,7 +27,7 @@ ROOTS = "prepare", "attempt", "renew", "correct", "note_step"
 _MADE: tuple[type[Any], ...] = (Sizes, Span, Run, ModelSystem)
 
 
-def text_of_scheme(loop: object, scheme: Record, title: str) -> str:
+def text_of_scheme(loop: Callable[..., int], scheme: Record, title: str) -> str:
     """Return the text of a module with `ROOTS`, and with the records that they take, for a compiled loop.
 
     Parameters
@@ -46,11 +46,28 @@ def text_of_scheme(loop: object, scheme: Record, title: str) -> str:
     for record in (*_MADE, type(scheme), *(type(x) for x in scheme if isinstance(x, tuple))):
         texts.add_record(record)
     head = f'"""{title}\n\nWritten by symgen from the source of its own loops.\n"""'
-    records = [f'{r.__name__} = namedtuple("{r.__name__}", {" ".join(r._fields)!r})' for r in texts.records.values()]
-    imports = "import math\nfrom collections import namedtuple\n\nfrom numba import njit"
+    records = [f'{r.__name__} = record("{r.__name__}", {" ".join(r._fields)!r})' for r in texts.records.values()]
+    imports = "import math\nfrom collections import namedtuple as record\n\nfrom numba import njit"
     numbers = [f"{name} = {_literal(value)}" for name, value in sorted(texts.numbers.items())]
     parts = [head, imports, "\n".join(records), "\n".join(numbers), *texts.functions.values()]
     return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def functions_of_loop(loop: Callable[..., int], root: Callable[..., int]) -> dict[str, str]:
+    """Return the text of all functions that a function of a loop enters, by name, the callees first.
+
+    Docstrings, comments and annotations are left out, so that equal texts do the same.
+
+    Parameters
+    ----------
+    loop : compiled function
+        Of `symgen.run.loops.frame.loop`.
+    root : function
+        Such as `symgen.run.loops.frame.integrate`.
+    """
+    texts = _Texts(RECIPES[loop][1])
+    texts.add_function(root)
+    return {"": repr(sorted(texts.numbers.items())), **texts.functions}
 
 
 def _literal(value: float) -> str:
@@ -91,6 +108,8 @@ class _Texts:
         names = _Names(self, {**plain.__globals__, **self._meant(plain)})
         definition = names.visit(definition)
         definition.name, definition.decorator_list, definition.returns = name, [], None
+        if ast.get_docstring(definition) is not None:
+            definition.body = definition.body[1:] or [ast.Pass()]
         for argument in definition.args.args:
             argument.annotation = None
         text = ast.unparse(ast.fix_missing_locations(definition))
