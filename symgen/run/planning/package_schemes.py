@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +16,9 @@ from symgen.run.planning.prepare import code_and_start, make_plan, prepared_run
 from symgen.run.printed.scheme_text import text_of_scheme
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from symgen.compile.native.annotations import Record
     from symgen.run.planning.plan import Plan
 
 #: Problem forms that the loop of a package over the right-hand side solves.
@@ -83,11 +86,10 @@ def scheme_of_package(plan: Plan) -> PackageScheme | None:
     return PackageScheme(str(numbers["module"]), text_of_scheme(setup.loop, setup.scheme, title), numbers)
 
 
-def _as_json(value: Any) -> Any:
+def _as_json(value: Record | NDArray[Any] | float | Callable[..., int]) -> Any:
     """Return a number, an array with its kind, a record with its name, or the name of a function of the model."""
     if isinstance(value, tuple):
-        fields = zip(value._fields, value, strict=True)  # type: ignore[attr-defined]  # a record
-        return {type(value).__name__: {name: _as_json(x) for name, x in fields}}
+        return {type(value).__name__: {name: _as_json(x) for name, x in value._asdict().items()}}
     if isinstance(value, np.ndarray):
         return {"integers" if value.dtype.kind == "i" else "numbers": value.tolist()}
     return value if isinstance(value, int | float) else {"function": plain_function(value).__name__}

@@ -42,7 +42,7 @@ def text_of_scheme(loop: Callable[..., int], scheme: Record, title: str) -> str:
     _, meanings = RECIPES[loop]
     texts = _Texts(meanings)
     for name in ROOTS:
-        texts.add_function(meanings.get(name, getattr(frame_parts, name, getattr(unbound, name, None))), name)
+        texts.add_function(meanings.get(name) or getattr(frame_parts, name, None) or getattr(unbound, name), name)
     for record in (*_MADE, type(scheme), *(type(x) for x in scheme if isinstance(x, tuple))):
         texts.add_record(record)
     head = f'"""{title}\n\nWritten by symgen from the source of its own loops.\n"""'
@@ -94,7 +94,7 @@ class _Texts:
         """Add a named tuple."""
         self.records[record.__name__] = record
 
-    def add_function(self, function: Any, name: str = "") -> str:
+    def add_function(self, function: Callable[..., Any], name: str = "") -> str:
         """Add a function after all that it calls; return its name in the text."""
         plain: Any = function.plain if isinstance(function, Piece) else getattr(function, "py_func", function)
         if plain in self._named:
