@@ -24,6 +24,8 @@ def test_tables_that_programs_write_are_out_of_the_readers_way() -> None:
     pages = {table.page for table in TABLES if table.page.startswith("docs/")}
     assert {(ROOT / page).parent.name for page in pages} == {"tables"}
     assert {page.parent.name for page in words.WRITTEN} == {"tables", "development"}
+    said = {page for page in words.pages() if "\nWritten by `python -m " in page.read_text(encoding="utf-8")}
+    assert said <= set(words.WRITTEN)
 
 
 def test_the_words_of_a_table_are_those_of_its_lines() -> None:
