@@ -10,12 +10,15 @@ contacts are left to `symgen.run.modes.choice`. The same combinations on rates a
 
 from __future__ import annotations
 
+import math
+
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.loops.search_records import COUNT, MARGIN, MEASURE, N_HEAD, RATE, ROW
 from symgen.run.modes.bounded_rows import (
+    AT_BOUND,
     AT_REST,
     CONSTANT,
     EFFORT,
@@ -47,15 +50,70 @@ from symgen.run.modes.resting import solve_rest
 
 
 @exact()
-def break_loose(c: Choice, count: int) -> bool:
-    """Let the friction slide that its bound at rest does not hold, by that in motion; return whether any does."""
-    again = False
+def breaks(c: Choice, i: int) -> bool:
+    """Return whether the bound at rest of a row does not hold it, in the modes found, and that in motion is less."""
+    moves = c.pushes[i] == 0 and c.best[i] >= UPPER and c.signs[i] == 0.0
+    return bool(moves and c.loose[i] == 0 and c.static[i] > c.sliding[i])
+
+
+@exact()
+def solve_part(c: Choice, count: int, first: int) -> int:
+    """Find the modes of a part with the bounds of now; return `SAME` or a code."""
     for a in range(count):
-        i = c.box.order[a]
-        breaks = c.pushes[i] == 0 and c.best[i] >= UPPER and c.signs[i] == 0.0 and c.loose[i] == 0
-        if breaks and c.static[i] > c.sliding[i]:
-            c.loose[i], again = 1, True
-    return again
+        c.part[c.box.order[a]] = first
+    return int(try_combinations(c, count))
+
+
+@exact()
+def part_held(c: Choice, count: int, first: int, i: int) -> float:
+    """Return the part of its bound at rest that friction let go needs if it holds again, inf where it does not hold."""
+    c.loose[i] = 0
+    holds, most = solve_part(c, count, first) == SAME, c.static[i]
+    for a in range(count):
+        holds = holds and not breaks(c, c.box.order[a])
+    if c.partner[i] >= 0:
+        most *= abs(c.forces[c.partner[i]])
+    needs = abs(c.forces[i]) / most if holds and c.best[i] == ON and most > 0.0 else math.inf
+    c.loose[i] = 1
+    return needs if needs < AT_BOUND else math.inf
+
+
+@exact()
+def hold_again(c: Choice, count: int, first: int) -> int:
+    """Do what `symgen.run.modes.resting.hold_again` does, in a part with contacts; ``passing`` is 1 for rows let go."""
+    again = False
+    while True:
+        best, least, let_go = -1, math.inf, 0
+        for a in range(count):
+            let_go += c.passing[c.box.order[a]]
+        for a in range(count):
+            i = c.box.order[a]
+            if c.passing[i] != 0 and (again or let_go > 1):
+                needs = part_held(c, count, first, i)
+                if needs < (1.0 - ROUNDED) * least:
+                    best, least = i, needs
+        if best < 0:
+            break
+        c.loose[best], c.passing[best], again = 0, 0, True
+    return solve_part(c, count, first) if again or let_go > 1 else SAME
+
+
+@exact()
+def choose_modes_of_part(c: Choice, count: int, first: int) -> int:
+    """Choose the modes of a part with contacts: friction that its bound at rest does not hold has that in motion."""
+    again = True
+    for a in range(count):
+        c.passing[c.box.order[a]] = 0
+    while again:
+        code = solve_part(c, count, first)
+        if code != SAME:
+            return int(code)
+        again = False
+        for a in range(count):
+            i = c.box.order[a]
+            if breaks(c, i):
+                c.loose[i], c.passing[i], again = 1, 1, True
+    return int(hold_again(c, count, first))
 
 
 @exact()
@@ -89,20 +147,12 @@ def choose_parts(c: Choice, rows: int) -> int:
     """Choose the modes of all parts with contacts, and leave the rows of others at rest; return `SAME` or a code."""
     for first in range(c.count):
         count = choose_part(c, first, rows)
-        enumerated = has_contact(c, count)
-        again = enumerated
-        while again:
-            code = try_combinations(c, count)
+        if has_contact(c, count):
+            code = choose_modes_of_part(c, count, first)
             if code != SAME:
                 return int(code)
-            again = break_loose(c, count)
-            if again:
-                for a in range(count):
-                    c.part[c.box.order[a]] = first
-        if enumerated:
             for a in range(count):
-                i = c.box.order[a]
-                c.taken[i] = 2
+                c.taken[c.box.order[a]] = 2
             write_part(c, count)
             for a in range(count):
                 c.part[c.box.order[a]] = c.count

@@ -3,6 +3,7 @@
 Where more rows rest than the mechanism has freedom, forces at rest are not determined. Rows in force take what changes,
 and others keep the efforts that they have, until one is at its bound. As any forces within all bounds hold, efforts are
 then shared out anew: those whose largest part of a static bound is least. Only where this part is 1 does the row move.
+Rows that begin to move have their sliding forces before others at rest are let go for good.
 
 Bounds that depend on reactions have another `solve_within` (`symgen.run.modes.agreement`).
 """
@@ -23,6 +24,7 @@ from symgen.run.modes.bounded_rows import (
     NO_ACCELERATION,
     NO_FACTOR,
     NO_FORCES,
+    ROUNDED,
     SAME,
     SIGN,
     Choice,
@@ -134,18 +136,12 @@ def share_anew(c: Choice, n: int) -> float:
 
 
 @exact()
-def solve_rest(c: Choice, n: int, w: Array) -> int:
-    """Find the forces at rest, and the signs of rows that they do not hold; return `SAME`, or why there are none."""
-    k, box = c.count, c.box
-    for r in range(n):
-        i = c.rest[r]
-        for s in range(n):
-            c.offset[i] += c.matrix[i * k + c.rest[s]] * c.middle[c.rest[s]]
-        box.offset[r] = c.offset[i]
-        c.taken[i] = 1 if c.pushes[i] == 0 and c.loose[i] == 0 else 0  # its static bound holds
-        for s in range(n):
-            box.matrix[r * n + s] = c.matrix[i * k + c.rest[s]]
-    part = share_anew(c, n)
+def let_go(c: Choice, n: int, w: Array, part: float) -> int:
+    """Find the forces at rest where rows that their static bounds do not hold have those of motion.
+
+    ``option`` is 1 for the rows let go. Returns `SAME`, or why there are no forces.
+    """
+    box = c.box
     while True:
         code = solve_within(c, n, part)
         if code != SAME:
@@ -159,12 +155,76 @@ def solve_rest(c: Choice, n: int, w: Array) -> int:
             i = c.rest[r]
             if moves_at(c, n, r):
                 if c.pushes[i] == 0 and c.taken[i] != 0 and c.static[i] > c.sliding[i]:
-                    c.taken[i], again = 0, True
+                    c.taken[i], c.option[i], again = 0, 1, True
                 if c.pushes[i] != 0 and c.loose[i] != 0 and box.left[r] < -NO_ACCELERATION * usual_of(c, w, i):
                     c.loose[i], again = 0, True
         if not again:
-            break
+            return SAME
         part = 1.0
+
+
+@exact()
+def part_held(c: Choice, n: int, i: int, w: Array) -> float:
+    """Return the part of its static bound that a row let go needs if it holds again, inf where it does not hold."""
+    box, needs = c.box, math.inf
+    c.taken[i] = 1
+    holds = solve_within(c, n, 1.0) == SAME
+    for r in range(n):
+        j = c.rest[r]
+        if c.pushes[j] != 0:
+            holds = holds and not box.left[r] < -NO_ACCELERATION * usual_of(c, w, j)
+        elif c.taken[j] != 0 and c.static[j] > c.sliding[j]:
+            holds = holds and not moves_at(c, n, r)
+        if j == i:
+            bound = 0.5 * (box.bounds[r] - box.lower[r])
+            needs = abs(box.forces[r] - 0.5 * (box.bounds[r] + box.lower[r])) / bound if bound > 0.0 else math.inf
+    c.taken[i] = 0
+    return needs if holds and needs < AT_BOUND else math.inf
+
+
+@exact()
+def hold_again(c: Choice, n: int, w: Array) -> int:
+    """Have rows hold again that were let go beside forces of modes which are given up; return `SAME`, or a code.
+
+    A row that reaches its static bound beside the static force of another one has been judged by a force that is not
+    there once the other one slides. Which of several holds follows from the state alone: the one that needs the least
+    part of its bound.
+    """
+    again = False
+    while True:
+        best, least, count = -1, math.inf, 0
+        for r in range(n):
+            count += c.option[c.rest[r]]
+        for r in range(n):
+            i = c.rest[r]
+            if c.option[i] != 0 and (again or count > 1):  # one alone has been judged by what is there
+                needs = part_held(c, n, i, w)
+                if needs < (1.0 - ROUNDED) * least:
+                    best, least = i, needs
+        if best < 0:
+            break
+        c.taken[best], c.option[best], again = 1, 0, True
+    return int(solve_within(c, n, 1.0)) if again or count > 1 else SAME
+
+
+@exact()
+def solve_rest(c: Choice, n: int, w: Array) -> int:
+    """Find the forces at rest, and the signs of rows that they do not hold; return `SAME`, or why there are none."""
+    k, box = c.count, c.box
+    for r in range(n):
+        i = c.rest[r]
+        for s in range(n):
+            c.offset[i] += c.matrix[i * k + c.rest[s]] * c.middle[c.rest[s]]
+        box.offset[r] = c.offset[i]
+        c.taken[i] = 1 if c.pushes[i] == 0 and c.loose[i] == 0 else 0  # its static bound holds
+        c.option[i] = 0
+        for s in range(n):
+            box.matrix[r * n + s] = c.matrix[i * k + c.rest[s]]
+    code = let_go(c, n, w, share_anew(c, n))
+    if code == SAME:
+        code = hold_again(c, n, w)
+    if code != SAME:
+        return int(code)
     for r in range(n):
         i = c.rest[r]
         bound, force, moves = box.bounds[r], box.forces[r], moves_at(c, n, r)
