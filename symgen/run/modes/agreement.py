@@ -13,6 +13,9 @@ from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.loopcode.loop_instances import Meanings, exact_instance
 from symgen.compile.native.annotations import Array, Integers
+from symgen.run.laws.motions import SEVERAL_MOTIONS, count_motions, find_forces
+from symgen.run.laws.problem import BALL, COMPONENTS, ON, begin_row, load_of
+from symgen.run.laws.problem import LOWER as DOWN
 from symgen.run.layout.redundancy import farthest_row
 from symgen.run.modes.bounded_rows import (
     AT_REST,
@@ -28,10 +31,11 @@ from symgen.run.modes.bounded_rows import (
     NOT_FINITE,
     REDUNDANT,
     SAME,
+    SEVERAL_BY_REACTION,
     SHARED,
     Choice,
 )
-from symgen.run.modes.box import solve_box
+from symgen.run.modes.box import INSIDE, LOWER, UPPER, solve_box
 from symgen.run.modes.choice import (
     accelerate,
     add_forces,
@@ -44,8 +48,8 @@ from symgen.run.modes.choice import (
 from symgen.run.modes.holding import find_carriers, hold_rows
 from symgen.run.modes.resting import set_bounds, solve_rest
 
-#: Bounds by reactions agree within this part of them, after so many solutions at most.
-_AGREED, _AGREEMENTS = 1e-14, 2000
+#: Bounds by reactions agree within this part of them, after so many solutions at most; then Newton's method follows.
+_AGREED, _AGREEMENTS = 1e-14, 60
 
 
 @exact(entry=True)
@@ -173,9 +177,98 @@ def follow_sizes(c: Choice) -> bool:
                 x -= c.parts[2 * i * k + j] * c.forces[j]
                 y -= c.parts[(2 * i + 1) * k + j] * c.forces[j]
             size = math.sqrt(x * x + y * y)
-            agree = agree and abs(size - c.sizes[i]) <= _AGREED * size
+            agree = agree and size < math.inf and abs(size - c.sizes[i]) <= _AGREED * size
             c.sizes[i] = size
     return agree
+
+
+@exact()
+def fill_laws(c: Choice, n: int) -> int:
+    """Write the problem of the rows at rest, within bounds over reactions, and of those in motion by reactions.
+
+    Returns their number; ``order`` has them.
+    """
+    k, box, laws, count = c.count, c.box, c.laws, n
+    for r in range(n):
+        box.order[r] = c.rest[r]
+    for i in range(k):
+        moves = c.pressed[i] != 0 and c.signs[i] != 0.0
+        for r in range(n):  # one at rest may begin to move
+            moves = moves and c.rest[r] != i
+        if moves:
+            box.order[count] = i
+            count += 1
+    for r in range(count):
+        i = box.order[r]
+        begin_row(count, r, laws)
+        laws.offset[r], laws.law[r] = c.offset[i], BALL
+        for q in range(count):
+            laws.matrix[r * count + q] = c.matrix[i * k + box.order[q]]
+        laws.beta[r] = c.sliding[i]
+        if r < n:
+            laws.beta[r], laws.middle[r] = (
+                0.5 * (box.bounds[r] - box.lower[r]),
+                0.5 * (box.bounds[r] + box.lower[r]),
+            )
+        else:
+            laws.way[r] = c.signs[i]
+        if c.pressed[i] != 0:
+            laws.kappa[r], laws.beta[r], laws.components[r] = laws.beta[r], 0.0, 2
+            for part in range(2):
+                at = COMPONENTS * r + part
+                laws.apart[at] = c.apart[2 * i + part]
+                for q in range(count):
+                    laws.parts[at * count + q] = c.parts[(2 * i + part) * k + box.order[q]]
+    return count
+
+
+@exact(entry=True)
+def agree_by_newton(c: Choice, n: int, part: float) -> int:
+    """Find the forces at rest where bounds and forces in turns never agree; return `SAME` or `DISAGREED`."""
+    box, laws = c.box, c.laws
+    set_bounds(c, n, part)
+    count = fill_laws(c, n)
+    if not find_forces(count, laws, 1):
+        return DISAGREED
+    for r in range(count):
+        i = box.order[r]
+        c.forces[i] = laws.forces[r]
+        if c.pressed[i] != 0:
+            c.sizes[i] = load_of(count, r, laws)
+    for r in range(n):
+        i = c.rest[r]
+        box.left[r], box.forces[r] = laws.left[r], laws.forces[r]
+        box.bounds[r] *= c.sizes[i]
+        box.lower[r] *= c.sizes[i]
+        box.place[r] = INSIDE if laws.state[r] == ON else LOWER if laws.state[r] == DOWN else UPPER
+        c.forces[i] -= c.middle[i]
+    return SAME
+
+
+@exact(entry=True)
+def moves_otherwise(c: Choice, n: int) -> int:
+    """Return 1 where the rows at rest, and those in motion by reactions, have another motion beside that found, else 0.
+
+    The rows that differ are named. Motions of many rows are not sought.
+    """
+    box, laws, differ = c.box, c.laws, 0
+    for r in range(n):
+        size = c.sizes[c.rest[r]]
+        if size > 0.0:
+            box.bounds[r] /= size
+            box.lower[r] /= size
+    count = fill_laws(c, n)
+    for r in range(count):
+        i = box.order[r]
+        laws.forces[r] = c.forces[i] + (c.middle[i] if r < n else 0.0)
+    if not find_forces(count, laws, 0) or count_motions(count, laws) != SEVERAL_MOTIONS:
+        return 0
+    for r in range(count):
+        if laws.state[r] != laws.other[r]:
+            c.named[differ] = box.order[r]
+            differ += 1
+    c.named[differ] = -1
+    return 1
 
 
 @exact()
@@ -194,7 +287,7 @@ def agree_within(c: Choice, n: int, part: float) -> int:
             c.forces[c.rest[r]] = c.box.forces[r] - c.middle[c.rest[r]]
         if follow_sizes(c):
             return SAME
-    return DISAGREED
+    return int(agree_by_newton(c, n, part))
 
 
 #: What the forces at rest are found by where bounds depend on reactions.
@@ -340,6 +433,8 @@ def choose_pressed(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Intege
         symmetrise(c)
         size_forces(c, n, w)
         code = solve_pressed(c, n, w)
+        if code == SAME and moves_otherwise(c, n) != 0:
+            code = SEVERAL_BY_REACTION
         apply_sizes(c)
         add_forces(c)
     if code == SAME:

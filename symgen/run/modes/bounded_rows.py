@@ -9,6 +9,7 @@ import numpy as np
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import compiled_form, exact
 from symgen.compile.native.annotations import Array, Integers, Record
+from symgen.run.laws.problem import Laws, new_laws
 from symgen.run.layout import abi
 from symgen.run.layout.records import Span
 from symgen.run.layout.redundancy import LARGEST, room_of_choice
@@ -64,9 +65,10 @@ IMMOVABLE = 16
 FURTHER_PIECE = 2
 #: Both pieces of a gap push at a corner.
 TWO_PIECES = 17
-#: Codes of contacts: no modes with forces within bounds; several with different motions; an impact that adds energy;
-#: more contacts that depend on each other than are tried.
-NO_CONTACT_MODES, SEVERAL_MODES, GAINED, TOO_MANY = range(24, 28)
+#: Codes of contacts: no modes with forces within bounds; several with different motions; an impact that adds energy.
+NO_CONTACT_MODES, SEVERAL_MODES, GAINED = range(24, 27)
+#: Rows whose bounds depend on reactions have several motions.
+SEVERAL_BY_REACTION = 27
 #: A formula of a row is no number at the end of a run, or just after it.
 NO_NUMBER = 18
 #: Gaps leave what lies between them no way to move: of opposed ones that meet, none opens.
@@ -87,6 +89,8 @@ class Choice(Record):
         Components of the reactions that bounds depend on, two each.
     box : Box
         The box problem of the rows at rest.
+    laws : Laws
+        The problem of all rows that depend on each other.
     first, count, dry : int
         Place in w of the first number of the rows, the number of rows, and the number of rows with two bounds.
     changes : int
@@ -169,6 +173,7 @@ class Choice(Record):
     accelerations: abi.Observe
     reactions: abi.Observe
     box: Box
+    laws: Laws
     first: int
     count: int
     dry: int
@@ -277,6 +282,7 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         accelerations=compiled_form(rows.accelerations.function),
         reactions=compiled_form(observe_nothing if rows.reactions is None else rows.reactions.function),
         box=new_box(k),
+        laws=new_laws(k),
         first=first,
         count=k,
         dry=rows.dry,

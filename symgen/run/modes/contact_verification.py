@@ -14,7 +14,6 @@ from symgen.run.modes.bounded_rows import (
     ROUNDED,
     SAME,
     SEVERAL_MODES,
-    TOO_MANY,
     Choice,
 )
 from symgen.run.modes.contact_combinations import (
@@ -26,13 +25,14 @@ from symgen.run.modes.contact_combinations import (
     set_combination,
     solve_combination,
 )
+from symgen.run.modes.contact_laws import solve_by_laws
 
 #: Rounding of accelerations and forces over what they are differences of, and of those that are solved for.
 _ROUNDING, _SOLVED = 1e-10, 1e-7
 #: Accelerations of two solutions that differ by less than this part are one.
 _ONE = 1e-7
-#: Most contacts that depend on each other, and most rows of their part.
-MOST_CONTACTS, _MOST_ROWS = 4, 10
+#: Most contacts that depend on each other, and most rows of their part, of which all combinations are tried.
+_MOST_CONTACTS, _MOST_ROWS = 4, 10
 
 
 @exact()
@@ -101,18 +101,20 @@ def is_same(c: Choice, count: int) -> bool:
 
 @exact()
 def try_combinations(c: Choice, count: int) -> int:
-    """Find the modes of a part; return `SAME`, `NO_CONTACT_MODES`, `SEVERAL_MODES` or `TOO_MANY`.
+    """Find the modes of a part; return `SAME`, `NO_CONTACT_MODES` or `SEVERAL_MODES`.
 
-    Combinations with equal accelerations are one: forces may be several.
+    Combinations with equal accelerations are one: forces may be several. Those of many rows are not tried.
     """
     box, solutions, contacts = c.box, 0, 0
     for a in range(count):
         i = box.order[a]
         contacts += 1 if c.pushes[i] != 0 else 0
         c.option[i] = 0
-    if contacts > MOST_CONTACTS or count > _MOST_ROWS:
-        c.named[0] = box.order[count - 1]
-        return TOO_MANY
+    if contacts > _MOST_CONTACTS or count > _MOST_ROWS:
+        code = solve_by_laws(c, count)
+        if code != SAME:
+            name_fault(c, count)
+        return int(code)
     more = True
     while more:
         if set_combination(c, count) and solve_combination(c, count) and is_right(c, count):

@@ -83,19 +83,19 @@ def hold_again(c: Choice, count: int, first: int) -> int:
     """Do what `symgen.run.modes.resting.hold_again` does, in a part with contacts; ``passing`` is 1 for rows let go."""
     again = False
     while True:
-        best, least, let_go = -1, math.inf, 0
+        best, least, released = -1, math.inf, 0
         for a in range(count):
-            let_go += c.passing[c.box.order[a]]
+            released += c.passing[c.box.order[a]]
         for a in range(count):
             i = c.box.order[a]
-            if c.passing[i] != 0 and (again or let_go > 1):
+            if c.passing[i] != 0 and (again or released > 1):
                 needs = part_held(c, count, first, i)
                 if needs < (1.0 - ROUNDED) * least:
                     best, least = i, needs
         if best < 0:
             break
         c.loose[best], c.passing[best], again = 0, 0, True
-    return solve_part(c, count, first) if again or let_go > 1 else SAME
+    return solve_part(c, count, first) if again or released > 1 else SAME
 
 
 @exact()

@@ -28,9 +28,9 @@ from symgen.run.modes.bounded_rows import (
     NOT_DETERMINED,
     NOT_FINITE,
     REDUNDANT,
+    SEVERAL_BY_REACTION,
     SEVERAL_MODES,
     SHARED,
-    TOO_MANY,
     TWO_PIECES,
 )
 
@@ -58,7 +58,8 @@ class Sentence(NamedTuple):
 #: Faults that only runs with these kinds of rows have (`symgen.run.loops.run_spec.Watched.turning`).
 OF_KIND = {
     **{TWO_PIECES: "corners"},
-    **dict.fromkeys((NO_CONTACT_MODES, SEVERAL_MODES, GAINED, TOO_MANY), "contacts"),
+    **dict.fromkeys((NO_CONTACT_MODES, SEVERAL_MODES, GAINED), "contacts"),
+    SEVERAL_BY_REACTION: "pressed",
 }
 #: Sentences by their codes.
 SENTENCES = {
@@ -118,12 +119,12 @@ SENTENCES = {
         "a smaller coefficient of friction",
     ),
     SEVERAL_MODES: Sentence("contacts", "one motion at t = {t:.9g} s", "several: {modes}, and {others}"),
+    SEVERAL_BY_REACTION: Sentence("{by_reaction}", "one motion at t = {t:.9g} s", "several, which differ at {names}"),
     GAINED: Sentence(
         "contact {name}",
         "an impact that adds no energy",
         "one that adds {first:.12g} J at t = {t:.9g} s, as Newton's law may with friction or several impacts at once",
     ),
-    TOO_MANY: Sentence("contact {name}", "at most four contacts that depend on each other", "more at t = {t:.9g} s"),
     NOT_APPLIED: Sentence(
         "{hits}: reset", "velocities that the joints and each other allow", "others at t = {t:.6g} s"
     ),
@@ -171,10 +172,10 @@ def fixed_words(rows: BoundedNames) -> dict[str, str]:
     }
 
 
-def modes_in_words(rows: BoundedNames, digits: float) -> str:
-    """Return what contacts do in modes that are the digits of a number to the base of 4."""
-    if not rows.contacts or not digits >= 0.0:
-        return ""
+def modes_in_words(rows: BoundedNames, digits: float, many: str) -> str:
+    """Return what contacts do in modes that are the digits of a number to the base of 4; `many` without a number."""
+    if not digits >= 0.0:
+        return many
     words, number = list[str](), int(digits)
     modes = [number // 4**i % 4 for i in range(len(rows.names))]
     for i in rows.contacts:
@@ -225,7 +226,7 @@ def refusal(
         **{"kind": rows.kinds[own], "kinds": rows.nouns[own], "name": rows.names[own]},
         **{"names": ", ".join(names), "hits": hits_of(names)},
         "row": every[place] if place < len(every) else "a row",
-        "modes": modes_in_words(rows, first),
-        "others": modes_in_words(rows, second),
+        "modes": modes_in_words(rows, first, "one of many contacts"),
+        "others": modes_in_words(rows, second, "another one"),
     }
     return InputError(*(text.format(**words, first=first, second=second, t=t) for text in sentence))

@@ -136,7 +136,7 @@ def share_anew(c: Choice, n: int) -> float:
 
 
 @exact()
-def let_go(c: Choice, n: int, w: Array, part: float) -> int:
+def let_rows_slide(c: Choice, n: int, w: Array, part: float) -> int:
     """Find the forces at rest where rows that their static bounds do not hold have those of motion.
 
     ``option`` is 1 for the rows let go. Returns `SAME`, or why there are no forces.
@@ -220,7 +220,7 @@ def solve_rest(c: Choice, n: int, w: Array) -> int:
         c.option[i] = 0
         for s in range(n):
             box.matrix[r * n + s] = c.matrix[i * k + c.rest[s]]
-    code = let_go(c, n, w, share_anew(c, n))
+    code = let_rows_slide(c, n, w, share_anew(c, n))
     if code == SAME:
         code = hold_again(c, n, w)
     if code != SAME:

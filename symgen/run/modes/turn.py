@@ -38,6 +38,7 @@ from symgen.run.modes.bounded_rows import (
     OTHERS,
     OUT_OF_RANGE,
     SAME,
+    SEVERAL_BY_REACTION,
     SEVERAL_MODES,
     SHARED,
     SIGN,
@@ -70,6 +71,8 @@ from symgen.run.modes.transition_log import (
     remember_modes,
 )
 
+#: Most digits to the base of 4 that a number has.
+MOST_DIGITS = 26
 #: Whether gaps have several pieces, which are one in the log; whether there are contacts.
 PIECES = CONTACTS = False
 
@@ -123,8 +126,8 @@ def set_of(numbers: Integers, count: int) -> float:
 
 
 def modes_in_digits(c: Choice, of: Integers) -> float:
-    """Return the modes of the rows of contacts as the digits of a number to the base of 4."""
-    total, power = 0.0, 1.0
+    """Return the modes of the rows of contacts as the digits of a number to the base of 4, nan for too many."""
+    total, power = 0.0 if c.count <= MOST_DIGITS else math.nan, 1.0
     for i in range(c.count):
         total += power * float(of[i])
         power *= 4.0
@@ -155,7 +158,7 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
     which = float(row)
     if code == JAMMED:
         first = c.jam[0]
-    elif code == NOT_DETERMINED or code == SHARED:
+    elif code == NOT_DETERMINED or code == SHARED or code == SEVERAL_BY_REACTION:
         which = set_of(c.named, c.count + 1)
     elif code == NO_IMPULSES:
         which = set_of(c.rest, c.at_rest[0])

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from symgen.base.errors import InputError
 from tests.run.contacts.scenes import CRANK, CRANK_WITH_CLEARANCE, body, head, loaded, woodpecker
 
 
@@ -93,16 +92,6 @@ def test_a_pin_with_play_in_four_ways(tmp_path: Path) -> None:
                 found.append(run["rod.theta"][1:])
         expected = known if e == "0.0" else found[0]
         assert np.abs(np.array(found) - expected).max() < 1e-10
-
-
-@pytest.mark.slow
-def test_five_contacts_of_one_body_are_refused(tmp_path: Path) -> None:
-    text = head("five") + body("plank", 1.0, 0.02, (0.0, 0.1))
-    for i in range(5):
-        shapes = f'[{{ body = "plank", at = [{0.1 * i - 0.2!r}, -0.1] }}, {{ line = "ground" }}]'
-        text += f"[contacts.c{i}]\nbetween = {shapes}\nfriction = 0.5\n"
-    with pytest.raises(InputError, match="contact c4: expected at most four contacts that depend on each other"):
-        loaded(text, tmp_path).simulate(until=0.1)
 
 
 @pytest.mark.by_turns(2)

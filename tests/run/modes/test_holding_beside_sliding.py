@@ -33,7 +33,8 @@ def touch(name: str, on: str, body: str, place: float, weight: float, static: fl
 def blocks(static: float, touching: str, moving: bool) -> str:
     """Return a block on a floor with a spring, and another one on top of it; in motion, or where they turn round."""
     x, v = (0.0, rate_at_zero()) if moving else (TURN, 0.0)
-    text = f'[mechanism]\nname = "block-on-block"\ngravity = [0.0, {-G}]\n[run]\nuntil = {time_of_turn(moving) + AFTER!r}\n'
+    text = f'[mechanism]\nname = "block-on-block"\ngravity = [0.0, {-G}]\n'
+    text += f"[run]\nuntil = {time_of_turn(moving) + AFTER!r}\n"
     for name, y in (("a", 0.0), ("b", 0.2)):
         text += f"[bodies.{name}]\nmass = 1.0\ninertia = 0.1\nposition = [{x!r}, {y}]\nvelocity = [{v!r}, 0.0]\n"
     floor, top = (static, FLOOR), TOP

@@ -1,0 +1,220 @@
+"""Forces that obey all laws: beginnings of Newton's method, and how many motions few rows have.
+
+Rows with forces by reactions or contacts may have no motion, or several. Newton's method finds one; up to `COUNTED`
+combinations of what rows may do are all solved for besides, and motions that differ are counted.
+"""
+
+from __future__ import annotations
+
+import math
+
+from symgen.compile.loopcode.exact import exact
+from symgen.run.laws.newton import follow_laws
+from symgen.run.laws.problem import (
+    BALL,
+    LOWER,
+    OFF,
+    ON,
+    PUSH,
+    UPPER,
+    Laws,
+    acceleration_of,
+    bound_of,
+    load_of,
+    middle_of,
+    rows_of,
+)
+from symgen.run.laws.sharing import share_forces, spread_forces
+from symgen.run.laws.verify import obeys
+
+#: How many motions there are; one, and others were not sought.
+NO_MOTION, ONE_MOTION, SEVERAL_MOTIONS, NOT_SOUGHT = range(4)
+#: Most combinations that are counted.
+COUNTED = 256
+#: Beginnings: the forces that are there, rest, none, and sweeps of row after row.
+_GIVEN, _AT_REST, _NONE, _SWEPT = range(4)
+_BEGINNINGS, _SOUGHT, _SWEEPS = 6, 5, 5
+#: Forces above are no beginning; accelerations of two motions differ by more than this part.
+_HUGE, _ONE = 1e100, 1e-7
+
+
+@exact()
+def sweep_laws(n: int, times: int, laws: Laws) -> None:
+    """Let the forces of rows obey their laws one after the other."""
+    for _ in range(times):
+        for i in range(n):
+            own = laws.matrix[i * n + i]
+            wants = laws.forces[i] + (acceleration_of(n, i, laws) / own if own > 0.0 else 0.0)
+            if laws.law[i] == PUSH:
+                laws.forces[i] = min(wants, 0.0) if own > 0.0 else 0.0
+            elif laws.law[i] == BALL and rows_of(n, i, laws) == 1:
+                bound, middle = bound_of(n, i, laws), middle_of(i, load_of(n, i, laws), laws)
+                if laws.way[i] != 0.0:
+                    laws.forces[i] = laws.way[i] * bound
+                elif own == 0.0:
+                    laws.forces[i] = 0.0
+                else:
+                    laws.forces[i] = middle + min(max(wants - middle, -bound), bound)
+
+
+@exact()
+def begin(n: int, beginning: int, laws: Laws) -> None:
+    """Set the forces, or the states, that Newton's method begins from."""
+    for i in range(n):
+        if beginning != _GIVEN or not abs(laws.forces[i]) < _HUGE:
+            laws.forces[i] = 0.0
+    if beginning == _AT_REST:
+        for i in range(n):
+            laws.state[i] = ON if laws.law[i] == PUSH or laws.way[i] == 0.0 else UPPER
+        follow_laws(n, True, laws)
+        spread_forces(n, laws)
+    elif beginning >= _SWEPT:
+        times = beginning - _SWEPT + 1
+        sweep_laws(n, _SWEEPS * times * times, laws)
+    for i in range(n):
+        if not abs(laws.forces[i]) < _HUGE:
+            laws.forces[i] = 0.0
+
+
+@exact(entry=True)
+def find_forces(n: int, laws: Laws, first: int) -> bool:
+    """Find forces that obey all laws; return whether any are found.
+
+    `first` is 0 where those that are there may be near, else 1.
+    """
+    for beginning in range(first, _BEGINNINGS):
+        begin(n, beginning, laws)
+        if follow_laws(n, False, laws) and obeys(n, laws):
+            return True
+    return False
+
+
+@exact()
+def options_of(n: int, i: int, laws: Laws) -> int:
+    """Return of how many things a row does one."""
+    if laws.law[i] == PUSH:
+        return 2
+    return 3 if laws.law[i] == BALL and laws.way[i] == 0.0 and rows_of(n, i, laws) == 1 else 1
+
+
+@exact()
+def count_combinations(n: int, laws: Laws) -> float:
+    """Return the number of combinations of what rows may do, inf with balls of two rows: those have directions."""
+    total = 1.0
+    for i in range(n):
+        total *= float(options_of(n, i, laws)) if not (laws.law[i] == BALL and rows_of(n, i, laws) == 2) else math.inf
+    return total
+
+
+@exact()
+def next_combination(n: int, laws: Laws) -> bool:
+    """Go on to the next combination; return whether there is one."""
+    for i in range(n):
+        laws.option[i] += 1
+        if laws.option[i] < options_of(n, i, laws):
+            return True
+        laws.option[i] = 0
+    return False
+
+
+@exact()
+def moves_alike(n: int, laws: Laws) -> bool:
+    """Whether the accelerations are those of the first motion, which ``first`` has before its forces."""
+    most = 0.0
+    for i in range(n):
+        most += math.sqrt(abs(laws.matrix[i * n + i])) * (abs(laws.forces[i]) + abs(laws.first[n + i]))
+    for i in range(n):
+        size = abs(laws.offset[i]) + math.sqrt(abs(laws.matrix[i * n + i])) * most
+        if abs(laws.left[i] - laws.first[i]) > _ONE * size:
+            return False
+    return True
+
+
+@exact()
+def keep_first(n: int, laws: Laws) -> None:
+    """Keep the motion found while others are sought."""
+    for i in range(n):
+        laws.option[i], laws.does[i] = 0, laws.state[i]
+        laws.first[i], laws.first[n + i] = laws.left[i], laws.forces[i]
+
+
+@exact()
+def recall_first(n: int, laws: Laws) -> None:
+    """Set the motion found anew; the states of the one sought last go to ``other``."""
+    for i in range(n):
+        laws.other[i] = laws.state[i]
+        laws.state[i], laws.left[i], laws.forces[i] = laws.does[i], laws.first[i], laws.first[n + i]
+
+
+@exact(entry=True)
+def seek_another(n: int, laws: Laws) -> bool:
+    """Whether another beginning leads to another motion than the present forces; its states go to ``other``."""
+    another = False
+    keep_first(n, laws)
+    for beginning in range(_NONE, _SOUGHT):
+        if not another:
+            begin(n, beginning, laws)
+            another = follow_laws(n, False, laws) and obeys(n, laws) and not moves_alike(n, laws)
+    recall_first(n, laws)
+    return another
+
+
+@exact(entry=True)
+def find_another(n: int, laws: Laws) -> bool:
+    """Whether any combination has another motion than the present forces; its states go to ``other``."""
+    another, more = False, True
+    keep_first(n, laws)
+    while more and not another:
+        for i in range(n):
+            laws.forces[i] = 0.0
+            if laws.law[i] == PUSH:
+                laws.state[i] = ON if laws.option[i] == 0 else OFF
+            elif laws.way[i] == 0.0:
+                laws.state[i] = ON if laws.option[i] == 0 else UPPER if laws.option[i] == 1 else LOWER
+        another = follow_laws(n, True, laws)
+        if another and not obeys(n, laws):
+            another = spread_forces(n, laws) and obeys(n, laws)
+        another = another and not moves_alike(n, laws)
+        more = next_combination(n, laws)
+    recall_first(n, laws)
+    return another
+
+
+@exact()
+def count_motions(n: int, laws: Laws) -> int:
+    """Return how many motions there are beside the one found: `ONE_MOTION`, `SEVERAL_MOTIONS` or `NOT_SOUGHT`.
+
+    Without loads forces minimise a convex function, and the motion is one.
+    """
+    depends = False
+    for i in range(n):
+        depends = depends or laws.presser[i] >= 0 or laws.components[i] > 0
+    if not depends:
+        return ONE_MOTION
+    if count_combinations(n, laws) > COUNTED:
+        return NOT_SOUGHT
+    return SEVERAL_MOTIONS if find_another(n, laws) else ONE_MOTION
+
+
+@exact(entry=True)
+def solve_laws(n: int, given: int, laws: Laws) -> int:
+    """Find forces that obey all laws, and count motions.
+
+    Parameters
+    ----------
+    n : int
+        Number of rows.
+    given : int
+        1 where the present forces may be near, else 0.
+    laws : Laws
+        The problem; it keeps forces, states and accelerations.
+
+    Returns
+    -------
+    int
+        `NO_MOTION`, `ONE_MOTION`, `SEVERAL_MOTIONS`, or `NOT_SOUGHT` where others than the one found were not sought.
+    """
+    if not find_forces(n, laws, 0 if given != 0 else 1):
+        return NO_MOTION
+    share_forces(n, laws)
+    return int(count_motions(n, laws))

@@ -1,0 +1,93 @@
+"""Modes of parts with many contacts, compiled: Newton's method on the laws of all rows, from several beginnings.
+
+Combinations of a few rows are all tried (`symgen.run.modes.contact_verification`); those of many rows are too many.
+Rest is tried first, then other beginnings, and each motion is verified. Where they lead to different motions there are
+several, unless what was at rest goes on resting; others than those found are not sought.
+"""
+
+from __future__ import annotations
+
+from symgen.base.ir.program import MODE_NUMBERS
+from symgen.compile.loopcode.exact import exact
+from symgen.run.laws.motions import find_forces, seek_another
+from symgen.run.laws.problem import BALL, OFF, ON, PUSH, begin_row
+from symgen.run.laws.sharing import find_dependent, share_forces
+from symgen.run.modes.bounded_rows import (
+    CONSTANT,
+    HELD,
+    NO_CONTACT_MODES,
+    NO_FACTOR,
+    SAME,
+    SEVERAL_MODES,
+    Choice,
+)
+from symgen.run.modes.contact_combinations import bound_of
+
+
+@exact()
+def fill_part(c: Choice, count: int) -> None:
+    """Write the problem of the rows of a part, in their order in ``order`` of the box."""
+    k, order, laws = c.count, c.box.order, c.laws
+    for a in range(count):
+        i = order[a]
+        begin_row(count, a, laws)
+        laws.offset[a] = c.offset[i]
+        for b in range(count):
+            laws.matrix[a * count + b] = c.matrix[i * k + order[b]]
+        laws.law[a] = PUSH if c.pushes[i] != 0 else BALL
+        if c.pushes[i] == 0:
+            laws.beta[a] = bound_of(c, i) if c.partner[i] < 0 else 0.0
+        if c.pushes[i] == 0 and c.partner[i] >= 0:
+            laws.kappa[a], laws.way[a] = bound_of(c, i), c.signs[i]
+            for b in range(count):
+                if order[b] == c.partner[i]:
+                    laws.presser[a] = b
+
+
+@exact()
+def rested(c: Choice, count: int) -> bool:
+    """Whether all rows of a part rest in the motion found, and did before."""
+    for a in range(count):
+        at = MODE_NUMBERS * c.box.order[a]
+        if c.laws.state[a] != ON or (c.before[at + HELD] == 0.0 and c.before[at + CONSTANT] == 0.0):
+            return False
+    return True
+
+
+@exact()
+def find_carriers_of_part(c: Choice, count: int) -> None:
+    """Say of each row at rest that others determine which one carries it, if that is one with two bounds.
+
+    ``part`` is -1 for rows that are put into force, the number of rows for those that keep their forces.
+    """
+    order, laws = c.box.order, c.laws
+    find_dependent(count, laws)
+    for b in range(count):
+        j, owners, owner = order[b], 0, -1
+        c.part[j] = -1
+        if laws.depends[b] == 2:
+            for a in range(count):
+                if laws.depends[a] == 1 and abs(laws.slopes[a * count + b]) > NO_FACTOR:
+                    owners += 1 if c.pushes[order[a]] == 0 else 2
+                    owner, c.bounds[j] = order[a], laws.slopes[a * count + b]
+            c.part[j] = owner if owners == 1 else c.count
+
+
+@exact(entry=True)
+def solve_by_laws(c: Choice, count: int) -> int:
+    """Find the modes of a part as `try_combinations` does; return `SAME`, `NO_CONTACT_MODES` or `SEVERAL_MODES`."""
+    order, laws = c.box.order, c.laws
+    fill_part(c, count)
+    if not find_forces(count, laws, 1):
+        return NO_CONTACT_MODES
+    share_forces(count, laws)
+    several = not rested(c, count) and seek_another(count, laws)
+    for a in range(count):
+        i = order[a]
+        c.best[i], c.other[i], c.forces[i], c.trial[i] = laws.state[a], laws.other[a], laws.forces[a], laws.left[a]
+    for a in range(count):  # the friction of an open contact is off
+        i = order[a]
+        if c.pushes[i] == 0 and c.partner[i] >= 0 and c.best[c.partner[i]] == OFF:
+            c.best[i] = OFF
+    find_carriers_of_part(c, count)
+    return SEVERAL_MODES if several else SAME

@@ -1,0 +1,93 @@
+"""More than four contacts that depend on each other: boxes on each other, and a plank on five feet."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.result.targets.test_c_modes import assert_same_run, program_of
+from tests.run.contacts.scenes import G, body, head, loaded
+
+#: Half the side of a box [m].
+HALF = 0.1
+
+
+def stack(places: np.ndarray, drop: float = 0.0, push: str = "0.0", friction: float = 0.5) -> str:
+    """Return boxes of 1 kg on each other at places along a floor, each dropped by a height; the last one is pushed."""
+    text = head("stack")
+    for i, x in enumerate(places):
+        text += body(f"b{i}", 1.0, 2.0 / 3.0 * HALF**2, (float(x), HALF + (2.0 * HALF + drop) * i + drop))
+        below = '"ground"' if i == 0 else f'"b{i - 1}", on = [0.0, {HALF}]'
+        for side, at in (("l", -HALF), ("r", HALF)):
+            text += (
+                f'[contacts.c{i}{side}]\nbetween = [{{ body = "b{i}", at = [{at}, {-HALF}] }}, {{ line = {below} }}]\n'
+            )
+            text += f"friction = {friction!r}\n"
+    last = f"b{len(places) - 1}"
+    return text + f'[forces.push]\ntype = "force"\nbody = "{last}"\nforce = ["{push}", 0.0]\n'
+
+
+def supports(places: np.ndarray) -> np.ndarray:
+    """Return what the left and right corners of each box carry, by the weight and the moment of all above it."""
+    above = [places[i:] - x for i, x in enumerate(places)]
+    weights, moments = np.array([G * len(x) for x in above]), np.array([G * np.sum(x) for x in above])
+    return np.column_stack([weights / 2.0 - moments / (2.0 * HALF), weights / 2.0 + moments / (2.0 * HALF)])
+
+
+def forces(result: object, count: int, row: int = -1) -> np.ndarray:
+    """Return the forces of the contacts of a run, left and right of each box."""
+    return np.array([[result[f"c{i}{side}.force"][row] for side in "lr"] for i in range(count)])
+
+
+@pytest.mark.parametrize("count", [3])
+def test_boxes_on_each_other_rest(count: int, tmp_path: Path) -> None:
+    places = 0.02 * np.cos(1.7 * np.arange(count))
+    result = loaded(stack(places), tmp_path).simulate(until=0.2, verify=False)
+    assert result.ok and not result.events
+    np.testing.assert_allclose(forces(result, count), supports(places), rtol=1e-11)
+    assert np.max(np.abs(result[f"b{count - 1}.x"] - places[-1])) < 1e-13
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("count", [3, 5, 10])
+def test_boxes_that_fall_onto_each_other_come_to_rest(count: int, tmp_path: Path) -> None:
+    places = 0.02 * np.cos(1.7 * np.arange(count))
+    result = loaded(stack(places, drop=0.001), tmp_path).simulate(until=0.3, verify=False)
+    assert result.ok, result.reason
+    assert {event.name for event in result.events} >= {f"c{i}{side}.hit" for i in range(count) for side in "lr"}
+    np.testing.assert_allclose(forces(result, count), supports(places), rtol=1e-9)
+    assert any("not unique" in note for note in result.notes)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_the_upper_box_slides_where_it_is_pushed_beyond_its_friction(coordinates: str, tmp_path: Path) -> None:
+    """It begins at mu m g, and goes on with (F - mu m g)/m; those below stay."""
+    mu, pace = 0.2, 4.0
+    text = stack(np.zeros(3), push=f"{pace}*t", friction=mu)
+    result = loaded(text, tmp_path).simulate(until=0.7, coordinates=coordinates, verify=False, rtol=1e-10)
+    begin = mu * G / pace
+    assert result.ok, result.reason
+    assert {event.name for event in result.events} == {"c2l.slip", "c2r.slip"}
+    assert all(abs(event.t - begin) < 1e-9 for event in result.events)
+    assert result["b2.x"][-1] == pytest.approx(pace * (0.7 - begin) ** 3 / 6.0, abs=1e-10)
+    assert abs(result["b1.x"][-1]) + abs(result["b0.x"][-1]) < 1e-12
+
+
+@pytest.mark.slow
+def test_a_plank_on_five_feet_rests_and_slides(tmp_path: Path) -> None:
+    text = head("five") + body("plank", 1.0, 0.02, (0.0, 0.1), (0.4, 0.0))
+    for i in range(5):
+        shapes = f'[{{ body = "plank", at = [{0.1 * i - 0.2!r}, -0.1] }}, {{ line = "ground" }}]'
+        text += f"[contacts.c{i}]\nbetween = {shapes}\nfriction = 0.5\n"
+    result = loaded(text, tmp_path).simulate(until=0.2, verify=False)
+    assert result.ok, result.reason
+    assert result["plank.x"][-1] == pytest.approx(0.4**2 / (2.0 * 0.5 * G), abs=1e-10)
+    assert sum(result[f"c{i}.force"][-1] for i in range(5)) == pytest.approx(G, rel=1e-10)
+
+
+@pytest.mark.slow
+def test_a_stack_in_c_is_that_of_a_run(tmp_path: Path) -> None:
+    model = loaded(stack(np.array([0.0, 0.01, -0.01]), drop=0.001), tmp_path)
+    transitions = assert_same_run(model, program_of(model, tmp_path / "c"), 0.1, 0.0005)
+    assert len({word for _, word in transitions}) > 6
