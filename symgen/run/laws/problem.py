@@ -87,8 +87,8 @@ def new_laws(k: int) -> Any:
     """Return memory for a problem of `k` rows."""
     whole = {"law", "presser", "components", "state", "other", "column", "option", "does", "depends"}
     longer = {"matrix": k * k, "slopes": k * k, "first": 2 * k, "apart": COMPONENTS * k, "parts": COMPONENTS * k * k}
-    fields = Laws._fields  # type: ignore[attr-defined]  # of a named tuple
-    return Laws(**{x: np.zeros(longer.get(x, k), dtype=np.int64 if x in whole else np.float64) for x in fields})
+    kinds = {x: np.int64 if x in whole else np.float64 for x in Laws._fields}
+    return Laws._make(np.zeros(longer.get(x, k), dtype=kind) for x, kind in kinds.items())
 
 
 @exact()
@@ -175,7 +175,7 @@ def mobility_of(n: int, i: int, laws: Laws) -> float:
     """Return the own mobility of a law, of the ball of a second row."""
     first = i - 1 if laws.law[i] == SECOND else i
     if rows_of(n, first, laws) == 2:
-        return 0.5 * (laws.matrix[first * n + first] + laws.matrix[(first + 1) * n + first + 1])
+        return float(0.5 * (laws.matrix[first * n + first] + laws.matrix[(first + 1) * n + first + 1]))
     return float(laws.matrix[i * n + i])
 
 

@@ -31,7 +31,7 @@ def ball_is_obeyed(n: int, i: int, tiny: float, little: float, laws: Laws) -> bo
     d, b = (laws.forces[i + 1], laws.left[i + 1]) if second else (0.0, 0.0)
     if laws.way[i] != 0.0 or (second and laws.way[i + 1] != 0.0):
         other = laws.way[i + 1] if second else 0.0
-        return abs(c - bound * laws.way[i]) <= little and abs(d - bound * other) <= little
+        return bool(abs(c - bound * laws.way[i]) <= little and abs(d - bound * other) <= little)
     force, motion = math.sqrt(c * c + d * d), math.sqrt(a * a + b * b)
     if force > bound + little:
         return False
