@@ -119,7 +119,7 @@ def next_combination(n: int, laws: Laws) -> bool:
 
 @exact()
 def moves_alike(n: int, laws: Laws) -> bool:
-    """Whether the accelerations are those of the first motion, which ``first`` has before its forces."""
+    """Whether the first motion, which ``first`` has before its forces, has these accelerations."""
     most = 0.0
     for i in range(n):
         most += math.sqrt(abs(laws.matrix[i * n + i])) * (abs(laws.forces[i]) + abs(laws.first[n + i]))

@@ -1,7 +1,7 @@
 """Newton's method on laws with corners: the problem of `symgen.run.laws.problem` from one beginning on.
 
 Each law is an equation with corners: ``c = min(c + a/g, 0)`` where a row pushes, ``c = the point of the ball nearest to
-c + a/g`` for a ball; g is its own mobility. Between corners the steps of Newton's method are those of an active set, so
+c + a/g`` for a ball; g is its own mobility. Between corners the steps of Newton's method solve an active set, so
 that the last one is exact. Pivots that are rounding are left out: forces that are many stay what they are.
 """
 

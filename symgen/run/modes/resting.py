@@ -137,7 +137,7 @@ def share_anew(c: Choice, n: int) -> float:
 
 @exact()
 def let_rows_slide(c: Choice, n: int, w: Array, part: float) -> int:
-    """Find the forces at rest where rows that their static bounds do not hold have those of motion.
+    """Find the forces at rest, where rows that their static bounds do not hold have sliding bounds.
 
     ``option`` is 1 for the rows let go. Returns `SAME`, or why there are no forces.
     """
