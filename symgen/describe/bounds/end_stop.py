@@ -23,6 +23,7 @@ from symgen.describe.bounds.bounded_modes import (
     name_of_number,
     unit_of_effort,
 )
+from symgen.describe.bounds.dry_friction import bound_at_rate
 from symgen.describe.bounds.row import Bounds
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import ModeEvent, Output
@@ -111,7 +112,8 @@ class EndStop(GapStop, frozen=True):
     name, owner, measure, value, unit
         See `GapStop`.
     restitution : Expr
-        Rate after an impact over that before, with the other sign; from 0 to 1.
+        Rate after an impact over that before, with the other sign; from 0 to 1. A formula may read ``rate``, the size
+        of the rate before.
     """
 
     one_sided: ClassVar[bool] = True
@@ -136,7 +138,7 @@ class EndStop(GapStop, frozen=True):
     @property
     def numbers(self) -> tuple[tuple[str, Expr], ...]:
         """The restitution."""
-        return ((f"restitution of {self.label}", self.restitution),)
+        return ((f"restitution of {self.label}", bound_at_rate(self.restitution, measure_derivative(self))),)
 
     @property
     def taking(self) -> Expr:
@@ -145,7 +147,8 @@ class EndStop(GapStop, frozen=True):
 
     def rebound(self, rate: Expr) -> Expr:
         """Return the rate of the gap after an impact, the law of impacts: ``-e u`` for a rate u below 0, else 0."""
-        return call("mul", call("mul", Number(0.5), self.restitution), call("sub", call("abs", rate), rate))
+        part = call("mul", Number(0.5), bound_at_rate(self.restitution, rate))
+        return call("mul", part, call("sub", call("abs", rate), rate))
 
     def events(self, beside: Sequence[BoundedRow]) -> tuple[ModeEvent, ...]:
         """Return the events at which the stop closes or opens.

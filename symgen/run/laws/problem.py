@@ -2,9 +2,9 @@
 
 Forces c enter accelerations linearly, ``a = a0 - G c`` with ``G >= 0``. A row *pushes*: ``c <= 0``, ``a >= 0``, and one
 of both is 0. Or it is a *ball* ``|c - m| <= B``: it rests, ``a = 0``, or begins to move, ``c = m + B`` with ``a >= 0``
-or ``c = m - B`` with ``a <= 0``; in motion its way is known, ``c = s B``. A ball may have two rows, as friction in
-space: |c| is a length then, and c has the direction of a. The bound is ``B = beta + kappa load``: the load is the force
-of a row that pushes, or the size of a reaction with up to three components, ``|n0 - N c|``.
+or ``c = m - B`` with ``a <= 0``; in motion its way is known, ``c = s B``. A ball may have two rows, in a plane: |c|
+is a length then, and c has the direction of a. The bound is ``B = beta + kappa load``: the load is the force of a row
+that pushes, or the size of a reaction with up to three components, ``|n0 - N c|``.
 
 Rates are accelerations and impulses are forces at an impact: the laws are the same.
 """

@@ -10,6 +10,7 @@ from msgspec import Meta
 from symgen.base.vocabulary.expressions import ZERO, Expr, Number, Reading, call
 from symgen.base.vocabulary.measures import FormulaMeasure, Measure, Sum
 from symgen.describe.bounds.changing import is_constant
+from symgen.describe.bounds.dry_friction import bound_at_rate
 from symgen.describe.bounds.elastic_stop import ElasticStop
 from symgen.describe.bounds.end_stop import LOWER, STOPS, UPPER, EndStop
 from symgen.describe.bounds.keys import KeyOfJoints, tables_by_coordinate
@@ -167,9 +168,9 @@ def read_stop(
 
 
 def read_restitution(scope: Scope, key: str, value: float | str) -> Expr:
-    """Return a restitution; raises `InputError` where it is not one."""
-    expression = scope.constant(key, value)
-    if not 0.0 <= (size := scope.value(expression, key)) <= 1.0:
+    """Return a restitution, which may be a formula of ``rate``; raises `InputError` where it is not one at rest."""
+    expression = scope.potential(key, value, {"rate": "rate"})
+    if not 0.0 <= (size := scope.value(bound_at_rate(expression, ZERO), key)) <= 1.0:
         raise scope.error(key, "a value from 0 to 1", repr(size))
     return expression
 
