@@ -189,7 +189,8 @@ def suggest(word: str, candidates: Iterable[str]) -> str:
         alike = [name for name in names if 2 * min(len(name), len(word)) >= CLOSE * (len(name) + len(word))]
         if len(alike) > MOST_COMPARED:
             alike.sort(key=lambda name: sum(a != b for a, b in zip(name, word, strict=False)))
-        close = difflib.get_close_matches(word, alike[:MOST_COMPARED], n=1, cutoff=CLOSE)
+        same = [name for name in alike if name.casefold() == word.casefold()]
+        close = same or difflib.get_close_matches(word, alike[:MOST_COMPARED], n=1, cutoff=CLOSE)
         if close:
             return f"did you mean '{close[0]}'?"
     first = fit_lines(len(names), MOST_LISTED)

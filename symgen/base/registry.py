@@ -53,7 +53,7 @@ class Registry(Generic[T]):
     beside : str, optional
         Package of a registry whose kinds are easily taken for these, which a message says.
     meant : mapping of str to str, optional
-        Words of other programs and of daily life, each with the kind that a message names for it.
+        Words of other programs and of daily life in small letters, each with the kind that a message names for it.
     """
 
     def __init__(
@@ -112,7 +112,8 @@ class Registry(Generic[T]):
             load_installed_plugins()
         if resolved not in self._loaded and resolved not in self._module_names_by_kind():
             names = (*self.names, *self.aliases)
-            hint = f"did you mean '{self.meant[name]}'?" if name in self.meant else suggest(name, names)
+            word = self.meant.get(name.lower(), "")
+            hint = f"did you mean '{word}'?" if word else suggest(name, names)
             if hint.startswith("known"):
                 hint = self._hint_beside(name) or hint
             choices = " (known: " + ", ".join(sorted(names)) + ")"

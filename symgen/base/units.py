@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -19,6 +20,10 @@ from symgen.base.unit_symbols import ALIKE, COMMON, DERIVED, MEANT, OTHERS, SPEL
 #: Characters of a unit, largest power, and characters of a text that is compared with numbers.
 LONGEST_UNIT, LARGEST_POWER, LONGEST_AMOUNT = 40, 12, 80
 
+#: Characters at most of a word that may be several symbols, and of the longest of these.
+LONGEST_RUN, LONGEST_SYMBOL = 8, 4
+
+_DIGITS = re.compile(r"[1-9]")
 _WORD = re.compile(r"\s*([A-Za-z][A-Za-z0-9]*|1|%)")
 _FACTOR = re.compile(r"\s*[A-Za-z0-9%(]")
 _POWER = re.compile(r"\s*\^(-?[0-9]{1,2})(?![0-9])")
@@ -123,7 +128,7 @@ def unit_of(text: str, where: str, *, quantity: str = "") -> Unit:
     if isinstance(unit, str):
         if len(text) > LONGEST_UNIT or not text.isprintable():
             expected += f", at most {LONGEST_UNIT} characters on one line"
-        raise InputError(where, expected, quote(text), _unit_hint(unit, text, bool(quantity)))
+        raise InputError(where, expected, quote(text), _unit_hint(unit, text, quantity))
     if quantity and not unit.fits(known_unit(quantity)):
         raise InputError(where, expected, quote(text))
     return unit
@@ -136,8 +141,8 @@ def known_unit(text: str) -> Unit:
     return unit
 
 
-def _unit_hint(part: str, text: str, brief: bool) -> str:
-    """Return the nearest spelling of what is no unit, else, unless `brief`, the usual units."""
+def _unit_hint(part: str, text: str, quantity: str) -> str:
+    """Return the nearest spelling of what is no unit, else, unless the quantity is known, the usual units."""
     if part == SLASH:
         return "one factor follows '/', or several in brackets, as in 'W/(m K)'"
     if text.startswith("^"):
@@ -149,12 +154,33 @@ def _unit_hint(part: str, text: str, brief: bool) -> str:
         return f"{what}did you mean '{MEANT[part]}'?"
     if (power := re.fullmatch(r"([A-Za-z]+)(-?[0-9]{1,2})", part)) and power[1] in SYMBOLS:
         return f"{what}did you mean '{power[1]}^{power[2]}'?"
+    if quantity and (apart := _symbols_apart(part, text, known_unit(quantity))):
+        return f"{what}did you mean '{apart}'?"
     folded = {name.casefold(): name for name in reversed([*COMMON, *SYMBOLS])}
     same = folded.get(part.casefold())
     near = f"did you mean '{same}'?" if same else suggest(part, COMMON)
     if near.startswith("did"):
         return what + near
-    return what.removesuffix(", ") if brief else f"{what}units are those of the SI, {OTHERS}"
+    return what.removesuffix(", ") if quantity else f"{what}units are those of the SI, {OTHERS}"
+
+
+def _symbols_apart(part: str, text: str, quantity: Unit) -> str:
+    """Return ``kg m^2`` of ``kgm2``: the symbols of a word apart, if they make a unit of the quantity; else nothing."""
+
+    def split(word: str) -> Iterator[str]:
+        for end in range(min(len(word), LONGEST_SYMBOL), 0, -1):
+            if word[:end] in SYMBOLS:
+                power = _DIGITS.match(word, end)
+                rest = power.end() if power else end
+                symbol = f"{word[:end]}^{power[0]}" if power else word[:end]
+                yield from (f"{symbol} {more}" for more in split(word[rest:])) if word[rest:] else (symbol,)
+
+    readings = (text.replace(part, symbols, 1) for symbols in split(part)) if len(part) <= LONGEST_RUN else ()
+    for written in readings:
+        unit = read_unit(written)
+        if isinstance(unit, Unit) and unit.fits(quantity):
+            return written
+    return ""
 
 
 @dataclass(frozen=True)

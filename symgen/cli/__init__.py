@@ -20,20 +20,20 @@ import threading
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from difflib import SequenceMatcher
 from pathlib import Path
 from typing import Any
 
 import click
 
 from symgen.analyses.kinds import ANALYSES
-from symgen.base.errors import CLOSE, InputError, SymgenError, suggest
+from symgen.base.errors import InputError, SymgenError
 from symgen.base.escapes import printable
 from symgen.base.plugins import failure_of_plugin, load_plugins
 from symgen.base.registry import Registry
 from symgen.base.settings import command_flag, setting_names
 from symgen.base.units import read_amount, read_unit
 from symgen.base.version import __version__
+from symgen.cli._meant import hint_on_choice, hint_on_command, hint_on_option
 
 OK, FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 #: Number of new objects before the first garbage collection; imports create about as many.
@@ -92,7 +92,7 @@ class LazyGroup(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """Return the command, or suggest the nearest name."""
         if args and args[0] not in COMMANDS and not args[0].startswith("-") and not ctx.resilient_parsing:
-            hint = suggest(args[0], COMMANDS)
+            hint = hint_on_command(args[0], COMMANDS)
             if not hint.startswith("did") and _is_model(args[0]):
                 hint = f"did you mean 'symgen run {args[0]}'?"
             raise click.UsageError(f"there is no command '{args[0]}'; {hint}", ctx)
@@ -254,10 +254,12 @@ def _sentence_of_error(error: click.ClickException) -> str:
     context = getattr(error, "ctx", None)
     if isinstance(error, click.NoSuchOption):
         options = [o for p in context.command.params for o in p.opts] if context is not None else []
-        hint = _hint_on_option(error.option_name, [o for o in options if o.startswith("--")])
+        hint = hint_on_option(error.option_name, [o for o in options if o.startswith("--")])
         text = f"there is no option '{error.option_name}'" + (f"; {hint}" if hint else "")
     elif isinstance(error, click.BadParameter) and (number := _NOT_A_NUMBER.search(text)):
         text = text[: number.start()].rstrip() + f" expected a number, got '{number[1]}'{_hint_on_number(number[1])}"
+    elif isinstance(error, click.BadParameter) and (choice := _NOT_A_CHOICE.search(text)):
+        text = text.rstrip(".") + hint_on_choice(choice[1], re.findall(r"'([^']*)'", choice[2]))
     help_at = f" (symgen {context.info_name} --help)" if context is not None and context.parent is not None else ""
     return text[:1].lower() + text[1:].rstrip(".") + help_at
 
@@ -281,29 +283,9 @@ def _hint_on_number(word: str) -> str:
     return "" if isinstance(unit, str) else f"; numbers of options are in SI units: {unit.to_si(amount.number):g}"
 
 
-#: What click says of a word that is no number.
+#: What click says of a word that is no number, and of one that is none of a few.
 _NOT_A_NUMBER = re.compile(r"'([^']*)' is not a valid (?:float|integer)(?: range)?\.?$")
-#: Words that users type for options -> the option, suggested where the command has it.
-MEANT = {
-    **dict.fromkeys(("--param", "--parameter", "--parameters", "--params", "--p"), "--set"),
-    **dict.fromkeys(("--dt", "--h", "--step-size", "--timestep"), "--step"),
-    **dict.fromkeys(("--end", "--tend", "--t-end", "--time", "--duration"), "--until"),
-    **dict.fromkeys(("--out", "--outfile", "--file"), "--output"),
-    **dict.fromkeys(("--solver", "--scheme"), "--integrator"),
-    **dict.fromkeys(("--tol", "--tolerance"), "--rtol"),
-    **dict.fromkeys(("--initial", "--init", "--x0"), "--start"),
-    **dict.fromkeys(("--options", "--opt", "--alpha"), "--option"),
-}
-
-
-def _hint_on_option(option: str, options: Sequence[str]) -> str:
-    """Return the likely option for an unknown one, by meaning or by spelling."""
-    if (meant := MEANT.get(option)) in options:
-        return f"did you mean '{meant}'?"
-    hint = suggest(option, options)
-    # three letters in common mean nothing
-    close = hint.startswith("did you mean") and SequenceMatcher(None, option[2:], hint[16:-2]).ratio() >= CLOSE
-    return hint if close else ""
+_NOT_A_CHOICE = re.compile(r"'([^']*)' is not one of (.*)$")
 
 
 def spare_collections() -> None:

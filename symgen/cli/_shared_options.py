@@ -94,21 +94,19 @@ def numbers_in_si(option: str, numbers: object, models: Sequence[str]) -> Any:
     InputError
         If a unit is none, or none of the quantity, or models have different ones for a name.
     """
-    from symgen.describe.facts.typed_units import Typed, typed_numbers_in_si
+    from symgen.describe.facts.typed_units import Typed, notes_on_units, typed_numbers_in_si
 
     if not isinstance(numbers, Mapping) or not any(isinstance(x, Typed) for x in numbers.values()):
         return numbers
     from symgen.describe.files.load import load_mechanism
 
-    found = [
-        typed_numbers_in_si(load_mechanism(model), numbers, option)
-        for model in models
-        if not model.lower().endswith(".nc")
-    ]
+    mechanisms = [load_mechanism(model) for model in models if not model.lower().endswith(".nc")]
+    found = [typed_numbers_in_si(mechanism, numbers, option) for mechanism in mechanisms]
     for other in found[1:]:
         name = next((name for name, x in other.items() if x != found[0][name]), None)
         if name is not None:
             raise InputError(f"{option} {name}", "one unit in all files", "several", "type the unit behind the number")
+    write_note(f"{option} {sentence}" for sentence in (notes_on_units(mechanisms[0], numbers) if found else ()))
     return found[0] if found else {name: float(x) for name, x in numbers.items()}
 
 

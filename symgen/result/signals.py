@@ -11,10 +11,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from symgen.base.arguments import words
-from symgen.base.errors import InputError, quote, suggest
+from symgen.base.errors import InputError, enumeration, quote, suggest
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.coordinate_names import ACCELERATIONS
 from symgen.describe.facts.carriers import bodies_of_reactions
+from symgen.describe.formulas.formula_slips import meant_coordinate
 from symgen.describe.formulas.reported_columns import TABLES as FORMULAS
 from symgen.describe.parts.columns import column_name
 from symgen.result.labelled import Array, Labelled
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.run.layout.compiled import ModelInfo
 
+#: Quantities at most that a hint offers for one name.
+MOST_OFFERED = 3
 #: Table -> the dimension of its columns in data sets: tables of the state and of what follows from it, of forces, and
 #: of the file's own quantities.
 TABLES: Mapping[str, str] = {
@@ -186,6 +189,19 @@ def check_single(name: str, columns: Iterable[str]) -> None:
         raise InputError("over", "one column", f"{quote(name)}, which is {len(several)}", ", ".join(several[:6]))
 
 
+def _hint_on_owner(name: str, columns: Iterable[str]) -> str:
+    """Return the hint on a quantity whose owner is left out, or that a textbook calls otherwise; else nothing."""
+    parts = [column.split(".") for column in columns]
+    whole = dict.fromkeys(".".join(part[:i]) for part in parts for i in range(2, len(part) + 1))
+    owned = [each for each in whole if each.endswith(f".{name}")][:MOST_OFFERED]
+    if owned:
+        return f"did you mean {enumeration([quote(each) for each in owned], 'or')}?"
+    owner, _, last = name.rpartition(".")
+    own = [each.removeprefix(f"{owner}.") for each in whole if each.startswith(f"{owner}.")]
+    near = suggest(last, own).replace("did you mean '", f"did you mean '{owner}.").replace("known:", f"{owner} has")
+    return meant_coordinate(owner, last, own) or near if own else ""
+
+
 def choose_columns(
     columns: Mapping[str, str], names: Sequence[str], mechanism: str, tables: Sequence[str] = ()
 ) -> dict[str, str]:
@@ -218,7 +234,7 @@ def choose_columns(
         if not matches and name not in tables:
             groups |= dict.fromkeys(column.partition(".")[0] for column in columns)
             candidates = [*columns, *groups] if len(columns) <= 60 or "." in name else [*groups]
-            expected = f"a quantity of {mechanism}"
-            raise InputError(f"quantity {quote(name)}", expected, "none of that name", suggest(name, candidates))
+            hint = _hint_on_owner(name, columns) or suggest(name, candidates)
+            raise InputError(f"quantity {quote(name)}", f"a quantity of {mechanism}", "none of that name", hint)
         chosen |= matches
     return chosen

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from symgen.base.units import Amount
+from symgen.base.units import Amount, known_unit
 from symgen.describe.edits.handles import PINS
 from symgen.describe.facts.pins import AXES
 from symgen.describe.formulas.readings import STATE, readings_of_joint
@@ -60,6 +60,17 @@ def units_of_number(mechanism: Mechanism, name: str) -> tuple[str, str]:
     }
     unit = units.get(label, "")
     return unit, unit
+
+
+def notes_on_units(mechanism: Mechanism, values: Mapping[str, float]) -> list[str]:
+    """Return a sentence for each number typed without a unit that counts in another than the SI unit."""
+    notes = []
+    for name, value in values.items():
+        si, usual = units_of_number(mechanism, name)
+        if isinstance(value, Typed) and not value.unit and not known_unit(usual).is_si:
+            number = f"{float(value):g}"
+            notes.append(f"{name}={number} is {number} {usual}, the unit of the file; {name}={number}{si} is in {si}")
+    return notes
 
 
 def typed_numbers_in_si(mechanism: Mechanism, values: Mapping[str, float], where: str) -> dict[str, float]:

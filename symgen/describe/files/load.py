@@ -18,6 +18,7 @@ from typing import Any
 from symgen.base import arguments
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.files import system_message
+from symgen.describe.files.meant_files import hint_on_files
 from symgen.describe.files.origins import Source, errors_in
 from symgen.describe.files.validate import validate
 from symgen.describe.formulas.parser import LONGEST_TEXT
@@ -103,13 +104,17 @@ def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
     path = Path(text)
     if _is_file(path):
         return _read_file(path) if path.suffix == ".toml" else _read_other(path)
-    if path.suffix == ".toml" or "/" in text or os.sep in text:
-        raise InputError("model", "a catalogue name or the path of a file", f"{quote(text)}, which is no file")
-    entries = catalogue.all_names()
+    entries, expected = catalogue.all_names(), "a catalogue name or the path of a file"
+    if path.suffix == ".toml" or os.sep in text or "/" in text:
+        own = path.stem in entries and path.name == text
+        hint = f"did you mean '{path.stem}' of the catalogue?" if own else hint_on_files(path)
+        raise InputError("model", expected, f"{quote(text)}, which is no file", hint)
+    if beside := hint_on_files(path):
+        raise InputError("model", expected, quote(text), beside)
     hint = suggest(text.partition(":")[0], entries)
     if ":" in text and not hint.startswith("known"):
         hint = f"a size is written as in {catalogue.example_of_size()}"
-    raise InputError("model", "a catalogue name or the path of a file", quote(text), hint)
+    raise InputError("model", expected, quote(text), hint)
 
 
 def _read_file(path: Path) -> tuple[dict[str, Any], Source]:

@@ -87,6 +87,22 @@ def hint_on_number(mechanism: Mechanism, name: str, known: Iterable[str]) -> str
     return suggest(name, known)
 
 
+def _hint_on_parameter(mechanism: Mechanism, name: str, known: Iterable[str]) -> str:
+    """Return the hint on a name that is no parameter: the nearest one, or how the number of a table becomes one."""
+    hint = hint_on_number(mechanism, name, known)
+    if hint and not hint.startswith("known"):
+        return hint
+    owner, _, key = name.rpartition(".")
+    if not key.isidentifier():
+        return hint
+    bodies = [body.name for body in mechanism.bodies]
+    body = owner if owner in bodies else next(iter(bodies), "")
+    reader = (
+        f'{key} = "{key}" in [bodies.{body}] reads it' if key in ("mass", "inertia") and body else "formulas read it"
+    )
+    return f"'{key} = VALUE' in [parameters] makes one, and {reader}{'; ' if hint else ''}{hint}"
+
+
 def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None = None) -> dict[str, float]:
     """Return all parameter values of a mechanism, `changed` ones replaced, dependent ones computed.
 
@@ -98,7 +114,7 @@ def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None =
     values = {p.name: p.value for p in mechanism.parameters}
     for name, value in arguments.mapping("parameters", changed, "numbers by the names of parameters").items():
         if name not in values:
-            expected, hint = f"a parameter of {mechanism.name}", hint_on_number(mechanism, name, values)
+            expected, hint = f"a parameter of {mechanism.name}", _hint_on_parameter(mechanism, name, values)
             raise InputError(f"parameter '{name}'", expected, "none of that name", hint)
         values[name] = arguments.number(f"parameter '{name}'", value)
     if changed:

@@ -267,8 +267,8 @@ class _Reader:
         names = (*own, *(() if readings is None else readings.names_of(owner, self.where)))
         what = f"{quote('.'.join(path[1:]))}, which {'body ' if own else ''}'{owner}' does not have"
         listed = f"it has {', '.join(names)}" if names else "it has nothing to read"
-        listed = meant_coordinate(owner, path[-1], names) or listed
-        raise self.formula_error(what, listed if len(names) <= 20 else suggest(text, [f"{owner}.{k}" for k in names]))
+        near = listed if len(names) <= 20 else suggest(text, [f"{owner}.{k}" for k in names])
+        raise self.formula_error(what, meant_coordinate(owner, path[-1], names) or near)
 
     def refuse_integral(self, reading: Expr, text: str) -> None:
         """Refuse an energy that only outputs integrate, where formulas have no integrals."""

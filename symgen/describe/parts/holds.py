@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.vocabulary.expressions import Number
 from symgen.base.vocabulary.measures import GROUND, Angle
+from symgen.describe.formulas.formula_slips import meant_coordinate
 from symgen.describe.mechanism import AnyBody, Hold, Joint, Mechanism, SpatialBody
 from symgen.describe.remembered import compute_once
 
@@ -165,7 +166,10 @@ def read_holds(
         if name not in coordinates:
             state = ", or a state," if mechanism.states else ""
             expected = f"a coordinate or velocity of a body or joint{state} of {mechanism.name}"
-            raise InputError(f"{where} '{name}'", expected, "none of that name", suggest(name, coordinates))
+            owner, _, label = name.rpartition(".")
+            own = [each.removeprefix(f"{owner}.") for each in coordinates if each.startswith(f"{owner}.")]
+            hint = meant_coordinate(owner, label, own) or suggest(name, coordinates)
+            raise InputError(f"{where} '{name}'", expected, "none of that name", hint)
         if name in bodies and name.rpartition(".")[2] in _EULER:
             raise InputError(
                 f"{where} '{name}'",

@@ -14,7 +14,25 @@ from symgen.base.registry import Listing, Registry
 if TYPE_CHECKING:
     from symgen.run.loops.integrator import Integrator
 
-INTEGRATORS: Registry[Integrator] = Registry("symgen.run.integrators", "integrator", beside="symgen.derive.methods")
+#: Names in SciPy, MATLAB, SUNDIALS, MuJoCo, Chrono and textbooks -> the integrator that is nearest.
+MEANT = {
+    **dict.fromkeys(("ode45", "rk45", "rkf45", "dopri", "dormand-prince", "ode5", "tsit5"), "dopri5"),
+    **dict.fromkeys(("ode78", "ode89", "ode8", "vern9"), "dop853"),
+    **dict.fromkeys(("ode15s", "ode15i", "ode23s", "lsoda", "vode", "cvode", "ida", "dassl", "gear"), "bdf"),
+    **dict.fromkeys(("implicit-euler", "backward-euler", "euler-implicit"), "bdf"),
+    **dict.fromkeys(("radau", "radau-iia", "ode23t", "ode23tb"), "radau5"),
+    **dict.fromkeys(("ode113", "adams", "adams-bashforth"), "abm"),
+    **dict.fromkeys(("rk2", "ode2", "ode23", "rk23"), "heun"),
+    **dict.fromkeys(("runge-kutta", "ode4", "rungekutta"), "rk4"),
+    **dict.fromkeys(("forward-euler", "explicit-euler", "ode1"), "euler"),
+    **dict.fromkeys(("semi-implicit-euler", "implicit", "implicitfast"), "symplectic-euler"),
+    **dict.fromkeys(("verlet", "leapfrog", "shake"), "rattle"),
+    **dict.fromkeys(("hht", "hht-alpha"), "generalized-alpha"),
+    **{"newmark-beta": "newmark", "crank-nicolson": "trapezoidal"},
+}
+INTEGRATORS: Registry[Integrator] = Registry(
+    "symgen.run.integrators", "integrator", beside="symgen.derive.methods", meant=MEANT
+)
 
 
 def list_integrators() -> Listing:

@@ -117,6 +117,13 @@ def _check_count(where: str, count: float) -> int:
     return int(count)
 
 
+#: Words of NumPy, MATLAB and statistics -> the axis.
+_MEANT = {
+    **dict.fromkeys(("linspace", "range", "arange", "linear"), "lin"),
+    **dict.fromkeys(("logspace", "geomspace", "geom"), "log"),
+    **dict.fromkeys(("list", "choice", "value", "set"), "values"),
+    **dict.fromkeys(("random", "rand", "unif"), "uniform"),
+}
 #: Word -> (what builds the values, number of arguments or None for any, how it is written).
 _WORDS: Mapping[str, tuple[Callable[..., Array], int | None, str]] = {
     "lin": (equidistant_values, 3, "lin(first, last, count)"),
@@ -183,7 +190,8 @@ def _read_axis_text(text: str, where: str, units: tuple[str, str]) -> tuple[str,
         raise InputError(where, expected, quote(text.strip()), _meant_axis(text.strip()))
     word = match[1]
     if word not in _WORDS:
-        raise InputError(where, expected, quote(word), suggest(word, _WORDS))
+        meant = _MEANT.get(word.lower(), "")
+        raise InputError(where, expected, quote(word), f"did you mean '{meant}'?" if meant else suggest(word, _WORDS))
     _, arity, form = _WORDS[word]
     parts = match[2].split(",")
     last = len(parts) - _COUNTS.get(word, 0)
