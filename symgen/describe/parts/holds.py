@@ -167,8 +167,8 @@ def read_holds(
             state = ", or a state," if mechanism.states else ""
             expected = f"a coordinate or velocity of a body or joint{state} of {mechanism.name}"
             owner, _, label = name.rpartition(".")
-            own = [each.removeprefix(f"{owner}.") for each in coordinates if each.startswith(f"{owner}.")]
-            hint = meant_coordinate(owner, label, own) or suggest(name, coordinates)
+            labels = [each.removeprefix(f"{owner}.") for each in coordinates if each.startswith(f"{owner}.")]
+            hint = meant_coordinate(owner, label, labels) or suggest(name, coordinates)
             raise InputError(f"{where} '{name}'", expected, "none of that name", hint)
         if name in bodies and name.rpartition(".")[2] in _EULER:
             raise InputError(
