@@ -15,10 +15,15 @@ import msgspec
 
 from symgen.describe.files.joints_at_centres import warnings_on_centres
 from symgen.describe.files.large_angles import warnings_on_angles
+from symgen.describe.files.pitch_circles import warnings_on_gears
 from symgen.describe.mechanism import Mechanism
 
 #: Each takes a mechanism and its nested tables, and returns its sentences.
-RULES: tuple[Callable[[Mechanism, Mapping[str, Any]], Iterable[str]], ...] = (warnings_on_centres, warnings_on_angles)
+RULES: tuple[Callable[[Mechanism, Mapping[str, Any]], Iterable[str]], ...] = (
+    warnings_on_centres,
+    warnings_on_angles,
+    warnings_on_gears,
+)
 
 
 def with_remarks(mechanism: Mechanism, raw: Mapping[str, Any]) -> Mechanism:
