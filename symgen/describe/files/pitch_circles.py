@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from symgen.base.vocabulary.measures import Angle, Marker, Sum
+from symgen.base.vocabulary.measures import Angle, Holonomic, Marker, Sum
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.joints._space import markers_of_joint
 from symgen.describe.mechanism import Mechanism
@@ -27,9 +27,10 @@ def warnings_on_gears(mechanism: Mechanism, raw: Mapping[str, Any]) -> Iterator[
     """
     values = {p.name: p.value for p in mechanism.parameters}
     for gear in mechanism.joints:
-        measure = gear.rows[0].measure if gear.kind == "gear" and gear.rows and gear.rows[0].unit == "m" else None
-        if not isinstance(measure, Sum):
+        row = gear.rows[0] if gear.kind == "gear" and gear.rows else None
+        if not isinstance(row, Holonomic) or row.unit != "m" or not isinstance(row.measure, Sum):
             continue
+        measure = row.measure
         pins = [_pin_on_carrier(mechanism, angle) for _, angle in measure.terms if isinstance(angle, Angle)]
         if len(pins) != 2 or None in pins:
             continue
