@@ -29,9 +29,6 @@ def check_bounds(mechanism: Mechanism, source: str) -> None:
             raise InputError(
                 f"{source}: {row.where}", "a coordinate that no driver prescribes", f"one that '{driver}' prescribes"
             )
-        if row.shift is not None and any(other.in_contact for other in mechanism.bounded):
-            expected = "no such key beside contacts, whose modes are tried with bounds of equal sizes both ways"
-            raise InputError(f"{source}: {row.where}.static", expected, f"bounds at rest of {row.name} both ways")
     gaps = dict[tuple[Measure, object], str]()
     for row in one_sided_rows(mechanism):
         if row.in_contact and (row.measure, row.held.value) in gaps:

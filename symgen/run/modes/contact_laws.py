@@ -1,4 +1,4 @@
-"""Modes of parts with many contacts, compiled: Newton's method on the laws of all rows, from several beginnings.
+"""Modes of parts with many contacts, or with bounds of two directions, compiled: Newton's method on all laws.
 
 Combinations of a few rows are all tried (`symgen.run.modes.contact_verification`); those of many rows are too many.
 Rest is tried first, then other beginnings, and each motion is verified. Where they lead to different motions there are
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
-from symgen.run.laws.motions import find_forces, seek_another
+from symgen.run.laws.motions import NOT_SOUGHT, SEVERAL_MOTIONS, count_motions, find_forces, seek_another
 from symgen.run.laws.problem import BALL, OFF, ON, PUSH, begin_row
 from symgen.run.laws.sharing import find_dependent, share_forces
 from symgen.run.modes.bounded_rows import (
@@ -34,9 +34,10 @@ def fill_part(c: Choice, count: int) -> None:
         laws.offset[a] = c.offset[i]
         for b in range(count):
             laws.matrix[a * count + b] = c.matrix[i * k + order[b]]
+            laws.offset[a] += c.matrix[i * k + order[b]] * c.middle[order[b]]  # forces count from that of motion
         laws.law[a] = PUSH if c.pushes[i] != 0 else BALL
-        if c.pushes[i] == 0:
-            laws.beta[a] = bound_of(c, i) if c.partner[i] < 0 else 0.0
+        if c.pushes[i] == 0 and c.partner[i] < 0:
+            laws.beta[a], laws.middle[a] = bound_of(c, i), 0.0 if c.loose[i] != 0 else c.middle[i]
         if c.pushes[i] == 0 and c.partner[i] >= 0:
             laws.kappa[a], laws.way[a] = bound_of(c, i), c.signs[i]
             for b in range(count):
@@ -81,10 +82,14 @@ def solve_by_laws(c: Choice, count: int) -> int:
     if not find_forces(count, laws, 1):
         return NO_CONTACT_MODES
     share_forces(count, laws)
-    several = not rested(c, count) and seek_another(count, laws)
+    motions = count_motions(count, laws)
+    several = motions == SEVERAL_MOTIONS
+    if motions == NOT_SOUGHT and not rested(c, count):
+        several = seek_another(count, laws)
     for a in range(count):
         i = order[a]
-        c.best[i], c.other[i], c.forces[i], c.trial[i] = laws.state[a], laws.other[a], laws.forces[a], laws.left[a]
+        c.best[i], c.other[i], c.trial[i] = laws.state[a], laws.other[a], laws.left[a]
+        c.forces[i] = laws.forces[a] - c.middle[i]
     for a in range(count):  # the friction of an open contact is off
         i = order[a]
         if c.pushes[i] == 0 and c.partner[i] >= 0 and c.best[c.partner[i]] == OFF:

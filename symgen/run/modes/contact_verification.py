@@ -100,17 +100,27 @@ def is_same(c: Choice, count: int) -> bool:
 
 
 @exact()
+def has_middle(c: Choice, count: int) -> bool:
+    """Whether bounds at rest of a row of a part have another middle than those in motion."""
+    for a in range(count):
+        if c.middle[c.box.order[a]] != 0.0:
+            return True
+    return False
+
+
+@exact()
 def try_combinations(c: Choice, count: int) -> int:
     """Find the modes of a part; return `SAME`, `NO_CONTACT_MODES` or `SEVERAL_MODES`.
 
-    Combinations with equal accelerations are one: forces may be several. Those of many rows are not tried.
+    Combinations with equal accelerations are one: forces may be several. Those of many rows, and
+    with bounds of two directions, are not tried.
     """
     box, solutions, contacts = c.box, 0, 0
     for a in range(count):
         i = box.order[a]
         contacts += 1 if c.pushes[i] != 0 else 0
         c.option[i] = 0
-    if contacts > _MOST_CONTACTS or count > _MOST_ROWS:
+    if contacts > _MOST_CONTACTS or count > _MOST_ROWS or has_middle(c, count):
         code = solve_by_laws(c, count)
         if code != SAME:
             name_fault(c, count)
