@@ -1,6 +1,7 @@
 """Modes of parts with many contacts, or with bounds of two directions, compiled: Newton's method on all laws.
 
-Combinations of a few rows are all tried (`symgen.run.modes.contact_verification`); those of many rows are too many.
+Combinations of a few rows are all tried (`symgen.run.modes.contact_verification`); those of many rows are too many,
+and bounds of two directions have a middle that they do not know.
 Rest is tried first, then other beginnings, and each motion is verified. Where they lead to different motions there are
 several, unless what was at rest goes on resting; others than those found are not sought.
 """

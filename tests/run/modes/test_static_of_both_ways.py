@@ -125,9 +125,6 @@ def test_bounds_at_rest_below_those_in_motion_are_refused(tmp_path: Path) -> Non
     with pytest.raises(InputError, match=r"friction\.static: expected one bound, as sliding has one"):
         text = WHEEL.replace("{ forwards = 2.0, backwards = 1.0 }", "1.0")
         loaded(text.replace("STATIC", "{ forwards = 2.0, backwards = 1.0 }"), tmp_path)
-    contact = '[contacts.floor]\ngap = "wheel.y + 5"\nslip = "wheel.x"\nfriction = 0.2\n'
-    with pytest.raises(InputError, match=r"friction\.static: expected no such key beside contacts"):
-        loaded(WHEEL.replace("STATIC", "6.0") + contact, tmp_path)
     text = WHEEL.replace("STATIC", '{ forwards = "3 - t", backwards = 2.0 }').replace("slope*t", "1.5*slope")
     failed = loaded(text, tmp_path).simulate(until=3.0)
     assert not failed.ok
