@@ -2,5 +2,5 @@
 
 In: a mechanism, and a start.
 Out: positions at rest, and whether they are stable.
-Imports: NumPy, SciPy; `state` and streets below.
+Imports: msgspec, NumPy, SciPy; `state` and streets below.
 """

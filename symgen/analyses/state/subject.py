@@ -80,6 +80,8 @@ class Subject(Yardsticks):
         One-sided rows that are in force at the start, which are rows of `mechanism`, and those that are off.
     stuck : tuple of Stuck
         Rows along those in force, of contacts that are at rest there.
+    held : tuple of str
+        A sentence on friction that holds the state at rest, if it does.
     """
 
     mechanism: Mechanism
@@ -95,6 +97,7 @@ class Subject(Yardsticks):
     shut: tuple[BoundedRow, ...] = ()
     opened: tuple[BoundedRow, ...] = ()
     stuck: tuple[Stuck, ...] = ()
+    held: tuple[str, ...] = ()
 
     @property
     def mode(self) -> tuple[str, ...]:
@@ -104,7 +107,7 @@ class Subject(Yardsticks):
     @property
     def notes(self) -> tuple[str, ...]:
         """Sentences that every analysis at a state has: remarks on the model, rows in force, and forces of time."""
-        return (*self.mechanism.remarks, *self.mode, *note_on_forces_of_time(self.mechanism, self.t))
+        return (*self.mechanism.remarks, *self.mode, *self.held, *note_on_forces_of_time(self.mechanism, self.t))
 
     @property
     def varied(self) -> tuple[str, ...]:
