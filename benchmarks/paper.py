@@ -151,6 +151,8 @@ def numbers() -> dict[str, str]:
         for integrator in ("rk4", "dop853"):
             own = equal_work.ratios(integrator, METHODS[key])
             found[f"work.{key}.{integrator}"] = f"{math.exp(float(np.mean(np.log(own)))):.2f}"
+            low, high = np.quantile(own, (0.1, 0.9))
+            found |= {f"work.{key}.{integrator}.{end}": f"{x:.2f}" for end, x in (("low", low), ("high", high))}
     found["work.count"] = str(len(equal_work.predictable_lines()))
     more = np.log(statistics.paired(both, "rk4", METHODS["velocity"], METHODS["direct"]))
     upper = np.sort(more)[-(len(more) // 20) :].sum() / more.sum()
