@@ -91,6 +91,8 @@ def lower_law(
     scalars = ScalarNodes(equations, record.operations, names, plan=model.plan)
     scalars.pushing = bool(equations.drags) and not eliminates
     _compute_parts(scalars, record.parts[0], record.output_operations)
+    for index in (i for part in record.parts if part.role == "balance" for _, i in part.outputs if scalars.pushing):
+        scalars.put_drags(index)
     hoister = Hoister(scalars.graph, model.layout.parameters + model.hoisted, len(names))
     accelerations = [(scalars, part) for part in record.parts if part.role == "acceleration"]
     closing = closing or closing_plan(equations, model.plan, ())

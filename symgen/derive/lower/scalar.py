@@ -109,6 +109,12 @@ class ScalarNodes(OfRows):
             new = g.replace_inputs(value if isinstance(value, tuple) else (value,), forces)
             self.values[index] = tuple(new) if isinstance(value, tuple) else new[0]
 
+    def put_drags(self, index: int) -> None:
+        """Put drags by the multipliers of a result in place of their unknowns, in the value of an operation."""
+        given = self.section("multipliers", len(self.equations.rows))
+        forces = {("drag", i): force for i, (_, force) in enumerate(self.forces_of_drags(given))}
+        self.values[index] = tuple(self.graph.replace_inputs(self.values[index], forces))
+
     def _solve_rest(self, given: Nodes) -> Mapping[int, int]:
         """Return the unknowns of v' and lambda that no row alone fixes, linear in f and gamma."""
         if not self.plan.schur:

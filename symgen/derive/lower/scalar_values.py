@@ -95,9 +95,14 @@ class NodeValues(Replay):
 
     def _pressed_forces(self) -> Iterator[tuple[Drag, int]]:
         """Yield drags by the unknown multipliers, as forces along the coordinates."""
+        if self.pressing:
+            yield from self.forces_of_drags(self.pressing)
+
+    def forces_of_drags(self, multipliers: Nodes) -> Iterator[tuple[Drag, int]]:
+        """Yield drags by multipliers, as forces along the coordinates."""
         g = self.graph
-        for drag in self.equations.drags if self.pressing else ():
-            reaction = self.reaction(drag, self.pressing)
+        for drag in self.equations.drags:
+            reaction = self.reaction(drag, multipliers)
             size = reaction[0] if drag.signed else length_of_vector(g, reaction)
             yield drag, g.mul(drag.sign, g.mul(drag.coefficient, size))
 
