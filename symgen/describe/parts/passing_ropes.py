@@ -14,6 +14,7 @@ from typing import Any
 
 import msgspec
 
+from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import ON_SHEAVE, ONE, ZERO, Expr, Name, Number, call
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism, ModeEvent, StateVariable
@@ -99,3 +100,16 @@ def without_rope_sheaves(
     changed["states"] = tuple(x for x in mechanism.states if x.name not in on)
     changed["events"] = tuple(x for x in mechanism.events if not _OF_ROPES.search(x.name))
     return msgspec.structs.replace(mechanism, **changed)
+
+
+def refuse_rope_sheaves(where: str, mechanism: Mechanism) -> None:
+    """Refuse ropes over sheaves where a second derivation tells references.
+
+    Raises
+    ------
+    InputError
+        If there are any.
+    """
+    if has_rope_sheaves(mechanism):
+        expected, got = "a mechanism that is derived a second time, for references", "one whose ropes may leave sheaves"
+        raise InputError(where, expected, got, "symgen run --verify estimates errors")

@@ -22,6 +22,7 @@ from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.mechanism import Body, Mechanism
 from symgen.describe.parts.holding_joints import refuse_holding
+from symgen.describe.parts.passing_ropes import refuse_rope_sheaves
 from symgen.study.references.differences import difference_jacobian
 from symgen.study.references.sympy_formulas import TENSOR, ReferenceFormulas
 
@@ -56,6 +57,7 @@ class IndependentEquations:
                 mechanism.name, expected, f"one with {family.noun}", "symgen run --verify estimates errors"
             )
         refuse_holding(f"{mechanism.name}: a second derivation", mechanism)
+        refuse_rope_sheaves(mechanism.name, mechanism)
         if any(reads_results(x.rate) for x in mechanism.states):
             expected = "a mechanism that is derived a second time, for references"
             got = "one whose states read accelerations or forces"

@@ -20,6 +20,7 @@ from symgen.describe.files.load import load_mechanism
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.holding_joints import refuse_holding
+from symgen.describe.parts.passing_ropes import refuse_rope_sheaves
 from symgen.result.points import Points
 from symgen.run.breaks.motions import refuse_jumps
 from symgen.run.compiling.pipeline import straight_alone
@@ -49,6 +50,7 @@ def reference_of_cell(level: Level, quick: bool = False) -> Fields:
     try:
         refuse_jumps(level.mechanism, level.parameters, level.until)
         refuse_holding("stress", level.mechanism)  # starts are judged with all joints
+        refuse_rope_sheaves("stress", level.mechanism)
         return _moved_start(level, quick)
     except (AssemblyError, InputError, SimulationError) as error:
         return {"unusable": str(error)}

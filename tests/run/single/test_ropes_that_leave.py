@@ -15,6 +15,7 @@ from scipy.spatial.transform import Rotation
 
 import symgen
 from symgen.base.errors import InputError
+from symgen.study.stress.study import stress
 
 TIGHT = {"integrator": "dop853", "rtol": 1e-12, "atol": 1e-13}
 RADIUS, BACK = 0.1, 0.8
@@ -383,3 +384,11 @@ def test_analyses_take_a_rope_as_it_is_at_the_start(tmp_path):
     modes = model.modes()
     assert modes.frequencies.max() * 2.0 * math.pi == pytest.approx(math.sqrt(9.81 / 0.5), rel=1e-6)
     assert len(model.functions("absolute").rows) == 1
+
+
+def test_references_of_stress_refuse_ropes_over_sheaves(tmp_path):
+    """A second derivation knows no states of ropes; it says so, and a study leaves the file out."""
+    text = over(back=9.0).replace('name = "over-the-top"', 'name = "hangs"\ngravity = [0.0, -9.81]')
+    (path := tmp_path / "swing.toml").write_text(text)
+    study = stress([path], ["gravity"], ["lagrange"], quick=True, jobs=1)
+    assert "one whose ropes may leave sheaves" in study.unusable[0][-1]
