@@ -29,7 +29,7 @@ from symgen.derive.methods import METHODS
 from symgen.describe.mechanism import Mechanism
 from symgen.result.points import Points
 from symgen.run.compiling.choices import mechanism_on_tree
-from symgen.run.compiling.closing import free_velocities
+from symgen.run.compiling.free_by_loops import free_velocities
 
 MODELS = (
     *("four-bar", "slider-crank", "andrews", "n-four-bar:10", "bricard", "spatial-slider-crank"),

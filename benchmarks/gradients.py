@@ -38,7 +38,7 @@ from symgen.result.sensitivities import prepare_for_directions
 from symgen.run.directions.adjoint import run_for_adjoint
 from symgen.run.directions.directions import run_with_directions
 from symgen.run.layout import abi
-from symgen.run.planning.directions import named_directions
+from symgen.run.planning.named_directions import named_directions
 from symgen.run.planning.start_directions import StartDirections
 
 ROOT = Path(__file__).resolve().parents[1]

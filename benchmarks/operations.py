@@ -26,7 +26,7 @@ from symgen.derive.lower.model import lower_model
 from symgen.derive.lower.plans import cheapest_plan, closing_plan
 from symgen.derive.methods import METHODS
 from symgen.run.compiling.choices import mechanism_on_tree
-from symgen.run.compiling.closing import free_velocities
+from symgen.run.compiling.free_by_loops import free_velocities
 
 MODELS = (
     *("four-bar", "slider-crank", "andrews", "jansen-leg", "n-four-bar:10", "spatial-slider-crank", "bricard"),

@@ -27,7 +27,7 @@ from symgen.run.compiling.method_choice import choose_method
 from symgen.run.compiling.pipeline import compile_model
 from symgen.run.layout.compiled import CompiledModel
 from symgen.run.planning.prepare import Prepared, prepare
-from symgen.run.planning.starts import start_of
+from symgen.run.planning.starts import start_in_bodies
 from symgen.run.single.run import Array
 
 if TYPE_CHECKING:
@@ -190,7 +190,7 @@ class Model(Analysed, Shown):
         held: Held | Mapping[str, float] | None = None,
         ask_light: bool = False,
     ) -> Start:
-        """Return the consistent start of a run; see `symgen.run.planning.starts.start_of`.
+        """Return the consistent start of a run; see `symgen.run.planning.starts.start_in_bodies`.
 
         Parameters
         ----------
@@ -224,7 +224,7 @@ class Model(Analysed, Shown):
         if held is None or isinstance(held, Mapping):
             settings = Settings(start=held or {}).start
             held = read_holds(self.mechanism, "start", settings)  # type: ignore[assignment]  # of names, by index later
-        return start_of(self.mechanism, compiled, parameters, method_parameters, strict, held, ask_light)  # type: ignore[arg-type]
+        return start_in_bodies(self.mechanism, compiled, parameters, method_parameters, strict, held, ask_light)  # type: ignore[arg-type]
 
     def __repr__(self) -> str:
         return repr(self.mechanism).replace("<Mechanism", "<Model", 1)

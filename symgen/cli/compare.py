@@ -214,12 +214,12 @@ def _note_left_out(unused: Sequence[str], runs: Combinations, models: Sequence[M
 def _label_ranges(steps: tuple[float, ...], rtols: tuple[float, ...], at: bool) -> dict[str, tuple[str, str]]:
     """Return the settings of --steps and --rtols: a label and words."""
     from symgen.study.comparison.combinations import ATOL_SHARE, RTOLS, RTOLS_AT, STEP_FACTORS, STEP_FACTORS_AT
-    from symgen.study.report.words import exact_number
+    from symgen.study.report.words import chosen_number
 
     own = f"{', '.join(f'{x:g}' for x in (STEP_FACTORS_AT if at else STEP_FACTORS))} times the mechanism's own"
-    relative = ", ".join(exact_number(x) for x in rtols or (RTOLS_AT if at else RTOLS))
+    relative = ", ".join(chosen_number(x) for x in rtols or (RTOLS_AT if at else RTOLS))
     return {
-        "--steps": ("Steps", ", ".join(f"{exact_number(x)} s" for x in steps) or own),
+        "--steps": ("Steps", ", ".join(f"{chosen_number(x)} s" for x in steps) or own),
         "--rtols": ("Tolerances", f"relative {relative}; absolute {ATOL_SHARE:g} of them"),
     }
 

@@ -22,7 +22,7 @@ from symgen.run.planning.prepare import Prepared
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
-    from symgen.run.planning.directions import RunDirection
+    from symgen.run.planning.named_directions import RunDirection
     from symgen.run.single.outcome import Outcome
 
 Array = NDArray[np.float64]

@@ -24,8 +24,8 @@ from symgen.result.unmoved import unmoved_sentence
 from symgen.run.compiling.side import compile_side
 from symgen.run.directions.directions import DirectedCourse, run_with_directions
 from symgen.run.integrators import INTEGRATORS
-from symgen.run.planning.directions import named_directions
 from symgen.run.planning.moving_breaks import with_moving_kinks
+from symgen.run.planning.named_directions import named_directions
 from symgen.run.planning.prepare import Preparation, Prepared, find_preparation
 from symgen.run.planning.start_directions import StartDirections
 

@@ -15,7 +15,7 @@ from symgen.base.errors import InputError, SimulationError
 from symgen.study.comparison.comparison_rows import check_entry, to_entry
 from symgen.study.journal import HEADER, Journal, cell_key
 from symgen.study.runner import Cell, Shares, run_cells
-from symgen.study.stress.entries import check_motion
+from symgen.study.stress.checked_entries import check_motion
 from tests.study import killed_study
 from tests.study.report.made import row, trace
 

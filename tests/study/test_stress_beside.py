@@ -5,7 +5,7 @@ import pytest
 from study.report import made
 from symgen.study.stress.beside import beside_yardstick, cells_beside, families_beside
 from symgen.study.stress.findings import findings_of_study
-from symgen.study.stress.stress_rows import Limit, Stress
+from symgen.study.stress.stress_rows import LargestSteps, Stress
 
 
 def study(errors, limits=(), **outcomes):
@@ -15,7 +15,7 @@ def study(errors, limits=(), **outcomes):
         for method, both in errors.items()
         for k, error in enumerate(both)
     ]
-    steps = tuple(Limit("four-bar", "stiffness", "1", m, "rk4", h, h, 1.0) for m, h in dict(limits).items())
+    steps = tuple(LargestSteps("four-bar", "stiffness", "1", m, "rk4", h, h, 1.0) for m, h in dict(limits).items())
     return Stress(("four-bar",), tuple(rows), steps, (), (), quick=True)
 
 

@@ -9,7 +9,7 @@ from symgen.study.report import stress_figures
 from symgen.study.report.kinds import stress_report as report
 from symgen.study.report.kinds.stress_report import FEW_MODELS
 from symgen.study.stress.findings import cause_of_failure, findings_of_study
-from symgen.study.stress.stress_rows import Limit, Stress, outcomes_of_models, shares_of_models
+from symgen.study.stress.stress_rows import LargestSteps, Stress, outcomes_of_models, shares_of_models
 
 MODELS = tuple(f"model-{i}" for i in range(FEW_MODELS + 1))
 
@@ -40,7 +40,7 @@ ROWS = (
     gains(MODELS[2], 2e3, "diverged"),
 )
 LIMITS = tuple(
-    Limit(model, "damping", "1e4 N s/m", method, "rk4", step, step, 1.0)
+    LargestSteps(model, "damping", "1e4 N s/m", method, "rk4", step, step, 1.0)
     for model, first, second in (("model-0", 0.1, 0.2), ("model-1", 0.3, 0.2), ("model-2", 0.3, 0.2))
     for method, step in (("lagrange", first), ("penalty", second))
 )
@@ -82,7 +82,7 @@ def test_of_ties_the_first_is_one_of_several():
         *(penalty(model, a, "ok" if i else "diverged") for i, model in enumerate(MODELS[:2]) for a in (1e2, 1e4)),
     )
     limits = tuple(
-        Limit("model-0", "damping", "1e4 N s/m", method, "rk4", step, step, 1.0)
+        LargestSteps("model-0", "damping", "1e4 N s/m", method, "rk4", step, step, 1.0)
         for method, step in (("lagrange", 0.1), ("ggl", 0.3), ("penalty", 0.3), ("null-space", 0.1), ("x", None))
     )
     text = " ".join(findings_of_study(replace(STUDY, rows=rows, limits=limits)))

@@ -7,7 +7,7 @@ import pytest
 
 from symgen.study.stress.bench import Base
 from symgen.study.stress.cells import CellReference, RunTask
-from symgen.study.stress.extremes import search_extremes
+from symgen.study.stress.extreme_values import search_extremes
 from symgen.study.stress.families import levels_of_family
 from symgen.study.stress.study import stress
 

@@ -11,7 +11,7 @@ from symgen.derive.methods._base import EXPLICIT_FORMS
 from symgen.describe.files.load import load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.choices import mechanism_on_tree
-from symgen.run.compiling.closing import choice_at_start
+from symgen.run.compiling.free_by_loops import choice_at_start
 from symgen.run.compiling.looped import LoopedStages
 from symgen.run.compiling.method_choice import MethodChoice, choose_method
 from symgen.run.compiling.pipeline import generate, generate_in_stages

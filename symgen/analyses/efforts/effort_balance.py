@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.efforts.actuators import WHERE, Actuator
-from symgen.analyses.efforts.contacts import CHEAP, Contacts, Flags
+from symgen.analyses.efforts.forces_at_bounds import CHEAP, Contacts, Flags
 from symgen.base import arguments
 from symgen.base.errors import InputError, quote, suggest
 from symgen.derive.lower.windings import winding_order

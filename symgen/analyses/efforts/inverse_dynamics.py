@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.efforts.actuators import WHERE, with_actuators
-from symgen.analyses.efforts.contacts import Contacts
 from symgen.analyses.efforts.effort_balance import balance_efforts
+from symgen.analyses.efforts.forces_at_bounds import Contacts
 from symgen.analyses.prescribed.driven_motion import Kinematics, driven_motion
 from symgen.analyses.prescribed.prescribed import driver_names
 from symgen.base import arguments
@@ -29,7 +29,7 @@ from symgen.result.over_time import time_rms
 from symgen.result.part_limits import doubt_on_outputs
 from symgen.result.reactions import Forces, seats_of_reactions
 from symgen.result.saved import Recorded, read_recorded, recorded_motion
-from symgen.run.breaks.seams import seams_of_motion
+from symgen.run.breaks.foreseen_seams import seams_of_motion
 from symgen.run.planning.inputs import put_inputs
 
 if TYPE_CHECKING:

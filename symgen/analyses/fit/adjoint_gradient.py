@@ -21,10 +21,10 @@ from symgen.result.sensitivities import Sensitivities, doubt_of_motion, place_of
 from symgen.run.directions.adjoint import Adjoint, run_for_adjoint
 from symgen.run.directions.directed_model import DirectedModel, Seeds, lanes_for_directions
 from symgen.run.directions.directions import DirectedCourse, DirectedPart, run_with_directions
-from symgen.run.directions.kept_run import Uncovered
+from symgen.run.directions.kept_stages import Uncovered
 from symgen.run.layout import abi
-from symgen.run.planning.directions import RunDirection, named_directions
 from symgen.run.planning.moving_breaks import with_moving_kinks
+from symgen.run.planning.named_directions import RunDirection, named_directions
 from symgen.run.planning.start_directions import StartDirections
 
 if TYPE_CHECKING:

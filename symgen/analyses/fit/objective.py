@@ -28,13 +28,13 @@ from symgen.describe.parts.context import Context
 from symgen.describe.parts.driven_mechanism import put_formulas
 from symgen.describe.parts.scope import Scope
 from symgen.result.sensitivities import derivative_unit, place_of_column
-from symgen.run.directions.kept_run import Uncovered
+from symgen.run.directions.kept_stages import Uncovered
 from symgen.run.layout import abi
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
     from symgen.result.result import Result
-    from symgen.run.planning.directions import RunDirection
+    from symgen.run.planning.named_directions import RunDirection
     from symgen.run.planning.prepare import Prepared
 
 Array = NDArray[np.float64]

@@ -19,14 +19,14 @@ from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.describe.parts.holding_joints import in_modes
-from symgen.run.breaks.seams import seams_of_motion
+from symgen.run.breaks.foreseen_seams import seams_of_motion
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
 from symgen.run.planning.dead_centre import DRIVER, jacobian_at
 from symgen.run.planning.inputs import put_inputs
 from symgen.run.planning.plan import Plan, Purpose
 from symgen.run.planning.prepare import find_preparation
-from symgen.run.planning.starts import compiled_for, start_of
+from symgen.run.planning.starts import compiled_for, start_in_bodies
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -325,7 +325,7 @@ def nearest_branch(plan: Plan, branch: Mapping[str, float]) -> tuple[Array, tupl
                 turned = rng.standard_normal(4)
                 guess[first : first + 4] = turned / np.linalg.norm(turned)
         try:
-            start = start_of(mechanism, compiled, parameters, plan.method_parameters, near=guess)
+            start = start_in_bodies(mechanism, compiled, parameters, plan.method_parameters, near=guess)
         except AssemblyError as error:
             refusal = error if k == 0 else refusal
             continue

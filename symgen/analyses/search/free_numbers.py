@@ -20,7 +20,7 @@ from symgen.run.layout import abi
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.result.result import Result
-    from symgen.run.planning.directions import RunDirection
+    from symgen.run.planning.named_directions import RunDirection
     from symgen.run.planning.prepare import Prepared
 
 Array = NDArray[np.float64]

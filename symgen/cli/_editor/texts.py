@@ -8,7 +8,7 @@ from symgen.base.errors import InputError
 from symgen.describe.edits.rereading import ReadText, read_text_after
 from symgen.describe.facts.lifted import Lifted, lift_numbers, lifted_with_numbers, numbers_of_file, path_in_words
 from symgen.describe.files.origins import Source, origin_of
-from symgen.describe.files.places import Outline
+from symgen.describe.files.places import DocumentOutline
 from symgen.describe.files.places import Path as Place
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
@@ -26,7 +26,7 @@ class Draft(NamedTuple):
         return self.read.raw
 
     @property
-    def outline(self) -> Outline:
+    def outline(self) -> DocumentOutline:
         """Its parts by characters."""
         return self.read.outline
 

@@ -35,7 +35,7 @@ def syntax_tree(lines: Sequence[str], function: Any) -> ast.FunctionDef | None:
 
 
 @functools.lru_cache(maxsize=64)
-def read_lines(file: str) -> tuple[str, ...]:
+def lines_when_loaded(file: str) -> tuple[str, ...]:
     """Return the lines of a file, none of one that has been edited since it was loaded."""
     text = file_content(file)
     return tuple(text.decode().split("\n")) if combined_digest(text) == file_digest(file) else ()

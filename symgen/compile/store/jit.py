@@ -33,7 +33,7 @@ from symgen.compile.store.upkeep import NATIVE
 
 if TYPE_CHECKING:
     from symgen.compile.native.read import Kind
-from symgen.compile.store.function_source import read_lines, syntax_tree
+from symgen.compile.store.function_source import lines_when_loaded, syntax_tree
 
 __all__ = ["CacheEntry", "MachineFunction", "RuntimeFunction", "jit", "object_file"]
 
@@ -124,9 +124,9 @@ class MachineFunction(ABC):
     def address(self, signature: types.Signature) -> int:
         """Return the address of the machine code."""
         if is_by_numba():
-            from symgen.compile.store.numba_route import address
+            from symgen.compile.store.numba_route import address_by_numba
 
-            return address(self, signature)
+            return address_by_numba(self, signature)
         # callers ask with the same object again and again, whose types take long to hash
         latest = self._latest
         if latest is None or latest[0] is not signature:
@@ -136,9 +136,9 @@ class MachineFunction(ABC):
     def caller(self, arguments: Arguments) -> Callable[..., Any]:
         """Return a function that calls the machine code with arguments of some types."""
         if is_by_numba():
-            from symgen.compile.store.numba_route import called
+            from symgen.compile.store.numba_route import call_by_numba
 
-            return functools.partial(called, self)
+            return functools.partial(call_by_numba, self)
         if arguments not in self._callers:
             self._callers[arguments] = lockless_caller(*self.code(arguments))
         return self._callers[arguments]
@@ -263,7 +263,7 @@ class RuntimeFunction(MachineFunction):
 
     def tree(self) -> ast.FunctionDef | None:
         """Return the syntax tree of the function, None where its source is not available."""
-        return syntax_tree(read_lines(self.py_func.__code__.co_filename), self.py_func)
+        return syntax_tree(lines_when_loaded(self.py_func.__code__.co_filename), self.py_func)
 
     def identity(self) -> str:
         """Return the sources and options that machine code depends on."""

@@ -37,20 +37,20 @@ if TYPE_CHECKING:
 _LEVEL = 1
 
 
-def type_of(kind: types.Kind) -> Any:
+def numba_type(kind: types.Kind) -> Any:
     """Return a type as Numba's."""
     if isinstance(kind, types.NumberType):
         return getattr(numba.types, kind.name)
     if isinstance(kind, types.ArrayType):
-        return numba.types.Array(type_of(kind.dtype), kind.ndim, "C")
+        return numba.types.Array(numba_type(kind.dtype), kind.ndim, "C")
     if isinstance(kind, types.FunctionType):
-        return numba.types.FunctionType(signature_of(kind.signature))
-    return numba.types.BaseTuple.from_types(tuple(map(type_of, kind)), kind.constructor if kind.fields else None)
+        return numba.types.FunctionType(numba_signature(kind.signature))
+    return numba.types.BaseTuple.from_types(tuple(map(numba_type, kind)), kind.constructor if kind.fields else None)
 
 
-def signature_of(signature: types.Signature) -> Any:
+def numba_signature(signature: types.Signature) -> Any:
     """Return a signature in Numba's types."""
-    return type_of(signature.result)(*map(type_of, signature.arguments))
+    return numba_type(signature.result)(*map(numba_type, signature.arguments))
 
 
 class OwnLibrary(JITCodeLibrary):  # type: ignore[misc]  # Numba has no types
@@ -122,7 +122,7 @@ def dispatcher(
     """Return Numba's form of a plain function; with a signature of its own it is compiled at once."""
     with CompilationClock():
         return numba.njit(
-            *([] if own is None else [signature_of(own)]),
+            *([] if own is None else [numba_signature(own)]),
             nogil=True,
             error_model="numpy",
             fastmath={"contract"} if contracted else False,
@@ -163,14 +163,14 @@ def argument(value: object) -> Any:
     return value
 
 
-def called(function: MachineFunction, *arguments: object) -> Any:
+def call_by_numba(function: MachineFunction, *arguments: object) -> Any:
     """Call Numba's form of a function."""
     return form_of(function)(*map(argument, arguments))
 
 
-def address(function: MachineFunction, signature: types.Signature) -> int:
+def address_by_numba(function: MachineFunction, signature: types.Signature) -> int:
     """Return the address of Numba's machine code, for calls from other code of Numba."""
-    return int(_get_jit_address(form_of(function), signature_of(signature)))
+    return int(_get_jit_address(form_of(function), numba_signature(signature)))
 
 
 def type_in_callers(function: MachineFunction) -> Any:

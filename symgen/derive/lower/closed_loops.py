@@ -1,8 +1,8 @@
 """Loops in closed form: two velocities follow from the two rows of a joint, one loop after the other.
 
 Drivers may leave just two velocities to each loop. Where they do not, some velocities are chosen to stay free: by the
-determinants of the loops at the described start (`symgen.run.compiling.closing`), as their values decide how long a
-loop can be closed this way.
+determinants of the loops at the described start (`symgen.run.compiling.free_by_loops`), as their values decide how
+long a loop can be closed this way.
 """
 
 from __future__ import annotations

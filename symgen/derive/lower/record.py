@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import assert_never
 
 from symgen.base.ir.program import Correction
-from symgen.derive.methods._base import Acceleration, Dense, Iteration, Law, Method, Tangent, multiplier_law
+from symgen.derive.methods._base import Acceleration, Dense, Iteration, Law, Method, TangentLaw, multiplier_law
 from symgen.derive.methods._system import System
 from symgen.derive.methods._tape import ALTERNATIVES, Factor, FormulaStep, Scalar, Value, Vector
 
@@ -176,7 +176,7 @@ class _Law:
             kind = "" if law.rates is None else "constrained"  # the rates of results
         elif isinstance(law, Dense):
             self.add_orthogonal_factorisation(law)
-        elif isinstance(law, Tangent):
+        elif isinstance(law, TangentLaw):
             self.add_tangent_basis()
         else:
             assert_never(law)

@@ -141,7 +141,7 @@ class IterationState:
 
 
 @dataclass(frozen=True)
-class Tangent:
+class TangentLaw:
     """A law on a basis R of the tangent space: v' = b + R z', D R = 0, D b = gamma, R^T M R z' = R^T (f - M b)."""
 
 
@@ -176,7 +176,7 @@ class Descriptor:
 #: Forms of problems that explicit integrators solve with the law alone; all others have a descriptor form.
 EXPLICIT_FORMS = frozenset(("ode", "one-step", "semi-implicit", "symmetric"))
 
-Law = Acceleration | Iteration | Tangent | Dense
+Law = Acceleration | Iteration | TangentLaw | Dense
 
 
 class Method(ABC):

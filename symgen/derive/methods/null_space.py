@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from symgen.base.ir.program import Correction
-from symgen.derive.methods._base import TOLERANCE, Method, Tangent
+from symgen.derive.methods._base import TOLERANCE, Method, TangentLaw
 from symgen.derive.methods._system import System
 
 
@@ -31,9 +31,9 @@ class NullSpace(Method):
     default_integrator = "dop853"
     parameters = (TOLERANCE,)
 
-    def law(self, system: System, options: Mapping[str, str]) -> Tangent:
+    def law(self, system: System, options: Mapping[str, str]) -> TangentLaw:
         """Return the law on a tangent basis."""
-        return Tangent()
+        return TangentLaw()
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return Newton's iteration at position level and one correction at velocity level."""

@@ -11,7 +11,7 @@ import numpy as np
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.measures import GROUND, Marker, markers_in
 from symgen.describe.contacts.outlines import Outline
-from symgen.describe.drawing.contact_parts import contact_items, outlines_of_contacts
+from symgen.describe.drawing.drawn_surfaces import contact_items, outlines_of_contacts
 from symgen.describe.drawing.force_parts import force_item
 from symgen.describe.drawing.joint_parts import sliding_direction
 from symgen.describe.drawing.meshes import mesh_faces
@@ -20,7 +20,7 @@ from symgen.describe.drawing.scene import (
     GREY,
     GROUNDED,
     Array,
-    Disc,
+    DrawnCircle,
     Item,
     Line,
     Look,
@@ -266,7 +266,7 @@ def _shape_marks(pen: Pen, body: str, shape: Shape, colour: str) -> list[Mark]:
         return [pen.box(index, at, turned.T, size, replace(look, opacity=0.6) if numbers.spatial else look)]
     if shape.kind == "sphere" and numbers.spatial:
         rings = [pen.ring(index, at, axis, sizes[0], Look(colour, "", 0.7)) for axis in turned.T]
-        return [Disc(index, middle.at, sizes[0], look), *rings]
+        return [DrawnCircle(index, middle.at, sizes[0], look), *rings]
     if not numbers.spatial:
         ring = pen.ring(index, at, np.array([0.0, 0.0, 1.0]), sizes[0], look)
         return [ring, Line(index, (middle.at, ring.points[0]), replace(look, width=1.0))]

@@ -11,7 +11,7 @@ from symgen.describe.drawing.scene import (
     INK,
     PAPER,
     Array,
-    Disc,
+    DrawnCircle,
     Item,
     Line,
     Look,
@@ -110,7 +110,7 @@ def _bars_as_lines(item: Item) -> Item:
     for mark in item.marks:
         if isinstance(mark, Tube):
             marks.append(Line(mark.body, (mark.a, mark.b), replace(mark.look, width=3.0)))
-        elif not (isinstance(mark, Disc) and mark.mass):
+        elif not (isinstance(mark, DrawnCircle) and mark.mass):
             marks.append(mark)
     return replace(item, marks=tuple(marks))
 
@@ -147,7 +147,7 @@ def _parts_of_mark(mark: Mark, poses: Poses, eye: Array) -> Iterator[tuple[Array
     if isinstance(mark, Line):
         projected = poses.to_ground(mark.body, mark.points) @ eye.T
         yield projected, Path(projected[:, :2], mark.look, mark.closed)
-    elif isinstance(mark, Disc):
+    elif isinstance(mark, DrawnCircle):
         projected = poses.to_ground(mark.body, [mark.at]) @ eye.T
         x, y = float(projected[0, 0]), float(projected[0, 1])
         if not mark.mass:

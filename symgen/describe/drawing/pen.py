@@ -21,7 +21,7 @@ from symgen.describe.drawing.scene import (
     Bent,
     BodyFrame,
     CarriedFrame,
-    Disc,
+    DrawnCircle,
     Line,
     Look,
     Mark,
@@ -233,9 +233,9 @@ class Pen:
         """Return a polyline of a body."""
         return Line(body, self.points(body, points), look, closed)
 
-    def dot(self, place: BodyPoint, radius: float, look: Look = FILLED, mass: bool = False) -> Disc:
+    def dot(self, place: BodyPoint, radius: float, look: Look = FILLED, mass: bool = False) -> DrawnCircle:
         """Return a circle; its radius is in units."""
-        return Disc(place.body, place.at, radius * self.unit, look, mass)
+        return DrawnCircle(place.body, place.at, radius * self.unit, look, mass)
 
     def tube(self, body: int, a: Array, b: Array, radius: float, look: Look = FILLED) -> Tube:
         """Return a round bar; its radius is in units."""

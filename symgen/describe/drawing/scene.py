@@ -68,7 +68,7 @@ class Line:
 
 
 @dataclass(frozen=True)
-class Disc:
+class DrawnCircle:
     """A circle that faces the viewer: a pin, a ball.
 
     Attributes
@@ -131,7 +131,7 @@ class Stretch:
     look: Look
 
 
-Mark = Line | Disc | Tube | Solid | Stretch
+Mark = Line | DrawnCircle | Tube | Solid | Stretch
 
 
 @dataclass(frozen=True)

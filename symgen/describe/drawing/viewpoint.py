@@ -8,7 +8,7 @@ from itertools import product, starmap
 import numpy as np
 
 from symgen.describe.drawing.paper import Circle, Path, View, items_on_paper, view_axes
-from symgen.describe.drawing.scene import Array, Disc, Line, Mark, Poses, Scene, Solid, Tube
+from symgen.describe.drawing.scene import Array, DrawnCircle, Line, Mark, Poses, Scene, Solid, Tube
 
 #: The usual view, and the smallest share of a body in it (see `_least_visible_share`).
 USUAL, ENOUGH = View(), 0.95
@@ -77,7 +77,7 @@ def _points_on_mark(mark: Mark, poses: Poses) -> list[Array]:
         return [poses.to_ground(mark.body, mark.points)]
     if isinstance(mark, Solid):
         return [poses.to_ground(mark.body, face) for face in mark.faces]
-    return [poses.to_ground(mark.body, [mark.at])] if isinstance(mark, Disc) and not mark.mass else []
+    return [poses.to_ground(mark.body, [mark.at])] if isinstance(mark, DrawnCircle) and not mark.mass else []
 
 
 def _least_visible_share(bodies: Scene, q: Array, clouds: dict[str, Array], view: View) -> float:

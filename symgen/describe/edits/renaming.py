@@ -13,7 +13,7 @@ from symgen.describe.edits.snippet_tables import blocks_of_headers
 from symgen.describe.edits.text_changes import Change, apply_changes
 from symgen.describe.files.builder import toml_text
 from symgen.describe.files.load import parse_toml
-from symgen.describe.files.places import Outline, Path, outline_of_document
+from symgen.describe.files.places import DocumentOutline, Path, outline_of_document
 from symgen.describe.files.validate import collect_errors
 from symgen.describe.formulas.identifiers import check_identifier
 
@@ -103,7 +103,7 @@ def _path_from_text(raw: Mapping[str, Any], path: str) -> Path:
 
 
 def _texts_to_change(
-    raw: Mapping[str, Any], parts: Outline, where: Path, name: str
+    raw: Mapping[str, Any], parts: DocumentOutline, where: Path, name: str
 ) -> Iterator[tuple[tuple[int, int], str]]:
     """Yield the characters inside texts and quoted keys that a new name changes, with what they become."""
     change = _changer_at_path(raw, where, name)
@@ -181,7 +181,7 @@ def _users_of_removed(raw: Mapping[str, Any], gone: Path) -> Iterator[Path]:
                 yield section, name
 
 
-def _spans_of_table(gone: Path, parts: Outline, text: str) -> list[tuple[int, int]]:
+def _spans_of_table(gone: Path, parts: DocumentOutline, text: str) -> list[tuple[int, int]]:
     """Return the characters of a table: of its headers' blocks with the comments above, else of its line."""
     found = []
     for header, (start, end) in zip(parts.headers, blocks_of_headers(parts, text), strict=True):

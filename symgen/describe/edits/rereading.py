@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from symgen.describe.edits.new_numbers import put_at_path, value_at_path
 from symgen.describe.files.load import parse_toml
-from symgen.describe.files.places import Header, Mention, Outline, Path, outline_of_document
+from symgen.describe.files.places import DocumentOutline, Header, Mention, Path, outline_of_document
 
 #: Numbers as most people write them; others are read by the parser.
 _NUMBER = re.compile(r"[+-]?(?:0|[1-9][0-9]*+)(?:\.[0-9]++)?(?:[eE][+-]?[0-9]++)?+")
@@ -18,7 +18,7 @@ _NUMBER = re.compile(r"[+-]?(?:0|[1-9][0-9]*+)(?:\.[0-9]++)?(?:[eE][+-]?[0-9]++)
 _LONGEST = 100
 
 
-class Written(NamedTuple):
+class WrittenNumber(NamedTuple):
     """A number of a text.
 
     Attributes
@@ -43,9 +43,9 @@ class ReadText(NamedTuple):
         The text.
     raw : dict
         Its tables.
-    outline : Outline
+    outline : DocumentOutline
         Its parts by characters.
-    numbers : tuple of Written
+    numbers : tuple of WrittenNumber
         In the order of the text.
     kind : object
         One for all texts that were read by their numbers alone: their tables differ in nothing else.
@@ -53,8 +53,8 @@ class ReadText(NamedTuple):
 
     text: str
     raw: dict[str, Any]
-    outline: Outline
-    numbers: tuple[Written, ...]
+    outline: DocumentOutline
+    numbers: tuple[WrittenNumber, ...]
     kind: object
 
     def changed_numbers(self, before: ReadText) -> dict[Path, float]:
@@ -80,7 +80,7 @@ def read_text_after(before: ReadText | None, text: str, source: str) -> ReadText
     raw = parse_toml(text, source)
     outline = outline_of_document(text)
     spans = sorted((start, end, path) for path, (start, end) in outline.values.items() if _is_number(text[start:end]))
-    return ReadText(text, raw, outline, tuple(Written(path, start, end) for start, end, path in spans), object())
+    return ReadText(text, raw, outline, tuple(WrittenNumber(path, start, end) for start, end, path in spans), object())
 
 
 def _is_number(text: str) -> bool:
@@ -89,7 +89,7 @@ def _is_number(text: str) -> bool:
 
 def _read_by_numbers(before: ReadText, text: str) -> ReadText | None:
     """Return a text by its numbers; None where anything else differs."""
-    old, numbers, raw, at, done = before.text, list[Written](), before.raw, 0, 0
+    old, numbers, raw, at, done = before.text, list[WrittenNumber](), before.raw, 0, 0
     ends, shifts = list[int](), list[int]()  # where numbers of another length end, and by how much
     for path, start, end in before.numbers:
         between = old[done:start]
@@ -104,14 +104,14 @@ def _read_by_numbers(before: ReadText, text: str) -> ReadText | None:
             raw = put_at_path(raw, path, float(word) if set(word) & set(".eE") else int(word))
             ends.append(end)
             shifts.append(len(word) - (end - start))
-        numbers.append(Written(path, at, found.end()))
+        numbers.append(WrittenNumber(path, at, found.end()))
         at, done = found.end(), end
     if text[at:] != old[done:]:
         return None
     return ReadText(text, raw, _shift_outline(before.outline, ends, shifts), tuple(numbers), before.kind)
 
 
-def _shift_outline(outline: Outline, ends: list[int], shifts: list[int]) -> Outline:
+def _shift_outline(outline: DocumentOutline, ends: list[int], shifts: list[int]) -> DocumentOutline:
     """Return the outline of a text in which numbers that ended at some places have other lengths."""
     if not any(shifts):
         return outline
@@ -124,7 +124,7 @@ def _shift_outline(outline: Outline, ends: list[int], shifts: list[int]) -> Outl
         for path, start, end in parts:
             yield kind(path, moved(start), moved(end))
 
-    return Outline(
+    return DocumentOutline(
         {path: (moved(start), moved(end)) for path, (start, end) in outline.values.items()},
         tuple(moved_parts(outline.headers, Header)),
         tuple(moved_parts(outline.mentions, Mention)),

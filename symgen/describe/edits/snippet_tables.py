@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.edits.text_changes import Change
-from symgen.describe.files.places import Outline
+from symgen.describe.files.places import DocumentOutline
 
 #: Angles [rad] that closing a loop leaves where the hand meant 0.
 FINEST = 1e-9
@@ -55,7 +55,7 @@ class Spot(NamedTuple):
 class EditedFile:
     """A file that something is added to: what it has, names that are free in it, and how its bodies stand."""
 
-    def __init__(self, raw: Mapping[str, Any], parts: Outline, text: str, angles: Mapping[str, float]) -> None:
+    def __init__(self, raw: Mapping[str, Any], parts: DocumentOutline, text: str, angles: Mapping[str, float]) -> None:
         self.raw, self.parts, self.text, self._angles = raw, parts, text, angles
         self._used = {str(name) for value in raw.values() if isinstance(value, Mapping) for name in value}
 
@@ -124,14 +124,14 @@ def need_body(kind: str, spot: Spot) -> None:
         raise InputError(kind, "a point of a body", "a point of the ground")
 
 
-def insert_tables(tables: Sequence[tuple[str, str]], parts: Outline, text: str) -> tuple[Change, ...]:
+def insert_tables(tables: Sequence[tuple[str, str]], parts: DocumentOutline, text: str) -> tuple[Change, ...]:
     """Return the changes that put tables after the last ones of their sections, else at the end of the file.
 
     Parameters
     ----------
     tables : sequence of (str, str)
         The path of each, and its text.
-    parts, text : Outline, str
+    parts, text : DocumentOutline, str
         Of the file.
     """
     ends = {
@@ -149,7 +149,7 @@ def insert_tables(tables: Sequence[tuple[str, str]], parts: Outline, text: str) 
     return tuple(changes)
 
 
-def blocks_of_headers(parts: Outline, text: str) -> list[tuple[int, int]]:
+def blocks_of_headers(parts: DocumentOutline, text: str) -> list[tuple[int, int]]:
     """Return the characters of the tables that headers begin, without what belongs to the next header or to none.
 
     Comments right above a header belong to it, and so do comments right below a table's last line to the table; blank
@@ -157,7 +157,7 @@ def blocks_of_headers(parts: Outline, text: str) -> list[tuple[int, int]]:
 
     Parameters
     ----------
-    parts : Outline
+    parts : DocumentOutline
         The parts of the file.
     text : str
         Its text.

@@ -20,7 +20,7 @@ from symgen.describe.edits.snippet_tables import (
     vector_text,
 )
 from symgen.describe.edits.text_changes import Change
-from symgen.describe.files.places import Outline
+from symgen.describe.files.places import DocumentOutline
 
 #: Names of the points of a new body.
 _LETTERS = "ABC"
@@ -41,7 +41,7 @@ def snippet_changes(
     kind: str,
     spots: Sequence[Spot],
     raw: Mapping[str, Any],
-    parts: Outline,
+    parts: DocumentOutline,
     text: str,
     angles: Mapping[str, float] | None = None,
 ) -> tuple[tuple[Change, ...], str]:
@@ -54,7 +54,7 @@ def snippet_changes(
     spots : sequence of Spot
         The points that it is at. Of a slide or a slot the second one is where it leads to, along x of the ground by
         default; of a point or a copy the first one belongs to a body, and the second one is where it will be.
-    raw, parts, text : mapping, Outline, str
+    raw, parts, text : mapping, DocumentOutline, str
         The file: its tables, their places, its text.
     angles : mapping, optional
         Body -> its angle at the start [rad]; 0 for others.

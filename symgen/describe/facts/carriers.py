@@ -18,7 +18,7 @@ from symgen.describe.mechanism import Mechanism, Vec
 from symgen.describe.modal_body import COORDINATE, CarriedInterface, Numbers, names_of_modes
 
 
-def carrier_of(mechanism: Mechanism, body: str) -> str:
+def body_with_coordinates(mechanism: Mechanism, body: str) -> str:
     """Return the body with the coordinates of a body: itself, unless it is an interface."""
     carried = None if body == GROUND else mechanism.body(body).carried
     return body if carried is None else carried.host

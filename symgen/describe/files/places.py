@@ -100,7 +100,7 @@ class Mention(NamedTuple):
     end: int
 
 
-class Outline(NamedTuple):
+class DocumentOutline(NamedTuple):
     """The parts of a document by characters, for changes of its text.
 
     Attributes
@@ -118,7 +118,7 @@ class Outline(NamedTuple):
     mentions: tuple[Mention, ...]
 
 
-def outline_of_document(text: str) -> Outline:
+def outline_of_document(text: str) -> DocumentOutline:
     """Return the parts of a document by characters.
 
     Parameters
@@ -127,7 +127,7 @@ def outline_of_document(text: str) -> Outline:
         A document that `tomllib` reads without an error.
     """
     scanned = _Scanner(text)
-    return Outline(scanned.values, tuple(scanned.headers), tuple(scanned.mentions))
+    return DocumentOutline(scanned.values, tuple(scanned.headers), tuple(scanned.mentions))
 
 
 class _Scanner:

@@ -20,7 +20,7 @@ from symgen.base.files import check_path, write_whole
 from symgen.compile.native.javascript_code import ADDRESSED, INDEX_TABLES
 from symgen.describe.drawing.mechanism_scene import build_scene
 from symgen.describe.drawing.paper import View
-from symgen.describe.drawing.scene import Array, Bent, Disc, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
+from symgen.describe.drawing.scene import Array, Bent, DrawnCircle, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
 from symgen.describe.drawing.traced import traced_points
 from symgen.describe.drawing.viewpoint import choose_viewpoint
 from symgen.result.player.live import Live
@@ -244,7 +244,7 @@ def scene_data(scene: Scene, view: View) -> dict[str, Any]:
         look = looks.setdefault(m.look, len(looks))
         if isinstance(m, Line):
             return ["L", look, m.body, int(m.closed), number_of_points(m.points)]
-        if isinstance(m, Disc):
+        if isinstance(m, DrawnCircle):
             return ["D", look, m.body, rounded_point(m.at), float(f"{m.radius:.6g}"), int(m.mass)]
         if isinstance(m, Tube):
             return ["T", look, m.body, rounded_point(m.a), rounded_point(m.b), float(f"{m.radius:.6g}")]

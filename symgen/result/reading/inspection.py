@@ -31,7 +31,7 @@ from symgen.result.reading.quantity_names import input_names
 from symgen.result.reading.row_words import row_words
 from symgen.result.reading.structure import element_terms, nodes_with_names, shared_terms
 from symgen.result.reading.typeset import LONGEST, text_writer, text_writers_by_terms
-from symgen.run.compiling.closing import law_at_start
+from symgen.run.compiling.free_by_loops import law_at_start
 from symgen.run.compiling.looped import kernel_stems
 from symgen.run.compiling.method_choice import MethodChoice, choose_method
 from symgen.run.planning.plan import Purpose

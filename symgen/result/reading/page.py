@@ -40,7 +40,7 @@ from symgen.result.reading.law_steps import law_as_steps
 from symgen.result.reading.listing import Computed, code_listing, file_listing, lines_of_sections, lines_that_compute
 from symgen.result.reading.row_words import row_words
 from symgen.result.reading.sheet import Sheet
-from symgen.run.compiling.closing import law_at_start
+from symgen.run.compiling.free_by_loops import law_at_start
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Joint, Mechanism

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from symgen.run.breaks.seams import foresee_in_run, merge_seams, seams_of_motion
+from symgen.run.breaks.foreseen_seams import foresee_in_run, merge_seams, seams_of_motion
 from symgen.run.layout import abi
 
 if TYPE_CHECKING:

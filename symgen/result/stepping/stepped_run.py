@@ -16,7 +16,7 @@ from symgen.result.stepping.controllers import Controller, Controllers
 from symgen.result.stepping.saved_state import Saved, identity_of_run
 from symgen.result.stepping.seams_ahead import SeamsAhead
 from symgen.result.stepping.step_readings import StepReadings
-from symgen.run.breaks.motions import refuse_jumps
+from symgen.run.breaks.refused_motions import refuse_jumps
 from symgen.run.layout import abi
 from symgen.run.single.changes import begin_with_step
 from symgen.run.single.events import EventRecord

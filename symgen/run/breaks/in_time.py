@@ -33,7 +33,7 @@ from symgen.run.loops.times_of_jumps import (
     SKIP,
     TO,
     TOO_MANY,
-    Search,
+    JumpSearch,
     levels_below,
     note_line,
     search_curve,
@@ -52,7 +52,7 @@ def new_search(
     shortest: float = math.inf,
     grid: tuple[float, float] | None = (0.0, 0.0),
     room: int = MOST_PASSAGES + 1,
-) -> Search:
+) -> JumpSearch:
     """Return a search for passages.
 
     Parameters
@@ -71,7 +71,7 @@ def new_search(
     """
     levels, period = ((), 0.0) if jump is None else (jump.levels, jump.period)
     origin, step = grid or (0.0, 0.0)
-    return Search(
+    return JumpSearch(
         *(float(until), shortest, origin, step, SAME, BESIDE_A_SIDE, NEXT_TO, -1 if grid is not None else 0),
         kinds=np.array([SKIP]),
         first=np.array([0, len(levels)]),
@@ -86,13 +86,13 @@ def new_search(
     )
 
 
-def _search(f: Search, state: Formula) -> int:
-    """Search for the passages of a formula that is no straight line; return their number."""
+def _search(f: JumpSearch, state: Formula) -> int:
+    """JumpSearch for the passages of a formula that is no straight line; return their number."""
     search_curve(f, state, 0, f.known[FROM], f.known[TO])
     return int(f.found[COUNT])
 
 
-def _plain_at(f: Search, state: Callable[[float], float], j: int, t: float) -> float:
+def _plain_at(f: JumpSearch, state: Callable[[float], float], j: int, t: float) -> float:
     """Return the value of a formula where nothing is compiled, by a function of the time."""
     return float(state(t))
 

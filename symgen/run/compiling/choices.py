@@ -41,7 +41,7 @@ from symgen.run.compiling.side import side_module
 LENGTHS_OF_IDENTITY = 1e-6, 1e6
 
 
-class Taken(NamedTuple):
+class TakenForm(NamedTuple):
     """The coordinates, or the shape of code, that are taken, and the reason in one sentence."""
 
     name: str
@@ -72,7 +72,7 @@ def choice_for_lengths(choice: MethodChoice, longest: float) -> tuple[MethodChoi
     return choice.with_options(weight="mass"), (why,)
 
 
-def choose_coordinates(mechanism: Mechanism, coordinates: str, shape: str) -> Taken:
+def choose_coordinates(mechanism: Mechanism, coordinates: str, shape: str) -> TakenForm:
     """Decide the coordinates of a run, ``absolute`` or ``joint``.
 
     Parameters
@@ -90,18 +90,18 @@ def choose_coordinates(mechanism: Mechanism, coordinates: str, shape: str) -> Ta
         If both joint coordinates and looped code are requested, or joint coordinates of modal bodies.
     """
     if coordinates == "absolute":
-        return Taken("absolute", "it was set")
+        return TakenForm("absolute", "it was set")
     if mechanism.has_modal_bodies:
         if coordinates == "joint":
             raise InputError("coordinates", "absolute ones for modal bodies, which no tree of joints carries", "joint")
-        return Taken("absolute", "joint coordinates have no modal bodies")
+        return TakenForm("absolute", "joint coordinates have no modal bodies")
     if coordinates == "joint":
         if shape == "looped":
             expected = "absolute ones for code that is not straight: loops, lanes and CUDA have no joint coordinates"
             raise InputError("coordinates", expected, "joint")
-        return Taken("joint", "it was set")
+        return TakenForm("joint", "it was set")
     if shape == "looped":
-        return Taken("absolute", "loops, lanes and CUDA have no joint coordinates")
+        return TakenForm("absolute", "loops, lanes and CUDA have no joint coordinates")
     topology = spanning_tree(mechanism)
     own = sum(len(body.speeds) for body in mechanism.bodies)
     rows = sum(len(joint.rows) for joint in mechanism.joints)
@@ -111,8 +111,8 @@ def choose_coordinates(mechanism: Mechanism, coordinates: str, shape: str) -> Ta
     velocities = plural(tree, "velocity", "velocities")
     counts = f"{velocities} and {plural(left, 'row')} in joint coordinates, {own} and {rows} in absolute ones"
     if tree + left < own + rows:
-        return Taken("joint", counts)
-    return Taken("absolute", counts)
+        return TakenForm("joint", counts)
+    return TakenForm("absolute", counts)
 
 
 class ShapeCost(NamedTuple):
@@ -152,7 +152,7 @@ def straight_seconds(mechanism: Mechanism, implicit: bool = False) -> float:
     return STRAIGHT_LEAST + (each.implicit if implicit else each.compilation) * mechanism.body_coordinates
 
 
-def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluations: float) -> Taken:
+def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluations: float) -> TakenForm:
     """Decide the shape of a run, ``straight`` or ``looped``.
 
     Parameters
@@ -174,10 +174,10 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluat
     if what := straight_alone(mechanism):
         if shape == "looped":
             refuse_loops(mechanism)
-        return Taken("straight", f"loops have no {what}")
+        return TakenForm("straight", f"loops have no {what}")
     coordinates, choice = mechanism.body_coordinates, choice_for_coordinates(mechanism, choice)
     size = f"{plural(coordinates, 'coordinate')}, about {evaluations:.2g} evaluations"
-    faster = Taken("straight", f"faster runs outweigh compilation ({size})")
+    faster = TakenForm("straight", f"faster runs outweigh compilation ({size})")
     straight = coordinates <= LARGEST_STRAIGHT and not _looped_is_sooner(mechanism, choice, evaluations)
     if shape == "auto" and straight and coordinates <= LARGEST_DENSE:
         return faster
@@ -194,12 +194,12 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluat
             f"{coordinates} coordinates",
         )
     if shape != "auto":
-        return Taken(shape, "it was set")
+        return TakenForm(shape, "it was set")
     if dense:
-        return Taken("straight", f"{choice.method.name} needs what the looped shape does without")
+        return TakenForm("straight", f"{choice.method.name} needs what the looped shape does without")
     if coordinates > LARGEST_STRAIGHT:
-        return Taken("looped", f"straight code for {coordinates} coordinates would take long to compile")
-    return faster if straight else Taken("looped", f"compilation would outweigh faster runs ({size})")
+        return TakenForm("looped", f"straight code for {coordinates} coordinates would take long to compile")
+    return faster if straight else TakenForm("looped", f"compilation would outweigh faster runs ({size})")
 
 
 def _looped_is_sooner(mechanism: Mechanism, choice: MethodChoice, evaluations: float) -> bool:

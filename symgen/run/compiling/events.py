@@ -13,13 +13,13 @@ from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import measure_derivative, mode_events, one_sided_rows, two_sided_rows
 from symgen.describe.bounds.by_reaction import reaction_components, rows_bounded_by_reactions
 from symgen.describe.bounds.losses import places_of_losses
-from symgen.describe.facts.corners import corner_events, rows_that_turn
+from symgen.describe.facts.gap_corners import corner_events, rows_that_turn
 from symgen.describe.facts.kinks import KINKS, Discontinuity, changes_in_time, discontinuities_of, rows_with_kinks
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.mechanism import Event, Mechanism, ModeEvent
 from symgen.describe.parts.holding_joints import CATCHES, DISSIPATED, RELEASES
-from symgen.run.compiling.masses import entries_of_masses, formulas_of_masses
+from symgen.run.compiling.mass_formulas import entries_of_masses, formulas_of_masses
 from symgen.run.compiling.side import compile_side
 from symgen.run.effects.effects import Effect, Effects
 from symgen.run.layout.compiled import CompiledModel

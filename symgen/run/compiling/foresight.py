@@ -14,8 +14,8 @@ import numpy as np
 
 from symgen.base.vocabulary.expressions import names_in_expression
 from symgen.describe.parts.driven_mechanism import Jump
+from symgen.run.breaks.foreseen_seams import Foreseen
 from symgen.run.breaks.in_time import line_of_formula, slope_and_offset
-from symgen.run.breaks.seams import Foreseen
 from symgen.run.compiling.side import Side, compile_side
 from symgen.run.loops.seams import seams_with_room
 from symgen.run.loops.times_of_jumps import BESIDE_A_SIDE, NEXT_TO, SAME, SEAMS_OF_PASSAGE, SEAMS_OF_WINDOW

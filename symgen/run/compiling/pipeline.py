@@ -15,7 +15,7 @@ from typing import Any
 from symgen.base.errors import InputError
 from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.mechanism import Mechanism
-from symgen.run.compiling.closing import choice_at_start
+from symgen.run.compiling.free_by_loops import choice_at_start
 from symgen.run.compiling.kept_code import code_at_hand
 from symgen.run.compiling.method_choice import MethodChoice, choice_for_coordinates, choose_method
 from symgen.run.compiling.stages import Generated, PipelineStages, unless_stored

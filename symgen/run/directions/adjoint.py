@@ -23,7 +23,7 @@ from symgen.compile.native.read_values import Foreign
 from symgen.compile.native.straightening import has_early_end, straight_correction
 from symgen.compile.store.emitted import AdjointFunction, EmittedFunction
 from symgen.run.directions.directed_model import DirectedModel, Seeds, form_for_derivatives, lanes_for_directions
-from symgen.run.directions.kept_run import KeptRun, reason_against_adjoint
+from symgen.run.directions.kept_stages import KeptRun, reason_against_adjoint
 from symgen.run.directions.moments import Moments
 from symgen.run.directions.passages import RunPassage
 from symgen.run.directions.series_directions import ImpactsAhead

@@ -115,7 +115,7 @@ class ImpactsAhead(ImpactDirections):
             self.bars.setdefault(impact, np.zeros(rows))[row] += slopes[column]
 
 
-def left_over(now: Dual, u: Dual, earlier: Sequence[tuple[Dual, Dual]]) -> Dual:
+def slopes_left_over(now: Dual, u: Dual, earlier: Sequence[tuple[Dual, Dual]]) -> Dual:
     """Return how a number changes in what is left out over the rate u, from two spans as runs do, see `contact_series`.
 
     Parameters
@@ -186,12 +186,12 @@ class SeriesDirections:
                 times.append((_dual(line[AT], slopes[0]), u))
                 numbers.append((_dual(line[HEAD + row], slopes[1 + row]), u))
             u = _dual(self.rates[gap], rates[gap])
-            by_rest = _dual(rests[row], by_rests[row]) * left_over(now, u, times)
+            by_rest = _dual(rests[row], by_rests[row]) * slopes_left_over(now, u, times)
             part = -by_rest
             if self.along[j] >= 0:
                 z = _dual(self.rates[row], rates[row])
                 # its sum by earlier impacts, or its own end where it ends with the series, as the run has taken it
-                forms = part + left_over(z, u, numbers), part - z / u
+                forms = part + slopes_left_over(z, u, numbers), part - z / u
                 part = min(forms, key=lambda form: abs(form.value - self.parts[j]))
             if not abs(part.value - self.parts[j]) <= _AGREES * (abs(part.value) + abs(by_rest.value)) + _ROUNDING:
                 return None

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Backward:
+class BackwardFormulas:
     """The formulas; constant steps start with `radau5`, whose order is 5 too."""
 
     row_targets: ClassVar[tuple[str, ...]] = ()
@@ -58,4 +58,4 @@ class Backward:
         return Setup(loop, start.functions, scheme, step, memory, room)
 
 
-KIND = Backward()
+KIND = BackwardFormulas()

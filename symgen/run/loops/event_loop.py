@@ -105,7 +105,7 @@ def evaluate_events(system: EventSystem, run: EventRun, t: float, y: Array) -> N
 
 
 def search_step(system: EventSystem, scheme: Record, run: EventRun, following: float, h: float, search: int) -> int:
-    """Search an acceptable step for events; return the decision of `decide`."""
+    """JumpSearch an acceptable step for events; return the decision of `decide`."""
     hunt, n = run.hunt, int(run.hunt[searching.COUNT])
     evaluate_events(system, run, following, run.trial)
     if search == NOTHING or search == DOUBT:

@@ -1,8 +1,8 @@
 """Times at which formulas of t pass levels, and the seams of a run there: one search for all runs.
 
-Runs of Python have the times before they begin (`symgen.run.breaks.seams`), from formulas as codes. Programs without
-Python find them at each start (`symgen.run.printed.foreseen_run`), from formulas of their text. Straight lines are
-solved. Others are sampled until two samplings count the same passages, which are then bisected.
+Runs of Python have the times before they begin (`symgen.run.breaks.foreseen_seams`), from formulas as codes. Programs
+without Python find them at each start (`symgen.run.printed.foreseen_run`), from formulas of their text. Straight lines
+are solved. Others are sampled until two samplings count the same passages, which are then bisected.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ _FINEST = 2.0**-70
 _LOOK, _ASK, _NOTE = range(3)
 
 
-class Search(Record):
+class JumpSearch(Record):
     """A search for the times at which formulas pass levels.
 
     Attributes
@@ -101,7 +101,7 @@ TOO_MANY, TOO_CLOSE = 1, 2
 TO, FROM = range(2)
 
 
-def length_of(f: Search) -> float:
+def length_of(f: JumpSearch) -> float:
     """Return the length of a run [s]."""
     return float(f.ends[f.end] if f.end >= 0 else f.until)
 
@@ -109,7 +109,7 @@ def length_of(f: Search) -> float:
 # -- levels ------------------------------------------------------------------------------------------------------------
 
 
-def levels_below(f: Search, j: int, x: float) -> int:
+def levels_below(f: JumpSearch, j: int, x: float) -> int:
     """Return the number of levels of formula j below a value; 0 where the value is undefined."""
     begin, count, period, number = f.first[j], f.first[j + 1] - f.first[j], f.periods[j], 0
     if not math.isfinite(x):
@@ -133,7 +133,7 @@ def levels_below(f: Search, j: int, x: float) -> int:
 
 
 @called
-def level_at(f: Search, j: int, number: int) -> float:
+def level_at(f: JumpSearch, j: int, number: int) -> float:
     """Return the level of formula j with a number."""
     begin, count, period = f.first[j], f.first[j + 1] - f.first[j], f.periods[j]
     if period > 0.0:
@@ -147,7 +147,7 @@ def level_at(f: Search, j: int, number: int) -> float:
 
 
 @called
-def note_passage(f: Search, t: float, kind: int) -> None:
+def note_passage(f: JumpSearch, t: float, kind: int) -> None:
     """Note a passage; of those at the same time the first stays. Where there is no room, the last one is dropped.
 
     At the start of a run of constant steps sides and gaps count; no step could end there for others.
@@ -183,7 +183,7 @@ def join_kinds(flags: int, kind: int) -> int:
 
 
 @called
-def note_line(f: Search, j: int, value: float, slope: float, start: float, end: float) -> None:
+def note_line(f: JumpSearch, j: int, value: float, slope: float, start: float, end: float) -> None:
     """Note the passages of a straight line from `start` to `end`, by its value at 0 and its slope."""
     begin, kind, period = f.first[j], f.kinds[j], f.periods[j]
     if slope == 0.0 or not math.isfinite(slope) or not math.isfinite(value):
@@ -206,7 +206,7 @@ def note_line(f: Search, j: int, value: float, slope: float, start: float, end: 
 
 
 @called
-def passed_at(f: Search, state: Record, j: int, number: int, low: float, high: float, finest: float) -> float:
+def passed_at(f: JumpSearch, state: Record, j: int, number: int, low: float, high: float, finest: float) -> float:
     """Return the first time at which formula j is on the side of a level on which it is at `high`.
 
     No number is between it and the time before, so that it does not depend on the bracket.
@@ -224,7 +224,7 @@ def passed_at(f: Search, state: Record, j: int, number: int, low: float, high: f
 
 
 @called
-def turned_at(f: Search, state: Record, j: int, sign: float, low: float, high: float) -> float:
+def turned_at(f: JumpSearch, state: Record, j: int, sign: float, low: float, high: float) -> float:
     """Return the time at which formula j times a sign is least, by golden sections."""
     for _ in range(_SECTIONS):
         a, b = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
@@ -264,7 +264,7 @@ def sampled_at(start: float, end: float, k: int, count: int, noise: int) -> floa
 
 
 @called
-def range_of_samples(f: Search, state: Record, j: int, start: float, end: float, count: int) -> float:
+def range_of_samples(f: JumpSearch, state: Record, j: int, start: float, end: float, count: int) -> float:
     """Sample formula j; return the difference of its largest and its least value."""
     low, high, noise = math.inf, -math.inf, count
     for k in range(count + 2):
@@ -276,7 +276,7 @@ def range_of_samples(f: Search, state: Record, j: int, start: float, end: float,
 
 
 @called
-def pass_levels(f: Search, state: Record, j: int, a: float, b: float, below: int, above: int, finest: float) -> int:
+def pass_levels(f: JumpSearch, state: Record, j: int, a: float, b: float, below: int, above: int, finest: float) -> int:
     """Return the number of levels that formula j passes between two times; note when, where `finest` is above 0."""
     low, high = min(below, above), max(below, above)
     for number in range(low, high if finest > 0.0 else low):
@@ -286,13 +286,13 @@ def pass_levels(f: Search, state: Record, j: int, a: float, b: float, below: int
 
 @called
 def count_passages(
-    f: Search, state: Record, j: int, start: float, end: float, count: int, doing: int, spread: float
+    f: JumpSearch, state: Record, j: int, start: float, end: float, count: int, doing: int, spread: float
 ) -> int:
     """Return the number of passages of formula j between samples, `count` of them besides both ends.
 
     Parameters
     ----------
-    f, state : Search, State
+    f, state : JumpSearch, State
         The search, and what `formula_at` reads.
     j : int
         Number of the formula.
@@ -333,7 +333,7 @@ def count_passages(
 
 
 @called
-def search_curve(f: Search, state: Record, j: int, start: float, end: float) -> None:
+def search_curve(f: JumpSearch, state: Record, j: int, start: float, end: float) -> None:
     """Note the passages of a formula that is no straight line; none where they are too many, or too close together."""
     before, count, most = -1, _FIRST, min((end - start) / f.shortest, 0.5 * MOST_SAMPLES)
     while count < most:
@@ -368,7 +368,7 @@ def add_seam(seams: Seams, t: float, skips: int) -> None:
 
 
 @called
-def lay_seams(f: Search, seams: Seams, end: float) -> None:
+def lay_seams(f: JumpSearch, seams: Seams, end: float) -> None:
     """Lay out the seams of a window: at its passages, at the start of the run, and at its end."""
     n, whole = f.found[COUNT], length_of(f)
     if f.known[FROM] == 0.0 and not (n > 0 and f.moments[0] == 0.0):

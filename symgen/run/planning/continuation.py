@@ -16,7 +16,7 @@ from symgen.describe.facts.lengths import origin_of_sizes
 from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.mechanism import Hold
 from symgen.describe.parts.event_sections import events_in_words
-from symgen.run.compiling.masses import masses_of_starts
+from symgen.run.compiling.mass_formulas import masses_of_starts
 from symgen.run.planning.starts import close_with_light_bodies, compiled_for, states_at_start
 from symgen.run.single.new_state import lengths_match
 from symgen.run.starts.assembly import Start, assemble

@@ -10,7 +10,7 @@ from symgen.base.errors import InputError
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism, with_largest_step
 from symgen.describe.parts.driven_mechanism import DrivenMechanism, apply_inputs
-from symgen.run.breaks.seams import seams_of_motion
+from symgen.run.breaks.foreseen_seams import seams_of_motion
 from symgen.run.loops.run_spec import Seam
 
 if TYPE_CHECKING:

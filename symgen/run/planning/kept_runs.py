@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from symgen.run.breaks.seams import foresee_in_run
+from symgen.run.breaks.foreseen_seams import foresee_in_run
 from symgen.run.compiling.events import compile_events
 from symgen.run.compiling.foresight import Passages, is_laid_out
 from symgen.run.compiling.printed_run import PrintedRun

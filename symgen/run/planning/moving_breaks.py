@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import names_in_expression
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.run.breaks.seams import foresee_changes, times_between, with_further_seams
+from symgen.run.breaks.foreseen_seams import foresee_changes, times_between, with_further_seams
 
 if TYPE_CHECKING:
     from symgen.describe.parts.driven_mechanism import Jump

@@ -25,9 +25,9 @@ from symgen.derive.methods import METHODS
 from symgen.describe.bounds.keys import nouns_of_families
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.event_sections import DOES
-from symgen.run.breaks.motions import refuse_jumps
+from symgen.run.breaks.refused_motions import refuse_jumps
 from symgen.run.compiling.choices import choose_coordinates, mechanism_on_tree
-from symgen.run.compiling.closing import choice_at_start
+from symgen.run.compiling.free_by_loops import choice_at_start
 from symgen.run.compiling.method_choice import (
     MethodChoice,
     choice_for_coordinates,

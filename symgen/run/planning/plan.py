@@ -16,13 +16,13 @@ from symgen.derive.lower.windings import follows_places
 from symgen.derive.methods import METHODS
 from symgen.describe.bounds.bounded_modes import refuse_bounds
 from symgen.describe.facts.digest import digest
+from symgen.describe.facts.keys_for_jumps import advice_on_jumps
 from symgen.describe.facts.short_changes import longest_step
-from symgen.describe.facts.sticking import advice_on_jumps
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.event_sections import RECORD, STOP, read_events, watched_event
 from symgen.describe.parts.holds import read_holds
-from symgen.run.breaks.motions import refuse_jumps
-from symgen.run.breaks.seams import foresee_in_run, merge_seams
+from symgen.run.breaks.foreseen_seams import foresee_in_run, merge_seams
+from symgen.run.breaks.refused_motions import refuse_jumps
 from symgen.run.compiling.method_choice import MethodChoice
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.loops.integrator import chooses_steps

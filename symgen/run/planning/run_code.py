@@ -8,7 +8,13 @@ from typing import TYPE_CHECKING, NamedTuple
 from symgen.base.settings import Settings
 from symgen.describe.facts.lengths import longest_body
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.run.compiling.choices import Taken, choice_for_lengths, choose_coordinates, choose_shape, weigh_corrections
+from symgen.run.compiling.choices import (
+    TakenForm,
+    choice_for_lengths,
+    choose_coordinates,
+    choose_shape,
+    weigh_corrections,
+)
 from symgen.run.compiling.method_choice import MethodChoice, choice_for_masses
 
 if TYPE_CHECKING:
@@ -20,8 +26,8 @@ class RunCode(NamedTuple):
 
     choice: MethodChoice
     solver_is_free: bool
-    shape: Taken
-    coordinates: Taken
+    shape: TakenForm
+    coordinates: TakenForm
     notes: tuple[str, ...]
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 
 if TYPE_CHECKING:
-    from symgen.run.planning.directions import RunDirection
+    from symgen.run.planning.named_directions import RunDirection
 
 Array = NDArray[np.float64]
 

@@ -28,7 +28,7 @@ from symgen.run.planning.shortest_changes import NONE, shortest_slope, shortest_
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
-    from symgen.run.planning.directions import RunDirection
+    from symgen.run.planning.named_directions import RunDirection
     from symgen.run.planning.prepare import Prepared
     from symgen.run.starts.assembly import Start
 

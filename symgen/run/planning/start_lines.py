@@ -9,7 +9,7 @@ from symgen.compile.native.formula_lines import Dialect, FormulaLines
 from symgen.describe.formulas.evaluate import dependent_parameters, independent_values, parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start
 from symgen.describe.parts.holds import ORIENTATION, read_holds
-from symgen.run.compiling.masses import masses_of_starts
+from symgen.run.compiling.mass_formulas import masses_of_starts
 from symgen.run.layout.model_arrays import velocity_of_coordinate
 from symgen.run.planning.held_numbers import held_quantities
 from symgen.run.starts.assembler import Assembly

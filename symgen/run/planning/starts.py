@@ -16,7 +16,7 @@ from symgen.describe.formulas.evaluate import evaluate, parameter_values, scalar
 from symgen.describe.formulas.start import described_start, displacements_of_bodies
 from symgen.describe.parts.holding_joints import refuse_other_start
 from symgen.describe.parts.holds import read_holds
-from symgen.run.compiling.masses import masses_of_starts
+from symgen.run.compiling.mass_formulas import masses_of_starts
 from symgen.run.compiling.pipeline import compile_model
 from symgen.run.compiling.side import add_integrals
 from symgen.run.layout import abi
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 from symgen.run.planning.held_numbers import Indices, held_quantities, indices_of
 
 
-def start_of(
+def start_in_bodies(
     mechanism: Mechanism,
     compiled: CompiledModel,
     parameters: Mapping[str, float] | None = None,
@@ -88,7 +88,7 @@ class DescribedStart:
     Parameters
     ----------
     mechanism, compiled, parameters, method_parameters, strict, ask_light
-        As for `start_of`.
+        As for `start_in_bodies`.
     """
 
     def __init__(
@@ -139,7 +139,7 @@ class DescribedStart:
         Raises
         ------
         AssemblyError, InputError
-            As `start_of`.
+            As `start_in_bodies`.
         """
         mechanism, compiled, numbers = self.mechanism, self.compiled, self._numbers
         states = states_at_start(mechanism, numbers, () if isinstance(holds, Held) else holds)
@@ -164,7 +164,7 @@ class DescribedStart:
         Raises
         ------
         AssemblyError, InputError
-            As `start_of`.
+            As `start_in_bodies`.
         """
         mechanism, compiled, p = self.mechanism, self.compiled, self._p.copy()
         held = held_quantities(compiled.info, holds, self._numbers, self._v, self._indices)
@@ -281,7 +281,7 @@ def begin_start(
     settings = plan.parameters, plan.method_parameters, plan.settings.strict
 
     def close_start(compiled: CompiledModel, ask_light: bool) -> Start:
-        return start_of(plan.mechanism, compiled, *settings, plan.holds, ask_light, near)
+        return start_in_bodies(plan.mechanism, compiled, *settings, plan.holds, ask_light, near)
 
     usual = code(plan.mechanism, plan.choice)
     compiled, start = close_with_light_bodies(plan, usual, close_start, code)

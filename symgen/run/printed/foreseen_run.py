@@ -1,8 +1,9 @@
 """Times at which formulas jump or have kinks, found by a run for its own parameters, for programs without Python.
 
-Runs of Python have these times before they begin (`symgen.run.breaks.seams`). A program whose parameters change finds
-them anew at each start, window after window: a window is as long as the run, and shorter where it has more jumps than
-there is room for. Where all formulas are straight lines over time, and pass few levels, the first window has no end.
+Runs of Python have these times before they begin (`symgen.run.breaks.foreseen_seams`). A program whose parameters
+change finds them anew at each start, window after window: a window is as long as the run, and shorter where it has more
+jumps than there is room for. Where all formulas are straight lines over time, and pass few levels, the first window has
+no end.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from symgen.run.loops.times_of_jumps import (
     FROM,
     LEFT_OUT,
     TO,
-    Search,
+    JumpSearch,
     lay_seams,
     length_of,
     note_line,
@@ -33,7 +34,7 @@ from symgen.run.loops.times_of_jumps import (
 _F, _N = types.float64, types.int64
 
 
-class Foresight(Search):
+class Foresight(JumpSearch):
     """A search of a run for its own parameters.
 
     Attributes

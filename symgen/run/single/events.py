@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.describe.bounds.bounded_modes import HIT, JAM, LEAVE, LIFT, REVERSE, SLIP
-from symgen.describe.facts.corners import CORNER
+from symgen.describe.facts.gap_corners import CORNER
 from symgen.describe.parts.event_sections import RECORD, STOP
 from symgen.run.effects.effects import Impact
 from symgen.run.layout import abi

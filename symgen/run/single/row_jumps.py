@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.run.breaks.motions import NEAR, jump_at_time
+from symgen.run.breaks.refused_motions import NEAR, jump_at_time
 from symgen.run.layout import abi
 from symgen.run.loops.event_loop import EventState, beginning_of
 

@@ -13,15 +13,15 @@ import numpy as np
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import names_in_expression
 from symgen.describe.formulas.evaluate import dependent_parameters, parameter_values
-from symgen.run.breaks.motions import jump_of_motion, motion_names
-from symgen.run.breaks.seams import merge_seams, seams_of_motion
+from symgen.run.breaks.foreseen_seams import merge_seams, seams_of_motion
+from symgen.run.breaks.refused_motions import jump_of_motion, motion_names
 from symgen.run.loops.run_spec import Seam
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.run.breaks.seams import Foreseen
+    from symgen.run.breaks.foreseen_seams import Foreseen
     from symgen.run.planning.inputs import Inputs
     from symgen.study.ensemble.chunks import Rows
     from symgen.study.ensemble.ensemble import Ensemble

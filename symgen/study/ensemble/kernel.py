@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.run.compiling.events import compile_events
-from symgen.run.compiling.masses import masses_of_starts
+from symgen.run.compiling.mass_formulas import masses_of_starts
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e

@@ -22,10 +22,10 @@ from symgen.describe.formulas.evaluate import dependent_parameters, parameter_va
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.parts.event_sections import RECORD, STOP
 from symgen.result.part_limits import limits_of_parts
-from symgen.run.breaks.motions import refuse_jumps
-from symgen.run.breaks.seams import Foreseen, foresee_in_run, times_between
+from symgen.run.breaks.foreseen_seams import Foreseen, foresee_in_run, times_between
+from symgen.run.breaks.refused_motions import refuse_jumps
 from symgen.run.compiling.choices import LARGEST_STRAIGHT, mechanism_on_tree
-from symgen.run.compiling.masses import has_coupled_masses
+from symgen.run.compiling.mass_formulas import has_coupled_masses
 from symgen.run.compiling.pipeline import compile_model
 from symgen.run.compiling.side import add_integrals, can_integrate
 from symgen.run.integrators import INTEGRATORS

@@ -16,7 +16,7 @@ from symgen.base.arguments import one_word_of
 from symgen.base.errors import SimulationError
 from symgen.describe.facts.kinks import compares_state
 from symgen.describe.facts.short_changes import longest_step
-from symgen.run.breaks.seams import foresee_changes
+from symgen.run.breaks.foreseen_seams import foresee_changes
 
 if TYPE_CHECKING:
     from symgen.study.references.independent import IndependentEquations

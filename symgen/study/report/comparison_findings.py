@@ -116,7 +116,9 @@ def _finding_on_cheapest(study: Study) -> str:
         if not good or study.estimated_error > target or (parts and len(good) == len(rows)):
             continue
         best = good[0]
-        text = f"below {words.exact_number(target)} m, {_name_of_row(best)} ({words.seconds_in_words(best.run_seconds)}"
+        text = (
+            f"below {words.chosen_number(target)} m, {_name_of_row(best)} ({words.seconds_in_words(best.run_seconds)}"
+        )
         other = next((r for r in good if r.label != best.label), None)
         if other is not None:
             times = words.ratio_in_words(other.run_seconds / best.run_seconds)
@@ -171,12 +173,12 @@ def _finding_on_wrong(study: Study) -> str:
     if not _trusted_rows(study):
         return ""
     if not rows:
-        return f"no run that ended ok is off by more than {words.exact_number(WRONG)} m"
+        return f"no run that ended ok is off by more than {words.chosen_number(WRONG)} m"
     worst = max(rows, key=lambda r: r.error or 0.0)
     count = words.plural(len(rows), "run")
     each = enumeration([f"{m} ({n})" for m, n in _counts_by_name(r.label for r in rows)])
     return (
-        f"{count} ended ok although off by more than {words.exact_number(WRONG)} m, as steps or tolerances were too "
+        f"{count} ended ok although off by more than {words.chosen_number(WRONG)} m, as steps or tolerances were too "
         f"coarse or another branch was taken: {each}; the worst is {_name_of_row(worst)}, "
         f"{words.rounded_number(worst.error)} m"
     )
@@ -188,7 +190,7 @@ def _methods_at_rounding(study: Study, values: dict[str, float], unit: str) -> s
     large = sorted(((x, m) for m, x in values.items() if x >= ROUNDING), reverse=True)
     parts = []
     if small:
-        parts.append(f"below {words.exact_number(ROUNDING)} with {enumeration(small)}")
+        parts.append(f"below {words.chosen_number(ROUNDING)} with {enumeration(small)}")
     if large:
         rest = f" and less with {words.plural(len(large) - MOST, 'other')}" if len(large) > MOST else ""
         parts.append(", ".join(f"{words.rounded_number(x)} {unit} with {m}" for x, m in large[:MOST]) + rest)

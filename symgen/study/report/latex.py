@@ -30,20 +30,24 @@ def latex_tables(document: ReportDocument) -> str:
 
 def _lines_of_table(title: str, table: DocumentTable) -> Iterator[str]:
     columns = "l" * table.words + "r" * (len(table.headings) - table.words)
-    yield from (r"\begin{table}", r"  \centering\small", rf"  \caption{{{latex_text(f'{title}. {table.caption}')}}}")
+    yield from (
+        r"\begin{table}",
+        r"  \centering\small",
+        rf"  \caption{{{latex_with_powers(f'{title}. {table.caption}')}}}",
+    )
     yield from (rf"  \begin{{tabular}}{{@{{}}{columns}@{{}}}}", r"    \toprule")
-    yield "    " + " & ".join(map(latex_text, table.headings)) + r" \\"
+    yield "    " + " & ".join(map(latex_with_powers, table.headings)) + r" \\"
     yield r"    \midrule"
     for row in table.rows:
         cells = (cell.text if isinstance(cell, TableCell) else cell for cell in row)
-        yield "    " + " & ".join(map(latex_text, cells)) + r" \\"
+        yield "    " + " & ".join(map(latex_with_powers, cells)) + r" \\"
     yield from (r"    \bottomrule", r"  \end{tabular}")
     for note in table.notes:
-        yield rf"  \par\footnotesize {latex_text(note)}"
+        yield rf"  \par\footnotesize {latex_with_powers(note)}"
     yield r"\end{table}"
 
 
-def latex_text(text: str) -> str:
+def latex_with_powers(text: str) -> str:
     """Return text for LaTeX: signs as names, powers of ten as formulas."""
     parts, end = list[str](), 0
     for match in _POWER.finditer(text):

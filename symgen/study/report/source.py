@@ -48,7 +48,7 @@ def section_beside_source(studies: list[Study]) -> Section | None:
         for method, theirs in zip(METHODS, ratios, strict=True):
             if (row := measured.get(method)) is not None:
                 mine = words.value_with_spread(row.cost_ratio, row.cost_ratio_spread)
-                step = f"{words.exact_number(row.step or 0.0)} s"
+                step = f"{words.chosen_number(row.step or 0.0)} s"
                 rows.append((name, mechanism, method, words.ratio_in_words(theirs), mine, step))
     headings = ("mechanism of the source", "ours", "method", "source", "symgen", "step")
     table = DocumentTable("Run time as a ratio to lagrange.", headings, tuple(rows), words=3)

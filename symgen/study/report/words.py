@@ -26,7 +26,7 @@ def rounded_number(x: float | None, digits: int = 2) -> str:
     return power if float(mantissa) == 1.0 else f"{mantissa}×{power}".replace("-", "−")
 
 
-def exact_number(x: float) -> str:
+def chosen_number(x: float) -> str:
     """Return a chosen, not measured, number with all its digits: 0.001, 5×10⁻⁵, 10⁻⁸."""
     mantissa, _, exponent = f"{x:g}".partition("e")
     if not exponent:
@@ -37,7 +37,7 @@ def exact_number(x: float) -> str:
 
 def readable_number(text: str) -> str:
     """Return a sentence of a result with its numbers and signs as in the rest of the report."""
-    text = re.sub(r"\b\d+(\.\d+)?e[-+]\d+", lambda m: exact_number(float(m.group())), text)
+    text = re.sub(r"\b\d+(\.\d+)?e[-+]\d+", lambda m: chosen_number(float(m.group())), text)
     return text.replace("|Phi|", "|Φ|").replace("|D v - nu|", "|D v − ν|")
 
 
@@ -107,4 +107,4 @@ def as_sentence(text: str) -> str:
 
 def setting_in_words(step: float | None, rtol: float | None) -> str:
     """Return a step or a tolerance in words: step 0.001 s, rtol 10⁻⁸."""
-    return f"rtol {exact_number(rtol)}" if rtol is not None else f"step {exact_number(step or 0.0)} s"
+    return f"rtol {chosen_number(rtol)}" if rtol is not None else f"step {chosen_number(step or 0.0)} s"

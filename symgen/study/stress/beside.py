@@ -16,7 +16,7 @@ from symgen.study.stress.stress_rows import Map
 from symgen.study.yardstick import YARDSTICK
 
 if TYPE_CHECKING:
-    from symgen.study.stress.stress_rows import Extreme, Stress, StressRow
+    from symgen.study.stress.stress_rows import ExtremeReached, Stress, StressRow
 
 #: Ratios that differ by less than this digit are one.
 DIGITS = 2
@@ -92,7 +92,7 @@ def _steps(limits: Sequence[object], family: str) -> Iterator[float]:
             yield float(step)
 
 
-def _values(extremes: Sequence[Extreme], family: str) -> Iterator[float]:
+def _values(extremes: Sequence[ExtremeReached], family: str) -> Iterator[float]:
     for extreme in extremes:
         if extreme.family == family and extreme.reached is not None:
             yield extreme.reached

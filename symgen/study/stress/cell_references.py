@@ -22,7 +22,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.holding_joints import refuse_holding
 from symgen.describe.parts.passing_ropes import refuse_rope_sheaves
 from symgen.result.points import Points
-from symgen.run.breaks.motions import refuse_jumps
+from symgen.run.breaks.refused_motions import refuse_jumps
 from symgen.run.compiling.pipeline import straight_alone
 from symgen.run.layout import abi
 from symgen.run.layout.compiled import CompiledModel

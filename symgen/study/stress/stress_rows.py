@@ -89,7 +89,7 @@ class StressRow:
 
 
 @dataclass(frozen=True)
-class Limit:
+class LargestSteps:
     """The largest constant steps of a method on a case [s].
 
     None where the smallest one tried is too large; `until` where the whole run is one step, which bounds a limit that
@@ -115,7 +115,7 @@ class Limit:
 
 
 @dataclass(frozen=True)
-class Extreme:
+class ExtremeReached:
     """The extreme value of a family that a method reaches with all runs up to it accurate.
 
     Attributes
@@ -144,9 +144,9 @@ class Stress:
         Base models.
     rows : tuple of StressRow
         Cells of the map and of the planes.
-    limits : tuple of Limit
+    limits : tuple of LargestSteps
         Largest steps.
-    extremes : tuple of Extreme
+    extremes : tuple of ExtremeReached
         Extreme values that methods reach, each with the integrator of its constant steps.
     skipped : tuple of (str, str, str)
         Model, family and why it has no cases.
@@ -166,7 +166,7 @@ class Stress:
 
     models: tuple[str, ...]
     rows: tuple[StressRow, ...]
-    limits: tuple[Limit, ...]
+    limits: tuple[LargestSteps, ...]
     skipped: tuple[tuple[str, str, str], ...]
     unusable: tuple[tuple[str, str, str, str], ...]
     left_out: tuple[tuple[str, str, str, str], ...] = ()
@@ -174,7 +174,7 @@ class Stress:
     interrupted: bool = False
     coordinates: str = "absolute"
     underived: tuple[tuple[str, str], ...] = ()
-    extremes: tuple[Extreme, ...] = ()
+    extremes: tuple[ExtremeReached, ...] = ()
 
     @property
     def false_successes(self) -> tuple[StressRow, ...]:

@@ -25,11 +25,11 @@ from symgen.study.runner import Cell, run_cells
 from symgen.study.stress.bench import Base, Level, NotApplicable
 from symgen.study.stress.cell_references import cells_without_reference
 from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute_cell
-from symgen.study.stress.entries import check_limit, check_motion, check_run
-from symgen.study.stress.extremes import HALVINGS, QUICK_HALVINGS, search_extremes
+from symgen.study.stress.checked_entries import check_limit, check_motion, check_run
+from symgen.study.stress.extreme_values import HALVINGS, QUICK_HALVINGS, search_extremes
 from symgen.study.stress.families import FAMILIES, levels_of_family
 from symgen.study.stress.shared_by_cells import identity_of
-from symgen.study.stress.stress_rows import Extreme, Limit, Stress, StressRow
+from symgen.study.stress.stress_rows import ExtremeReached, LargestSteps, Stress, StressRow
 from symgen.study.stress.study_progress import Progress, Whole
 
 #: Integrators of each method besides its own default: an explicit adaptive one and an implicit one.
@@ -238,7 +238,7 @@ class _Study:
             runs, interrupted = self._compute_cells("runs", list(self._run_cells(motions)), whole)
         if not interrupted:
             searches, interrupted = self._compute_cells("largest steps", list(self._search_cells(motions)), whole)
-        extremes = tuple[Extreme, ...]()
+        extremes = tuple[ExtremeReached, ...]()
         if not interrupted:
             # how far a scheme follows stiffness and damping, its largest step says as well
             tried = [(task, run) for task, run in runs if not (self.quick and task.level.family in STIFF)]
@@ -358,7 +358,7 @@ def _make_row(task: RunTask, outcome: Outcome) -> StressRow:
     )
 
 
-def _make_limit(task: RunTask, outcome: Outcome) -> Limit:
+def _make_limit(task: RunTask, outcome: Outcome) -> LargestSteps:
     level = task.level
     steps = outcome["stable_step"], outcome["accurate_step"]
-    return Limit(level.model, level.family, level.label, task.method, task.integrator, *steps, level.until)
+    return LargestSteps(level.model, level.family, level.label, task.method, task.integrator, *steps, level.until)

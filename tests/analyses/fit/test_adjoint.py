@@ -9,7 +9,7 @@ import symgen
 from symgen import InputError
 from symgen.base.errors import AnalysisError
 from symgen.derive.methods import METHODS
-from symgen.run.directions import kept_run
+from symgen.run.directions import kept_stages
 
 TIGHT = {"rtol": 1e-13, "atol": 1e-13, "integrator": "dop853"}
 #: Methods with an adjoint, and those whose iterations have none.
@@ -100,11 +100,11 @@ def test_motion_in_space(method, coordinates):
 def test_runs_that_are_kept_in_parts(four_bar, monkeypatch):
     settings = {"until": 2.0, "method": "direct-correction", "integrator": "rk4", "step": 1e-2, "way": "adjoint"}
     whole = four_bar.gradient("crank.theta", by=("a", "m2"), **settings)
-    monkeypatch.setattr(kept_run, "_PIECE", 1 << 11)
+    monkeypatch.setattr(kept_stages, "_PIECE", 1 << 11)
     parts = four_bar.gradient("crank.theta", by=("a", "m2"), **settings)
     assert parts.by == whole.by
     assert parts.memory > whole.memory  # the last step before each part stands in front of it
-    monkeypatch.setattr(kept_run, "MOST_KEPT", 1 << 13)
+    monkeypatch.setattr(kept_stages, "MOST_KEPT", 1 << 13)
     with pytest.raises(AnalysisError, match="take larger tolerances or steps"):
         four_bar.gradient("crank.theta", by=("a", "m2"), **settings)
 

@@ -12,7 +12,7 @@ from symgen.derive.lower.model import lower_model
 from symgen.describe.files.load import read_raw
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
-from symgen.run.compiling.closing import law_at_start
+from symgen.run.compiling.free_by_loops import law_at_start
 from symgen.run.compiling.method_choice import choose_method
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready

@@ -16,7 +16,7 @@ from symgen.cli import main
 from symgen.describe.drawing import build_scene
 from symgen.describe.drawing.paper import Path as Stroke
 from symgen.describe.drawing.paper import View, items_on_paper, view_axes
-from symgen.describe.drawing.scene import Disc, Poses, Solid
+from symgen.describe.drawing.scene import DrawnCircle, Poses, Solid
 from symgen.describe.files.validate import validate
 
 #: A four-bar whose links are too short to meet: at best each of the three open gaps is a third of what is missing.
@@ -149,7 +149,7 @@ def test_a_box_and_a_sphere_are_where_the_file_has_them() -> None:
     mechanism = shaped(shapes)
     scene = build_scene(mechanism)
     solid, ball = scene.items[0].marks[:2]
-    assert isinstance(solid, Solid) and isinstance(ball, Disc)
+    assert isinstance(solid, Solid) and isinstance(ball, DrawnCircle)
     corners = np.array([p for face in solid.faces for p in face])
     assert corners.min(axis=0) == pytest.approx([-1.0, -0.2, -0.25])
     assert corners.max(axis=0) == pytest.approx([1.0, 0.2, 0.25])

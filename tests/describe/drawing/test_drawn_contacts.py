@@ -2,7 +2,7 @@
 
 import symgen
 from symgen.describe.drawing.mechanism_scene import build_scene
-from symgen.describe.drawing.scene import Disc, Line
+from symgen.describe.drawing.scene import DrawnCircle, Line
 
 FILE = """
 [mechanism]
@@ -38,7 +38,7 @@ def test_all_shapes_are_drawn(tmp_path):
     assert spoke.body == 0 and guide.body < 0 and all(y == 0.0 for _, y, _ in guide.points)
     segment = items["slot"][-1]
     assert segment.body == 1 and segment.points == ((0.1, 0.0, 0.0), (0.4, 0.1, 0.0))
-    assert isinstance(items["tip"][0], Disc) and items["tip"][0].at == (-0.2, -0.3, 0.0)
+    assert isinstance(items["tip"][0], DrawnCircle) and items["tip"][0].at == (-0.2, -0.3, 0.0)
     (hole,) = items["rim"]  # its disc is drawn once
     assert hole.body < 0 and hole.closed and abs(max(x for x, _, _ in hole.points) - 3.0) < 1e-12
     wheel, arm = (item for item in scene.items if item.role == "body")

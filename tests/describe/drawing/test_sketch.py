@@ -11,10 +11,10 @@ from symgen.api import load
 from symgen.base.errors import InputError
 from symgen.describe import catalogue
 from symgen.describe.drawing import build_scene, sketch
-from symgen.describe.drawing.contact_parts import outlines_of_contacts
+from symgen.describe.drawing.drawn_surfaces import outlines_of_contacts
 from symgen.describe.drawing.mechanism_scene import convex_hull
 from symgen.describe.drawing.paper import Circle, items_on_paper
-from symgen.describe.drawing.scene import Disc
+from symgen.describe.drawing.scene import DrawnCircle
 from symgen.describe.files.validate import validate
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -67,7 +67,7 @@ def test_pins_stand_where_the_bodies_put_them() -> None:
     pin = next(item for item in scene.items if (item.role, item.name) == ("joint", "pin"))
     drawn = next(d for d in items_on_paper(scene, np.array(q)) if d.item is pin)
     (circle,) = drawn.parts
-    assert isinstance(circle, Circle) and isinstance(pin.marks[0], Disc)
+    assert isinstance(circle, Circle) and isinstance(pin.marks[0], DrawnCircle)
     assert (circle.x, circle.y) == pytest.approx((x, y), abs=1e-12)
     # on paper: the pin and the stand are as far apart as lengths and one scale have it, y downwards
     found = groups(sketch(mechanism, q))

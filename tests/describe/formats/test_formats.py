@@ -23,7 +23,7 @@ from symgen.describe.formats._poses import (
     rotation_from_quaternion,
     rotation_from_rpy,
 )
-from symgen.run.compiling.closing import free_velocities
+from symgen.run.compiling.free_by_loops import free_velocities
 
 #: A lever of two links that a fixed joint holds together, a slide on it, a follower, and a link without mass.
 ARM = """<?xml version="1.0"?>
@@ -269,7 +269,9 @@ def test_a_loop_with_a_limit_and_friction_is_where_mujoco_tends_to(
     path.write_text(text.format(h=1e-4, d=0.9), encoding="utf-8")
     run = model_of(read_robot(path, "mjcf", stops=True)).simulate(until=0.3, rtol=1e-10, atol=1e-11)
     assert run.status == "ok" and run.events  # the limit is met
-    monkeypatch.setattr("symgen.run.compiling.closing.DEPENDENT", -1.0)  # the loop is closed by a row that is left out
+    monkeypatch.setattr(
+        "symgen.run.compiling.free_by_loops.DEPENDENT", -1.0
+    )  # the loop is closed by a row that is left out
     model = model_of(read_robot(path, "mjcf", stops=True))
     closed = model.simulate(until=0.3, rtol=1e-10, atol=1e-11)
     assert free_velocities(model.mechanism) and abs(closed["slide.x"][-1] - run["slide.x"][-1]) < 1e-9

@@ -10,7 +10,7 @@ from support.rotation import of_turn
 from symgen.compile.loopcode.loop_instances import Instances
 from symgen.result.targets import Request
 from symgen.result.targets._c_model import CModel, sources
-from symgen.run.breaks.seams import foresee_in_run
+from symgen.run.breaks.foreseen_seams import foresee_in_run
 from symgen.run.layout import abi
 from symgen.run.printed.foreseen_run import FORESEEN, foresee_run
 from tests.result.targets.test_c_modes import DOOR, loaded, program_of, rows_of, transitions_of

@@ -13,8 +13,8 @@ from symgen.cli import main
 from symgen.describe.files.builder import MechanismBuilder
 from symgen.describe.files.load import load_mechanism
 from symgen.describe.parts.driven_mechanism import apply_inputs
-from symgen.run.breaks import seams
-from symgen.run.breaks.seams import seams_of_motion
+from symgen.run.breaks import foreseen_seams
+from symgen.run.breaks.foreseen_seams import seams_of_motion
 from symgen.study.ensemble.parameter_sweep import sweep
 
 STIFFNESS = 40.0
@@ -341,7 +341,7 @@ def test_bad_inputs_are_told_in_a_sentence(model, inputs, message):
 
 
 def test_more_jumps_than_are_looked_for_are_told(model, monkeypatch):
-    monkeypatch.setattr(seams, "MOST_PIECES", 1000)
+    monkeypatch.setattr(foreseen_seams, "MOST_PIECES", 1000)
     with pytest.raises(InputError, match="inputs: expected at most 1000 jumps"):
         model.simulate(until=1.0, inputs={"push": "sign(sin(1e4*t))"})
 

@@ -16,8 +16,8 @@ from symgen.describe import catalogue
 from symgen.describe.facts.kinks import compares_state, discontinuities_of, jumps_in_time
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.parts.driven_mechanism import Jump
+from symgen.run.breaks.foreseen_seams import Foreseen, merge_seams, times_between
 from symgen.run.breaks.in_time import InTime, line_of_formula
-from symgen.run.breaks.seams import Foreseen, merge_seams, times_between
 from symgen.run.loops.run_spec import Seam
 from symgen.study.ensemble.parameter_sweep import sweep
 

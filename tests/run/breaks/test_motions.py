@@ -9,7 +9,7 @@ from support.emitted import mechanism_of
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.run.breaks.motions import refuse_jumps
+from symgen.run.breaks.refused_motions import refuse_jumps
 from symgen.study.stress.bench import Level
 from symgen.study.stress.cells import CellReference, RunTask, compute_cell
 

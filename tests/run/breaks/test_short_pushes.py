@@ -16,8 +16,8 @@ import symgen
 from symgen.compile.loopcode.loop_instances import Instances
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.parts.driven_mechanism import Jump
+from symgen.run.breaks.foreseen_seams import foresee_changes
 from symgen.run.breaks.in_time import InTime, new_search
-from symgen.run.breaks.seams import foresee_changes
 from symgen.run.loops.times_of_jumps import COUNT, search_curve
 from symgen.study.ensemble.parameter_sweep import sweep
 from symgen.study.ensemble.sweep_plan import make_ensemble

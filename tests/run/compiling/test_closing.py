@@ -9,10 +9,10 @@ from support.checks import close
 import symgen
 from symgen import Settings
 from symgen.base.ir.program import BY_PIVOTS
-from symgen.run.compiling import closing
+from symgen.run.compiling import free_by_loops
 from symgen.run.compiling.choices import mechanism_on_tree
-from symgen.run.compiling.closing import choice_at_start, free_velocities
 from symgen.run.compiling.folders import folder_of
+from symgen.run.compiling.free_by_loops import choice_at_start, free_velocities
 from symgen.run.compiling.method_choice import choose_method
 from symgen.run.compiling.pipeline import compile_model
 from symgen.run.layout import abi
@@ -102,7 +102,7 @@ def test_a_start_with_another_choice_has_another_module_of_the_same_model(linkag
 def test_runs_are_those_by_pivots(linkage, degrees, coordinates, monkeypatch):
     settings = Settings("lagrange", "rk4", step=1e-3, until=0.5, coordinates=coordinates)
     closed = prepare(linkage(degrees), settings).integrate()
-    monkeypatch.setattr(closing, "free_velocities", lambda mechanism: ())
+    monkeypatch.setattr(free_by_loops, "free_velocities", lambda mechanism: ())
     pivots = prepare(linkage(degrees), settings).integrate()
     assert (BY_PIVOTS in closed.compiled.law.operations, BY_PIVOTS in pivots.compiled.law.operations) == (True, False)
     assert closed.counters["suspects"] == 0
@@ -121,7 +121,7 @@ def test_a_start_that_the_choice_does_not_suit_is_evaluated_by_pivots(linkage, m
     settings = Settings("lagrange", "rk4", step=1e-3, until=0.1, coordinates="absolute")
     crank = free_velocities(linkage(60.0))
     suited = prepare(linkage(105.961), settings)
-    monkeypatch.setattr(closing, "free_velocities", lambda mechanism: crank)
+    monkeypatch.setattr(free_by_loops, "free_velocities", lambda mechanism: crank)
     other = prepare(linkage(105.961), settings)
     assert (flag_at_start(suited), flag_at_start(other)) == (0, 1)
     close(other.integrate().states, suited.integrate().states, "states", 1e-9)

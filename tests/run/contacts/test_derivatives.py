@@ -9,7 +9,7 @@ import pytest
 from benchmarks.bounded.touch.kinds import drawn
 from benchmarks.mechanisms.toml import text as toml_text
 from symgen.describe.formulas.duals import Dual
-from symgen.run.directions.series_directions import ImpactDirections, ImpactsAhead, left_over
+from symgen.run.directions.series_directions import ImpactDirections, ImpactsAhead, slopes_left_over
 from tests.run.contacts.scenes import DROP, LIGHT, body, floor, head, loaded, rods
 
 #: A spinning disc that bounces, rests and rolls.
@@ -106,7 +106,7 @@ def test_what_is_left_out_of_a_geometric_series() -> None:
         number = Dual(2.0 + b * r**i, (1.0, r**i, 0.0, b * slope))
         return number, Dual(c * r**i, (0.0, 0.0, r**i, c * slope))
 
-    part = left_over(*at(7), [at(6), at(5)])
+    part = slopes_left_over(*at(7), [at(6), at(5)])
     assert part.value == pytest.approx(-b / c, rel=1e-9)
     assert part.slopes == pytest.approx([0.0, -1.0 / c, b / c**2, 0.0], rel=1e-9, abs=1e-7)
 

@@ -14,7 +14,7 @@ from support.checks import assert_same_motion
 from support.emitted import mechanism_of
 
 import symgen
-from symgen.describe.facts.sticking import advice_on_jumps
+from symgen.describe.facts.keys_for_jumps import advice_on_jumps
 from symgen.run.compiling.events import compile_events
 from symgen.run.layout import abi
 from symgen.study.ensemble.parameter_sweep import sweep

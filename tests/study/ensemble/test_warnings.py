@@ -8,7 +8,7 @@ from support.emitted import mechanism_of
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.run.breaks.seams import foresee_changes
+from symgen.run.breaks.foreseen_seams import foresee_changes
 from symgen.study.ensemble.lines import table_lines
 from symgen.study.stress.bench import Base
 from symgen.study.stress.families import singular_passage

@@ -112,7 +112,7 @@ def test_words():
     assert [words.rounded_number(x) for x in (0.0, 0.25, 1234.0, 3.14e-7, 1e-7, -2.5e-5, None, float("nan"))] == [
         *("0", "0.25", "1200", "3.1×10⁻⁷", "10⁻⁷", "−2.5×10⁻⁵", "–", "not finite"),
     ]
-    assert [words.exact_number(x) for x in (0.001, 5e-5, 1e-8, 0.004)] == ["0.001", "5×10⁻⁵", "10⁻⁸", "0.004"]
+    assert [words.chosen_number(x) for x in (0.001, 5e-5, 1e-8, 0.004)] == ["0.001", "5×10⁻⁵", "10⁻⁸", "0.004"]
     assert [words.seconds_in_words(x) for x in (2.0, 1.27e-3, 8.5e-5)] == ["2 s", "1.27 ms", "85 µs"]
     assert [words.percent_in_words(x) for x in (0.004, 0.05, 0.1, 5.8)] == ["0.4 %", "5.0 %", "10 %", "580 %"]
     assert words.enumeration(["a", "b", "c"]) == "a, b and c" and words.enumeration([]) == ""

@@ -9,7 +9,7 @@ from study.report import made
 from symgen.study.comparison.across import across_mechanisms
 from symgen.study.comparison.comparison_study import plot_rows
 from symgen.study.report.kinds.comparison_report import comparison_report
-from symgen.study.report.latex import latex_tables, latex_text
+from symgen.study.report.latex import latex_tables, latex_with_powers
 
 STUDIES = [made.study(), made.study(mechanism="slider_crank & more")]
 
@@ -26,7 +26,7 @@ STUDIES = [made.study(), made.study(mechanism="slider_crank & more")]
     ],
 )
 def test_signs_and_powers_are_latex(text, latex):
-    assert latex_text(text) == latex
+    assert latex_with_powers(text) == latex
 
 
 @pytest.mark.by_turns(2)

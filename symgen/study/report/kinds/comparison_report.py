@@ -216,7 +216,7 @@ def _equal_error_table(study: Study) -> tuple[DocumentTable, ...]:
         return ()
     rows = tuple(
         (
-            *(words.exact_number(x.error), x.method, x.integrator, words.seconds_in_words(x.seconds)),
+            *(words.chosen_number(x.error), x.method, x.integrator, words.seconds_in_words(x.seconds)),
             *map(words.ratio_in_words, (x.ratio, x.ratio_low, x.ratio_high)),
         )
         for x in study.at
@@ -228,7 +228,7 @@ def _equal_error_table(study: Study) -> tuple[DocumentTable, ...]:
         "integrator: medians and quartiles of rounds in which all runs are timed in turn."
     )
     notes = tuple(
-        f"{words.exact_number(x.error)} m, {x.method}, {x.integrator}: {x.reason}" for x in study.at if x.reason
+        f"{words.chosen_number(x.error)} m, {x.method}, {x.integrator}: {x.reason}" for x in study.at if x.reason
     )
     return (DocumentTable(caption, headings, rows, words=3, notes=notes),)
 

@@ -17,7 +17,7 @@ from symgen.study.stress.bench import Level
 from symgen.study.stress.cell_outcome import GOOD, REFUSED, UNJUDGED
 from symgen.study.stress.cell_references import cells_without_reference
 from symgen.study.stress.cells import CellReference, RunTask
-from symgen.study.stress.stress_rows import Extreme
+from symgen.study.stress.stress_rows import ExtremeReached
 
 #: Families of one quantity that goes to an extreme, each with the least value that counts: masses go two ways.
 EXTREMES: Mapping[str, float] = {
@@ -34,7 +34,7 @@ Finished = Sequence[tuple[Any, Outcome]]
 Compute = Callable[[str, Sequence[Any]], tuple[Finished, bool]]
 
 
-class Search:
+class ExtremeSearch:
     """The search of a method on a family of a model: the largest accurate value and the least that is not.
 
     Parameters
@@ -76,13 +76,15 @@ class Search:
         return math.sqrt(self.reached * self.beyond) if self.halvings >= 0 else None
 
     @property
-    def found(self) -> Extreme:
+    def found(self) -> ExtremeReached:
         """What the search has found so far."""
         level = self.task.level
-        return Extreme(level.model, level.family, self.task.method, self.task.integrator, self.reached, self.beyond)
+        return ExtremeReached(
+            level.model, level.family, self.task.method, self.task.integrator, self.reached, self.beyond
+        )
 
 
-def begin_searches(runs: Finished, halvings: int) -> list[Search]:
+def begin_searches(runs: Finished, halvings: int) -> list[ExtremeSearch]:
     """Return a search for every method, with the integrator of its constant steps, on each model and family."""
     cases: dict[tuple[str, str, str], list[tuple[float, str, RunTask]]] = {}
     for task, outcome in runs:
@@ -93,12 +95,12 @@ def begin_searches(runs: Finished, halvings: int) -> list[Search]:
             key = level.model, level.family, task.method
             cases.setdefault(key, []).append((level.values[0], outcome["outcome"], task))
     ordered = (sorted(case, key=lambda each: each[0]) for case in cases.values())
-    return [Search(case[0][2], [each[:2] for each in case], halvings) for case in ordered]
+    return [ExtremeSearch(case[0][2], [each[:2] for each in case], halvings) for case in ordered]
 
 
 def search_extremes(
     runs: Finished, level_at: Callable[[str, str, float], Level | None], compute: Compute, halvings: int
-) -> tuple[tuple[Extreme, ...], bool]:
+) -> tuple[tuple[ExtremeReached, ...], bool]:
     """Return the extreme values of all methods, and whether the search was interrupted.
 
     Parameters
@@ -114,7 +116,7 @@ def search_extremes(
     """
     searches, interrupted = begin_searches(runs, halvings), False
     while not interrupted:
-        wanted: dict[tuple[str, str, float], list[Search]] = {}
+        wanted: dict[tuple[str, str, float], list[ExtremeSearch]] = {}
         for search in searches:
             if (value := search.follow()) is not None:
                 level = search.task.level
@@ -126,7 +128,7 @@ def search_extremes(
         references = {key: CellReference(level, searches[0].task.quick) for key, level in levels.items()}
         motions, interrupted = compute("references of extreme values", list(references.values()))
         by_level = {id(task): motion for task, motion in motions}
-        tasks: dict[int, tuple[Search, float]] = {}
+        tasks: dict[int, tuple[ExtremeSearch, float]] = {}
         asked: list[RunTask] = []
         for key, reference in references.items():
             motion = by_level.get(id(reference))

@@ -35,7 +35,7 @@ from symgen.run.loops.times_of_jumps import (
     SEAMS_OF_WINDOW,
     SKIP,
     STRIKE,
-    Search,
+    JumpSearch,
     lay_seams,
     note_passage,
 )
@@ -315,7 +315,7 @@ def _passages_of(
     until: float,
     first: float = 0.0,
     grid: tuple[float, float] | None = (0.0, 0.0),
-) -> Search:
+) -> JumpSearch:
     """Return a search that has found passages: those inside a run, those at the same time as one."""
     inside = sorted((t, kind) for t, kind in passages if until - t > SAME * until)
     search = new_search(None, until, first, grid=grid, room=len(inside))
@@ -324,12 +324,12 @@ def _passages_of(
     return search
 
 
-def _times_in(search: Search) -> tuple[float, ...]:
+def _times_in(search: JumpSearch) -> tuple[float, ...]:
     """Return the times that a search has found [s]."""
     return tuple(search.moments[: search.found[COUNT]].tolist())
 
 
-def _laid_out(search: Search, until: float) -> tuple[Seam, ...]:
+def _laid_out(search: JumpSearch, until: float) -> tuple[Seam, ...]:
     """Return the seams of a run at the passages that a search has found; none without any."""
     if search.found[COUNT] == 0:
         return ()

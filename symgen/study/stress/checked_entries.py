@@ -9,7 +9,7 @@ import msgspec
 from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.study.journal import Outcome
 from symgen.study.stress.cell_outcome import OUTCOMES
-from symgen.study.stress.stress_rows import Limit, StressRow
+from symgen.study.stress.stress_rows import LargestSteps, StressRow
 
 #: Fields of a row and of a largest step that follow from their task; their entry stores the others.
 OF_TASK = frozenset(
@@ -25,7 +25,7 @@ def _stored(row: type) -> type[msgspec.Struct]:
     return msgspec.defstruct(row.__name__, [(n, kind) for n, kind in get_type_hints(row).items() if n not in OF_TASK])
 
 
-_RUN, _STEPS = _stored(StressRow), _stored(Limit)
+_RUN, _STEPS = _stored(StressRow), _stored(LargestSteps)
 
 
 class _Motion(TypedDict):
