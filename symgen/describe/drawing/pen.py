@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import accumulate
 from typing import Any
@@ -300,7 +300,7 @@ class Pen:
             for k in range(count):
                 foot = at + (start + (end - start) * (k + 0.5) / count) * along
                 marks.append(self.line(body, [foot, foot + 0.5 * u * (side - 0.8 * along)], EARTH))
-        return marks
+        return [replace(mark, guide=True) for mark in marks if isinstance(mark, Line)]
 
 
 def directions_across_axis(axis: Array) -> tuple[Array, Array]:

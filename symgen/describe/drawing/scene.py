@@ -59,12 +59,15 @@ class Line:
         In that frame [m].
     closed : bool
         Whether the last point is joined to the first, and the area filled.
+    guide : bool
+        Whether it only shows where something slides: as long as a motion needs, it says nothing of a mechanism's size.
     """
 
     body: int
     points: tuple[Point, ...]
     look: Look
     closed: bool = False
+    guide: bool = False
 
 
 @dataclass(frozen=True)

@@ -107,7 +107,7 @@ def _slot_symbol(pen: Pen, joint: Joint) -> list[Mark]:
     marks: list[Mark] = []
     for sign in (1.0, -1.0):
         ends = [at + (low - 1.5 * u) * along, at + (high + 1.5 * u) * along]
-        marks.append(pen.line(slot.body, np.array(ends) + 0.55 * sign * u * side))
+        marks.append(replace(pen.line(slot.body, np.array(ends) + 0.55 * sign * u * side), guide=True))
     if slot.body == GROUNDED:
         marks += pen.rail(GROUNDED, at + 0.55 * u * side, along, (low, high), side)
     return [*marks, pen.dot(pin, 0.42)]

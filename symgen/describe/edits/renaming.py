@@ -22,6 +22,7 @@ _WORDS = (
     *("between", "body", "reaction", "carrier", "clamp", "joint", "joints", "of", "pinion", "rack"),
     *("type", "unit", "note", "title", "source", "name", "coordinate", "hold", "label", "file", "colour"),
 )
+_NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w*")
 #: Keys whose text, or texts in whose list, are names of bodies, and of joints.
 _OF_BODIES = ("between", "body", "reaction", "carrier", "clamp")
 _OF_JOINTS = ("joint", "joints", "of", "pinion", "rack")
@@ -61,7 +62,7 @@ def rename_in_text(text: str, path: str, name: str, source: str) -> str:
 
 
 def remove_from_text(text: str, path: str, source: str) -> str:
-    """Return the text of a file without a table, and without the joints and forces that need it.
+    """Return the text of a file without a table, the joints and forces that need it, and parameters of these alone.
 
     Parameters
     ----------
@@ -81,6 +82,12 @@ def remove_from_text(text: str, path: str, source: str) -> str:
     gone = [_path_from_text(raw, path)]
     for entry in gone:  # grows
         gone += [other for other in _users_of_removed(raw, entry) if other not in gone]
+    gone += _parameters_of_removed(raw, parts, gone)
+    if (
+        not any(("bodies", body) not in gone for body in raw.get("bodies", {}))
+        and ("mechanism", "title") in parts.values
+    ):
+        gone.append(("mechanism", "title"))  # it is about what was there
     spans = [span for entry in gone for span in _spans_of_table(entry, parts, text)]
     result = apply_changes(text, [Change(start, end, "") for start, end in _merge_spans(spans)])
     left = parse_toml(result, source)
@@ -179,6 +186,28 @@ def _users_of_removed(raw: Mapping[str, Any], gone: Path) -> Iterator[Path]:
             owners = [x for value in named for x in (value if isinstance(value, list) else [value])]
             if any(x == gone[1] or (isinstance(x, str) and x.startswith(f"{gone[1]}.")) for x in owners):
                 yield section, name
+
+
+def _parameters_of_removed(raw: Mapping[str, Any], parts: DocumentOutline, gone: list[Path]) -> list[Path]:
+    """Return the parameters that nothing reads any more once something is taken out which does."""
+    read = dict[Path, set[str]]()
+    for path in parts.values:
+        value = value_at_path(raw, path)
+        if isinstance(value, str) and path[-1] not in _WORDS:
+            read[path] = set(_NAME.findall(value)) & raw.get("parameters", {}).keys()
+    on_lines = {path for path in parts.values if len(path) == 2 and path[0] == "parameters"}
+    if not any(header.path == ("parameters",) for header in parts.headers):
+        return []
+    found = list[Path]()
+    while True:  # parameters read parameters
+        lost, kept = set[str](), set[str]()
+        for path, names in read.items():
+            (lost if any(path[: len(entry)] == entry for entry in (*gone, *found)) else kept).update(names)
+        more = [("parameters", name) for name in sorted(lost - kept)]
+        more = [path for path in more if path in on_lines and path not in (*gone, *found)]
+        if not more:
+            return found
+        found += more
 
 
 def _spans_of_table(gone: Path, parts: DocumentOutline, text: str) -> list[tuple[int, int]]:

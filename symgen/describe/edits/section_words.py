@@ -62,4 +62,5 @@ def _kind_of_value(part: dict[str, Any]) -> str:
 
 def _first_sentence(text: str) -> str:
     """Return the first sentence of a text."""
-    return re.split(r"(?<=\.)\s", " ".join(text.partition("\n\n")[0].split()), maxsplit=1)[0]
+    words = " ".join(text.partition("\n\n")[0].split()).replace("`", "")
+    return re.split(r"(?<=\.)\s", words, maxsplit=1)[0]

@@ -243,7 +243,7 @@ def scene_data(scene: Scene, view: View) -> dict[str, Any]:
     def mark_data(m: Mark) -> list[Any]:
         look = looks.setdefault(m.look, len(looks))
         if isinstance(m, Line):
-            return ["L", look, m.body, int(m.closed), number_of_points(m.points)]
+            return ["L", look, m.body, int(m.closed), number_of_points(m.points), *([1] if m.guide else [])]
         if isinstance(m, DrawnCircle):
             return ["D", look, m.body, rounded_point(m.at), float(f"{m.radius:.6g}"), int(m.mass)]
         if isinstance(m, Tube):

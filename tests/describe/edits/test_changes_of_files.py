@@ -518,3 +518,20 @@ def test_words_have_sentences() -> None:
     for section in sections.values():
         tables = [section["keys"], *(kind["keys"] for kind in section.get("types", {}).values())]
         assert all(text for table in tables for key, text in table.items() if key != "type")
+
+
+def test_a_body_takes_its_own_parameters_along_and_the_last_one_the_title() -> None:
+    """Parameters that others read as well stay, and so do those that nothing read before."""
+    text = (
+        '[mechanism]\nname = "m"\ntitle = "two rods"\n\n[parameters]\nspare = 1.0\nboth = 2.0\nbase = 3.0\n'
+        'mine = { value = "2*base", unit = "kg" }  # of a\n\n'
+        '[bodies.a]\nmass = "mine"\ninertia = "both"\n\n[bodies.b]\nmass = 1.0\ninertia = "both"\n'
+    )
+    once = remove_from_text(text, "bodies.a", "x")
+    assert parse_toml(once, "x")["parameters"] == {"spare": 1.0, "both": 2.0} and 'title = "two rods"' in once
+    twice = parse_toml(remove_from_text(once, "bodies.b", "x"), "x")
+    assert twice["parameters"] == {"spare": 1.0} and twice["mechanism"] == {"name": "m"}
+
+
+def test_sentences_beside_completions_have_no_markup() -> None:
+    assert "`" not in str(words_of_sections())

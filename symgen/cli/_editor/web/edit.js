@@ -41,7 +41,8 @@ function display(next, kind, code = NOTHING) {
   rows = [];
   ranges = null;
   document.querySelector("header h1").textContent = data.title;
-  if (view.spatial === spatial && (!empty || tool !== "move")) for (const key of ["turn", "tilt", "scale", "at", "width", "height"]) view.camera[key] = camera[key];
+  if (view.spatial !== spatial) looked = false;
+  if (view.spatial === spatial && (!empty || looked || tool !== "move")) for (const key of ["turn", "tilt", "scale", "at", "width", "height"]) view.camera[key] = camera[key];
   else fitted();
   if (kind === "start") return begun();
   if (kind === "live") begin(code);
@@ -89,7 +90,7 @@ function begun() {
 }
 
 // Look at all of the motion; at its start alone while something is drawn, or where something flies away.
-const AWAY = 6, ROOM = 0.6; // times the size of the start; share of the picture that it takes while something is drawn
+const AWAY = 6, ROOM = 0.6, LOST = 40; // times the size of the start; share of the picture that it takes while something is drawn; times as small as that
 function fitted() {
   view.fit(motion.rows.slice(0, 1));
   const { scale, at } = view.camera;
@@ -102,16 +103,20 @@ function fitted() {
 }
 
 // Look again where the mechanism has left the picture, or has become small in it; while something is added, where a
-// point has left it, or room is asked for.
+// point has left it, all have become one, or room is asked for. What a hand chose to look at stays.
 function outgrown(room = false) {
+  if (looked) return;
   const within = ([x, y]) => x > 12 && y > 12 && x < view.camera.width - 12 && y < view.camera.height - 12;
   const seen = tool !== "move" && movable.every((h) => within(onPicture(h.x, h.y)));
-  if (seen && !room) return;
   const before = { ...view.camera, at: [...view.camera.at] };
   fitted();
-  const now = view.camera, ratio = before.scale / now.scale;
+  const now = view.camera, ratio = before.scale / now.scale, lost = ratio * LOST < 1; // after an undo of something huge
+  if (seen && !room && !lost) {
+    for (const key of ["scale", "at"]) view.camera[key] = before[key];
+    return;
+  }
   const aside = Math.hypot(...before.at.map((x, i) => x - now.at[i])) * before.scale;
-  const keep = (seen && ratio < 1.02) || (ratio < 1.02 && ratio > 0.5 && aside < 16 + 0.5 * (1 - ratio) * Math.min(now.width, now.height));
+  const keep = (seen && !lost && ratio < 1.02) || (ratio < 1.02 && ratio > 0.5 && aside < 16 + 0.5 * (1 - ratio) * Math.min(now.width, now.height));
   if (keep) for (const key of ["scale", "at"]) view.camera[key] = before[key];
 }
 
@@ -157,6 +162,8 @@ function checked(answer, text, own, began) {
     movable = [];
     checkedText = null;
     numbers = {};
+    insideOf({ joints: [], bounded: {}, freedoms: {} });
+    $("facts").textContent = ""; // of another text
     showErrors(answer.errors, answer.count);
     times.error = performance.now() - began;
     layHandles();

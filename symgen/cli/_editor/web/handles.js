@@ -42,8 +42,12 @@ const ICONS = {
 let movable = [], held = null, tool = "move", spots = [], pressed = null, numbers = {}, numberUnits = {};
 let checkedText = null; // the text that `movable` belongs to
 
-const layer = element("div"), bench = element("div");
+const layer = element("div"), bench = element("div"), asking = element("div");
 layer.id = "handles";
+asking.id = "which";
+asking.hidden = true;
+asking.setAttribute("role", "group");
+asking.setAttribute("aria-label", "Which point");
 bench.id = "tools";
 bench.setAttribute("role", "toolbar");
 bench.setAttribute("aria-label", "Tools");
@@ -67,7 +71,7 @@ where.title = where.getAttribute("aria-label");
 bench.append(snap, where);
 bench.setAttribute("aria-orientation", "vertical");
 $("stage").prepend(bench);
-$("picture").append(layer, pointer);
+$("picture").append(layer, pointer, asking);
 underlay();
 
 function choosing(name) {
@@ -77,8 +81,10 @@ function choosing(name) {
   for (const button of bench.querySelectorAll("[data-tool]")) button.setAttribute("aria-pressed", button.dataset.tool === name);
   $("picture").classList.toggle("adding", name !== "move");
   where.hidden = name === "move";
+  asking.hidden = true;
   if (name !== "move" && !view.spatial) {
-    if (movable.length) outgrown(true); // room for what is added, before the first point is taken
+    if (looked) wanted = true; // it stays
+    else if (movable.length) outgrown(true); // room for what is added, before the first point is taken
     else Object.assign(view.camera, { at: [0, 0, 0], scale: 0.48 * Math.min(view.camera.width, view.camera.height) }); // a metre
     wanted = true;
   }
@@ -222,12 +228,41 @@ function spotOf(handle) {
 
 // What is at a place of the picture: a ringed point, or a place of the grid.
 function spotAt(px, py) {
-  const near = movable.find((h) => Math.hypot(...onPicture(h.x, h.y).map((p, i) => p - [px, py][i])) < NEAR), step = handStep();
-  if (near) return spotOf(near);
+  const away = (h) => Math.hypot(...onPicture(h.x, h.y).map((p, i) => p - [px, py][i])), step = handStep();
+  const near = movable.filter((h) => away(h) < NEAR).sort((a, b) => away(a) - away(b)), [first] = near;
+  if (first) {
+    const rivals = near.filter((h) => apart(h, first) && away(h) < away(first) + CLOSER);
+    return rivals.length ? { ...spotOf(first), rivals: [first, ...rivals.slice(0, 5)].map(spotOf) } : spotOf(first);
+  }
   const place = onGround(...onPlane(px, py).map((x) => onLattice(x, step)));
   const part = ["stop", "friction"].includes(tool) ? partAt(px, py) : ""; // the joint itself, as it is drawn
   return part.startsWith("joints.") ? { ...place, joint: part.slice(7) } : place;
 }
+
+// Which of the points that lie under one click is meant; none where nobody says.
+const CLOSER = 5; // pixels by which one of two points is farther from a click, at least, where the nearer one is meant
+const apart = (a, b) => Math.hypot(a.x - b.x, a.y - b.y) > 1e-9 * (1 + Math.hypot(a.x, a.y));
+function whichOf({ rivals, ...spot }) {
+  if (!rivals) return spot;
+  asking.textContent = "Which point? ";
+  asking.hidden = false;
+  const [x, y] = onPicture(spot.x, spot.y);
+  asking.style.left = `${Math.max(0, Math.min(x + 12, view.camera.width - 200))}px`;
+  asking.style.top = `${Math.max(0, Math.min(y + 12, view.camera.height - 24 * (rivals.length + 2)))}px`;
+  say("several points lie there: say which one, or look nearer by the wheel");
+  return new Promise((answer) => {
+    for (const each of rivals) {
+      const button = element("button", `${each.name.split(".").slice(1).join(" ")}, x ${short(tidy(each.x))} m, y ${short(tidy(each.y))} m`);
+      button.addEventListener("click", () => {
+        asking.hidden = true;
+        answer(each);
+      });
+      asking.append(button);
+    }
+    asking.querySelector("button").focus();
+  });
+}
+asking.addEventListener("pointerdown", (e) => e.stopPropagation());
 
 // A place that is taken twice is a point of another body that lies there, or held by the ground.
 function otherThan(first, spot) {
@@ -250,7 +285,7 @@ async function takePoints(...taken) {
   const at = answer.text.indexOf(`[${answer.path.split(".").slice(0, 2).join(".")}]`);
   if (at >= 0) select(at + 1, answer.text.indexOf("]", at), false);
   if (answer.path.startsWith("bodies.")) selected = answer.path.split(".").slice(0, 2).join("."); // its dimensions are shown
-  say(`added ${answer.path}`);
+  say(`added ${["stop", "friction"].includes(given.part) ? `a ${given.part} to ` : ""}${answer.path}`.replace("a friction", "friction"));
 }
 
 // -- the mouse while something is added: a click takes a point, a drag takes two ---------------------------------------------
@@ -260,7 +295,8 @@ const inPicture = (e) => {
   return [e.clientX - box.left, e.clientY - box.top];
 };
 $("picture").addEventListener("pointerdown", (e) => {
-  if (tool === "move" || view.spatial || e.button) return;
+  if (tool === "move" || view.spatial || e.button || asking.contains(e.target)) return;
+  asking.hidden = true;
   e.stopPropagation();
   e.preventDefault();
   $("picture").setPointerCapture(e.pointerId);
@@ -286,15 +322,20 @@ for (const name of ["pointerup", "pointercancel"]) $("picture").addEventListener
   wanted = true;
   if (name === "pointercancel") return;
   const dragged = Math.hypot(at[0] - from[0], at[1] - from[1]) > NEAR && spots.length + 2 <= most;
-  takePoints(...(dragged ? [first, spotAt(...at)] : [first]));
+  takeAsked(dragged ? [first, spotAt(...at)] : [first]);
 });
+async function takeAsked(hit) {
+  const taken = [], own = tool, text = T.value;
+  for (const spot of hit) taken.push(await whichOf(spot));
+  if (tool === own && T.value === text) takePoints(...taken);
+}
 where.addEventListener("keydown", (e) => {
   if (e.key !== "Enter" || tool === "move") return;
   const polar = where.value.includes("<"), [a, b] = where.value.split(polar ? "<" : ",").map((x) => (x.trim() ? Number(x) : NaN)), last = spots.at(-1);
   if (!Number.isFinite(a) || !Number.isFinite(b)) return say("expected x, y in metres, such as 0.5, 1.2, or length < degrees, such as 0.5 < 30", true);
   if (polar && !last) return say("a length and an angle count from a point: take the first one by its x, y or by a click", true);
   const turn = (b * Math.PI) / 180, [x, y] = polar ? [last.x + a * Math.cos(turn), last.y + a * Math.sin(turn)] : [a, b];
-  const near = movable.find((h) => Math.hypot(h.x - x, h.y - y) * view.camera.scale < 2);
+  const away = (h) => Math.hypot(h.x - x, h.y - y), [near] = movable.filter((h) => away(h) * view.camera.scale < 2).sort((a, b) => away(a) - away(b));
   where.value = "";
   takePoints(near ? spotOf(near) : onGround(x, y));
 });

@@ -47,9 +47,16 @@ $("theme").addEventListener("click", () => {
 });
 preferred.addEventListener("change", retheme);
 
+// What a hand has chosen to look at stays until it asks for all.
+let looked = false;
 function refit() {
+  looked = false;
   view.fit(motion.rows);
   wanted = true;
+}
+function refitUnlooked() {
+  if (looked) wanted = true;
+  else refit();
 }
 
 function drag(canvas, move) {
@@ -80,6 +87,7 @@ drag($("timeline"), (e) => {
 drag($("plot"), (e) => go(plot.timeAt(e.clientX - $("plot").getBoundingClientRect().left, time)));
 drag($("view"), (e, dx, dy, pinch) => {
   const { camera } = view;
+  looked ||= Boolean(pinch || (!view.spatial && (dx || dy)));
   if (pinch) {
     camera.scale *= pinch; // each finger moves the middle by half its way
     view.pan((-0.5 * dx) / camera.scale, (0.5 * dy) / camera.scale);
@@ -93,6 +101,7 @@ drag($("view"), (e, dx, dy, pinch) => {
 });
 $("view").addEventListener("wheel", (e) => {
   e.preventDefault();
+  looked = true;
   view.camera.scale *= Math.exp(-0.0015 * e.deltaY);
   wanted = true;
 }, { passive: false });
@@ -118,14 +127,14 @@ function faster(by) {
 }
 
 window.addEventListener("resize", () => {
-  refit();
+  refitUnlooked();
   choose();
 });
 // A frame that was hidden when the page began gets its size without a word.
 let wasVisible = visible();
 new ResizeObserver(() => {
   if (visible() && !wasVisible) {
-    refit();
+    refitUnlooked();
     choose();
   }
   wasVisible = visible();

@@ -386,6 +386,7 @@ function makeScene(canvas, scene, solid = null) {
     for (let r = 0; r < rows.length; r += every) {
       place(rows[r]);
       for (const item of scene.items) for (const mark of item.marks) {
+        if (mark[0] === "L" && mark[5]) continue; // a rail is as long as the motion; what slides on it is there
         if (mark[0] === "L") for (let i = 0; i < mark[4].length; i += size) take(see(mark[2], mark[4], i));
         else if (mark[0] === "S") for (const face of mark[3]) for (let i = 0; i < face.length; i += 3) take(see(mark[2], face, i));
         else if (mark[0] === "D") take(see(mark[2], mark[3]), mark[4]);

@@ -29,7 +29,7 @@ $("solid").addEventListener("webglcontextlost", () => {
   $("solid").hidden = true;
   solid = null;
   view = makeScene($("view"), data.scene);
-  refit();
+  refitUnlooked();
 });
 let single = null; // the one curve of the group that is shown
 const plot = makePlot($("plot"), $("key"), (i) => {
