@@ -25,12 +25,13 @@ from symgen.describe.modal.modal_file import with_whole_paths
 
 #: Handles of a stressed mechanism and their neutral values.
 STIFFNESS, DAMPING, FREE_LENGTH = "stress_stiffness", "stress_damping", "stress_free_length"
-MASS, GRAVITY = "stress_mass", "stress_gravity"
+MASS, INERTIA, GRAVITY = "stress_mass", "stress_inertia", "stress_gravity"
 HANDLES: Mapping[str, tuple[float, str]] = {
     STIFFNESS: (0.0, "N/m"),
     DAMPING: (0.0, "N s/m"),
     FREE_LENGTH: (1.0, "m"),
     MASS: (1.0, "1"),
+    INERTIA: (1.0, "1"),
     GRAVITY: (1.0, "1"),
 }
 #: Nominal runs last this many of the mechanism's own steps.
@@ -220,11 +221,11 @@ class Base:
         own = self.middle in raw.get("bodies", {})
         heavy = raw["bodies"][self.middle] if own else raw["beams"][self.middle.rpartition(".")[0]]
         for key in ("mass", "inertia" if own else "rotary"):
-            value = heavy.get(key, 0.0)
+            value, factor = heavy.get(key, 0.0), MASS if key == "mass" else f"{MASS}*{INERTIA}"
             if isinstance(value, list):  # the inertia of a spatial body
-                heavy[key] = [f"({_formula_text(x)})*{MASS}" if x != 0.0 else 0.0 for x in value]
+                heavy[key] = [f"({_formula_text(x)})*{factor}" if x != 0.0 else 0.0 for x in value]
             elif value != 0.0:
-                heavy[key] = f"({_formula_text(value)})*{MASS}"
+                heavy[key] = f"({_formula_text(value)})*{factor}"
         dimensions = len(self.anchor)
         gravity = raw["mechanism"].get("gravity", [0.0] * dimensions)
         if any(component != 0.0 for component in gravity):

@@ -15,11 +15,9 @@ from symgen.derive.methods import METHODS
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.joints import JOINTS
 from symgen.describe.parts.scope import CENTRE, ORIGIN
-from symgen.study.stress.bench import DAMPING, GRAVITY, MASS, STIFFNESS, Base, Level, NotApplicable
+from symgen.study.stress.bench import DAMPING, GRAVITY, INERTIA, MASS, STIFFNESS, Base, Level, NotApplicable
 from symgen.study.stress.own_mechanisms import bodies, driver_rate, length_ratio, scale, singular_passage
 
-#: Parameter of the family that changes inertia alone.
-INERTIA = "stress_inertia"
 #: Unit in the last place of numbers from 1 to 2.
 EPSILON = 2.0**-52
 #: Stiffness beside light bodies, and those of the families of springs and dampers [N/m, N s/m].
@@ -90,16 +88,7 @@ def inertia_ratio(base: Base, factor: float) -> Level:
     inertia = base.raw.get("bodies", {}).get(base.middle, {}).get("inertia", 0.0)
     if inertia == 0.0 or len(base.mechanism.bodies) < 2:
         raise NotApplicable("its middle body has no inertia to change beside another body")
-    scaled = [f"({x})*{INERTIA}" if x != 0.0 else 0.0 for x in inertia] if isinstance(inertia, list) else None
-    change = {
-        "parameters": {INERTIA: {"value": 1.0, "unit": "1"}},
-        "bodies": {base.middle: {"inertia": f"({inertia})*{INERTIA}" if scaled is None else scaled}},
-    }
-    return base.build_level(
-        *(f"inertia x {factor:g}", factor),
-        mechanism=base.build(change, "inertia"),
-        parameters={INERTIA: factor},
-    )
+    return base.build_level(f"inertia x {factor:g}", factor, parameters={INERTIA: factor})
 
 
 def light_and_stiff(base: Base, factor: float) -> Level:
