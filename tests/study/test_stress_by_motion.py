@@ -8,7 +8,7 @@ from symgen.study.stress.bench import Base
 from symgen.study.stress.cell_outcome import ACCURATE, GOOD, CellRun, classify_outcome
 from symgen.study.stress.cell_references import reference_of_cell
 from symgen.study.stress.families import levels_of_family
-from symgen.study.stress.stress_rows import Limit
+from symgen.study.stress.stress_rows import LargestSteps
 from symgen.study.stress.study import stress
 
 
@@ -51,4 +51,4 @@ def test_the_largest_step_on_a_spring_is_that_of_the_polynomial():
 
 @pytest.mark.parametrize(("step", "word"), [(None, "none"), (1.0, ">= 1"), (0.25, "0.25")])
 def test_a_bound_is_marked(step, word):
-    assert Limit("m", "f", "c", "lagrange", "rk4", step, step, 1.0).words == (word, word)
+    assert LargestSteps("m", "f", "c", "lagrange", "rk4", step, step, 1.0).words == (word, word)

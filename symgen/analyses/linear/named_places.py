@@ -23,7 +23,7 @@ from symgen.analyses.rest.equilibria import (
     stability_in_motion,
     value_of_coordinate,
 )
-from symgen.analyses.rest.held_friction import rest_with_friction
+from symgen.analyses.rest.held_rows import rest_within_bounds
 from symgen.analyses.rest.pushed import sink_on
 from symgen.analyses.rest.settle import Settled, settle_position
 from symgen.analyses.rest.steady import at_rest, named_states
@@ -141,7 +141,7 @@ def subject_at(place: NamedPlace, by: Sequence[str] = ()) -> tuple[Subject, Arra
     """
     place = place_after_run(place)
     settings = replace(place.settings, coordinates="joint") if place.at == "steady" else place.settings
-    if place.at == "start" and (held := rest_with_friction(place.mechanism, settings, by)) is not None:
+    if place.at == "start" and (held := rest_within_bounds(place.mechanism, settings, by)) is not None:
         return held, held.y
     subject = make_subject(place.mechanism, settings, by)
     if place.at == "start":

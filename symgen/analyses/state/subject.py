@@ -81,7 +81,7 @@ class Subject(Yardsticks):
     stuck : tuple of Stuck
         Rows along those in force, of contacts that are at rest there.
     held : tuple of str
-        A sentence on friction that holds the state at rest, if it does.
+        A sentence on the rows with bounds that hold the state at rest, if any do.
     """
 
     mechanism: Mechanism

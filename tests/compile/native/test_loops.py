@@ -14,6 +14,7 @@ from symgen.base.errors import InputError
 from symgen.compile.native.language import ScalarOperation
 from symgen.compile.native.loops import read_loop
 from symgen.compile.native.types import float64
+from symgen.compile.store import function_source
 from symgen.compile.store import jit as store
 from symgen.compile.store.paths import ENVIRONMENT_VARIABLE
 from symgen.run.loops.event_loop import loop_with_events
@@ -108,11 +109,11 @@ def test_a_loop_whose_file_was_edited_since_it_was_loaded_is_refused(tmp_path, m
     text = file.read_text()
     assert area.tree() is not None
     file.write_text(text.replace("2.0", "3.0"))
-    store._read_lines.cache_clear()
+    function_source.lines_when_loaded.cache_clear()
     with pytest.raises(InputError, match=r"'edited_later\.area': .* got 'area', whose definition is not at"):
         area(1.0)
     file.write_text(text)
-    store._read_lines.cache_clear()
+    function_source.lines_when_loaded.cache_clear()
     assert area(1.0) == 2.0
 
 

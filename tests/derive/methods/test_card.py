@@ -123,7 +123,8 @@ def test_rates(method, own):
     for q, v in states(at):
         found = at.rates(q, v)[:2]
         given = {"h": H} if method == "braun-goldfarb" else own
-        agree(found, card(method)(system(), q, v, **given), 1e-10 if "hamil" in method else 1e-12)
+        # the rate of D is a difference on the page and in the code, whose rounding is divided by a step
+        agree(found, card(method)(system(), q, v, **given), 1e-8 if "hamil" in method else 1e-12)
 
 
 @pytest.mark.parametrize(

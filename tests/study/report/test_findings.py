@@ -3,6 +3,7 @@
 import pytest
 
 from study.report.made import row, study
+from symgen.base.errors import enumeration
 from symgen.study.report import words
 from symgen.study.report.comparison_findings import costs_of_methods, findings_of_rows, observed_order
 
@@ -115,5 +116,5 @@ def test_words():
     assert [words.chosen_number(x) for x in (0.001, 5e-5, 1e-8, 0.004)] == ["0.001", "5×10⁻⁵", "10⁻⁸", "0.004"]
     assert [words.seconds_in_words(x) for x in (2.0, 1.27e-3, 8.5e-5)] == ["2 s", "1.27 ms", "85 µs"]
     assert [words.percent_in_words(x) for x in (0.004, 0.05, 0.1, 5.8)] == ["0.4 %", "5.0 %", "10 %", "580 %"]
-    assert words.enumeration(["a", "b", "c"]) == "a, b and c" and words.enumeration([]) == ""
+    assert enumeration(["a", "b", "c"]) == "a, b and c" and enumeration([]) == ""
     assert words.readable_number("|Phi| > 1e-06 at 0.5 s") == "|Φ| > 10⁻⁶ at 0.5 s"

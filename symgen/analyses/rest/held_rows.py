@@ -1,4 +1,4 @@
-"""Starts that friction holds at rest: joints and teeth whose static bound is enough are rows, as in a run."""
+"""Starts that bounds hold at rest: joints and teeth whose static bound is enough are rows, as in a run."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ _ROUNDING = 1e-9
 _MARK = "~held"
 
 
-def rest_with_friction(mechanism: Mechanism, settings: Settings, by: Sequence[str]) -> Subject | None:
-    """Return a mechanism at a start that friction holds, its rows among the constraints.
+def rest_within_bounds(mechanism: Mechanism, settings: Settings, by: Sequence[str]) -> Subject | None:
+    """Return a mechanism at a start that rows with bounds hold, these among the constraints.
 
-    None where the start moves, rests without friction, is not held by all rows together, or where what they exert is
+    None where the start moves, rests without them, is not held by all rows together, or where what they exert is
     not known: beside stops and contacts, by the reaction of a pin, with bounds that differ in the two directions.
 
     Parameters
@@ -53,7 +53,9 @@ def rest_with_friction(mechanism: Mechanism, settings: Settings, by: Sequence[st
         return None
     formulas = [(f"place of {row.name}", row.place[1]) for row in rows]
     formulas += [(f"bound of {row.name}", row.numbers[0][1]) for row in rows]
-    side = compile_side(plain.mechanism, plain.compiled, "holds", "Coordinates with friction, and bounds", formulas)
+    side = compile_side(
+        plain.mechanism, plain.compiled, "holds", "Coordinates of rows with bounds, and the bounds", formulas
+    )
     numbers = side(plain.t, plain.y, plain.p, plain.w.copy(), np.zeros_like(plain.y))
     places, bounds = numbers[: len(rows)], numbers[len(rows) :]
     base = without_bounds(mechanism)
@@ -68,7 +70,7 @@ def rest_with_friction(mechanism: Mechanism, settings: Settings, by: Sequence[st
 
 def _holding_joint(row: BoundedRow, place: float) -> Joint:
     """Return the joint that holds the coordinate of a row."""
-    own = Holonomic("friction", row.measure, Number(place), row.unit)
+    own = Holonomic("held", row.measure, Number(place), row.unit)
     return Joint(f"{row.row.replace('.', '_')}{_MARK}", "rows", tied_bodies(own), (own,))
 
 
@@ -77,7 +79,7 @@ def _keeps_bounds(held: Subject, lam: Array, rows: Sequence[BoundedRow], bounds:
     forces = {row.name: abs(float(x)) for row, x in zip(held.compiled.info.rows, lam, strict=True)}
     for row, bound in zip(rows, bounds, strict=True):
         pressed = forces[row.pressed[0]] if row.pressed else 1.0
-        exerted = forces[f"{row.row.replace('.', '_')}{_MARK}.friction"]
+        exerted = forces[f"{row.row.replace('.', '_')}{_MARK}.held"]
         if exerted > float(bound) * pressed * (1.0 + _ROUNDING):
             return False
     return True
