@@ -50,6 +50,24 @@ class ModalRow(msgspec.Struct, frozen=True):
         return f"{self.name}{self.number or ''}"
 
 
+class HeldStretch(msgspec.Struct, frozen=True):
+    """How a body stretches between two interfaces that joints hold: by ``m . growth m`` [m].
+
+    Attributes
+    ----------
+    ends : tuple of str
+        Names of the interfaces, without the body's.
+    growth : tuple of Numbers
+        By coordinates of modes [1/m].
+    stiffness : float
+        Along the line between the two [N/m].
+    """
+
+    ends: tuple[str, str]
+    growth: tuple[Numbers, ...]
+    stiffness: float
+
+
 class Modal(msgspec.Struct, frozen=True):
     """The modes psi of a body about its centre of mass, which have neither momentum nor angular momentum.
 
@@ -76,6 +94,10 @@ class Modal(msgspec.Struct, frozen=True):
         For pictures.
     start : tuple of (str, Expr)
         Coordinates and velocities of modes that the file gives.
+    stretches : tuple of HeldStretch
+        Between pairs of interfaces.
+    softening : Numbers
+        Share of the stiffness that an acceleration less gravity takes away, by its components [s^2/m].
     """
 
     growth: tuple[Matrix, ...]
@@ -87,6 +109,8 @@ class Modal(msgspec.Struct, frozen=True):
     rows: tuple[ModalRow, ...] = ()
     outline: ModalOutline = ModalOutline()
     start: tuple[tuple[str, Expr], ...] = ()
+    stretches: tuple[HeldStretch, ...] = ()
+    softening: Numbers = ()
 
     @property
     def equations(self) -> tuple[object, ...]:

@@ -6,11 +6,14 @@ is the least translational stiffness of an interface with another held, L the di
 cantilever, whose floating frame turns with it, but 3.3 between two pins. Motions differ by up to twice that share after
 some periods. The third measure is for what flies: turning at a speed Omega adds some Omega^2 to the squares of a body's
 frequencies.
+
+Two measures see what passes through no interface, as shares of the stiffness: the thrust of a part that is held at both
+ends and bends, so that it stretches; and the weight of what stands on a part.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -18,7 +21,7 @@ from numpy.typing import NDArray
 
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import AnyBody, Mechanism
-from symgen.describe.modal_body import CarriedInterface, Modal
+from symgen.describe.modal_body import CarriedInterface, HeldStretch, Modal
 from symgen.result.part_limits import MotionOfBodies, PartLimit
 from symgen.result.points import rotation_matrices
 
@@ -29,6 +32,8 @@ Array = NDArray[np.float64]
 MOST_PUSHED, MOST_PUSHED_ON_PINS = 0.085, 0.04
 #: Largest turn of an interface [rad], and largest angular velocity over the lowest frequency of the free body.
 MOST_TURNED, MOST_SPUN = 0.1, 0.1
+#: Largest share of the stiffness that a stretch between held interfaces, or weight, may add or take away.
+MOST_SHARE = 0.02
 ADVICE = "linear modes leave out what that does to the stiffness: more bodies in a row, or [beams], have it"
 
 
@@ -81,6 +86,7 @@ def _limits_of_body(mechanism: Mechanism, body: AnyBody, modal: Modal) -> Iterat
 
         yield PartLimit(pushed, say_pushed)
         yield PartLimit(turned, say_turned)
+    yield from _limits_inside(mechanism, body, modal, moving)
     lowest = float(np.sqrt(min(modal.stiffness) / modal.mass))
 
     def spun(_: Mapping[str, float], motion: MotionOfBodies) -> Array:
@@ -92,6 +98,62 @@ def _limits_of_body(mechanism: Mechanism, body: AnyBody, modal: Modal) -> Iterat
         return f"{words}, where {MOST_SPUN:g} is the most: {ADVICE}"
 
     yield PartLimit(spun, say_spun)
+
+
+def _limits_inside(
+    mechanism: Mechanism, body: AnyBody, modal: Modal, moving: Callable[[MotionOfBodies], _Moving]
+) -> Iterator[PartLimit]:
+    """Yield the limits of what passes through no interface: stretches between held interfaces, and weight."""
+    holders = _holders(mechanism)
+    for stretch in modal.stretches:
+        first, second = (f"{body.name}.{end}" for end in stretch.ends)
+        if not holders.get(first, set()) & holders.get(second, set()):
+            continue
+
+        def stretched(_: Mapping[str, float], motion: MotionOfBodies, own: HeldStretch = stretch) -> Array:
+            m = moving(motion).m
+            energy = np.maximum(m * m @ np.array(modal.stiffness), np.finfo(float).tiny)
+            grown = np.einsum("ki,ij,kj->k", m, np.array(own.growth), m)
+            return np.asarray(2.0 * own.stiffness * grown**2 / energy / MOST_SHARE)
+
+        def say_stretched(factor: float, first: str = first, second: str = second) -> str:
+            words = f"{body.name} is held at {first} and {second}, and bends so far that the stretch between them adds"
+            return f"{words} {factor * MOST_SHARE:.2g} of its stiffness, where {MOST_SHARE:g} is the most: {ADVICE}"
+
+        yield PartLimit(stretched, say_stretched)
+
+    def weighed(parameters: Mapping[str, float], motion: MotionOfBodies) -> Array:
+        gravity = np.array([evaluate(e, parameters, "mechanism.gravity") for e in mechanism.gravity])
+        return np.asarray(np.abs(moving(motion).falling(gravity)) @ np.array(modal.softening) / MOST_SHARE)
+
+    def say_weighed(factor: float) -> str:
+        words = f"the weight of {body.name} changes its stiffness by {factor * MOST_SHARE:.2g} where it is softest"
+        return f"{words}, where {MOST_SHARE:g} is the most: {ADVICE}"
+
+    if any(modal.softening):
+        yield PartLimit(weighed, say_weighed)
+
+
+def _holders(mechanism: Mechanism) -> dict[str, set[str]]:
+    """Return the bodies that hold each interface in its place; bodies that joints make one piece are one."""
+    piece = {name: name for joint in mechanism.joints for name in joint.bodies}
+    holders = dict[str, set[str]]()
+    carried = {x.name for x in mechanism.bodies if x.carried is not None}
+    held = list[tuple[str, str]]()
+    for joint in mechanism.joints:
+        if len(joint.bodies) != 2 or sum(row.unit == "m" for row in joint.rows) < len(mechanism.gravity):
+            continue
+        one, other = joint.bodies
+        held += [(one, other), (other, one)]
+        if not carried & {one, other} and sum(row.unit == "rad" for row in joint.rows) == (
+            1 if len(mechanism.gravity) == 2 else 3
+        ):
+            kept, gone = piece[one], piece[other]
+            piece = {name: kept if root == gone else root for name, root in piece.items()}
+    for one, other in held:
+        if one in carried:
+            holders.setdefault(one, set()).add(piece[other])
+    return holders
 
 
 def _holds_turn(mechanism: Mechanism, body: str) -> bool:
@@ -144,10 +206,13 @@ class _Moving(NamedTuple):
             own_a[:, d + r :],
         )
 
+    def falling(self, gravity: Array) -> Array:
+        """Return the acceleration of the centre of mass less gravity, in body axes, shape (k, d)."""
+        return np.asarray((np.swapaxes(self.axes, 1, 2) @ (self.acceleration - gravity)[:, :, np.newaxis])[:, :, 0])
+
     def forces_on(self, carried: CarriedInterface, gravity: Array) -> Array:
         """Return the force on an interface in body axes, whatever exerts it, shape (k, d)."""
-        load = carried.load
-        falling = (np.swapaxes(self.axes, 1, 2) @ (self.acceleration - gravity)[:, :, np.newaxis])[:, :, 0]
+        load, falling = carried.load, self.falling(gravity)
         spread = np.einsum("abc,kbc->ka", np.array(load.spread), self._accelerations_of_rotation())
         elastic = self.m @ np.array(load.elastic).T + self.rates @ np.array(load.modal).T
         return np.asarray(elastic + falling @ np.array(load.shifted).T + spread)

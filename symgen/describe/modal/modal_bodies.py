@@ -185,6 +185,8 @@ class ModalBodies:
             inner=content.inner,
             rows=content.rows,
             outline=content.outline,
+            stretches=content.stretches,
+            softening=content.softening,
         )
         modal = msgspec.structs.replace(modal, start=_read_start(scope, section.start or {}, modal))
         nothing = (0.0,) * scope.dimension

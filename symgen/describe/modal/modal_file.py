@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.files import system_message
-from symgen.describe.modal_body import MOST_MODES, InterfaceLoad, Matrix, ModalOutline, ModalRow, Numbers
+from symgen.describe.modal_body import MOST_MODES, HeldStretch, InterfaceLoad, Matrix, ModalOutline, ModalRow, Numbers
 from symgen.describe.parts.bodies import is_modal
 
 #: End of the name, and version of the content.
@@ -41,8 +41,13 @@ _SHAPES: dict[str, tuple[str, ...]] = {
     **{"row_names": ("rows",), "row_units": ("rows",), "rows": ("rows", "k")},
     **{"points": ("points", "d"), "point_shapes": ("points", "k", "d"), "lines": ("lines", "two")},
 }
+#: The same of arrays that files of earlier releases do not have: those are read without.
+_LATER: dict[str, tuple[str, ...]] = {
+    **{"stretch_ends": ("stretches", "two"), "stretch_growth": ("stretches", "k", "k")},
+    **{"stretch_stiffness": ("stretches",), "softening": ("d",)},
+}
 _TEXTS = ("interfaces", "row_names", "row_units")
-_WHOLE = ("version", "inner", "lines")
+_WHOLE = ("version", "inner", "lines", "stretch_ends")
 
 
 class InterfaceFile(NamedTuple):
@@ -68,6 +73,8 @@ class ModalFile(NamedTuple):
     interfaces: dict[str, InterfaceFile]
     rows: tuple[ModalRow, ...]
     outline: ModalOutline
+    stretches: tuple[HeldStretch, ...]
+    softening: Numbers
 
     @property
     def dimension(self) -> int:
@@ -179,6 +186,9 @@ def _read(path: str, changed: int, size: int) -> ModalFile:
     missing = [name for name in _SHAPES if name not in arrays]
     if missing:
         raise _NotModal(f"without the array '{missing[0]}'")
+    centre = arrays.get("centre")
+    no_softening = (0.0,) * len(centre) if isinstance(centre, tuple) else ()
+    arrays = {**dict.fromkeys(_LATER, ()), "softening": no_softening, **arrays}
     _check_shapes(arrays)
     names = arrays["row_names"]
     rows = tuple(
@@ -200,6 +210,13 @@ def _read(path: str, changed: int, size: int) -> ModalFile:
         interfaces={name: InterfaceFile(*frame) for name, frame in zip(arrays["interfaces"], frames, strict=True)},
         rows=rows,
         outline=ModalOutline(arrays["points"], arrays["point_shapes"], arrays["lines"]),
+        stretches=tuple(
+            HeldStretch((arrays["interfaces"][i], arrays["interfaces"][j]), growth, stiffness)
+            for (i, j), growth, stiffness in zip(
+                *(arrays[name] for name in ("stretch_ends", "stretch_growth", "stretch_stiffness")), strict=True
+            )
+        ),
+        softening=arrays["softening"],
     )
 
 
@@ -209,7 +226,7 @@ def _check_shapes(arrays: dict[str, Any]) -> None:
     sizes["r"] = {2: 1, 3: 3}.get(sizes["d"], 0)
     if not sizes["r"]:
         raise _NotModal("that is neither of the plane nor of space")
-    for name, symbols in _SHAPES.items():
+    for name, symbols in (_SHAPES | _LATER).items():
         _check_size(name, arrays[name], symbols, sizes)
         if not _is_right(arrays[name], str if name in _TEXTS else int if name in _WHOLE else float):
             what = "a text" if name in _TEXTS else "a finite number"
@@ -218,6 +235,8 @@ def _check_shapes(arrays: dict[str, Any]) -> None:
         raise _NotModal(f"with {sizes['k']} modes, not 1 to {MOST_MODES}")
     if any(not 0 <= end < sizes["points"] for line in arrays["lines"] for end in line):
         raise _NotModal("whose outline has lines between points that it does not have")
+    if any(not 0 <= end < sizes["n"] for pair in arrays["stretch_ends"] for end in pair):
+        raise _NotModal("with stretches between interfaces that it does not have")
     if not arrays["mass"] > 0.0 or not all(k > 0.0 for k in arrays["stiffness"]):
         raise _NotModal("with a mass or a stiffness that is not above 0")
 

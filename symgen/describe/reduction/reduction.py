@@ -7,12 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
-from scipy.sparse.csgraph import dijkstra
 
 from symgen.base import arguments
 from symgen.base.arguments import kind_of_value
@@ -33,6 +30,8 @@ from symgen.describe.reduction.finite_elements import (
     refuse_massless,
 )
 from symgen.describe.reduction.integrals import bearings_of, integrals_of
+from symgen.describe.reduction.second_order import softening_of, stretches_of
+from symgen.describe.reduction.ways import middles_of, shortest_ways
 
 #: Points of an outline at most.
 MOST_POINTS = 400
@@ -158,6 +157,7 @@ def reduced(
     x = elements.x - centre
     modes = modes_of(elements, x, sets, count)
     integrals, bearings = integrals_of(elements, x, modes), bearings_of(elements, x, modes)
+    stretches = stretches_of(elements, x, modes, sets)
     shape, turn = _interface_motions(elements, x, modes.shapes, sets, modes.seats)
     names, units, values = _read_rows(rows, elements, modes.shapes, tuple(sets))
     points, ends = _outline(outline, elements, sets)
@@ -186,6 +186,10 @@ def reduced(
         "modal": np.array([b.modal for b in bearings]).reshape(n, d, k),
         "bearing_stiffness": np.array([b.stiffness for b in bearings]).reshape(n),
         "bearing_length": np.array([b.length for b in bearings]).reshape(n),
+        "stretch_ends": np.array([s.ends for s in stretches], dtype=np.int64).reshape(len(stretches), 2),
+        "stretch_growth": np.array([s.growth for s in stretches]).reshape(len(stretches), k, k),
+        "stretch_stiffness": np.array([s.stiffness for s in stretches]).reshape(len(stretches)),
+        "softening": softening_of(elements, x, modes, sets),
         "row_names": np.array(names, dtype=str) if names else empty(0, dtype="<U1"),
         "row_units": np.array(units, dtype=str) if names else empty(0, dtype="<U1"),
         "rows": values,
@@ -264,7 +268,12 @@ def _outline(
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return the nodes of the outline, and pairs of places in them that lines join."""
     x = elements.x
-    lines = _ways(elements, sets) if given is None else read_lines(given, len(x))
+    if given is None:
+        middles = middles_of(x, sets)
+        start = middles[0] if middles else int(np.argmax(np.linalg.norm(x - x.mean(axis=0), axis=1)))
+        lines = shortest_ways(elements, start, middles[1:])
+    else:
+        lines = read_lines(given, len(x))
     points = np.unique(np.concatenate([*lines, np.zeros(0, np.int64)]))
     if len(points) > MOST_POINTS:
         if given is not None:
@@ -277,24 +286,3 @@ def _outline(
     pairs = {tuple(sorted(pair)) for line in lines for pair in zip(line[:-1].tolist(), line[1:].tolist(), strict=True)}
     ends = np.searchsorted(points, np.array(sorted(pairs), dtype=np.int64).reshape(-1, 2))
     return points, ends.astype(np.int64)
-
-
-def _ways(elements: FiniteElements, sets: Mapping[str, NDArray[np.int64]]) -> list[NDArray[np.int64]]:
-    """Return the shortest ways along elements from the first interface to all others, or through the whole body."""
-    x, u = elements.x, elements.unknowns
-    coupled = abs(elements.stiffness[::u, ::u]).tocoo()
-    apart = coupled.row != coupled.col
-    row, col = coupled.row[apart], coupled.col[apart]
-    graph: Any = sparse.csr_array((np.linalg.norm(x[row] - x[col], axis=1), (row, col)), shape=(len(x), len(x)))
-    middles = [int(s[np.argmin(np.linalg.norm(x[s] - x[s].mean(axis=0), axis=1))]) for s in sets.values()]
-    start = middles[0] if middles else int(np.argmax(np.linalg.norm(x - x.mean(axis=0), axis=1)))
-    reach, before = (numbers[0] for numbers in dijkstra(graph, True, [start], True))
-    ends = middles[1:] or [int(np.argmax(np.where(np.isfinite(reach), reach, -1.0)))]
-    lines = list[NDArray[np.int64]]()
-    for end in ends:
-        line = [end]
-        while line[-1] != start and before[line[-1]] >= 0:
-            line.append(int(before[line[-1]]))
-        if len(line) > 1:
-            lines.append(np.array(line[::-1], dtype=np.int64))
-    return lines

@@ -210,6 +210,12 @@ def rewritten(folder, name, **changes):
         ({"mass": np.array(np.nan)}, "got 'x.npz' whose array 'mass' has an entry that is not a finite number"),
         ({"mass": np.array(-1.0)}, "got 'x.npz' with a mass or a stiffness that is not above 0"),
         ({"growth": np.zeros((1, 1, 1))}, "got 'x.npz' whose array 'growth' has a size that does not fit the others"),
+        ({"centre": np.array(0.0)}, "got 'x.npz' that is neither of the plane nor of space"),
+        ({"stretch_ends": np.array([[0, 9]])}, "got 'x.npz' with stretches between interfaces that it does not have"),
+        (
+            {"stretch_growth": None},
+            "got 'x.npz' whose array 'stretch_growth' has a size that does not fit the others",
+        ),
         ({"centre": np.zeros(4)}, "got 'x.npz' that is neither of the plane nor of space"),
         ({"lines": np.array([[0, 99]])}, "got 'x.npz' whose outline has lines between points that it does not have"),
     ],
@@ -289,3 +295,12 @@ def test_a_builder_and_a_picture_take_a_modal_body(folder, monkeypatch):
     assert model.simulate(until=0.01).status == "ok"
     model.draw().save(folder / "arm.svg")
     assert "<svg" in (folder / "arm.svg").read_text(encoding="utf-8")
+
+
+def test_a_file_of_an_earlier_release_is_read_without_what_it_lacks(folder):
+    later = ("stretch_ends", "stretch_growth", "stretch_stiffness", "softening")
+    name = rewritten(folder, "earlier.npz", **dict.fromkeys(later))
+    own = load(folder).mechanism.body("arm").modal
+    read = machine(folder, ARM.format(keys="", more="").replace("arm.npz", name), gravity="[0.0, -9.81]").mechanism
+    assert [s.ends for s in own.stretches] == [("root", "tip")] and read.body("arm").modal.stretches == ()
+    assert read.body("arm").modal.equations == own.equations
