@@ -72,6 +72,7 @@ def strip_by_closed_form(thick, force, joint):
 SHARES = (0.04, 0.09, 0.15, 0.22, 0.3, 0.8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("thick", [0.005, 0.002])
 @pytest.mark.parametrize("joint", ["rigid", "revolute"])
 def test_a_strip_held_at_both_ends_stretches(thick, joint, tmp_path):
