@@ -73,8 +73,8 @@ def stretches_of(
 def softening_of(elements: FiniteElements, x: Array, modes: ModeBasis, sets: Mapping[str, NDArray[np.int64]]) -> Array:
     """Return the largest share of the stiffness that accelerations take away or add, all interfaces held.
 
-    The shapes are those of weight along each axis; the share is that of a body with two interfaces at least, as one
-    with a single interface has a frame that turns along.
+    The shapes are what weight along each axis bends the body to. A body with one interface has none of it, as its frame
+    turns along, and the force on the interface is judged.
 
     Returns
     -------
