@@ -54,7 +54,7 @@ def test_numba_calls_a_part_that_it_has_compiled_once_and_gives_the_numbers_of_t
     by_own, by_numba, plain = values(), values(), values()
     own = RuntimeFunction(total)(Pair(by_own, 1.5), 0.25)
     callers = [RuntimeFunction(caller) for caller in (total, first)]
-    found = [numba_route.called(caller, Pair(by_numba, 1.5), 0.25) for caller in callers]
+    found = [numba_route.call_by_numba(caller, Pair(by_numba, 1.5), 0.25) for caller in callers]
     assert own == pytest.approx(found[0], rel=1e-14) == 1.5 * plain.sum() + 0.75
     np.testing.assert_allclose(by_numba, 1.5 * np.cumsum(plain) + 0.25 * np.arange(1, 4), rtol=1e-14)
     np.testing.assert_allclose(by_own, by_numba, rtol=1e-14)
