@@ -170,8 +170,10 @@ def read_csv_table(where: str, path: Path) -> CsvTable:
         else:
             separator = _separator_of(lines[0][1] if lines else "")
         cells = list(csv.reader((line for _, line in lines), delimiter=separator, strict=False))
-    except (UnicodeDecodeError, csv.Error):
+    except UnicodeDecodeError:
         raise InputError(where, "a CSV file in UTF-8", "something else") from None
+    except csv.Error:
+        raise InputError(where, f"cells of at most {csv.field_size_limit()} characters", "a longer one") from None
     if len(cells) != len(lines):
         raise InputError(where, "a CSV file with a row on each line", "a cell with several lines")
     headings = [split_heading(cell) for cell in cells[0]] if cells else []

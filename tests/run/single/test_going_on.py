@@ -136,8 +136,8 @@ def test_files_of_runs_that_were_not_changed_and_others(tmp_path, capsys):
     for name, told in {
         "changed.nc": "in which it was changed",
         "text.nc": "cannot be read as one",
-        "text.csv": "cannot be read as one",
-        "long.csv": "cannot be read as one",
+        "text.csv": "expected a column 't' or 'time', got the columns 'a', 'b'",
+        "long.csv": "expected cells of at most 131072 characters, got a longer one",
         "none.nc": "which is none",
         "first.txt": "a file ending in .nc, .parquet, .csv",
     }.items():
