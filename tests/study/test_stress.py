@@ -346,7 +346,7 @@ def test_the_error_of_a_penalty_falls_with_its_factor():
     study = stress(["four-bar"], ["penalty-factor"], ["penalty"])
     error = {row.values[0]: row.error for row in study.rows if row.integrator == "dop853"}
     assert error[1e6] / error[1e4] == pytest.approx(1e-2, rel=0.5)
-    assert 0.005 < error[1e8] / error[1e6] < 0.03  # the tolerance of the integrator shows already
+    assert 0.005 < error[1e8] / error[1e6] < 0.06  # the tolerance of the integrator shows already
     assert error[1e12] > 10.0 * error[1e8]  # rounding has taken over
     for row in study.rows:  # of the longest link
         assert row.error is None or row.relative_error == pytest.approx(row.error / 4.0)
