@@ -104,7 +104,7 @@ def assert_same_run(model, program, until, step, coordinates="absolute", most=1e
     )
     assert result.ok
     own = np.array([result[name] for name in (*result.q.names, *result.v.names)]).T
-    assert np.abs(own - rows[:, 1:]).max() < most
+    assert np.abs(own - rows[:, 1 : own.shape[1] + 1]).max() < most
     expected = transitions_of(result)
     assert [word for _, word in transitions] == [word for _, word in expected]
     np.testing.assert_allclose([t for t, _ in transitions], [t for t, _ in expected], rtol=0, atol=most)

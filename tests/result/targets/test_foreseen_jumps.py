@@ -163,7 +163,7 @@ def test_programs_end_where_runs_with_their_parameters_do(pushed, keys, tmp_path
         )  # fmt: skip
         assert own.ok
         state = np.array([own[name][-1] for name in (*own.q.names, *own.v.names)])
-        np.testing.assert_allclose(rows[-1, 1:], state, rtol=0, atol=1e-9)
+        np.testing.assert_allclose(rows[-1, 1 : len(state) + 1], state, rtol=0, atol=1e-9)
         expected = transitions_of(own)
         assert [word for _, word in transitions] == [word for _, word in expected]
         np.testing.assert_allclose([t for t, _ in transitions], [t for t, _ in expected], rtol=0, atol=1e-9)

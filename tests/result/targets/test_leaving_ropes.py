@@ -42,7 +42,7 @@ def test_c_has_the_states_of_runs(coordinates, tmp_path):
     own = np.array([result[name] for name in (*result.q.names, *result.v.names)]).T
     away = away_from_events(result, rows[:, 0])
     assert result.ok and [event.name for event in result.events] == NAMES and np.sum(away) > 500
-    np.testing.assert_allclose(rows[away, 1:], own[away], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(rows[away, 1 : own.shape[1] + 1], own[away], rtol=0, atol=1e-12)
 
 
 @pytest.mark.slow

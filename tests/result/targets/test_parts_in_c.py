@@ -49,4 +49,4 @@ def test_c_has_the_states_of_runs(machine, tmp_path) -> None:
     own = np.array([result[name] for name in (*result.q.names, *result.v.names)]).T
     away = away_from_events(result, rows[:, 0]) if result.events else np.ones(len(rows), dtype=bool)
     assert result.ok and np.sum(away) > 400
-    np.testing.assert_allclose(rows[away, 1:], own[away], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(rows[away, 1 : own.shape[1] + 1], own[away], rtol=0, atol=1e-12)

@@ -47,7 +47,7 @@ def test_printed_runs_with_the_same_steps(name: str, tmp_path: Path) -> None:
     rows, transitions = rows_of(program_of(model, tmp_path / "c"), until, step)
     run = model.simulate(method="direct-correction", integrator="rk4", step=step, until=until, times=rows[:, 0])
     own = np.array([run[each] for each in (*run.q.names, *run.v.names)]).T
-    error = np.abs(own - rows[:, 1:]) / np.maximum(1.0, np.abs(own).max(axis=0))
+    error = np.abs(own - rows[:, 1 : own.shape[1] + 1]) / np.maximum(1.0, np.abs(own).max(axis=0))
     assert run.ok and error.max() < most
     expected = [(event.t, event.name) for event in run.events][:count]
     assert [word for _, word in transitions[: len(expected)]] == [word for _, word in expected]
@@ -103,6 +103,6 @@ def test_a_block_that_rocks_to_rest_in_c_is_off_by_less_than_by_a_rounding_of_gr
         return np.array([run[name] for name in (*run.q.names, *run.v.names)]).T
 
     own = states_of(9.81)
-    off = np.abs(rows[:, 1:] - own)
+    off = np.abs(rows[:, 1 : own.shape[1] + 1] - own)
     moved = [np.abs(states_of(9.81 + k * float(np.spacing(9.81))) - own).max() for k in (-2, -1, 1, 2)]
     assert off.max() < 4.0 * max(moved) < 1e-9 and off[-1].max() < 1e-12

@@ -24,7 +24,7 @@ def test_a_program_in_c_ends_where_the_run_does(lever, tmp_path):
     result = lever.simulate(until=0.05, **OWN)
     end = np.concatenate([result.q.values[-1], result.v.values[-1]])
     assert "lever.m7" in names and "lever.vm7" in names
-    np.testing.assert_allclose(rows[-1, 1:], end, rtol=1e-10, atol=1e-12)
+    np.testing.assert_allclose(rows[-1, 1 : len(end) + 1], end, rtol=1e-10, atol=1e-12)
 
 
 @pytest.mark.by_turns(2)
