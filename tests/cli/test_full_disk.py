@@ -59,6 +59,7 @@ def full(folder, command, option, name, limit):
     return found.returncode, found.stdout, found.stderr.partition("=====\n")[2]
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.parametrize(
     ("command", "option", "name", "limit"),
     [pytest.param(*case, id=name, marks=pytest.mark.slow if name in LONGER else ()) for name, case in CASES.items()],

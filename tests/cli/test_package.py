@@ -166,6 +166,7 @@ def test_a_package_runs_the_scheme_of_its_method(method, name, tmp_path):
     assert max(abs(found[key] - expected[key]) for key in expected) < 1e-12 * max(1.0, scale)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_numba_compiles_the_step_of_a_scheme(alone, tmp_path):
     symgen.load("pendulum").generate(tmp_path / "emitted", "rattle")

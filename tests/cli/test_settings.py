@@ -204,6 +204,7 @@ def test_cases_of_stress_studies_have_the_largest_step(monkeypatch):
     assert seen and all(cell.task.level.mechanism.defaults.max_step == 0.01 for cell in seen)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_steps_are_bounded_in_stress_studies():
     found = stress_study(["pendulum"], ["gravity"], ["lagrange"], quick=True, max_attempts=5.0)

@@ -63,6 +63,7 @@ def differences(module: str, words: tuple[str, ...]) -> dict[str, dict[str, floa
     return found
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("mechanism", MECHANISMS)
 def test_every_function_of_every_method_agrees(mechanism):
@@ -133,6 +134,7 @@ def test_compiled_runs_agree(weight):
     assert looped.position_violation_max < 1e-12
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.parametrize(
     ("mechanism", "method", "settings"),
     [

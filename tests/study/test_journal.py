@@ -53,6 +53,7 @@ def wait_for(condition, seconds=600.0):
         time.sleep(0.01)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("processes", [1, 2])
 def test_killed_in_the_middle_and_resumed(tmp_path, processes):

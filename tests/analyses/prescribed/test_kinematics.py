@@ -284,6 +284,7 @@ def test_a_slider_drives_a_crank_over_both_dead_centres():
         assert np.abs(np.array([p.t for p in found.passages]) - ends).max() < 1e-9
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_random_linkages_go_as_far_as_circles_meet():
     random, tried = np.random.default_rng(5), 0

@@ -187,6 +187,7 @@ def test_schemes(method):
     agree([q, v], [by_run(method)])
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["discrete-gradient", "ggl", "symmetric-projection"])
 def test_schemes_that_iterate(method):

@@ -60,6 +60,7 @@ def test_a_disc_whose_derivatives_are_known(until: float, known: dict[str, float
         assert slopes[name] == pytest.approx(slope, rel=1e-6)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_slider_with_play(tmp_path: Path) -> None:
     slopes_of(LIGHT, 0.0025, "crank.theta", {"mu": 0.05}, tmp_path)
@@ -73,6 +74,7 @@ def test_rods_that_hit_the_floor(tmp_path: Path) -> None:
     slopes_of(text, 0.3, "two.theta", {"mu": 0.2}, tmp_path)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_contacts_that_slip_between_impacts_that_accumulate(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Two discs meet on a floor; what is left out follows from earlier impacts, which the way back comes to later.

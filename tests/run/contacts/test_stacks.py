@@ -48,6 +48,7 @@ def test_boxes_on_each_other_rest(count: int, tmp_path: Path) -> None:
     assert np.max(np.abs(result[f"b{count - 1}.x"] - places[-1])) < 1e-13
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("count", [3, 5, 10])
 def test_boxes_that_fall_onto_each_other_come_to_rest(count: int, tmp_path: Path) -> None:
@@ -86,6 +87,7 @@ def test_a_plank_on_five_feet_rests_and_slides(tmp_path: Path) -> None:
     assert sum(result[f"c{i}.force"][-1] for i in range(5)) == pytest.approx(G, rel=1e-10)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_stack_in_c_is_that_of_a_run(tmp_path: Path) -> None:
     model = loaded(stack(np.array([0.0, 0.01, -0.01]), drop=0.001), tmp_path)

@@ -53,6 +53,7 @@ def test_the_disc_slips_first_where_its_friction_is_less(tmp_path: Path) -> None
         assert np.abs(run["sledge.x"]).max() < 1e-12
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_c_holds_as_a_run_does(tmp_path: Path) -> None:
     model = loaded(sledge(-4.0), tmp_path)

@@ -199,6 +199,7 @@ PAIRS = of_turn(
 )
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize(("method", "integrator"), PAIRS)
 def test_every_method(method, integrator):

@@ -37,6 +37,7 @@ def test_no_motion_of_few_rows_is_missed() -> None:
     assert none + several > 0
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_no_motion_of_two_thousand_problems_is_missed() -> None:
     none, several = compare(2000, FEW, 17)

@@ -53,6 +53,7 @@ def test_a_driver_that_runs_into_a_stop_is_named_with_it(
     assert run.reason.endswith("that joints and the driver motor determine")
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.slow
 def test_a_row_of_a_sweep_names_it_too() -> None:
     model, settings = ram("speed*t"), {"until": 2.0, "integrator": "rk4", "step": 1e-3, "coordinates": "joint"}
