@@ -63,7 +63,6 @@ def differences(module: str, words: tuple[str, ...]) -> dict[str, dict[str, floa
     return found
 
 
-@pytest.mark.by_turns(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("mechanism", MECHANISMS)
 def test_every_function_of_every_method_agrees(mechanism):
