@@ -88,7 +88,7 @@ _HOOK = (
 _ROPE = '[stops.rope]\ngap = "1.0 - sqrt(pole.tip.x**2 + (pole.tip.y + 0.1)**2)"'
 _RAMP = '[stops.ramp]\ngap = "cart.x - 0.1 + 0.02*max(0.0, 0.3 - pole.tip.x)"'
 #: A bar whose file stands beside the mechanism's.
-_MODAL = """[bodies.bar]
+MODAL_BAR = """[bodies.bar]
 type = "modal"
 file = "bar.npz"
 damping = 1e-3
@@ -249,7 +249,7 @@ over = [{ at = [0.2, 0.0, 0.5] }, { at = [0.4, 0.0, 0.6], radius = 0.1, turn = "
         f"[forces.blade]\n{_BLADE}\naxial = 1e4\nbending = 10.0"
     ),
     "beam": cart(more=f'[beams.bar]\n{_BEAM}\nclamp = "ground"'),
-    "modal body": cart(more=_MODAL),
+    "modal body": cart(more=MODAL_BAR),
 }
 
 #: Takes a file and a folder; returns "" where it is done, and else the sentence.

@@ -22,7 +22,7 @@ from pathlib import Path
 import symgen
 import symgen.gym
 from benchmarks.finite_elements import solid
-from benchmarks.meeting import cart
+from benchmarks.meeting import MODAL_BAR, cart
 from symgen.base.errors import InputError, SymgenError
 from symgen.cli import main
 from symgen.result.part_limits import UNJUDGED
@@ -54,16 +54,7 @@ body = "strip"
 at = "end"
 force = [0.0, -12.0]
 """
-_BAR = """[bodies.bar]
-type = "modal"
-file = "bar.npz"
-damping = 1e-3
-position = [0.1, 0.0]
-[joints.clamp]
-type = "rigid"
-between = ["cart", "bar.root"]
-at = ["centre", [0.0, 0.0]]
-[forces.bend]
+_BAR = f"""{MODAL_BAR}[forces.bend]
 type = "force"
 body = "bar.tip"
 at = [0.0, 0.0]

@@ -224,6 +224,7 @@ class Model(Analysed, Shown):
         if held is None or isinstance(held, Mapping):
             settings = Settings(start=held or {}).start
             held = read_holds(self.mechanism, "start", settings)  # type: ignore[assignment]  # of names, by index later
+        # the checker does not follow that names became indices in `held`
         return start_in_bodies(self.mechanism, compiled, parameters, method_parameters, strict, held, ask_light)  # type: ignore[arg-type]
 
     def __repr__(self) -> str:

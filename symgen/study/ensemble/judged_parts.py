@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Numbers that each row leaves, behind all others: the limit that it exceeds most, and by which factor.
+#: Last numbers that each row leaves: the limit that it exceeds most, and by which factor.
 WIDTH = 2
 
 
