@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from symgen.analyses.fit.neighbours import notes_on_neighbours
 from symgen.analyses.search.free_numbers import FreeNumbers
 from symgen.analyses.search.measured_data import MeasuredData, Residuals, measured_columns
-from symgen.analyses.search.measures import NoMotion, Remembering
 from symgen.analyses.search.ranges import Bounds, make_ranges, read_bounds
+from symgen.analyses.search.sampled_motions import NoMotion, Remembering
 from symgen.analyses.search.squares import LeastSquares, determine, least_squares_within, null_directions
 from symgen.base.errors import AnalysisError, InputError, plural, quote, suggest
 from symgen.describe.facts.lifted import lift_numbers, literal_points_in_words

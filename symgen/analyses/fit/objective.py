@@ -17,8 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from symgen.analyses.fit.adjoint_gradient import adjoint_gradient, is_cheaper
 from symgen.analyses.search.free_numbers import FreeNumbers
-from symgen.analyses.search.measures import Remembering
 from symgen.analyses.search.ranges import Bounds, make_ranges, read_bounds
+from symgen.analyses.search.sampled_motions import Remembering
 from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError
 from symgen.describe.facts.lifted import lift_numbers

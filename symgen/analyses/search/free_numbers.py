@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.search.measures import NoMotion
+from symgen.analyses.search.sampled_motions import NoMotion
 from symgen.base.errors import InputError, SymgenError
 from symgen.base.settings import Settings, differs_from_default
 from symgen.describe.formulas.evaluate import parameter_values

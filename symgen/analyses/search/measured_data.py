@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.search.measures import Reached, Sampled, Taken
+from symgen.analyses.search.sampled_motions import Reached, Sampled, Taken
 from symgen.base.csv_tables import numbers_in_unit, split_heading
 from symgen.base.errors import InputError, plural, quote
 from symgen.result.saved import Recorded, read_recorded

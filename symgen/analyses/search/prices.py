@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.search.measured_data import ColumnAim
-from symgen.analyses.search.measures import Aim, Limit, Sampled, local_minima
+from symgen.analyses.search.sampled_motions import Aim, Limit, Sampled, local_minima
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.search.measures import Aim, Limit, Sampled
+from symgen.analyses.search.sampled_motions import Aim, Limit, Sampled
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

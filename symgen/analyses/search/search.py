@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.search.measured_data import ColumnAim
-from symgen.analyses.search.measures import Aim, Limit, Motions, NoMotion, Remembering, Sampled, local_minima
 from symgen.analyses.search.programme import ALLOWED, Programme
 from symgen.analyses.search.ranges import Ranges
+from symgen.analyses.search.sampled_motions import Aim, Limit, Motions, NoMotion, Remembering, Sampled, local_minima
 from symgen.analyses.search.squares import least_squares_within
 
 Array = NDArray[np.float64]

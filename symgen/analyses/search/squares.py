@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.search.measures import Remembering
+from symgen.analyses.search.sampled_motions import Remembering
 from symgen.base.errors import enumeration
 from symgen.result.unmoved import unmoved_sentence
 

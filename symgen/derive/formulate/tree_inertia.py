@@ -37,7 +37,7 @@ class BodyVelocity:
 
 
 @dataclass
-class Placed:
+class PlacedBody:
     """The place and motion of a body as nodes; vectors in body axes unless stated otherwise.
 
     Attributes
@@ -98,7 +98,7 @@ class Inertia:
     second: Matrix
 
 
-def is_welded(p: Placed) -> bool:
+def is_welded(p: PlacedBody) -> bool:
     """Whether a body is rigidly attached to its parent."""
     return not p.motions and not p.own and p.link.parent != GROUND
 
@@ -110,7 +110,7 @@ class Composite:
     ----------
     model : ModelNodes
         The mechanism.
-    placed : mapping of str to Placed
+    placed : mapping of str to PlacedBody
         Its bodies and the ground, each after its parent.
     forces : list of int
         Over the velocities of bodies, then over those of the state; without gravity and inertia.
@@ -118,7 +118,9 @@ class Composite:
         Whether all bodies have mass 1 and inertia 1 in all directions: M is then the metric of their velocities.
     """
 
-    def __init__(self, model: ModelNodes, placed: Mapping[str, Placed], forces: list[int], alike: bool = False) -> None:
+    def __init__(
+        self, model: ModelNodes, placed: Mapping[str, PlacedBody], forces: list[int], alike: bool = False
+    ) -> None:
         self.model, self.placed, self.forces, self.alike = model, placed, forces, alike
         self.v = Vectors(model.graph)
         self.order = [name for name in placed if name != GROUND]
@@ -196,7 +198,7 @@ class Composite:
         v = self.v
         return Inertia(self.model.graph.add(a.mass, b.mass), v.add(a.first, b.first), v.matrix_sum(a.second, b.second))
 
-    def _inertia_at_parent(self, c: Placed, own: Inertia) -> Inertia:
+    def _inertia_at_parent(self, c: PlacedBody, own: Inertia) -> Inertia:
         """Return an inertia about the parent's point, in the parent's axes."""
         v = self.v
         shift = v.scale(own.mass, c.arm)

@@ -24,7 +24,7 @@ from symgen.derive.formulate.euler_parameters import (
 )
 from symgen.derive.formulate.joint_tree import Tree
 from symgen.derive.formulate.of_time import power_of_drivers
-from symgen.derive.formulate.tree_inertia import BodyVelocity, Composite, Placed
+from symgen.derive.formulate.tree_inertia import BodyVelocity, Composite, PlacedBody
 from symgen.derive.formulate.vector_algebra import Matrix, Triple, Vectors
 from symgen.describe.mechanism import SpatialBody, Vec
 from symgen.describe.parts.topology import labels_of_link
@@ -47,7 +47,7 @@ class SpatialTree(Tree):
         g, v = self.graph, self.v
         still = v.zero
         self.placed = {
-            GROUND: Placed(
+            GROUND: PlacedBody(
                 *(Link(GROUND), v.units, still, True, v.units, still, still, still, still, v.neg(self.gravity)),
                 *((still, still, still), {}, {}, still, (g.one, g.zero, g.zero, g.zero)),
             )
@@ -144,7 +144,7 @@ class SpatialTree(Tree):
             columns[i] = turned, v.times_transposed(turn, v.add(along, v.cross(about, arm)))
         columns |= {i: (m.about, m.along) for i, m in motions.items()}
         com, at = (v.triple([model.expression(e) for e in point]) for point in (body.centre_of_mass, reference))
-        self.placed[link.body] = Placed(
+        self.placed[link.body] = PlacedBody(
             link,
             turn,
             arm,
@@ -281,7 +281,7 @@ class SpatialTree(Tree):
             v.neg(v.scale(product, in_a[1])),
         )
 
-    def _name_coordinates(self, name: str, is_point: bool, p: Placed) -> None:
+    def _name_coordinates(self, name: str, is_point: bool, p: PlacedBody) -> None:
         """Store the coordinates and velocities of a body by their names."""
         v = self.v
         place = v.add(p.at, v.matrix_times(p.axes, p.centre))

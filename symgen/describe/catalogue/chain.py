@@ -12,7 +12,7 @@ from symgen.describe.catalogue import Sized
 BEND = 0.3
 
 
-def build(size: int) -> dict[str, Any]:
+def chain_table(size: int) -> dict[str, Any]:
     """Return the description with `size` rods.
 
     Square rods of 1 m, 1 kg and 0.1 m, x of each frame along the rod. The first hangs on a ball joint, so that the
@@ -72,4 +72,4 @@ def _half_turn(axis: int) -> EulerParameters:
     return (c, 0.0, s, 0.0) if axis == 1 else (c, 0.0, 0.0, s)
 
 
-KIND = Sized(build, default=4, largest=1000)
+KIND = Sized(chain_table, default=4, largest=1000)

@@ -8,7 +8,7 @@ from typing import Any
 from symgen.describe.catalogue import Sized
 
 
-def build(size: int) -> dict[str, Any]:
+def four_bars_table(size: int) -> dict[str, Any]:
     """Return the description with `size` windows: size + 1 links on the ground, size couplers on top.
 
     All links are uniform rods, 1 m and 1 kg. The frame of a vertical link has its x axis along the link, upwards at the
@@ -48,4 +48,4 @@ def build(size: int) -> dict[str, Any]:
     }
 
 
-KIND = Sized(build, default=2, largest=5000)
+KIND = Sized(four_bars_table, default=2, largest=5000)

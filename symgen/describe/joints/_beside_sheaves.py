@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from symgen.base.vocabulary.expressions import Expr, Number, names_in_expression
+from symgen.describe.formulas.formula_numbers import Symbols, formula_of
 from symgen.describe.formulas.start import Numbers
-from symgen.describe.formulas.symbols import Symbols, formula_of
 from symgen.describe.joints._stops_of_rope import Placed, across, between, placed_stop, product_of_vectors, seen_sign
 from symgen.describe.parts.scope import Scope
 

@@ -1,6 +1,6 @@
 """Stops on the way of a rope: ends, eyelets and sheaves, with their places as the bodies are described to start.
 
-Places are numbers of one start, or formulas of parameters (`symgen.describe.formulas.symbols`).
+Places are numbers of one start, or formulas of parameters (`symgen.describe.formulas.formula_numbers`).
 """
 
 from __future__ import annotations

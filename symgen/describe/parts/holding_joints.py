@@ -28,8 +28,8 @@ from symgen.base.vocabulary.expressions import (
 from symgen.base.vocabulary.measures import GROUND, Angle, Holonomic
 from symgen.describe.coordinate_names import is_speed
 from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.formula_numbers import Symbols, formula_of
 from symgen.describe.formulas.start import described_start
-from symgen.describe.formulas.symbols import Symbols, formula_of
 from symgen.describe.mechanism import Hold, Holding, Joint, Mechanism, ModeEvent, Output, StateVariable
 from symgen.describe.parts.driven_mechanism import replace_names
 from symgen.describe.parts.event_sections import RESET

@@ -13,7 +13,13 @@ from symgen.run.layout import abi
 from symgen.run.layout.ensemble_abi import Prepare
 from symgen.run.layout.scales import fill_jacobian
 from symgen.run.layout.start_records import Layout
-from symgen.run.printed.partition import eliminate, fill_position_rows, row_counts, solve_dependent, velocity_rows
+from symgen.run.printed.partition import (
+    eliminate_columns,
+    fill_position_rows,
+    row_counts,
+    solve_dependent,
+    velocity_rows,
+)
 from symgen.run.printed.partition_tables import Partition, PartitionTables
 
 #: Layout and tables; ``prepare`` of the model and of the law, ``masses``, ``geometry``, ``rhs`` and its confirmation,
@@ -39,7 +45,7 @@ def direct_positions(
         right[i] = 0.0
         for k in range(4):
             right[i] -= y[e + k] * y[ny + e + k]
-    if eliminate(part, rows, nq, rank, part.left_q, nq - rank) == 0.0:
+    if eliminate_columns(part, rows, nq, rank, part.left_q, nq - rank) == 0.0:
         return False
     solve_dependent(part, nq, rank)
     for j in range(nq):
@@ -65,7 +71,7 @@ def direct_velocities(
         row, slot = layout.entries[3 * k], layout.entries[3 * k + 2]
         if slot >= 0 and row_counts(layout.switches[row], w, True):
             right[row] -= w[nw + layout.jacobian + slot] * y[nq + layout.entries[3 * k + 1]]
-    if eliminate(part, layout.m, nv, rank, part.left_v, nv - rank) == 0.0:
+    if eliminate_columns(part, layout.m, nv, rank, part.left_v, nv - rank) == 0.0:
         return False
     solve_dependent(part, nv, rank)
     for j in range(nv):

@@ -131,7 +131,7 @@ def normalise(part: Partition, rows: int, columns: int) -> None:
 
 
 @exact()
-def eliminate(part: Partition, rows: int, columns: int, rank: int, free: Integers, count: int) -> float:
+def eliminate_columns(part: Partition, rows: int, columns: int, rank: int, free: Integers, count: int) -> float:
     """Eliminate `rank` columns with the largest pivots, none of them one of the `count` free ones.
 
     Returns
@@ -265,11 +265,11 @@ def choose_states(model: PartitionModel, t: float, y: Array, p: Array, w: Array,
     layout, _, tables = model
     rows = tables.holonomic.shape[0] + tables.spins.shape[0] // 2
     position_rows(model, t, y, p, w, part, False)
-    part.best[0] = eliminate(part, rows, layout.nq, tables.rank_q, part.free_q, 0)
+    part.best[0] = eliminate_columns(part, rows, layout.nq, tables.rank_q, part.free_q, 0)
     if part.best[0] > 0.0:
         keep_others(part, layout.nq, tables.rank_q, part.free_q, part.left_q)
     velocity_rows(layout, tables, y, w, part, False)
-    part.best[1] = eliminate(part, layout.m, layout.nv, tables.rank_v, part.free_v, 0)
+    part.best[1] = eliminate_columns(part, layout.m, layout.nv, tables.rank_v, part.free_v, 0)
     if part.best[1] > 0.0:
         keep_others(part, layout.nv, tables.rank_v, part.free_v, part.left_v)
     part.held[0] = part.held[1] = 0
@@ -294,7 +294,7 @@ def eliminate_positions(model: PartitionModel, part: Partition, free: Integers, 
     """Eliminate the dependent coordinates, `held` of them by rows in force; return the smallest pivot."""
     layout, _, tables = model
     rows, rank = tables.holonomic.shape[0] + tables.spins.shape[0] // 2, tables.rank_q + held
-    return float(eliminate(part, rows, layout.nq, rank, free, layout.nq - rank))
+    return float(eliminate_columns(part, rows, layout.nq, rank, free, layout.nq - rank))
 
 
 @exact()
@@ -302,7 +302,7 @@ def eliminate_velocities(model: PartitionModel, part: Partition, free: Integers,
     """Eliminate the dependent velocities, `held` of them by rows in force; return the smallest pivot."""
     layout, _, tables = model
     rank = tables.rank_v + held
-    return float(eliminate(part, layout.m, layout.nv, rank, free, layout.nv - rank))
+    return float(eliminate_columns(part, layout.m, layout.nv, rank, free, layout.nv - rank))
 
 
 @exact(entry=True)

@@ -143,7 +143,7 @@ def lower_in_null_space(n: int, rank: int, work: Impulse) -> None:
 
 
 @exact()
-def find_impulses(n: int, k: int, work: Impulse) -> None:
+def solve_impulses(n: int, k: int, work: Impulse) -> None:
     """Set the impulse of each row from `change`, of least norm where rows depend on each other."""
     for j in range(n):
         work.right[j] = 0.0
@@ -211,7 +211,7 @@ def smallest_impulse(n: int, k: int, v: Array, work: Impulse) -> int:
         lower_in_null_space(n, rank, work)
     for j in range(n):
         work.after[j] = v[j] + work.unit[j] * work.change[j]
-    find_impulses(n, k, work)
+    solve_impulses(n, k, work)
     wanted = moved = noise = 0.0
     for i in range(k):
         before = fast = 0.0

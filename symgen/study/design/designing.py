@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from symgen.analyses.kinds import change_settings_checked
 from symgen.analyses.search.measured_data import ColumnAim, MeasuredData, Residuals, measured_columns
-from symgen.analyses.search.measures import Aim
 from symgen.analyses.search.prices import ACTIVE, prices_of_limits
+from symgen.analyses.search.sampled_motions import Aim
 from symgen.analyses.search.search import Candidate, Screened, Search, screen
 from symgen.base import arguments
 from symgen.base.errors import InputError, enumeration, plural
@@ -25,6 +25,13 @@ from symgen.describe.files.origins import Source, origin_of
 from symgen.describe.files.validate import validate
 from symgen.result.labelled import Labelled
 from symgen.result.sensitivities import derivative_unit
+from symgen.study.design.answer_remarks import (
+    WatchedQuantities,
+    remark_on_sign,
+    remarks_on_means,
+    remarks_on_values,
+    sentence_on_limits,
+)
 from symgen.study.design.found import Design, KeptLimit, SearchFromStart
 from symgen.study.design.motions import motions_of
 from symgen.study.design.problem import (
@@ -35,7 +42,6 @@ from symgen.study.design.problem import (
     read_varied,
     sized,
 )
-from symgen.study.design.remarks import Watched, remark_on_sign, remarks_on_means, remarks_on_values, sentence_on_limits
 
 if TYPE_CHECKING:
     from symgen import Model
@@ -139,7 +145,7 @@ class _Designing:
             expected = "a text such as peak(motor.effort), or columns over t"
             raise InputError("design: aim", expected, arguments.kind_of_value(aim))
         limits = [*limits_of_file(self.reader, self.varied, settings.parameters), *read_keep(self.reader, keep)]
-        self.watched = Watched(self.reader)
+        self.watched = WatchedQuantities(self.reader)
         self.until = float(until or model.mechanism.defaults.until)
         self.settings = replace(settings, until=self.until)
         motions = motions_of(self.varied.mechanism, self.settings, self.varied.keys, self.until, self.reader.quantities)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.search.measures import Limit
+from symgen.analyses.search.sampled_motions import Limit
 from symgen.base import arguments
 from symgen.base.errors import InputError, quote
 from symgen.base.files import write_whole

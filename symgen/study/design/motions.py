@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from symgen.analyses.prescribed.kept_motion import KeptMotion
 from symgen.analyses.prescribed.prescribed import NotPrescribed, driver_names
 from symgen.analyses.search.free_numbers import FreeNumbers
-from symgen.analyses.search.measures import Motions, NoMotion
+from symgen.analyses.search.sampled_motions import Motions, NoMotion
 from symgen.base.errors import AssemblyError, InputError
 from symgen.base.vocabulary.expressions import readings_in
 from symgen.base.vocabulary.measures import Integral

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.search.measures import Aim, Limit, Taken
 from symgen.analyses.search.ranges import Ranges, make_ranges, read_bounds
+from symgen.analyses.search.sampled_motions import Aim, Limit, Taken
 from symgen.base import arguments
 from symgen.base.errors import InputError, enumeration, quote, suggest
 from symgen.base.units import known_unit, read_unit
@@ -21,8 +21,8 @@ from symgen.describe.facts.motion_quantities import MotionQuantity, QuantityName
 from symgen.describe.facts.pins import AXES, PinPlaces, pin_of_place
 from symgen.describe.files.origins import origin_of
 from symgen.describe.formulas.evaluate import evaluate, parameter_values
-from symgen.study.design.pins import check_pins, read_pins
-from symgen.study.design.wording import WrittenLimit, read_limits, read_taken, unknown_word
+from symgen.study.design.varied_pins import check_pins, read_pins
+from symgen.study.design.wording import WrittenLimit, read_taken, read_written_limits, unknown_word
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
@@ -190,7 +190,7 @@ def read_aim(reader: QuantityReader, aim: str) -> Aim:
 def read_keep(reader: QuantityReader, keep: object) -> Iterator[Limit]:
     """Yield the limits that a caller gives."""
     for text in arguments.words("design: keep", keep):
-        for written in read_limits("design: keep", text):
+        for written in read_written_limits("design: keep", text):
             place = reader.place("design: keep", written.taken.quantity)
             bound = _bound_in_own_unit(written, reader.quantities[place].unit)
             unit = reader.quantities[place].unit or written.bound.unit

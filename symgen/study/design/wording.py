@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from symgen.analyses.search.measures import Taken
+from symgen.analyses.search.sampled_motions import Taken
 from symgen.base import arguments
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.units import Amount, read_amount
@@ -69,7 +69,7 @@ def unknown_word(text: str) -> str:
     return hint if hint.startswith("did you mean") else ""
 
 
-def read_limits(where: str, text: object) -> list[WrittenLimit]:
+def read_written_limits(where: str, text: object) -> list[WrittenLimit]:
     """Return the limits in a text: one, or the two of ``-0.75 <= mu <= 0.75``.
 
     Raises

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from symgen.analyses.search.measures import Sampled, mean_weights
+from symgen.analyses.search.sampled_motions import Sampled, mean_weights
 from symgen.analyses.search.squares import determine, least_squares_within
 
 

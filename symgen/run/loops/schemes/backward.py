@@ -66,7 +66,7 @@ def run_of_stages(system: ModelSystem, run: Run, base: Array) -> Run:
 
 
 @called
-def extrapolate(system: ModelSystem, run: Run, order: int, t: float, value: Array, slope: Array) -> None:
+def extrapolate_state(system: ModelSystem, run: Run, order: int, t: float, value: Array, slope: Array) -> None:
     """Set value and slope at `t` of the polynomial through the newest ``order + 1`` states."""
     width, at = system.sizes.width, history_at(system)
     times, weights = part(run.memory, at + DEPTH * width, DEPTH), part(run.room, HEAD + 4 * width, 2 * DEPTH)
@@ -92,7 +92,7 @@ def term_of_order(
 ) -> float:
     """Return the size of ``h^(order+1) y^(order+1)`` over the tolerance; `value` and `slope` are overwritten."""
     sizes, times = system.sizes, history_at(system) + DEPTH * system.sizes.width
-    extrapolate(system, run, order, t, value, slope)
+    extrapolate_state(system, run, order, t, value, slope)
     for i in range(sizes.width):
         value[i] = run.trial[i] - value[i]
     factor = 1.0
@@ -137,7 +137,7 @@ def attempt(
     base, spare = part(run.room, HEAD + 2 * width, width), part(run.room, HEAD + 3 * width, width)
     if count <= order:
         return start_step(system, scheme, span, run_of_stages(system, run, run.y), t, following, h, True)
-    extrapolate(system, run, order, following, predicted, slope)
+    extrapolate_state(system, run, order, following, predicted, slope)
     leading = 0.0
     for i in range(order):
         leading += 1.0 / (i + 1)

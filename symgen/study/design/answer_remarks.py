@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from symgen.analyses.search.measures import Aim, Sampled, mean_weights
+from symgen.analyses.search.sampled_motions import Aim, Sampled, mean_weights
 from symgen.base.errors import enumeration
 from symgen.base.vocabulary.expressions import ZERO, Call, Expr
 from symgen.base.vocabulary.measures import GROUND
@@ -24,7 +24,7 @@ TURNED = 1e-6
 PRINTED = 5e-7
 
 
-class Watched:
+class WatchedQuantities:
     """Quantities of a motion that remarks are about, beside the ones of the aim and the limits.
 
     Parameters
