@@ -131,6 +131,7 @@ class Discontinuity:
     holds: bool = False
 
 
+@compute_once
 def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
     """Return jumps and kinks of formulas that depend on the state, each argument once for each table.
 
@@ -144,6 +145,8 @@ def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
     own = {
         _effort_formula_of_run(Name("rate"), row.effort) for row in two_sided_rows(mechanism)
     }  # modes change where these are 0
+    measures = tuple(row.measure for row in two_sided_rows(mechanism) if row.in_contact)
+    pieces = {e for e, _ in calls_with_efforts(measures)} if _may_switch(measures) else set[Call]()
     jumping = dict[tuple[Expr, Table | None], bool]()
     found = list(calls_with_efforts(*formulas)) if _may_switch(formulas) else []
     acting = len(found)
@@ -157,7 +160,7 @@ def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
         if argument in own:
             continue
         if any(readings_in(argument)) or not set(names_in_expression(argument)) <= plain:
-            jumps = i < acting and e.function in JUMPING  # a gap is continuous
+            jumps = i < acting and e.function in JUMPING and e not in pieces  # gap and slip of a contact do not jump
             jumping[argument, table] = jumping.get((argument, table), False) or jumps
     held = dict.fromkeys((e, None) for row in rows_with_kinks(mechanism) for e in row.switches)
     for key in held:

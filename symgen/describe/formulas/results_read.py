@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from symgen.base.vocabulary.expressions import Expr, Name, moving_quantities, readings_in
@@ -9,6 +10,7 @@ from symgen.base.vocabulary.measures import Driven, Exerted, Integral
 from symgen.describe.coordinate_names import ACCELERATIONS
 from symgen.describe.formulas.readings import OUTPUT
 from symgen.describe.mechanism import Mechanism
+from symgen.describe.remembered import compute_once
 
 _ACCELERATIONS = frozenset(ACCELERATIONS.values())
 
@@ -34,7 +36,8 @@ def reads_results(value: Expr) -> bool:
     )
 
 
-def integrals_of_outputs(mechanism: Mechanism) -> dict[Integral, int]:
+@compute_once
+def integrals_of_outputs(mechanism: Mechanism) -> Mapping[Integral, int]:
     """Return the integrals in outputs, numbered in their order, each once."""
     sources = (r.source for output in mechanism.outputs for r in readings_in(output.value))
     return {source: i for i, source in enumerate(dict.fromkeys(s for s in sources if isinstance(s, Integral)))}

@@ -22,6 +22,7 @@ from typing import NamedTuple
 import msgspec
 
 from symgen.base.errors import InputError, plural
+from symgen.describe.bounds.bounded_modes import one_sided_rows
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import (
     count_empty_ends,
@@ -137,6 +138,9 @@ STRAIGHT_LEAST = 0.3
 EACH = {"planar": ShapeCost(0.011, 0.013, 0.8e-8, 1.8e-8), "spatial": ShapeCost(0.03, 0.036, 2.5e-8, 1.0e-7)}
 #: Seconds to derive and compile the shared looped code from an empty cache: one figure for 1 to 4, whatever is cached.
 LOOPED_LEAST = 2.2
+#: Seconds that contacts add to straight code, times the cube of their number: what one carries of the friction of the
+#: others is written out for each of them.
+STRAIGHT_CONTACTS = 1.1e-3
 #: Seconds of a looped evaluation at any size.
 LOOPED_CALL = 1.0e-7
 #: From this many coordinates on straight code is not considered: eight seconds here, most of a minute at three times as
@@ -148,8 +152,9 @@ LARGEST_DENSE = 400
 
 def straight_seconds(mechanism: Mechanism, implicit: bool = False) -> float:
     """Return the approximate time to derive and compile the straight code of a method [s]."""
-    each = EACH[mechanism.space]
-    return STRAIGHT_LEAST + (each.implicit if implicit else each.compilation) * mechanism.body_coordinates
+    each, contacts = EACH[mechanism.space], sum(row.in_contact for row in one_sided_rows(mechanism))
+    written = (each.implicit if implicit else each.compilation) * mechanism.body_coordinates
+    return STRAIGHT_LEAST + written + STRAIGHT_CONTACTS * contacts**3
 
 
 def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluations: float) -> TakenForm:

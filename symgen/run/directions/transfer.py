@@ -22,6 +22,7 @@ from symgen.run.directions.push_directions import PushDirections, push_state, ro
 from symgen.run.directions.reset_directions import ResetDirections
 from symgen.run.directions.series_directions import ImpactDirections, SeriesDirections
 from symgen.run.layout import abi
+from symgen.run.loops.table_points import ROUNDING_OF_SWITCH
 from symgen.run.modes.bounded_rows import CONSTANT, EFFORT, HELD, LIMIT, SIGN, STILL
 
 if TYPE_CHECKING:
@@ -162,7 +163,8 @@ class Transfer:
         times = np.append(np.zeros(y.shape[1]), 1.0)
         by = Directions(self._with(y, rate), times, self._with(modes))
         values, slopes = self.moments.observe(watched.function, 3 * count, now, by)
-        own, speeds, rounding = slopes[numbers, :-1], slopes[numbers, -1], values[2 * count :][numbers]
+        own, speeds = slopes[numbers, :-1], slopes[numbers, -1]
+        rounding = ROUNDING_OF_SWITCH * values[2 * count :][numbers]
         resolved = np.abs(speeds) * _CROSSES * max(1.0, abs(now.t)) + rounding / _GRAZES
         if np.any(np.abs(values[numbers]) > resolved):  # a jump has carried it beyond zero
             if not self._seams_near(now.t):

@@ -58,7 +58,7 @@ _MOST = 1e6
 #: Beyond the points of a table.
 _FAR = 1e300
 #: A switch below this fraction of the size of its terms keeps its side.
-_ROUNDING = 1e-13
+ROUNDING_OF_SWITCH = 1e-13
 #: What a corner passes within this multiple of the resolution of time is rounding too.
 _UNRESOLVED = 16.0
 
@@ -255,7 +255,9 @@ def switch_values(hunt: A, n: int, h: float, search: int) -> int:
         if CORNERS and is_corner(hunt, n, k) == 1:
             # no step that begins farther from a corner passes it within the resolution of time
             least = _UNRESOLVED * hunt[RESOLUTION] * abs(hunt[out + n + k])
-            hunt[at + GRAIN * n + k] = _ROUNDING * hunt[out + 2 * n + k] + (least if is_finite(least) == 1 else 0.0)
+            hunt[at + GRAIN * n + k] = ROUNDING_OF_SWITCH * hunt[out + 2 * n + k] + (
+                least if is_finite(least) == 1 else 0.0
+            )
         if hunt[at + ACTION * n + k] < float(ANEW):
             continue
         if hunt[at + POINTS * n + k] > 0.0:
@@ -271,7 +273,7 @@ def switch_values(hunt: A, n: int, h: float, search: int) -> int:
                 hunt[g] = 0.0 if near == 1 else way * (hunt[at + LEVEL * n + k] - hunt[g])
                 hunt[d] *= -way
             hunt[out + k], hunt[out + n + k] = way * (hunt[at + LEVEL * n + k] - s), -way * rate
-        hunt[at + GRAIN * n + k] = _ROUNDING * hunt[out + 2 * n + k]
+        hunt[at + GRAIN * n + k] = ROUNDING_OF_SWITCH * hunt[out + 2 * n + k]
         if is_finite(hunt[out + k] + hunt[out + n + k]) == 0:
             hunt[out + k], hunt[out + n + k] = 0.0, 0.0
         elif abs(hunt[out + k]) <= hunt[at + GRAIN * n + k]:

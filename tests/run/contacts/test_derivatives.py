@@ -124,3 +124,34 @@ def test_impacts_ahead_get_the_derivatives_of_what_follows() -> None:
     ahead.remember([3, 4], 0.2, slopes)
     assert np.array_equal(ahead.derivatives_here(2), by[4, 0.2] @ slopes)
     assert not ahead.derivatives_here(2).any() and list(ahead.bars) == [(4, 0.1)]
+
+
+#: A disc that rolls, slides or slips without friction beyond the end of a segment, round which it falls.
+EDGE = (
+    head("edge")
+    + "[parameters]\nv = 1.0\n"
+    + body("disc", 1.0, 0.005, (-0.35, 0.1))
+    .replace("velocity = [0.0, 0.0]", 'velocity = ["v", 0.0]')
+    .replace("angular_velocity = 0.0", 'angular_velocity = "-v/0.1"')
+    + '[contacts.flat]\nbetween = [{ body = "disc", disc = 0.1 }, { body = "ground", segment = [[-1.0, 0.0], [0.0, 0.0]] }]\n'
+)
+
+
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
+@pytest.mark.parametrize("speed", [0.6, 0.9])
+@pytest.mark.parametrize("friction", ["0.0", "0.2", "1.5"])
+def test_over_the_end_of_a_segment(friction: str, speed: float, tmp_path: Path) -> None:
+    """Face and end are pieces of one gap, whose curvature jumps where the disc passes from one to the other."""
+    text = EDGE.replace("v = 1.0", f"v = {speed!r}") + ("" if friction == "0.0" else f"friction = {friction}\n")
+    slopes_of(text, 0.75, "disc.x", {"v": speed}, tmp_path)
+
+
+def test_a_segment_far_away_casts_no_doubt(tmp_path: Path) -> None:
+    """Its pieces are corners of its gap alone: events elsewhere keep their speeds."""
+    far = floor("disc", 0.1, "0.3").replace("restitution = 0.0", "restitution = 0.5")
+    far += EDGE[EDGE.index("[contacts.flat]") :].replace("[[-1.0, 0.0], [0.0, 0.0]]", "[[5.0, 0.0], [6.0, 0.0]]")
+    text = head("far") + "[parameters]\nv = 1.0\n" + body("disc", 1.0, 0.005, (0.0, 0.5), (0.3, 0.0)) + far
+    text = text.replace("velocity = [0.3, 0.0]", 'velocity = ["v", 0.0]')
+    result = loaded(text, tmp_path).simulate(until=0.5, sensitivities=["v"], integrator="dop853", verify=False)
+    assert result.status == "ok" and len(result.events) > 0, result.reason

@@ -93,3 +93,28 @@ def test_a_stack_in_c_is_that_of_a_run(tmp_path: Path) -> None:
     model = loaded(stack(np.array([0.0, 0.01, -0.01]), drop=0.001), tmp_path)
     transitions = assert_same_run(model, program_of(model, tmp_path / "c"), 0.1, 0.0005)
     assert len({word for _, word in transitions}) > 6
+
+
+@pytest.mark.slow_cases("5-looped")
+@pytest.mark.parametrize(("count", "shape"), [(2, "straight"), (5, "looped")])
+def test_discs_fall_into_a_bin_in_the_shape_whose_compilation_is_short(count: int, shape: str, tmp_path: Path) -> None:
+    """Each may touch floor, walls and all others; straight code of five takes three times as long, of eight many minutes."""
+    text, radius, drop = head("bin"), 0.05, 0.02
+    walls = {"f": "", "l": ", on = [-0.06, 0.0], normal = [1.0, 0.0]", "r": ", on = [0.3, 0.0], normal = [-1.0, 0.0]"}
+    for i in range(count):
+        text += body(f"d{i}", 1.0, 0.5 * radius**2, (0.12 * (i % 3), radius + drop + 0.13 * (i // 3)))
+        touched = {name: f'{{ line = "ground"{where} }}' for name, where in walls.items()}
+        touched |= {f"d{k}": f'{{ body = "d{k}", disc = {radius} }}' for k in range(i)}
+        for name, other in touched.items():
+            text += f'[contacts.d{i}{name}]\nbetween = [{{ body = "d{i}", disc = {radius} }}, {other}]\n'
+            text += "friction = 0.3\nrestitution = 0.3\n"
+    result = loaded(text, tmp_path).simulate(until=0.065, verify=False)
+    assert result.status == "ok", result.reason
+    assert result.shape == shape
+    lands = np.sqrt(2.0 * drop / G)
+    assert {e.name for e in result.events} == {f"d{i}f.hit" for i in range(min(count, 3))}
+    assert all(abs(e.t - lands) < 1e-9 for e in result.events)
+    later = 0.065 - lands
+    upwards = radius + 0.3 * G * lands * later - G * later**2 / 2.0
+    assert result["d0.y"][-1] == pytest.approx(upwards, abs=1e-9)
+    assert result[f"d{count - 1}.x"][-1] == pytest.approx(0.12 * ((count - 1) % 3), abs=1e-9)
