@@ -133,7 +133,8 @@ EDGE = (
     + body("disc", 1.0, 0.005, (-0.35, 0.1))
     .replace("velocity = [0.0, 0.0]", 'velocity = ["v", 0.0]')
     .replace("angular_velocity = 0.0", 'angular_velocity = "-v/0.1"')
-    + '[contacts.flat]\nbetween = [{ body = "disc", disc = 0.1 }, { body = "ground", segment = [[-1.0, 0.0], [0.0, 0.0]] }]\n'
+    + '[contacts.flat]\nbetween = [{ body = "disc", disc = 0.1 }, '
+    + '{ body = "ground", segment = [[-1.0, 0.0], [0.0, 0.0]] }]\n'
 )
 
 

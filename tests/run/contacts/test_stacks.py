@@ -98,7 +98,7 @@ def test_a_stack_in_c_is_that_of_a_run(tmp_path: Path) -> None:
 @pytest.mark.slow_cases("5-looped")
 @pytest.mark.parametrize(("count", "shape"), [(2, "straight"), (5, "looped")])
 def test_discs_fall_into_a_bin_in_the_shape_whose_compilation_is_short(count: int, shape: str, tmp_path: Path) -> None:
-    """Each may touch floor, walls and all others; straight code of five takes three times as long, of eight many minutes."""
+    """Each may touch floor, walls and all others: straight code of eight takes many minutes."""
     text, radius, drop = head("bin"), 0.05, 0.02
     walls = {"f": "", "l": ", on = [-0.06, 0.0], normal = [1.0, 0.0]", "r": ", on = [0.3, 0.0], normal = [-1.0, 0.0]"}
     for i in range(count):
