@@ -10,24 +10,22 @@ the rates times dt.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.describe.bounds.bounded_modes import HIT
-from symgen.run.directions.free_directions import TOGETHER, Free, constraint_directions
-from symgen.run.directions.moments import Directions, Moment, Moments, modes_of_moment
+from symgen.run.directions.free_directions import TOGETHER, Free
+from symgen.run.directions.mode_directions import ModeDirections, name_of_switch
+from symgen.run.directions.moments import Directions, Moment, Moments
 from symgen.run.directions.push_directions import PushDirections, push_state, rows_of_velocities, tied_impact
 from symgen.run.directions.reset_directions import ResetDirections
 from symgen.run.directions.series_directions import ImpactDirections, SeriesDirections
-from symgen.run.layout import abi
 from symgen.run.loops.table_points import ROUNDING_OF_SWITCH
-from symgen.run.modes.bounded_rows import CONSTANT, EFFORT, HELD, LIMIT, SIGN, STILL
 
 if TYPE_CHECKING:
     from symgen.run.directions.passages import RunPassage, Struck
-    from symgen.run.layout.compiled import CompiledModel
     from symgen.run.loops.run_spec import BoundedRows, RunSpec, Watched
 
 Array = NDArray[np.float64]
@@ -35,8 +33,6 @@ Array = NDArray[np.float64]
 #: Part of a time up to which two times are the same, beside the tolerance of steps; least derivative of a time that is
 #: no rounding, over the largest.
 _NEAR, _LEAST = 1e-11, 1e-12
-#: Derivatives of a rate at rest below this part of the largest of a velocity are rounding.
-_STAYS = 1e-6
 #: Part of a time to which events are located.
 _CROSSES = 1e-9
 #: Roundings of a switching function over its change in the whole run from which on it is met without speed.
@@ -83,9 +79,8 @@ class Transfer:
         return self.spec.events
 
     @property
-    def compiled(self) -> CompiledModel:
-        """The model."""
-        return self.moments.compiled
+    def _modes(self) -> ModeDirections:
+        return ModeDirections(self.moments, self.watched, self.consistent, self.doubts)
 
     def transfer_through(self, passage: RunPassage, y: Array, modes: Array) -> tuple[Array, Array]:
         """Return the directions of state and modes after a passage from those before it.
@@ -130,7 +125,7 @@ class Transfer:
         self._compare(passage, later, free)
         known, here = len(self.doubts), Directions(self._with(y), self._with(later), self._with(modes))
         changed = self._through_effects(passage, here, None)
-        found = self._modes(passage, before, after, changed, free)
+        found = self._modes.directions_of_modes(passage, before, after, changed, free)
         if any(struck.ties is not None and struck.ties.series is not None for struck in passage.effects):
             # what is left out of a series reads accelerations at rest, whose directions need those of the state there
             del self.doubts[known:]
@@ -138,7 +133,7 @@ class Transfer:
             by = changed._replace(modes=self._with(found))
             values, slopes = self.moments.observe(rows.accelerations.function, len(rows.names), after, by)
             changed = self._through_effects(passage, here, (values, slopes[:, :-1]))
-            found = self._modes(passage, before, after, changed, free)
+            found = self._modes.directions_of_modes(passage, before, after, changed, free)
         self._remember(passage, after, changed)
         return changed.y[:, :-1], found, later
 
@@ -168,27 +163,24 @@ class Transfer:
         resolved = np.abs(speeds) * _CROSSES * max(1.0, abs(now.t)) + rounding / _GRAZES
         if np.any(np.abs(values[numbers]) > resolved):  # a jump has carried it beyond zero
             if not self._seams_near(now.t):
-                self.doubts.append(f"the event {self._name_of_switch(passage)} at t = {now.t:.6g} s happens by a jump")
+                self.doubts.append(
+                    f"the event {name_of_switch(self.watched, passage)} at t = {now.t:.6g} s happens by a jump"
+                )
             return np.zeros(y.shape[1])
         if not np.all(np.abs(speeds) * self.spec.until * _GRAZES > rounding):
-            where = f"the event {self._name_of_switch(passage)} at t = {now.t:.6g} s"
+            where = f"the event {name_of_switch(self.watched, passage)} at t = {now.t:.6g} s"
             self.doubts.append(f"{where} is met without speed: its time has no derivative")
         with np.errstate(divide="ignore", invalid="ignore"):
             later = -own / speeds[:, np.newaxis]
         if len(numbers) > 1 and self._rates_differ(later[1:] - later[0], later, now.t, free):
-            self.doubts.append(
-                f"the events {self._name_of_switch(passage)} at t = {now.t:.6g} s are together for these numbers only"
-            )
+            names = name_of_switch(watched, passage)
+            self.doubts.append(f"the events {names} at t = {now.t:.6g} s are together for these numbers only")
         return np.asarray(later[int(np.argmax(np.abs(speeds) / np.where(rounding > 0.0, rounding, 1.0)))])
 
     def _seams_near(self, t: float) -> bool:
         """Whether inputs or formulas jump at a time."""
         near = (_NEAR + self.spec.rtol * self.spec.adaptive) * max(1.0, abs(t))
         return any(abs(seam.t - t) <= near and seam.t > 0.0 for seam in self.spec.seams)
-
-    def _name_of_switch(self, passage: RunPassage) -> str:
-        assert self.watched is not None, "the run has events"
-        return " and ".join(f"'{self.watched.names[k]}'" for k in passage.numbers)
 
     def _rates_differ(self, rows: Array, of: Array, t: float, free: Free) -> bool:
         """Whether differences of times do not vanish in directions that satisfy the constraints."""
@@ -208,7 +200,7 @@ class Transfer:
         t = passage.before.t
         if passage.numbers and self._seams_near(t):
             if self._rates_differ(later[np.newaxis], later[np.newaxis], t, free):
-                what = f"the event {self._name_of_switch(passage)}"
+                what = f"the event {name_of_switch(self.watched, passage)}"
                 self.doubts.append(f"{what} and a jump at t = {t:.6g} s are together for these numbers only")
             return
         if last is None or not (passage.numbers and last[0].numbers):
@@ -216,7 +208,7 @@ class Transfer:
         if abs(t - last[0].before.t) <= near and passage.numbers != last[0].numbers:
             both = np.stack([last[1], later])
             if not self.consistent or self._rates_differ(both[1:] - both[:1], both, t, free):
-                names = f"{self._name_of_switch(last[0])} and {self._name_of_switch(passage)}"
+                names = f"{name_of_switch(self.watched, last[0])} and {name_of_switch(self.watched, passage)}"
                 self.doubts.append(f"the events {names} at t = {t:.6g} s are together for these numbers only")
 
     # -- what events change --------------------------------------------------------------------------------------------
@@ -303,118 +295,3 @@ class Transfer:
         """Number of numbers of modes."""
         place = self.moments.place_of_modes()
         return int(place.stop - place.start)
-
-    # -- modes ---------------------------------------------------------------------------------------------------------
-
-    def _modes(self, passage: RunPassage, before: Moment, after: Moment, by: Directions, free: Free) -> Array:
-        """Return the directions of the numbers of modes after a passage."""
-        rows = None if self.watched is None else self.watched.bounded
-        kept = by.modes[:, :-1]
-        if rows is None:
-            return kept
-        info, place, k = self.compiled.info, self.moments.place_of_modes(), len(rows.names)
-        own = [info.switchable.index(row) for row in info.bounded]
-        old, new = (modes_of_moment(self.compiled, x.w[place])[own] for x in (before, after))
-        slopes = modes_of_moment(self.compiled, kept.copy())
-        held = new[:, HELD] != 0.0
-        was = (old[:, HELD] != 0.0) & (new[:, CONSTANT] == old[:, CONSTANT])
-        if passage.starts:
-            was[:] = False
-        if not (np.any(held) or np.any(new[:, SIGN] != 0.0)):
-            slopes[own] = 0.0
-            return slopes.reshape(kept.shape)
-        values, directions = self.moments.evaluate_moment(rows.state.function, rows.values, after, by)
-        directions = directions[:, :-1]
-        for i in range(k):
-            line = slopes[own[i]]
-            constant = line[CONSTANT].copy() if held[i] and was[i] else directions[i] * held[i]
-            line[:] = 0.0
-            line[CONSTANT] = constant
-            tied = rows.partners and rows.partners[i] >= 0
-            if held[i] and i < rows.dry and i not in rows.pressed and i not in rows.varying and not tied:
-                line[LIMIT] = directions[2 * k + i]
-        self._share_of_row(rows, own, new, slopes, values, directions, after, by)
-        rests = (held & ~was) | ((new[:, CONSTANT] != 0.0) & (new[:, SIGN] == 0.0) & (old[:, CONSTANT] == 0.0))
-        if passage.effects:  # a rate that an impact leaves at zero is that of a row at rest, which may slide from there
-            scale = np.array([1.0 / after.w[abi.LENGTH] if info.rows[i].unit == "rad" else 1.0 for i in info.bounded])
-            rests |= (new[:, SIGN] != 0.0) & (np.abs(values[k : 2 * k]) <= STILL * after.w[abi.SPEED] * scale)
-        self._check_rest(passage, rows.names, rests, directions, after, by, free)
-        return slopes.reshape(kept.shape)
-
-    def _check_rest(
-        self,
-        passage: RunPassage,
-        names: tuple[str, ...],
-        rests: NDArray[np.bool_],
-        directions: Array,
-        after: Moment,
-        by: Directions,
-        free: Free,
-    ) -> None:
-        """Doubt directions in which a row moves that has come to rest here, or a gap that is closed at the start."""
-        k, w, info = len(names), after.w, self.compiled.info
-        watched = self.watched
-        if watched is not None and len(passage.numbers) == 1 and watched.words[passage.numbers[0]] != HIT:
-            # the event itself says that its row rests
-            own = self._name_of_switch(passage)[1:-1].rpartition(".")[0]
-            rests = rests & np.array([name != own for name in names])
-        rows, which = directions[k : 2 * k][rests], np.array(names)[rests]
-        if passage.starts and watched is not None and watched.bounded is not None:
-            pushes = rests & (np.arange(k) >= watched.bounded.dry)
-            rows = np.concatenate([rows, directions[:k][pushes]])
-            which = np.concatenate([which, np.array(names)[pushes]])
-        if not len(rows):
-            return
-        if self.consistent:
-            sizes = np.abs(by.y[: info.work, :-1]).max(axis=0, initial=0.0)
-            sizes = np.maximum(sizes, np.abs(by.t[:-1]) * w[abi.SPEED] * max(1.0, w[abi.SPEED] / w[abi.LENGTH]))
-            moving = (np.abs(rows) > _STAYS * np.maximum(sizes, STILL) * max(1.0, 1.0 / w[abi.LENGTH])).any(axis=1)
-        else:
-            moving = np.array([free.has_free_motion(x[np.newaxis], x[np.newaxis]) for x in rows])
-        if np.any(moving):
-            found = " and ".join(dict.fromkeys(which[moving].tolist()))
-            rest = "rests at the start" if passage.starts else f"comes to rest at t = {after.t:.6g} s"
-            self.doubts.append(f"{found} {rest} for these numbers only: derivatives on both sides differ")
-
-    def _share_of_row(
-        self,
-        rows: Any,
-        own: list[int],
-        new: Array,
-        slopes: Array,
-        values: Array,
-        directions: Array,
-        after: Moment,
-        by: Directions,
-    ) -> None:
-        """Add the directions of bounds that a row in force carries for others, which rest with it."""
-        k, info = len(rows.names), self.compiled.info
-        carried = [
-            (i, int(new[i, CONSTANT]) - 1)
-            for i in range(rows.dry)
-            if new[i, HELD] == 0.0 and new[i, SIGN] == 0.0 and new[i, CONSTANT] > 0.0
-        ]
-        if np.any(new[:, EFFORT] != 0.0):
-            shared = " and ".join(name for name, x in zip(rows.names, new[:, EFFORT], strict=True) if x != 0.0)
-            self.doubts.append(
-                f"from t = {after.t:.6g} s on {shared} share forces at rest, whose derivatives are not followed"
-            )
-        if not carried:
-            return
-        d, by_d, *_ = constraint_directions(self.moments, after, by)
-        force = [i for i in range(info.m) if i not in info.bounded]
-        force += [info.bounded[j] for j in range(k) if new[j, HELD] != 0.0]
-        base, by_base = d[force], by_d[force]
-        for i, owner in carried:
-            row = info.bounded[i]
-            parts = np.linalg.lstsq(base.T, d[row], rcond=1e-11)[0]
-            rest = by_d[row] - np.einsum("rjk,r->jk", by_base, parts)
-            change = np.linalg.lstsq(base.T, rest, rcond=1e-11)[0]
-            at = force.index(info.bounded[owner])
-            factor, slope = abs(parts[at]), np.sign(parts[at]) * change[at]
-            if i in rows.varying:  # margins read the bound itself, times this factor
-                slopes[own[i], LIMIT] = slope
-            elif rows.partners and rows.partners[i] >= 0:  # the factor of a contact has a sign
-                slopes[own[i], LIMIT] = change[at]
-            else:
-                slopes[own[owner], LIMIT] += factor * directions[2 * k + i] + slope * values[2 * k + i]
