@@ -185,6 +185,7 @@ def _import_all() -> None:
 
 def _run(ask: Mapping[str, Any], files: Sequence[int]) -> NoReturn:
     """Do in this process what was asked, and end it as an interpreter ends, but for the taking apart of modules."""
+    atexit._clear()  # what libraries remove at their end, such as folders of Matplotlib, is of the process that serves
     nothing = os.open(os.devnull, os.O_RDONLY)
     for number, file in enumerate((nothing, *files)):
         os.dup2(file, number)
