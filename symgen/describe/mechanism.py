@@ -14,12 +14,8 @@ from symgen.base.vocabulary.expressions import ZERO, Expr
 from symgen.base.vocabulary.measures import Direction, Effort, Flexure, Marker, Measure, Row
 from symgen.base.vocabulary.rotations import IDENTITY, Orientation
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.modal_body import (
-    COORDINATE,
-    SPEED,
-    CarriedInterface,
-    Modal,
-)
+from symgen.describe.modal_body import COORDINATE, SPEED, CarriedInterface, Modal
+from symgen.describe.run_defaults import Defaults
 from symgen.describe.spanning_tree import Topology
 from symgen.describe.table_functions import Table
 
@@ -255,23 +251,6 @@ class Hold(msgspec.Struct, frozen=True):
 
     name: str
     value: Expr | None = None  # None: as the body is described
-
-
-class Defaults(msgspec.Struct, frozen=True):
-    """Default settings of a run; `max_step` bounds its adaptive steps.
-
-    `step` is that of constant steps; adaptive ones begin with `first_step`, the step that a file has, if any.
-    """
-
-    until: float = 10.0
-    step: float = 1e-3
-    output_step: float | None = None
-    predictable_until: float | None = None  # None: not chaotic, or not known to be
-    max_step: float | None = None
-    source: str = ""
-    first_step: float | None = None
-    integrator: str | None = None
-    verify: bool | None = None
 
 
 def with_largest_step(mechanism: Mechanism, max_step: float | None) -> Mechanism:

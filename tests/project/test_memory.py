@@ -12,7 +12,7 @@ import pytest
 from symgen.api import load
 from symgen.base import memory
 from symgen.base.errors import InputError
-from symgen.describe.mechanism import Defaults
+from symgen.describe.run_defaults import Defaults
 
 #: Runs commands in a process whose address space is bounded, and says of each how it ended, what it said, and how much
 #: of the memory the process has taken at most until then.

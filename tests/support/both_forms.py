@@ -10,7 +10,7 @@ import numpy as np
 from support.both_shapes import off_constraints, report
 from symgen.api import Model
 from symgen.base.ir.program import STATUS
-from symgen.derive.lower.record import BEHIND
+from symgen.derive.lower.recorded_law import BEHIND
 from symgen.run.compiling.method_choice import choose_method
 from symgen.run.compiling.pipeline import compile_model
 

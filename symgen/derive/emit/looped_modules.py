@@ -15,7 +15,7 @@ from symgen.derive.emit.whole import Places
 from symgen.derive.lower.looped import statements as data
 from symgen.derive.lower.looped.layout import BESIDE, GENERIC, HEAD, ROTORS, TOUCHED
 from symgen.derive.lower.looped.looped_law import LoopedLaw
-from symgen.derive.lower.record import ARGUMENTS
+from symgen.derive.lower.recorded_law import ARGUMENTS
 
 _STATUS = {name: i for i, name in enumerate(STATUS)}
 #: Treatment of pivots by a factorisation; see ``templates/looped/factorisation.j2``.

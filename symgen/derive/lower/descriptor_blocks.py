@@ -8,7 +8,7 @@ from symgen.base.ir.derivative import jacobian
 from symgen.base.ir.program import Block, OutputSlot
 from symgen.derive.formulate.equations import Equations
 from symgen.derive.lower.hoist import Hoister
-from symgen.derive.lower.record import EQUATIONS, RecordedLaw
+from symgen.derive.lower.recorded_law import EQUATIONS, RecordedLaw
 from symgen.derive.lower.scalar import ScalarNodes
 from symgen.derive.lower.scalar_values import Outputs, to_status
 

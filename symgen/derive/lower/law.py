@@ -27,8 +27,9 @@ from symgen.derive.lower.factor import FactorNodes
 from symgen.derive.lower.hoist import Hoister
 from symgen.derive.lower.modes_of_states import nodes_with_stored_modes
 from symgen.derive.lower.plans import closing_plan
-from symgen.derive.lower.record import ARGUMENTS, BEHIND, Part, RecordedLaw, record_law
+from symgen.derive.lower.record import record_law
 from symgen.derive.lower.record_form import record_form
+from symgen.derive.lower.recorded_law import ARGUMENTS, BEHIND, Part, RecordedLaw
 from symgen.derive.lower.replay import Nodes
 from symgen.derive.lower.residual import outputs_by_residual
 from symgen.derive.lower.scalar import ScalarNodes

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from symgen.base.errors import InputError
-from symgen.derive.lower.record import EQUATIONS, Part, RecordedLaw
+from symgen.derive.lower.recorded_law import EQUATIONS, Part, RecordedLaw
 from symgen.derive.methods._base import Descriptor, Method
 from symgen.derive.methods._system import System
 from symgen.derive.methods._tape import Scalar, Value, Vector

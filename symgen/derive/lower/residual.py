@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from symgen.base.ir.graph import PARAMETER, POSITION, TIME, VELOCITY, Graph
 from symgen.base.ir.program import OutputSlot
-from symgen.derive.lower.record import RecordedLaw
+from symgen.derive.lower.recorded_law import RecordedLaw
 from symgen.derive.lower.scalar import ScalarNodes
 from symgen.derive.lower.scalar_values import Outputs
 

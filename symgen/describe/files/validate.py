@@ -12,7 +12,6 @@ import msgspec
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.memory import without_garbage_collection
 from symgen.base.units import unit_of
-from symgen.base.vocabulary.expressions import Expr
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import with_bounded_outputs
@@ -26,10 +25,9 @@ from symgen.describe.files.remarks import with_remarks
 from symgen.describe.files.section_names import NAMED, SECTIONS
 from symgen.describe.formulas.identifiers import check_identifier, check_mechanism_name, one_line
 from symgen.describe.formulas.parser import FormulaNames
-from symgen.describe.formulas.results_read import rows_read_by_output
+from symgen.describe.formulas.results_read import joints_with_multipliers
 from symgen.describe.mechanism import (
     AnyBody,
-    Defaults,
     Hold,
     Joint,
     Mechanism,
@@ -57,6 +55,7 @@ from symgen.describe.parts.passing_ropes import with_rope_sheaves
 from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.sections import MechanismSection, OutputSection
 from symgen.describe.parts.states import read_state
+from symgen.describe.run_defaults import Defaults
 
 if TYPE_CHECKING:
     from symgen.describe.beams.beams import Beams
@@ -218,8 +217,10 @@ class _Validator:
             states=states,
             outputs=outputs,
             seats=tuple(self.joints.seats.items()),
-            cuts=self._joints_with_multipliers(
-                joints, [*(x.rate for x in states), *(o.value for o in outputs), *formulas_of_holding(holding)]
+            cuts=joints_with_multipliers(
+                joints,
+                [*(x.rate for x in states), *(o.value for o in outputs), *formulas_of_holding(holding)],
+                self.joints.cuts,
             ),
             holds=tuple(holds),
             shapes=tuple(shapes),
@@ -237,13 +238,6 @@ class _Validator:
             check_bounds(mechanism, self.source)
             read_holds(mechanism, self.source)  # says what is held twice
         return mechanism
-
-    def _joints_with_multipliers(self, joints: Sequence[Joint], formulas: Sequence[Expr]) -> tuple[str, ...]:
-        """Return joints that carry nothing in a tree, as formulas read their reactions, and those that cut."""
-        read = {row.rpartition(".")[0] for formula in formulas for row in rows_read_by_output(formula)}
-        drivers = {joint.name for joint in joints if joint.kind == "driver"}
-        cuts = self.joints.cuts
-        return (*cuts, *(j.name for j in joints if j.name in read - drivers - set(cuts)))
 
     # Names ---------------------------------------------------------------------------------------------------------
 

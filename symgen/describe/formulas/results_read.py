@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from symgen.base.vocabulary.expressions import Expr, Name, moving_quantities, readings_in
 from symgen.base.vocabulary.measures import Driven, Exerted, Integral
 from symgen.describe.coordinate_names import ACCELERATIONS
 from symgen.describe.formulas.readings import OUTPUT
-from symgen.describe.mechanism import Mechanism
+from symgen.describe.mechanism import Joint, Mechanism
 from symgen.describe.remembered import compute_once
 
 _ACCELERATIONS = frozenset(ACCELERATIONS.values())
@@ -24,6 +24,13 @@ def rows_read_by_output(value: Expr) -> set[str]:
         elif isinstance(reading.source, Integral):
             rows |= rows_read_by_output(reading.source.of)
     return rows
+
+
+def joints_with_multipliers(joints: Sequence[Joint], formulas: Sequence[Expr], cuts: Sequence[str]) -> tuple[str, ...]:
+    """Return joints that carry nothing in a tree: those that cut it, and those whose reactions formulas read."""
+    read = {row.rpartition(".")[0] for formula in formulas for row in rows_read_by_output(formula)}
+    drivers = {joint.name for joint in joints if joint.kind == "driver"}
+    return (*cuts, *(j.name for j in joints if j.name in read - drivers - set(cuts)))
 
 
 def reads_results(value: Expr) -> bool:

@@ -6,9 +6,9 @@ import math
 
 from symgen.base.errors import InputError, quote
 from symgen.base.units import read_amount
-from symgen.describe.mechanism import Defaults
 from symgen.describe.parts.fields import read_table
 from symgen.describe.parts.sections import RunSection, TableSection
+from symgen.describe.run_defaults import Defaults
 from symgen.describe.table_functions import Table
 
 

@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from symgen.base.escapes import latex_text
-from symgen.derive.lower.record import Part, RecordedLaw, record_law
+from symgen.derive.lower.record import record_law
+from symgen.derive.lower.recorded_law import Part, RecordedLaw
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._tape import FormulaStep, needed_operations
 from symgen.result.reading.boxes import (

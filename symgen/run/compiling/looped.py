@@ -31,8 +31,8 @@ from symgen.derive.lower.looped.kernels import KernelInfo, kernel_stem
 from symgen.derive.lower.looped.layout import KINDS, PRESSED, TOUCHED
 from symgen.derive.lower.looped.looped_law import LoopedLawInfo, refuse_dense
 from symgen.derive.lower.looped.shape import LoopedShape
-from symgen.derive.lower.record import BEHIND
 from symgen.derive.lower.record_form import record_form
+from symgen.derive.lower.recorded_law import BEHIND
 from symgen.describe.bounds.by_reaction import pressed_rows
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.folders import generator_digest, shared_folder

@@ -13,7 +13,7 @@ from symgen.base.ir.graph import Graph
 from symgen.base.ir.numerics import SUSPICIOUS
 from symgen.base.ir.program import EliminationPlan
 from symgen.derive.formulate.equations import ConstraintRow, Equations, MassBlock, Quantity
-from symgen.derive.lower.record import Part, RecordedLaw
+from symgen.derive.lower.recorded_law import Part, RecordedLaw
 from symgen.derive.lower.scalar import ScalarNodes
 from symgen.derive.methods._system import System
 

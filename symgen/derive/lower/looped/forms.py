@@ -18,8 +18,8 @@ from symgen.base.ir.derivative import jacobian
 from symgen.base.ir.graph import Graph
 from symgen.base.ir.program import Block, ElementProgram, OutputSlot
 from symgen.derive.lower.drag import length_of_vector
-from symgen.derive.lower.record import BEHIND, EQUATIONS
 from symgen.derive.lower.record_form import record_form
+from symgen.derive.lower.recorded_law import BEHIND, EQUATIONS
 from symgen.derive.lower.scalar import ScalarNodes
 from symgen.derive.methods._tape import needed_operations
 

@@ -12,7 +12,7 @@ from symgen.derive.lower.looped.instances import Instance
 from symgen.derive.lower.looped.layout import BESIDE, DRAG_RECORD, GENERIC, HEAD, SECTIONS, STAGES
 from symgen.derive.lower.looped.looped_law import LoopedLawInfo
 from symgen.derive.lower.looped.shape import KernelGroup, LoopedShape, RowBlock
-from symgen.derive.lower.record import BEHIND
+from symgen.derive.lower.recorded_law import BEHIND
 
 
 @dataclass(frozen=True)

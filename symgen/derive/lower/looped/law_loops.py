@@ -23,7 +23,7 @@ from symgen.derive.lower.looped.statements import (
     LoopedFunction,
     Statement,
 )
-from symgen.derive.lower.record import Part, RecordedLaw
+from symgen.derive.lower.recorded_law import Part, RecordedLaw
 from symgen.derive.lower.replay import Nodes, Replay
 from symgen.derive.methods._tape import FormulaStep, needed_operations
 

@@ -13,8 +13,9 @@ from symgen.base.vocabulary.infos import LawInfo
 from symgen.derive.lower.looped.law_loops import KINDS, Loops
 from symgen.derive.lower.looped.layout import HEAD
 from symgen.derive.lower.looped.statements import LoopedFunction
-from symgen.derive.lower.record import RecordedLaw, record_law
+from symgen.derive.lower.record import record_law
 from symgen.derive.lower.record_form import record_form
+from symgen.derive.lower.recorded_law import RecordedLaw
 from symgen.derive.methods._base import Method
 from symgen.derive.methods._tape import needed_operations
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from symgen.base.ir.graph import Graph
-from symgen.derive.lower.record import Part
+from symgen.derive.lower.recorded_law import Part
 
 #: Spaces of a graph's inputs other than sections of ``w``: parts of the state and its rates, and numbers.
 VELOCITIES, RATES, WORK = "v", "rates.v", "rates.work"
