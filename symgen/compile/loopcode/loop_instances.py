@@ -137,6 +137,7 @@ class Instances:
         result = python.FunctionType(function.__code__, meanings, function.__name__, function.__defaults__)
         result.__module__, result.__qualname__ = function.__module__, function.__qualname__
         result.__dict__.update(function.__dict__)  # marks
+        result.__annotations__ = function.__annotations__  # of an entry, its types
         return result
 
     def meaning(self, name: str, function: Any) -> Any:

@@ -13,7 +13,7 @@ from symgen.derive.emit.module import ModulePiece, function_source, render_templ
 from symgen.derive.emit.printer import Access, Printer
 from symgen.derive.emit.whole import Places
 from symgen.derive.lower.looped import statements as data
-from symgen.derive.lower.looped.layout import BESIDE, GENERIC, HEAD, ROTORS, TOUCHED
+from symgen.derive.lower.looped.layout import BESIDE, GENERIC, HEAD, PRESSED, ROTORS, TOUCHED
 from symgen.derive.lower.looped.looped_law import LoopedLaw
 from symgen.derive.lower.recorded_law import ARGUMENTS
 
@@ -76,10 +76,11 @@ def emit_shared_model(generator: str) -> str:
 
 
 def rates_with_reactions(drags: str) -> ModulePiece:
-    """Return the right-hand side around one at given efforts that depend on reactions, `PRESSED`, or `TOUCHED`."""
+    """Return the right-hand side around one at given efforts that depend on reactions, see `emit_looped_law`."""
+    signed = {PRESSED: "none", TOUCHED: "all"}.get(drags, "each")
     places = {"effort": MODES.index("effort"), **{name: i for i, name in enumerate(BESIDE)}}
     body = (
-        render_template("looped/pressed.j2", {"drag": places, "number": NUMBERS, "signed": drags == TOUCHED})
+        render_template("looped/pressed.j2", {"drag": places, "number": NUMBERS, "signed": signed})
         .strip("\n")
         .split("\n")
     )
@@ -93,7 +94,7 @@ def emit_looped_law(
 ) -> dict[str, str]:
     """Return the source of the modules of a law; the last one is its own, as for `symgen.derive.emit.emit.emit_law`.
 
-    `drags`: for mechanisms with efforts that depend on reactions, `PRESSED`, or on forces of gaps, `TOUCHED`.
+    `drags`: for mechanisms with efforts that depend on reactions, `PRESSED`, on forces of gaps, `TOUCHED`, or `BOTH`.
     """
     info = law.info
     layout = TableLayout([name for name, _ in info.parameters])

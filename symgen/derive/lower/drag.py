@@ -4,7 +4,7 @@ The reaction of an element is ``N = N0 - sum of c_j n_j``: N0 without drags, n_j
 along its coordinate, one solution with the factor of the equations. A coefficient has the sign of the element's rate.
 For one element the equation is quadratic and has one root of each sign where coefficient |n| < 1. For several it is
 solved by Newton's iteration, which doubles the digits. Where reactions have one component whose sign counts, as those
-of contacts do, equations are linear.
+of contacts do, equations are linear; beside others they are linear rows of the same iteration.
 """
 
 from __future__ import annotations
@@ -22,7 +22,12 @@ _FEWER, _CONVERGED = 2, 1e-10
 
 
 def drag_forces(
-    g: Graph, coefficients: Sequence[int], alone: Sequence[Nodes], parts: Sequence[Sequence[Nodes]], brief: bool
+    g: Graph,
+    coefficients: Sequence[int],
+    signed: Sequence[bool],
+    alone: Sequence[Nodes],
+    parts: Sequence[Sequence[Nodes]],
+    brief: bool,
 ) -> tuple[list[int], int | None]:
     """Return the forces c of all elements, and the node that is true where they have not converged.
 
@@ -32,6 +37,8 @@ def drag_forces(
         Where they become nodes.
     coefficients : sequence of int
         Of the elements, with the signs of their rates.
+    signed : sequence of bool
+        Whether the sign of the one component of a reaction counts.
     alone : sequence of tuple of int
         N0 of each element.
     parts : sequence of sequence of tuple of int
@@ -39,30 +46,33 @@ def drag_forces(
     brief : bool
         Whether as few iterations are enough as usual drags need; else there is no such node.
     """
+    if all(signed):
+        return _linear_drag_forces(g, coefficients, alone, parts), None
     if len(coefficients) == 1:
         return [_root_of_one(g, coefficients[0], alone[0], parts[0][0])], None
-    forces = [g.mul(k, length_of_vector(g, n)) for k, n in zip(coefficients, alone, strict=True)]
+    forces = [g.mul(k, _size_of(g, n, one)) for k, n, one in zip(coefficients, alone, signed, strict=True)]
     factors = list[list[int]]()
     for _ in range(_FEWER if brief else _ITERATIONS):
-        total, pressed = _sizes_of_reactions(g, forces, alone, parts)
-        slopes = [g.div(k, size) for k, size in zip(coefficients, total, strict=True)]
+        total, pressed = _sizes_of_reactions(g, forces, signed, alone, parts)
+        slopes = [k if one else g.div(k, size) for k, size, one in zip(coefficients, total, signed, strict=True)]
+        along = [(g.one,) if one else n for n, one in zip(pressed, signed, strict=True)]
         matrix = [
             [g.add(g.mul(slope, g.dot(n, each)), g.one if i == j else g.zero) for j, each in enumerate(parts[i])]
-            for i, (slope, n) in enumerate(zip(slopes, pressed, strict=True))
+            for i, (slope, n) in enumerate(zip(slopes, along, strict=True))
         ]
         factors = _factorise(g, matrix)
         change = _solve_factors(g, factors, _missing_forces(g, coefficients, total, forces))
         forces = [g.add(c, x) for c, x in zip(forces, change, strict=True)]
     if not brief:
         return forces, None
-    total, _ = _sizes_of_reactions(g, forces, alone, parts)
+    total, _ = _sizes_of_reactions(g, forces, signed, alone, parts)
     change = _solve_factors(g, factors, _missing_forces(g, coefficients, total, forces))
     allowed = g.mul(g.constant(_CONVERGED**2), g.dot(forces, forces))
     forces = [g.add(c, x) for c, x in zip(forces, change, strict=True)]
     return forces, g.call("lt", allowed, g.dot(change, change))
 
 
-def linear_drag_forces(
+def _linear_drag_forces(
     g: Graph, coefficients: Sequence[int], alone: Sequence[Nodes], parts: Sequence[Sequence[Nodes]]
 ) -> list[int]:
     """Return the forces c of all elements with ``c = coefficient N(c)``; parameters as for `drag_forces`."""
@@ -79,15 +89,24 @@ def length_of_vector(g: Graph, vector: Sequence[int]) -> int:
     return g.call("sqrt", g.call("max", g.dot(vector, vector), g.constant(TINY)))
 
 
+def _size_of(g: Graph, reaction: Nodes, signed: bool) -> int:
+    """Return the size of a reaction, or its one component where the sign counts."""
+    return reaction[0] if signed else length_of_vector(g, reaction)
+
+
 def _sizes_of_reactions(
-    g: Graph, forces: Sequence[int], alone: Sequence[Nodes], parts: Sequence[Sequence[Nodes]]
+    g: Graph,
+    forces: Sequence[int],
+    signed: Sequence[bool],
+    alone: Sequence[Nodes],
+    parts: Sequence[Sequence[Nodes]],
 ) -> tuple[list[int], list[Nodes]]:
     """Return the sizes of the reactions, and the reactions, with some forces."""
     pressed = [
         tuple(g.sub(x, g.dot(forces, [n[a] for n in each])) for a, x in enumerate(own))
         for own, each in zip(alone, parts, strict=True)
     ]
-    return [length_of_vector(g, n) for n in pressed], pressed
+    return [_size_of(g, n, one) for n, one in zip(pressed, signed, strict=True)], pressed
 
 
 def _missing_forces(g: Graph, coefficients: Sequence[int], total: Sequence[int], forces: Sequence[int]) -> list[int]:

@@ -11,7 +11,7 @@ from symgen.base.ir.graph import PARAMETER
 from symgen.base.ir.numerics import PARALLEL, SKIP, SUSPICIOUS
 from symgen.base.ir.program import EliminationPlan, FixedVelocities
 from symgen.derive.formulate.equations import without_bounded_rows
-from symgen.derive.lower.drag import drag_forces, linear_drag_forces
+from symgen.derive.lower.drag import drag_forces
 from symgen.derive.lower.factor import FactorNodes
 from symgen.derive.lower.replay import Nodes
 from symgen.derive.lower.saddle_matrix import SaddleMatrix
@@ -77,18 +77,15 @@ class ScalarNodes(OfRows):
     def _drag_forces(self, alone: Sequence[Nodes], parts: Sequence[Sequence[Nodes]]) -> list[int]:
         """Return the forces of drags; leave its power and the squares of jamming numbers."""
         g, drags = self.graph, self.equations.drags
-        signed = [g.mul(drag.sign, drag.coefficient) for drag in drags]
-        linear, doubtful = all(drag.signed for drag in drags), None
-        if linear:
-            forces = linear_drag_forces(g, signed, alone, parts)
-        else:
-            forces, doubtful = drag_forces(g, signed, alone, parts, self.brief)
+        coefficients = [g.mul(drag.sign, drag.coefficient) for drag in drags]
+        signed = [drag.signed for drag in drags]
+        forces, doubtful = drag_forces(g, coefficients, signed, alone, parts, self.brief)
         self.flags += [] if doubtful is None else [doubtful]
         self.drag_power, self.jamming = g.zero, []
         for i, (drag, force) in enumerate(zip(drags, forces, strict=True)):
             self.drag_power = g.sub(self.drag_power, g.mul(drag.rate, force))
-            if linear:  # what is left of 1 is the determinant of one contact
-                self.jamming.append(g.neg(g.mul(signed[i], parts[i][i][0])))
+            if drag.signed:  # what is left of 1 is the determinant of one contact
+                self.jamming.append(g.neg(g.mul(coefficients[i], parts[i][i][0])))
             else:
                 self.jamming.append(g.mul(g.mul(drag.coefficient, drag.coefficient), g.dot(parts[i][i], parts[i][i])))
         return forces

@@ -78,6 +78,13 @@ def pressed_rows(mechanism: Mechanism) -> tuple[BoundedRow, ...]:
     return tuple(row for row in mechanism.bounded if row.pressed)
 
 
+def rubs_at_impacts(mechanism: Mechanism) -> bool:
+    """Return whether friction has impulses: at contacts, or by reactions beside one-sided rows."""
+    one_sided = any(row.one_sided for row in mechanism.bounded)
+    by_reaction = bool(rows_bounded_by_reactions(mechanism)) and one_sided
+    return by_reaction or any(row.in_contact for row in mechanism.bounded)
+
+
 def refuse_shared_reactions(row: BoundedRow, repeats: Iterable[tuple[str, str]]) -> None:
     """Refuse bounds over a reaction of which one row repeats another, so that both share it.
 

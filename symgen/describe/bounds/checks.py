@@ -6,12 +6,11 @@ from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import Number
 from symgen.base.vocabulary.measures import Holonomic, Measure, Sum
 from symgen.describe.bounds.bounded_modes import one_sided_rows, two_sided_rows
-from symgen.describe.bounds.by_reaction import rows_bounded_by_reactions
 from symgen.describe.mechanism import Mechanism
 
 
 def check_bounds(mechanism: Mechanism, source: str) -> None:
-    """Refuse rows with two bounds along coordinates that drivers prescribe, and impacts beside bounds by reactions.
+    """Refuse rows with two bounds along coordinates that drivers prescribe, and contacts of the same two shapes.
 
     Raises
     ------
@@ -35,12 +34,6 @@ def check_bounds(mechanism: Mechanism, source: str) -> None:
             other = gaps[row.measure, row.held.value]
             raise InputError(f"{source}: {row.where}", "one contact of two shapes", f"the shapes of '{other}'")
         gaps[row.measure, row.held.value] = row.name
-    for pressed, pushing in zip(
-        rows_bounded_by_reactions(mechanism), one_sided_rows(mechanism), strict=False
-    ):  # the first of each
-        what, other = pressed.family.one, pushing.family.noun
-        expected = f"{what} of constant bound beside {other}, as that has no impulse at an impact"
-        raise InputError(f"{source}: {pressed.where}", expected, f"{what} by the reaction of the joint")
 
 
 def _positive_measure(measure: Measure) -> Measure:

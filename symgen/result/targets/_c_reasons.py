@@ -116,7 +116,7 @@ def _faults(rows: BoundedRows, turning: Sequence[str]) -> Iterator[tuple[int, st
     of_row |= {"first": f"(double)model->run_events[{e.FIRST_NUMBER}]"}
     of_row |= {"second": f"(double)model->run_events[{e.SECOND_NUMBER}]"}
     for fault, sentence in SENTENCES.items():
-        if OF_KIND.get(fault, "") not in ("", *turning):
+        if fault in OF_KIND and OF_KIND[fault].isdisjoint(turning):
             continue
         yield (-fault, *_format_and_arguments(sentence, fixed, of_row))
 

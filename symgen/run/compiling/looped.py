@@ -28,7 +28,7 @@ from symgen.derive.lower.looped.forms import FormInfo, form_key, form_stem, lowe
 from symgen.derive.lower.looped.index_tables import Builder, IndexTables
 from symgen.derive.lower.looped.instances import Instance, instances_of_mechanism
 from symgen.derive.lower.looped.kernels import KernelInfo, kernel_stem
-from symgen.derive.lower.looped.layout import KINDS, PRESSED, TOUCHED
+from symgen.derive.lower.looped.layout import BOTH, KINDS, PRESSED, TOUCHED
 from symgen.derive.lower.looped.looped_law import LoopedLawInfo, refuse_dense
 from symgen.derive.lower.looped.shape import LoopedShape
 from symgen.derive.lower.record_form import record_form
@@ -115,9 +115,9 @@ class Needs:
 
     @property
     def drags(self) -> str:
-        """`PRESSED` or `TOUCHED` where efforts depend on reactions, which another right-hand side finds, else empty."""
-        rows = pressed_rows(self.mechanism)
-        return "" if not rows else TOUCHED if all(row.signed for row in rows) else PRESSED
+        """The kind of efforts that depend on reactions, which another right-hand side finds, else empty."""
+        kinds = {row.signed for row in pressed_rows(self.mechanism)}
+        return "" if not kinds else BOTH if len(kinds) > 1 else TOUCHED if True in kinds else PRESSED
 
     @property
     def has_rotors(self) -> bool:

@@ -4,6 +4,8 @@ Impulses hold velocities along rows C and push along columns that are other ones
 
     M (v+ - v-) = P^T i,    C v+ = c,    P_N = C_N - s mu W_T
 
+Friction by reactions keeps a row at rest, or pushes along it by the size of the impulses of its joint.
+
 Where impacts accumulate beside other contacts, c is linear in v- (`symgen.run.modes.contact_series`).
 """
 
@@ -22,8 +24,11 @@ from symgen.run.directions.reset_directions import ResetDirections
 from symgen.run.effects.applying import EffectWork
 from symgen.run.effects.effects import Effects, Impact
 from symgen.run.effects.pushing import KeptTies, Ties, new_ties, push_contacts
+from symgen.run.layout.scales import fill_jacobian
 from symgen.run.layout.start_records import Instant
 from symgen.run.loops.run_spec import Watched
+from symgen.run.modes.contact_combinations import ON, UPPER
+from symgen.run.modes.pin_impulses import push_with_kicks
 
 Array = NDArray[np.float64]
 
@@ -46,6 +51,7 @@ def tied_impact(watched: Watched, kept: KeptTies, now: Moment) -> Ties:
     width = len(now.y)
     values = rows.state(now.t, now.y.copy(), now.p.copy(), now.w.copy(), np.zeros(width))
     ties.held[:], ties.ways[:], ties.leads[:], ties.parts[:] = kept[:4]
+    ties.kicks[:] = 0.0 if kept.kicks is None else kept.kicks
     for j, row in enumerate(rows_of_velocities(watched)):
         if row >= 0:
             ties.ratio[j] = ties.ways[j] * values[2 * k + dry + row]
@@ -85,7 +91,8 @@ def push_state(
     count, chosen, formulas = len(ties.held), effects.chosen(numbers), effects.model[2]
     compiled_form(formulas)(now.t, y, now.p.copy(), w.copy(), np.zeros(len(y)), work.out)
     ties.values[:] = targets_of(ties, along, work.out[:count], work.out[count : 2 * count])
-    compiled_form(push_contacts)(effects.model, now.t, Instant(y, now.p.copy(), w), chosen, work, ties)
+    push = push_with_kicks if np.any(ties.kicks != 0.0) else push_contacts
+    compiled_form(push)(effects.model, now.t, Instant(y, now.p.copy(), w), chosen, work, ties)
     return effects.impact(numbers, y[effects.compiled.info.nq : effects.compiled.info.work], work.impulse.impulses, 0.0)
 
 
@@ -102,10 +109,12 @@ class PushDirections(ResetDirections):
         Switching functions of the run.
     parts : Array, shape (count, L)
         Directions of the parts of ``ties``.
+    pins : Array of int64 or None
+        Modes of friction by reactions.
     """
 
     def __init__(self, *given: Any) -> None:
-        *others, self.ties, self.watched, self.parts = given
+        *others, self.ties, self.watched, self.parts, self.pins = given
         super().__init__(*others)
         if self.losses:
             raise InputError("derivatives", "outputs without the energy that contacts take", "one that reads it")
@@ -123,24 +132,28 @@ class PushDirections(ResetDirections):
         c = np.concatenate([joints, push[held]])
         own, rest = self._probe_velocities(self.effects.formulas, len(self.work.out))
         jacobian, nu = self._joints()
+        pins = PinsAtImpact(self, jacobian)
         off = ~np.any(joints != 0.0, axis=1)
         jacobian[off], nu[off] = 0.0, 0.0
-        slopes = np.concatenate([jacobian, own[held]])
-        right = np.concatenate([nu, values[held] - rest[held]])
+        c = np.concatenate([c, pins.rows[pins.stick]])
+        slopes = np.concatenate([jacobian, own[held], pins.slopes[pins.stick]])
+        right = np.concatenate([nu, values[held] - rest[held], np.zeros((len(pins.stick), self.model.lanes))])
         columns, turned = c.copy(), slopes.copy()
         ratios = self._slopes_of_ratios()
         for k in slides:
             at = info.m + held.index(k - 1)
             columns[at] += ties.ratio[k] * push[k]
             turned[at] += ties.ratio[k] * own[k] + push[k][:, np.newaxis] * ratios[k]
+        pushed = pins.push_along(columns)
         masses, more = self._masses(entries, own, rest)
         before, after = self.y[info.nq : info.work], self.impact.v
         directions = self.model.directions_after(self.y, "y")[info.nq : info.work]
         change = after - before
-        impulses = np.concatenate([self.impact.impulses[: info.m], ties.impulses[held]])
+        impulses = np.concatenate([self.impact.impulses[: info.m], ties.impulses[held], ties.kicks[pins.stick]])
         # P^T di = M (dv+ - dv-) + dM (v+ - v-) - dP^T i,  C dv+ = dc - dC v+
         right = right - np.einsum("ijk,j->ik", slopes, after)
         loads = mass @ directions - np.einsum("ijk,j->ik", masses, change) + np.einsum("ijk,i->jk", turned, impulses)
+        loads = loads + pushed
         own_masses = np.diag(mass)
         unit = 1.0 / np.sqrt(np.where(own_masses > 0.0, own_masses, own_masses.mean() or 1.0))
         rows = c * unit
@@ -170,3 +183,71 @@ class PushDirections(ResetDirections):
             if row >= 0:
                 slopes[j] = self.ties.ways[j] * out[first + row]
         return slopes
+
+
+class PinsAtImpact:
+    """Friction by reactions at an impact: rows that it keeps at rest, and columns along which it pushes.
+
+    An impulse along a row W is ``P = -s kappa |R|``, with R linear in the impulses of joints: these push along W too.
+
+    Parameters
+    ----------
+    push : PushDirections
+        The impact.
+    slopes : Array, shape (m, nv, L)
+        Directions of D.
+
+    Attributes
+    ----------
+    stick : list of int
+        Rows of the model that friction keeps at rest.
+    rows, slopes : Array
+        D, and its directions, of all rows.
+    """
+
+    def __init__(self, push: PushDirections, slopes: Array) -> None:
+        self.push, self.slopes, info = push, slopes.copy(), push.info
+        rows = np.zeros(info.m * info.nv)
+        self.modes: list[int] = [] if push.pins is None else push.pins.tolist()
+        if self.modes:
+            compiled_form(fill_jacobian)(push.effects.model[0], push.work.scratch, rows)
+        self.rows: Array = rows.reshape(info.m, info.nv)
+        pressed = push.watched.bounded.pressed if self.modes else ()
+        self.stick = [info.bounded[i] for i in pressed if self.modes[i] == ON]
+        self.slide = {i: (k, info.bounded[i]) for k, i in enumerate(pressed) if self.modes[i] >= UPPER}
+
+    def push_along(self, columns: Array) -> Array:
+        """Add to the columns of joints what their impulses push along W; return the directions of the rest of W P."""
+        push, info, lanes = self.push, self.push.info, self.push.model.lanes
+        loads = np.zeros((info.nv, lanes))
+        if not self.slide:
+            return loads
+        bounded = push.watched.bounded
+        first, count = info.sections["multipliers"]
+        sizes, impulses = push.model.sizes, push.impact.impulses[: info.m].copy()
+        impulses[list(info.bounded)] = 0.0
+        y, p, w = push.y[: sizes["y"]].copy(), push.p[: sizes["p"]].copy(), push.w[: sizes["w"]].copy()
+        values, still = bounded.state(push.t, y, p, w, np.zeros_like(y)), np.zeros_like(y)
+        by_impulse = list[Array]()
+        for j in range(count):
+            w[first : first + count] = 0.0
+            w[first + j] = 1.0
+            by_impulse.append(bounded.reactions(push.t, y, p, w, still))
+        kept = push.w.copy()
+        push.w[first : first + count] = impulses
+        push.model.directions_after(push.w, "w")[first : first + count] = 0.0
+        turned = push._evaluate_reset(bounded.reactions.function, 2 * len(bounded.pressed), push.y)
+        push.w[:] = kept
+        bounds = push._evaluate_reset(bounded.state.function, bounded.values, push.y)
+        for i, (k, row) in self.slide.items():
+            way = 1.0 if self.modes[i] == UPPER else -1.0
+            at, place = slice(2 * k, 2 * k + 2), 2 * len(bounded.names) + bounded.dry + i
+            parts = np.array(by_impulse)[:, at]
+            reaction = impulses @ parts
+            size = float(np.linalg.norm(reaction))
+            along = reaction / size if size > 0.0 else np.zeros(2)
+            columns[:count] -= np.outer(way * values[place] * (parts @ along), self.rows[row])
+            change = bounds[place] * size + values[place] * (along @ turned[at])
+            loads -= np.outer(self.rows[row], way * change)
+            loads += self.slopes[row] * push.ties.kicks[row]
+        return loads

@@ -229,20 +229,22 @@ class Transfer:
         work = effects.memory(len(now.y), len(now.w))
         state, scratch = now.y.copy(), now.w.copy()
         by, lanes = here._replace(modes=np.zeros((self._count, width))), self.moments.model.lanes
-        if struck.ties is None:
+        kept = struck.ties
+        if kept is None:
             impact, ties = effects.apply_to_state(numbers, now.t, state, now.p.copy(), scratch, work), None
         else:
-            ties = tied_impact(watched, struck.ties, now)
+            ties = tied_impact(watched, kept, now)
             tied = ties, rows_of_velocities(watched)
             parts = np.pad(self._slopes_of_parts(struck, now, by, rests), ((0, 0), (0, lanes)))
             impact = push_state(effects, numbers, now, (state, scratch), work, tied)
         chosen, columns = effects.chosen(numbers), list[Array]()
         for first, own, p, w in self.moments.chunks_of_states(now, by):
             given = effects, self.moments.model, chosen, now.t, own, p, w, work, impact, self._losses
-            if ties is None:
+            if kept is None or ties is None:
                 columns.append(ResetDirections(*given).directions())
             else:
-                columns.append(PushDirections(*given, ties, watched, parts[:, first : first + lanes]).directions())
+                tied_by = ties, watched, parts[:, first : first + lanes], kept.pins
+                columns.append(PushDirections(*given, *tied_by).directions())
         return np.concatenate(columns, axis=1)[:, : width - 1]
 
     @property

@@ -6,6 +6,7 @@ import contextlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,6 +22,7 @@ from symgen.run.effects.applying import (
     apply_where_released,
     new_effect_work,
 )
+from symgen.run.layout.scales import fill_jacobian
 from symgen.run.layout.start_records import Instant
 from symgen.run.starts.assembler import layout_of_starts
 from symgen.run.starts.impulse import ROUNDING, new_impulse, smallest_impulse
@@ -30,6 +32,8 @@ if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
 
 Array = NDArray[np.float64]
+#: No impulses along rows that are off.
+NO_KICKS: Mapping[int, float] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -188,11 +192,20 @@ class Effects:
         labels = self._labels(numbers)
         return Impact(v.copy(), impulses[: self.compiled.info.m + len(labels)].copy(), labels, energy)
 
-    def carried(self, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array, known: Impact) -> Impact:
+    def carried(
+        self,
+        numbers: Sequence[int],
+        t: float,
+        y: Array,
+        p: Array,
+        w: Array,
+        known: Impact,
+        kicks: Mapping[int, float] = NO_KICKS,
+    ) -> Impact:
         """Return an impact of which velocities, and impulses of what events set, are known: rows have the rest.
 
         Impulses of contacts that slide do not follow from velocities that events set: these push along both of a
-        contact's, of which one alone is held.
+        contact's, of which one alone is held. `kicks` has the impulses along rows that are off.
         """
         info, labels, work = self.compiled.info, self._labels(numbers), self.memory(len(y), len(w))
         before, m, n, problem = y[info.nq : info.work].copy(), info.m, info.nv, work.impulse
@@ -203,7 +216,11 @@ class Effects:
         imposed = known.impulses[len(known.impulses) - len(labels) :]
         unit = 1.0 / np.sqrt(np.where(np.diag(mass) > 0.0, np.diag(mass), 1.0))
         left = unit * (mass @ (known.v - before) - rows[m:].T @ imposed)
+        whole = np.zeros(m * n)
+        compiled_form(fill_jacobian)(self.model[0], work.scratch, whole)
+        left -= unit * sum(kick * whole.reshape(m, n)[row] for row, kick in kicks.items())
         own, *_ = np.linalg.lstsq((rows[:m] * unit).T, left, rcond=ROUNDING)
+        own[list(kicks)] = list(kicks.values())
         return Impact(known.v, np.concatenate([own, imposed]), labels, known.energy)
 
     def _labels(self, numbers: Sequence[int]) -> tuple[str, ...]:

@@ -2,7 +2,8 @@
 
 A sliding contact holds the rate of its gap, ``W_N v+ = c``, by an impulse along ``W_N - s mu W_T``. The impulses along
 W_T are multiples of those along W_N, and velocities are linear in both: the smallest impulse is found without those
-along W_T and for one unit of each of them, and a small system has the multiples.
+along W_T and for one unit of each of them, and a small system has the multiples. Friction by reactions has impulses
+that are known before: these act on the velocities from which the impact begins.
 """
 
 from __future__ import annotations
@@ -31,6 +32,8 @@ from symgen.run.starts.impulse import smallest_impulse
 from symgen.run.starts.start_solvers import least_norm_above
 
 _EPSILON = 2.0**-52
+#: Whether bounds depend on reactions of joints beside one-sided rows.
+REACTIONS = False
 
 
 class Ties(Record):
@@ -58,6 +61,8 @@ class Ties(Record):
     leads, parts : Array of int64, Array, shapes (count,)
         Velocities that are left at `parts` times the velocity `leads`, those along contacts beside what they are; -1
         for others.
+    kicks : Array, shape (rows,)
+        Known impulses along rows that are off.
     """
 
     held: Integers
@@ -79,6 +84,7 @@ class Ties(Record):
     kept_ways: Array
     leads: Integers
     parts: Array
+    kicks: Array
 
 
 class KeptSeries(NamedTuple):
@@ -104,6 +110,8 @@ class KeptTies(NamedTuple):
         Copies of arrays of `Ties`.
     series : KeptSeries or None
         What ``parts`` follow from; None where no velocity is left at a part of another one.
+    pins, kicks : Array of int64, Array, or None
+        Of friction by reactions, the modes of rows with bounds, and the impulses along rows; None without any.
     """
 
     held: Integers
@@ -111,6 +119,8 @@ class KeptTies(NamedTuple):
     leads: Integers
     parts: Array
     series: KeptSeries | None = None
+    pins: Integers | None = None
+    kicks: Array | None = None
 
 
 def new_ties(count: int, n: int, m: int) -> Any:
@@ -136,6 +146,7 @@ def new_ties(count: int, n: int, m: int) -> Any:
         kept_ways=numbers(count),
         leads=np.full(count, -1),
         parts=numbers(count),
+        kicks=numbers(m),
     )
 
 
@@ -150,11 +161,14 @@ def split_rows(model: EffectModel, t: float, now: Instant, chosen: Integers, wor
     rows = impulse.rows
     geometry(t, now.y, now.p, work.scratch)
     fill_jacobian(layout, work.scratch, rows)
+    for j in range(n):
+        ties.right[j] = 0.0
     for i in range(m):
         impulse.values[i] = work.scratch[layout.nu + i]
         if is_off(layout, i, work.scratch):
             impulse.values[i] = 0.0
             for j in range(n):
+                ties.right[j] += ties.kicks[i] * rows[i * n + j] if REACTIONS else 0.0
                 rows[i * n + j] = 0.0
     k = m
     for i in range(count):
@@ -196,13 +210,19 @@ def solve_with(n: int, rows: int, v: Array, work: EffectWork, ties: Ties, place:
 
 
 @exact()
-def move_by_unit(n: int, i: int, work: EffectWork, ties: Ties) -> None:
-    """Write the velocities after one unit of an impulse along a row of `push`, of bodies that nothing holds."""
+def move_freely(n: int, work: EffectWork, ties: Ties) -> None:
+    """Write the velocities that an impulse gives to bodies that nothing holds to ``x``."""
     for j in range(n * n):
         ties.mass[j] = work.impulse.mass[j]
+    least_norm_above(ties.mass, n, n, ties.right, ties.x, ties.room, ties.order, _EPSILON * n)
+
+
+@exact()
+def move_by_unit(n: int, i: int, work: EffectWork, ties: Ties) -> None:
+    """Write the velocities after one unit of an impulse along a row of `push`, of bodies that nothing holds."""
     for j in range(n):
         ties.right[j] = ties.push[i * n + j]
-    least_norm_above(ties.mass, n, n, ties.right, ties.x, ties.room, ties.order, _EPSILON * n)
+    move_freely(n, work, ties)
     for j in range(n):
         work.still[j] = ties.x[j]
 
@@ -251,6 +271,10 @@ def push_contacts(model: EffectModel, t: float, now: Instant, chosen: Integers, 
     rows = split_rows(model, t, now, chosen, work, ties)
     for j in range(n):
         work.still[j] = now.y[nq + j]
+    if REACTIONS:
+        move_freely(n, work, ties)
+        for j in range(n):
+            work.still[j] += ties.x[j]
     if not solve_with(n, rows, work.still, work, ties, 0):
         return int(NO_VELOCITIES)
     for i in range(rows):  # one unit of an impulse has nothing to reach
@@ -282,6 +306,9 @@ def push_contacts(model: EffectModel, t: float, now: Instant, chosen: Integers, 
     for j in range(n):  # work.still has the velocities before it, for whoever asks what they change
         work.still[j] = now.y[nq + j]
         now.y[nq + j] = impulse.after[j]
+    for i in range(m):
+        if REACTIONS and ties.kicks[i] != 0.0:
+            impulse.impulses[i] = ties.kicks[i]
     k = m
     for a in range(count):  # in the order of velocities of chosen events, as those of other effects are
         if chosen[changes.owners[a]] != 0:

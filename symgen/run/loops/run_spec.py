@@ -116,6 +116,16 @@ class BoundedNames:
     contacts: tuple[int, ...] = ()
     partners: tuple[int, ...] = ()
 
+    @property
+    def one_sided(self) -> bool:
+        """Whether any row is one-sided."""
+        return self.dry < len(self.names)
+
+    @property
+    def one_problem(self) -> bool:
+        """Whether one-sided rows are beside bounds by reactions, which have impulses as contacts do."""
+        return self.one_sided and bool(self.pressed)
+
 
 @dataclass(frozen=True, kw_only=True)
 class BoundedRows(BoundedNames):
@@ -226,10 +236,11 @@ class Watched:
         if rows is None:
             return holding
         has = {
-            "pressed": rows.pressed,
+            "pressed": rows.pressed and not rows.one_sided,
             "corners": self.corners,
             "pieces": rows.pieces,
             "contacts": rows.contacts,
+            "reactions": rows.one_problem,
         }
         return (*(kind for kind, those in has.items() if those), *holding)
 

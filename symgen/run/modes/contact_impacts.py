@@ -16,8 +16,7 @@ from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.effects.accumulation import OF_EVENT, accumulation, add_resets
-from symgen.run.effects.applying import APPLIED
-from symgen.run.effects.pushing import push_contacts
+from symgen.run.effects.pushing import REACTIONS
 from symgen.run.layout import abi
 from symgen.run.layout.scales import larger_number
 from symgen.run.layout.start_records import Instant
@@ -36,9 +35,10 @@ from symgen.run.modes.bounded_rows import (
     switch_off,
 )
 from symgen.run.modes.contact_combinations import LOWER, OFF, ON, UPPER
-from symgen.run.modes.contact_parts import choose_part, find_parts, probe_contacts
+from symgen.run.modes.contact_parts import by_reaction, choose_part, find_parts, probe_contacts
 from symgen.run.modes.contact_series import ends_closed, find_leading, remember_impact, sum_series
 from symgen.run.modes.contact_verification import try_combinations
+from symgen.run.modes.pin_impulses import probe_impact, push
 from symgen.run.modes.strikes import (
     OF_SERIES,
     Strikes,
@@ -58,15 +58,16 @@ _GAIN = 1e-9
 
 @exact(entry=True)
 def find_struck_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
-    """Set the gaps that touch with the friction along them, and G; returns what `strikes.find_struck` does."""
+    """Set the gaps that touch with the friction along them, all friction by reactions, and G; else as `find_struck`."""
     gaps = n = find_touching(c, w)
     if gaps == 0:
         return SAME
     for i in range(c.count):
-        c.signs[i] = w[c.first + MODE_NUMBERS * i + SIGN] if c.pushes[i] == 0 and c.partner[i] < 0 else 0.0
+        own = c.pushes[i] == 0 and c.partner[i] < 0 and not by_reaction(c, i)
+        c.signs[i] = w[c.first + MODE_NUMBERS * i + SIGN] if own else 0.0
     for i in range(c.dry):
         j = c.partner[i]
-        if j >= 0 and c.taken[j] != 0:
+        if (j >= 0 and c.taken[j] != 0) or by_reaction(c, i):
             c.rest[n], c.taken[i] = i, 1
             n += 1
     c.at_rest[0] = n
@@ -84,6 +85,8 @@ def find_impulses(c: Choice, s: Strikes) -> int:
         c.offset[i] = c.speed[i] - (s.asked[i] if c.pushes[i] != 0 else 0.0)
         c.loose[i] = 0 if c.pushes[i] != 0 else 1  # impulses of friction have the bound of motion
         c.best[i], c.forces[i], c.signs[i] = OFF, 0.0, 0.0
+        if REACTIONS:  # without impulses joints have none
+            c.apart[2 * i] = c.apart[2 * i + 1] = 0.0
     find_parts(c)
     for i in range(c.count):
         s.memory.groups[i] = -1
@@ -161,6 +164,8 @@ def lose_at_contacts(c: Choice, s: Strikes, y: Array, before: bool) -> float:
                 size += 0.5 * abs(ties.impulses[j]) * (abs(rate) + abs(after))
                 if s.losses[i] >= 0:
                     y[s.losses[i]] -= done
+    if REACTIONS:
+        work, size = work + s.memory.spent[0], size + s.memory.spent[1]
     return work if work > _GAIN * size else math.nan
 
 
@@ -183,9 +188,11 @@ def strike_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
     count = find_pushing(c, s)
     for i in range(c.count):
         c.mode[i] = c.best[i]
+        if REACTIONS:
+            s.memory.pins[i] = c.best[i]
     choose_events(c, s, False)
     tie_velocities(c, s, False)
-    if push_contacts(s.effects.model, t, now, s.chosen, s.effects.work, s.ties) != APPLIED:
+    if not push(t, c, s, now):
         return NOT_APPLIED
     gain = lose_at_contacts(c, s, y, True)
     if gain == gain:
@@ -278,7 +285,7 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, in_series: bool, 
     tie_velocities(c, s, True)
     if in_series and not sum_series(t, c, s, now, iw):
         tie_velocities(c, s, True)
-    if push_contacts(s.effects.model, t, now, s.chosen, s.effects.work, s.ties) != APPLIED:
+    if not push(t, c, s, now):
         return NOT_APPLIED
     lose_at_contacts(c, s, now.y, True)
     for i in range(c.dry, c.count):
@@ -328,4 +335,6 @@ def gather_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
     turn = end_in_turn(t, c, s)
     in_turn = find_closing(t, c, s, w, larger_number(turn, series if series == series else t) - t)
     end = turn if in_turn or not series == series else series
+    if REACTIONS and probe_impact(t, c, s, y, p, w, iw) != SAME:
+        return NOT_FINITE
     return OTHERS if rest_contacts(t, c, s, end, in_series, now, iw) == SAME else NOT_APPLIED

@@ -1,7 +1,7 @@
-"""Modes of parts with many contacts, or with bounds of two directions, compiled: Newton's method on all laws.
+"""Modes of parts with many contacts, bounds by reactions or of two directions, compiled: Newton's method on all laws.
 
 Combinations of a few rows are all tried (`symgen.run.modes.contact_verification`); those of many rows are too many,
-and bounds of two directions have a middle that they do not know.
+and bounds of two directions, or by reactions, have a middle or a load that they do not know.
 Rest is tried first, then other beginnings, and each motion is verified. Where they lead to different motions there are
 several, unless what was at rest goes on resting; others than those found are not sought.
 """
@@ -11,18 +11,25 @@ from __future__ import annotations
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.run.laws.motions import NOT_SOUGHT, SEVERAL_MOTIONS, count_motions, find_forces, seek_another
-from symgen.run.laws.problem import BALL, OFF, ON, PUSH, begin_row
+from symgen.run.laws.problem import BALL, COMPONENTS, LOWER, NOTHING, OFF, ON, PUSH, UPPER, begin_row, load_of
+from symgen.run.laws.problem import bound_of as load_bound
 from symgen.run.laws.sharing import find_dependent, share_forces
+from symgen.run.laws.verify import size_of_terms
 from symgen.run.modes.bounded_rows import (
+    AT_BOUND,
     CONSTANT,
+    DISAGREED,
     HELD,
+    NO_ACCELERATION,
     NO_CONTACT_MODES,
     NO_FACTOR,
     SAME,
+    SEVERAL_BY_REACTION,
     SEVERAL_MODES,
     Choice,
 )
 from symgen.run.modes.contact_combinations import bound_of
+from symgen.run.modes.contact_parts import by_reaction, has_reaction
 
 
 @exact()
@@ -39,6 +46,13 @@ def fill_part(c: Choice, count: int) -> None:
         laws.law[a] = PUSH if c.pushes[i] != 0 else BALL
         if c.pushes[i] == 0 and c.partner[i] < 0:
             laws.beta[a], laws.middle[a] = bound_of(c, i), 0.0 if c.loose[i] != 0 else c.middle[i]
+            if by_reaction(c, i):
+                laws.kappa[a], laws.beta[a], laws.way[a], laws.components[a] = laws.beta[a], 0.0, c.signs[i], 2
+                for part in range(2):
+                    at = COMPONENTS * a + part
+                    laws.apart[at] = c.apart[2 * i + part]
+                    for b in range(count):
+                        laws.parts[at * count + b] = c.parts[(2 * i + part) * k + order[b]]
         if c.pushes[i] == 0 and c.partner[i] >= 0:
             laws.kappa[a], laws.way[a] = bound_of(c, i), c.signs[i]
             for b in range(count):
@@ -75,14 +89,57 @@ def find_carriers_of_part(c: Choice, count: int) -> None:
             c.part[j] = owner if owners == 1 else c.count
 
 
+@exact()
+def find_forces_of_part(c: Choice, count: int) -> bool:
+    """Find forces that obey all laws; gaps that have just opened stay open unless they would close."""
+    laws, closes = c.laws, False
+    for a in range(count):
+        if c.pushes[c.box.order[a]] != 0 and c.loose[c.box.order[a]] != 0:
+            laws.law[a] = NOTHING
+    found = find_forces(count, laws, 1)
+    for a in range(count):
+        closes = closes or (laws.law[a] == NOTHING and laws.left[a] < -NO_ACCELERATION * size_of_terms(count, a, laws))
+    if not found or closes:
+        for a in range(count):
+            laws.law[a] = PUSH if laws.law[a] == NOTHING else laws.law[a]
+        found = find_forces(count, laws, 1)
+    return bool(found)
+
+
+@exact()
+def move_at_bounds(c: Choice, count: int) -> None:
+    """Have rows move that have just broken loose, and whose forces are at their bounds."""
+    laws = c.laws
+    for a in range(count):
+        if laws.law[a] == BALL and laws.state[a] == ON and c.loose[c.box.order[a]] != 0:
+            bound = load_bound(count, a, laws)
+            if bound > 0.0 and abs(laws.forces[a]) >= AT_BOUND * bound:
+                laws.state[a] = UPPER if laws.forces[a] > 0.0 else LOWER
+
+
+@exact()
+def name_different(c: Choice, count: int) -> None:
+    """Name the rows of a part that differ in two motions."""
+    differ = 0
+    for a in range(count):
+        if c.laws.state[a] != c.laws.other[a]:
+            c.named[differ] = c.box.order[a]
+            differ += 1
+    c.named[differ] = -1
+
+
 @exact(entry=True)
 def solve_by_laws(c: Choice, count: int) -> int:
-    """Find the modes of a part as `try_combinations` does; return `SAME`, `NO_CONTACT_MODES` or `SEVERAL_MODES`."""
-    order, laws = c.box.order, c.laws
+    """Find the modes of a part as `try_combinations` does; return `SAME`, `NO_CONTACT_MODES` or `SEVERAL_MODES`.
+
+    Where bounds depend on reactions, `DISAGREED` or `SEVERAL_BY_REACTION` with the rows that differ.
+    """
+    order, laws, reacts = c.box.order, c.laws, has_reaction(c, count)
     fill_part(c, count)
-    if not find_forces(count, laws, 1):
-        return NO_CONTACT_MODES
+    if not find_forces_of_part(c, count):
+        return DISAGREED if reacts else NO_CONTACT_MODES
     share_forces(count, laws)
+    move_at_bounds(c, count)
     motions = count_motions(count, laws)
     several = motions == SEVERAL_MOTIONS
     if motions == NOT_SOUGHT and not rested(c, count):
@@ -91,9 +148,13 @@ def solve_by_laws(c: Choice, count: int) -> int:
         i = order[a]
         c.best[i], c.other[i], c.trial[i] = laws.state[a], laws.other[a], laws.left[a]
         c.forces[i] = laws.forces[a] - c.middle[i]
+        c.sizes[i] = load_of(count, a, laws) if by_reaction(c, i) else 1.0
     for a in range(count):  # the friction of an open contact is off
         i = order[a]
         if c.pushes[i] == 0 and c.partner[i] >= 0 and c.best[c.partner[i]] == OFF:
             c.best[i] = OFF
     find_carriers_of_part(c, count)
+    if several and reacts:
+        name_different(c, count)
+        return SEVERAL_BY_REACTION
     return SEVERAL_MODES if several else SAME

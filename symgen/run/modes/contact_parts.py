@@ -1,7 +1,8 @@
 """Mobility among closed contacts and their friction, compiled, and the parts of it that do not depend on each other.
 
 G has the accelerations of rows by the forces of others. Rows at rest that G connects are one part, of which the modes
-are chosen together; a part without contacts is a box problem, see `symgen.run.modes.choice`.
+are chosen together; a part without contacts is a box problem, see `symgen.run.modes.choice`. Where bounds depend on
+reactions, a probe reads these as well, and rows are one part by their loads too.
 """
 
 from __future__ import annotations
@@ -11,7 +12,9 @@ import math
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
+from symgen.run.effects.pushing import REACTIONS
 from symgen.run.layout.scales import larger_number
+from symgen.run.modes.agreement import store_probe
 from symgen.run.modes.bounded_rows import (
     CONSTANT,
     EFFORT,
@@ -63,7 +66,7 @@ def accelerate_by(
     for i in range(c.count):
         at = c.first + MODE_NUMBERS * i
         c.w[at + HELD] = c.w[at + CONSTANT] = c.w[at + LIMIT] = c.w[at + EFFORT] = 0.0
-        c.w[at + SIGN] = c.signs[i] if c.pushes[i] == 0 and c.partner[i] < 0 else 0.0
+        c.w[at + SIGN] = c.signs[i] if c.pushes[i] == 0 and c.partner[i] < 0 and not by_reaction(c, i) else 0.0
     if j < c.count:
         at = c.first + MODE_NUMBERS * j
         if c.pushes[j] != 0:
@@ -74,19 +77,37 @@ def accelerate_by(
 
 
 @exact()
+def by_reaction(c: Choice, i: int) -> bool:
+    """Return whether the bound of a row depends on the reaction of a joint."""
+    return bool(REACTIONS and c.pressed[i] != 0)
+
+
+@exact()
+def store_columns(t: float, c: Choice, p: Array, number: int, force: float) -> None:
+    """Store the accelerations of the last probe, and the reactions, without forces or by a unit of force `number`."""
+    if REACTIONS:
+        store_probe(t, c, p, number, force)
+    else:
+        for i in range(c.count):
+            if number < 0:
+                c.offset[i] = c.out[i]
+            else:
+                c.matrix[i * c.count + number] = (c.offset[i] - c.out[i]) / force
+
+
+@exact()
 def probe_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
-    """Set G of the rows at rest and of the sliding friction of contacts, and accelerations without these forces."""
+    """Set G of the rows at rest and of sliding friction by loads, and accelerations without these forces."""
     k, n = c.count, c.at_rest[0]
     for i in range(k * k):
         c.matrix[i] = 0.0
     if accelerate_by(t, c, k, 0.0, y, p, w, iw, control) != SAME:
         return NOT_FINITE
-    for i in range(k):
-        c.offset[i] = c.out[i]
+    store_columns(t, c, p, -1, 1.0)
     find_mobility(c)
     rows = n
     for i in range(c.dry):
-        if c.partner[i] >= 0 and c.signs[i] != 0.0 and c.taken[i] == 0:
+        if (c.partner[i] >= 0 or by_reaction(c, i)) and c.signs[i] != 0.0 and c.taken[i] == 0:
             c.rest[rows] = i
             rows += 1
     most = 0.0  # accelerations as large as those that are there, of all rows: a row's own may be rounding of others'
@@ -100,12 +121,20 @@ def probe_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Intege
             force = most / math.sqrt(c.alone[j])
         if accelerate_by(t, c, j, force, y, p, w, iw, control) != SAME:
             return NOT_FINITE
-        for i in range(k):
-            c.matrix[i * k + j] = (c.offset[i] - c.out[i]) / force
+        store_columns(t, c, p, j, force)
     c.at_rest[0] = rows
     symmetrise(c)
     size_forces(c, rows, w)
     return SAME
+
+
+@exact()
+def is_load(c: Choice, i: int, j: int) -> bool:
+    """Return whether the bound of a row depends on the force of another one."""
+    if c.partner[i] == j:
+        return True
+    at = 2 * i * c.count + j
+    return bool(by_reaction(c, i) and (c.parts[at] != 0.0 or c.parts[at + c.count] != 0.0))
 
 
 @exact()
@@ -120,7 +149,7 @@ def find_parts(c: Choice) -> int:
             for b in range(n):
                 i, j = c.rest[a], c.rest[b]
                 size = math.sqrt(abs(c.matrix[i * k + i] * c.matrix[j * k + j]))
-                tied = c.partner[i] == j or abs(c.matrix[i * k + j]) > COUPLED * size
+                tied = is_load(c, i, j) or is_load(c, j, i) or abs(c.matrix[i * k + j]) > COUPLED * size
                 if tied and c.part[j] < c.part[i]:
                     c.part[i], again = c.part[j], True
     return int(n)
@@ -166,5 +195,14 @@ def has_contact(c: Choice, count: int) -> bool:
     """Return whether a part has a contact with friction."""
     for a in range(count):
         if c.partner[c.box.order[a]] >= 0:
+            return True
+    return False
+
+
+@exact()
+def has_reaction(c: Choice, count: int) -> bool:
+    """Return whether bounds of a part depend on reactions."""
+    for a in range(count):
+        if by_reaction(c, c.box.order[a]):
             return True
     return False

@@ -14,14 +14,15 @@ from __future__ import annotations
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.effects.accumulation import OF_EVENT
-from symgen.run.effects.applying import APPLIED
-from symgen.run.effects.pushing import push_contacts
+from symgen.run.effects.pushing import REACTIONS
 from symgen.run.layout import abi
 from symgen.run.layout.start_records import Instant
 from symgen.run.modes.bounded_rows import SAME, STILL, TOUCHING, Choice, row_scale, switch_off
 from symgen.run.modes.choice import find_starting, follow_modes, read_rows
+from symgen.run.modes.contact_parts import by_reaction
 from symgen.run.modes.contacts import choose_contacts
 from symgen.run.modes.impact_memory import AT, HEAD, RATE, REMEMBERED
+from symgen.run.modes.pin_impulses import probe_impact, push
 from symgen.run.modes.strikes import Strikes, accelerate_in_force
 
 #: Rates below this part of what is left out of them end with the series.
@@ -79,7 +80,8 @@ def find_leading(t: float, c: Choice, s: Strikes) -> int:
         if s.active[i] != 0 and s.before[i] < 0.0 and groups[i] >= 0 and leads[i] < 0 and is_geometric(t, c, s, i):
             beside = 0
             for j in range(c.count):
-                beside += 1 if groups[j] == groups[i] and j != i and c.partner[i] != j else 0
+                own = j == i or c.partner[i] == j or by_reaction(c, j)
+                beside += 1 if groups[j] == groups[i] and not own else 0
             for j in range(c.count):
                 if beside > 0 and groups[j] == groups[i]:
                     leads[j] = i
@@ -175,7 +177,7 @@ def try_rest(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers) -> boo
         memory.rests[i] = 0.0
         c.broken[i] = c.stopped[i] = c.left[i] = 0
     c.begins[0] = 0
-    if push_contacts(s.effects.model, t, now, s.chosen, s.effects.work, s.ties) == APPLIED:
+    if push(t, c, s, now):
         if read_rows(t, c, now.y, now.p, now.w) == SAME:
             find_starting(t, c, now.w)
             if choose_contacts(t, c, now.y, now.p, now.w, iw, memory.control) <= 1:
@@ -189,6 +191,8 @@ def try_rest(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers) -> boo
         now.y[i] = memory.y[i]
     for i in range(now.w.shape[0]):
         now.w[i] = memory.w[i]
+    if REACTIONS:
+        found = probe_impact(t, c, s, now.y, now.p, now.w, iw) == SAME and found
     for i in range(c.count):
         c.speed[i] = memory.rates[i]
     return found

@@ -26,6 +26,7 @@ from symgen.run.modes.contact_combinations import (
     solve_combination,
 )
 from symgen.run.modes.contact_laws import solve_by_laws
+from symgen.run.modes.contact_parts import has_reaction
 
 #: Rounding of accelerations and forces over what they are differences of, and of those that are solved for.
 _ROUNDING, _SOLVED = 1e-10, 1e-7
@@ -110,19 +111,19 @@ def has_middle(c: Choice, count: int) -> bool:
 
 @exact()
 def try_combinations(c: Choice, count: int) -> int:
-    """Find the modes of a part; return `SAME`, `NO_CONTACT_MODES` or `SEVERAL_MODES`.
+    """Find the modes of a part; return `SAME`, or what `solve_by_laws` does.
 
     Combinations with equal accelerations are one: forces may be several. Those of many rows, and
-    with bounds of two directions, are not tried.
+    with bounds of two directions or by reactions, are not tried.
     """
     box, solutions, contacts = c.box, 0, 0
     for a in range(count):
         i = box.order[a]
         contacts += 1 if c.pushes[i] != 0 else 0
         c.option[i] = 0
-    if contacts > _MOST_CONTACTS or count > _MOST_ROWS or has_middle(c, count):
+    if contacts > _MOST_CONTACTS or count > _MOST_ROWS or has_middle(c, count) or has_reaction(c, count):
         code = solve_by_laws(c, count)
-        if code != SAME:
+        if code == NO_CONTACT_MODES or code == SEVERAL_MODES:
             name_fault(c, count)
         return int(code)
     more = True

@@ -15,18 +15,21 @@ import math
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
+from symgen.run.effects.pushing import REACTIONS
 from symgen.run.layout import abi
 from symgen.run.loops.search_records import COUNT, MARGIN, MEASURE, N_HEAD, RATE, ROW
+from symgen.run.modes.agreement import find_redundant, follow_reactions
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
     AT_REST,
     CONSTANT,
     EFFORT,
     HELD,
+    JAMMED,
     LIMIT,
-    NO_FORCES,
     NOT_FINITE,
     OTHERS,
+    REDUNDANT,
     ROUNDED,
     SAME,
     SIGN,
@@ -37,9 +40,11 @@ from symgen.run.modes.choice import add_forces, find_rest, write_modes
 from symgen.run.modes.choice import measure_margins as measure_margins_of_rows
 from symgen.run.modes.contact_combinations import LOWER, ON, UPPER
 from symgen.run.modes.contact_parts import (
+    by_reaction,
     choose_part,
     find_parts,
     has_contact,
+    has_reaction,
     keep_touching,
     probe_contacts,
     size_forces_of_parts,
@@ -73,6 +78,8 @@ def part_held(c: Choice, count: int, first: int, i: int) -> float:
         holds = holds and not breaks(c, c.box.order[a])
     if c.partner[i] >= 0:
         most *= abs(c.forces[c.partner[i]])
+    if by_reaction(c, i):
+        most *= c.sizes[i]
     needs = abs(c.forces[i]) / most if holds and c.best[i] == ON and most > 0.0 else math.inf
     c.loose[i] = 1
     return needs if needs < AT_BOUND else math.inf
@@ -126,7 +133,8 @@ def write_part(c: Choice, count: int) -> None:
         if c.best[i] == ON and carrier < 0:
             after[at + HELD] = 1.0
             after[at + CONSTANT] = c.before[at + CONSTANT] if c.before[at + HELD] != 0.0 else c.value[i]
-            after[at + LIMIT] += c.static[i] if c.pushes[i] == 0 and c.partner[i] < 0 else 0.0
+            own = c.pushes[i] == 0 and c.partner[i] < 0 and not by_reaction(c, i)
+            after[at + LIMIT] += c.static[i] if own else 0.0
         elif c.best[i] == ON and c.pushes[i] != 0:
             after[at + CONSTANT], after[at + LIMIT] = AT_REST, 1.0
         elif c.best[i] == ON and carrier < c.count:
@@ -134,7 +142,8 @@ def write_part(c: Choice, count: int) -> None:
             if c.partner[i] >= 0:
                 after[at + LIMIT] = c.bounds[i]
             else:
-                after[MODE_NUMBERS * carrier + LIMIT] += abs(c.bounds[i]) * c.static[i]
+                static = c.static[i] * (c.sizes[i] if by_reaction(c, i) else 1.0)
+                after[MODE_NUMBERS * carrier + LIMIT] += abs(c.bounds[i]) * static
         elif c.best[i] == ON:
             slack = ROUNDED * (c.scale[i] + abs(c.forces[i]))
             after[at + CONSTANT], after[at + EFFORT], after[at + LIMIT] = AT_REST, c.forces[i], slack
@@ -144,10 +153,10 @@ def write_part(c: Choice, count: int) -> None:
 
 @exact()
 def choose_parts(c: Choice, rows: int) -> int:
-    """Choose the modes of all parts with contacts, and leave the rows of others at rest; return `SAME` or a code."""
+    """Choose the modes of parts with contacts or reactions, and leave the rows of others; return `SAME` or a code."""
     for first in range(c.count):
         count = choose_part(c, first, rows)
-        if has_contact(c, count):
+        if has_contact(c, count) or has_reaction(c, count):
             code = choose_modes_of_part(c, count, first)
             if code != SAME:
                 return int(code)
@@ -159,6 +168,32 @@ def choose_parts(c: Choice, rows: int) -> int:
     return SAME
 
 
+@exact()
+def find_jammed(c: Choice) -> bool:
+    """Return whether an effort by a reaction would bring about all of it, alone; name the row."""
+    for i in range(c.dry):
+        if by_reaction(c, i):
+            bound, at = c.sliding[i] if c.signs[i] != 0.0 else c.static[i], 2 * i * c.count + i
+            x, y = c.parts[at], c.parts[at + c.count]
+            c.jam[0] = bound * math.sqrt(x * x + y * y)
+            if not c.jam[0] < 1.0:
+                c.named[0] = i
+                return True
+    return False
+
+
+@exact()
+def watch_reactions(c: Choice) -> int:
+    """Have the bounds of rows at rest follow reactions; return `SAME`, or `SHARED` as `follow_reactions` does."""
+    for i in range(c.dry):
+        c.taken[i] = 1 if c.after[MODE_NUMBERS * i + HELD] != 0.0 else 0
+        if by_reaction(c, i):
+            c.scale[i] += c.static[i] * c.sizes[i]
+    for i in range(c.dry, c.count):
+        c.taken[i] = 1 if c.after[MODE_NUMBERS * i + HELD] != 0.0 else 0
+    return int(follow_reactions(c))
+
+
 @exact(entry=True)
 def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
     """Choose modes as `symgen.run.modes.choice.choose_modes` does, where there are contacts.
@@ -166,9 +201,15 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
     Returns `SAME`, `OTHERS`, or why there are no modes.
     """
     n, code, rows, left, struck = keep_touching(c, find_rest(c, w)), SAME, 0, 0, False
-    if n > 0:
+    if REACTIONS:
+        c.named[0] = find_redundant(c, w)
+        if c.named[0] >= 0:
+            return REDUNDANT
+    if n > 0 or REACTIONS:
         if probe_contacts(t, c, y, p, w, iw, control) != SAME:
             return NOT_FINITE
+        if REACTIONS and find_jammed(c):
+            return JAMMED
         rows = find_parts(c)
         size_forces_of_parts(c, rows)
         code = choose_parts(c, rows)
@@ -182,9 +223,13 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
     c.at_rest[0] = left
     for i in range(c.count):
         c.taken[i] = 0
-    if left > 0 and solve_rest(c, left, w) != SAME:
-        return NO_FORCES
+    if left > 0:
+        code = solve_rest(c, left, w)
+        if code != SAME:
+            return int(code)
     code = hold_rows(c, w)
+    if REACTIONS and code == SAME:
+        code = watch_reactions(c)
     for i in range(c.count):
         struck = struck or c.shut[i] != 0
         c.shut[i] = 0

@@ -30,6 +30,10 @@ class ImpactMemory(Record):
         1 for gaps that the latest impact does not push, and that end closed with its series.
     rates, rested, rests, first : Array, shapes (k,)
         Rates of rows after the latest impact; where rest is tried, rates and accelerations; those of the first trial.
+    pins : Array of int64, shape (k,)
+        Modes of friction by reactions at the latest impact.
+    spent : Array, shape (2,)
+        Work of the impulses of friction by reactions, and of their sizes [J].
     y, w, control : Array, Array of int64
         State and scratch, kept while rest is tried.
     """
@@ -39,6 +43,8 @@ class ImpactMemory(Record):
     groups: Integers
     leads: Integers
     closes: Integers
+    pins: Integers
+    spent: Array
     rates: Array
     rested: Array
     rests: Array
@@ -52,6 +58,8 @@ def new_impact_memory(k: int, width: int, nw: int) -> Any:
     """Return an empty memory for k rows, and states and scratches of `width` and `nw` numbers."""
     numbers, control = np.zeros, np.zeros(abi.N_CONTROL if k else 0, dtype=np.int64)
     impacts, groups, leads = numbers(REMEMBERED * (HEAD + k) * k), np.full(k, -1), np.full(k, -1)
-    modes, closes = np.zeros(k, dtype=np.int64), np.zeros(k, dtype=np.int64)
+    modes, closes, pins = (np.zeros(k, dtype=np.int64) for _ in range(3))
     rates = numbers(k), numbers(k), numbers(k), numbers(k)
-    return ImpactMemory(impacts, modes, groups, leads, closes, *rates, numbers(width), numbers(nw), control)
+    return ImpactMemory(
+        impacts, modes, groups, leads, closes, pins, numbers(2), *rates, numbers(width), numbers(nw), control
+    )

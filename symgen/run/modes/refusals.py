@@ -57,9 +57,11 @@ class Sentence(NamedTuple):
 
 #: Faults that only runs with these kinds of rows have (`symgen.run.loops.run_spec.Watched.turning`).
 OF_KIND = {
-    **{TWO_PIECES: "corners"},
-    **dict.fromkeys((NO_CONTACT_MODES, SEVERAL_MODES, GAINED), "contacts"),
-    SEVERAL_BY_REACTION: "pressed",
+    TWO_PIECES: {"corners"},
+    NO_CONTACT_MODES: {"contacts"},
+    SEVERAL_MODES: {"contacts"},
+    GAINED: {"contacts", "reactions"},
+    SEVERAL_BY_REACTION: {"pressed", "reactions"},
 }
 #: Sentences by their codes.
 SENTENCES = {
@@ -121,7 +123,7 @@ SENTENCES = {
     SEVERAL_MODES: Sentence("contacts", "one motion at t = {t:.9g} s", "several: {modes}, and {others}"),
     SEVERAL_BY_REACTION: Sentence("{by_reaction}", "one motion at t = {t:.9g} s", "several, which differ at {names}"),
     GAINED: Sentence(
-        "contact {name}",
+        "{kind} {name}",
         "an impact that adds no energy",
         "one that adds {first:.12g} J at t = {t:.9g} s, as Newton's law may with friction or several impacts at once",
     ),

@@ -12,6 +12,7 @@ import math
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.native.annotations import Array, Integers, Record, record_type
+from symgen.run.effects.pushing import REACTIONS
 from symgen.run.effects.resets import OfEffects, apply_resets, change_nothing, choose_resets, first_note, forget_resets
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
@@ -177,7 +178,7 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
         first = c.value[row]
     elif code == IMMOVABLE:
         first = c.speed[row]
-    elif CONTACTS and (code == NO_CONTACT_MODES or code == GAINED):
+    elif (CONTACTS and code == NO_CONTACT_MODES) or ((CONTACTS or REACTIONS) and code == GAINED):
         first = c.jam[0]
     elif CONTACTS and code == SEVERAL_MODES:
         first, second = modes_in_digits(c, c.best), modes_in_digits(c, c.other)
@@ -406,7 +407,7 @@ def take_turn(code: int, modes: OfModes, state: EventState) -> int:
     ended = change_state(last, effects, state)
     if ended == e.IMPOSSIBLE:
         return int(ended)
-    if CONTACTS and jammed >= 0:
+    if CONTACTS and jammed >= 0 and c.pressed[jammed] == 0:
         return int(refuse_fault(NO_CONTACT_MODES, float(jammed), 0.0, math.nan, modes))
     if jammed >= 0:
         return int(refuse_fault(JAMMED, float(jammed), 1.0, math.nan, modes))

@@ -9,12 +9,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from symgen.compile.loopcode.loop_instances import Meanings
+from symgen.compile.loopcode.loop_instances import Meanings, exact_instance
 from symgen.run.effects.resets import apply_resets
 from symgen.run.modes.agreement import choose_pressed
 from symgen.run.modes.catching import HOLDING
 from symgen.run.modes.contact_impacts import find_struck_contacts, gather_contacts, strike_contacts
 from symgen.run.modes.contacts import choose_contacts, measure_margins_of_contacts
+from symgen.run.modes.pin_impulses import BY_REACTIONS
 from symgen.run.modes.transition_log import log_changes_of_contacts
 from symgen.run.modes.turn import put_gaps_to_zero, rest_gaps, strike_gaps, strike_past_corners
 
@@ -39,8 +40,20 @@ TOUCHED = Meanings(
     log_changes=log_changes_of_contacts,
     log_changes_in_pieces=log_changes_of_contacts,
 )
+#: Contacts or stops beside bounds by reactions: one choice of modes, and one impact, for all.
+REACTING = Meanings(
+    "runs with one-sided rows beside bounds that depend on reactions",
+    REACTIONS=True,
+    choose_modes=exact_instance(choose_contacts, BY_REACTIONS),
+    find_struck=exact_instance(find_struck_contacts, BY_REACTIONS),
+    strike=exact_instance(strike_contacts, BY_REACTIONS),
+    gather=exact_instance(gather_contacts, BY_REACTIONS),
+)
 #: Meanings for what a run's rows have (`symgen.run.loops.run_spec.Watched.turning`).
-TURNING = {"pressed": PRESSED, "corners": CORNERED, "pieces": IN_PIECES, "contacts": TOUCHED, "holding": HOLDING}
+TURNING = {
+    **{"pressed": PRESSED, "corners": CORNERED, "pieces": IN_PIECES, "contacts": TOUCHED, "reactions": REACTING},
+    "holding": HOLDING,
+}
 
 
 def meanings_of_turn(strikes: bool, turning: Sequence[str]) -> dict[str, Any]:

@@ -101,7 +101,7 @@ def modes_of_runs(
     return OfModes(
         sizes=model_sizes(compiled),
         choice=choice,
-        strikes=new_strikes(effects, hits, losses, keeps, bool(rows.contacts)),
+        strikes=new_strikes(effects, hits, losses, keeps, bool(rows.contacts) or rows.one_problem),
         transitions=log,
         choosing=_marks_of_action(watched, MODE) | effects.resets,
         breaks=rows_of_turn(SLIP),

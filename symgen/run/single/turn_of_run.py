@@ -28,6 +28,7 @@ from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.loops.event_loop import EVENT_STATE, EventState
 from symgen.run.modes.bounded_rows import NOT_APPLIED, SIGN
+from symgen.run.modes.pin_impulses import kicks_along_rows
 from symgen.run.modes.refusals import HOLDING_SENTENCES, names_in, refusal, refusal_of_catch
 from symgen.run.modes.turn import (
     FURTHER,
@@ -266,7 +267,12 @@ class TurnOfRun:
                 memory = strikes.memory
                 series = KeptSeries(memory.impacts.copy(), memory.rates.copy(), memory.rests.copy())
                 rested = rested._replace(series=series)
-            both = (struck, rested) if self.rows.contacts else (None, None)
+            if self.rows.one_problem:
+                struck, rested = (
+                    ties._replace(pins=strikes.memory.pins.copy(), kicks=kicks_along_rows(choice, kept.impulses))
+                    for ties, kept in ((struck, strikes.struck), (rested, strikes.rested))
+                )
+            both = (struck, rested) if self.rows.contacts or self.rows.one_problem else (None, None)
             found += [(strikes.struck, strikes.events[active], strikes.struck.w, both[0])]
             found += [(strikes.rested, strikes.events[active], w, both[1])]
         happened = [x for x in found if not np.isnan(x[0].energy[0])]

@@ -346,6 +346,8 @@ class Builder:
         self.head["drags"] = len(self.shape.drag_index)
         self.begin_table("drag_modes")
         self.numbers += [place for name in self.shape.drag_index for place in self.place_of_modes(name)]
+        if len(set(self.shape.signed_drags)) > 1:
+            self.numbers += [int(signed) for signed in self.shape.signed_drags]
         self.numbers.append(self.beside)
 
     def write_rotors(self) -> None:

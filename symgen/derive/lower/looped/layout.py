@@ -72,5 +72,6 @@ BESIDE = (*ROTORS, *DRAGS)
 #: components of the reaction.
 DRAG_RECORD = 3
 
-#: Ends of the stems of laws that find efforts which depend on reactions, and on forces of gaps, whose signs count.
-PRESSED, TOUCHED = "_pressed", "_touched"
+#: Ends of the stems of laws that find efforts which depend on reactions, on forces of gaps, whose signs count, and on
+#: both; which are of gaps is in tables after the modes.
+PRESSED, TOUCHED, BOTH = "_pressed", "_touched", "_pressed_and_touched"

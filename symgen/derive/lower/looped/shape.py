@@ -169,8 +169,10 @@ class LoopedShape:
         self.windings = len(self.angle_index)
         bounds = [instance.name for instance in self.instances if instance.kind == "bound"]
         self.mode_index = {name: MODE_NUMBERS * i for i, name in enumerate(bounds)}
-        drags = [instance.name for instance in self.instances if instance.kind == "drag"]
-        self.drag_index = {name: i for i, name in enumerate(drags)}  # of rows with bounds that depend on reactions
+        drags = [instance for instance in self.instances if instance.kind == "drag"]
+        # of rows with bounds that depend on reactions, and whether the sign of what they depend on counts
+        self.drag_index = {drag.name: i for i, drag in enumerate(drags)}
+        self.signed_drags = [drag.abstract.bounded[0].signed for drag in drags]
         states = [instance.name for instance in self.instances if instance.kind == "state"]
         self.state_index = {name: i for i, name in enumerate(states)}
 

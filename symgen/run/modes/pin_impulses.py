@@ -1,0 +1,127 @@
+"""Impulses of friction by reactions, compiled: bounds over the impulses that joints have at an impact.
+
+Where an impact leaves no rate of a coordinate, friction has the impulse that keeps it at rest; else its impulse is at
+its bound, against the rate after the impact. Which of both is chosen with the modes of the impact
+(`symgen.run.modes.contact_laws`). In these modes the impulses follow here from those that hold rates, and act on the
+velocities from which the impact begins.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.compile.loopcode.exact import exact
+from symgen.compile.loopcode.loop_instances import Meanings, exact_instance
+from symgen.compile.native.annotations import Array, Integers
+from symgen.run.effects.applying import APPLIED
+from symgen.run.effects.pushing import REACTIONS, push_contacts
+from symgen.run.laws.newton import follow_laws
+from symgen.run.laws.problem import BALL, COMPONENTS, LOWER, OFF, ON, UPPER, acceleration_of, begin_row
+from symgen.run.layout.start_records import Instant
+from symgen.run.modes.bounded_rows import Choice
+from symgen.run.modes.contact_parts import by_reaction, probe_contacts
+from symgen.run.modes.strikes import Strikes
+
+#: Where bounds depend on reactions beside one-sided rows.
+BY_REACTIONS = Meanings("runs with one-sided rows beside bounds that depend on reactions", REACTIONS=True)
+push_with_kicks = exact_instance(push_contacts, BY_REACTIONS)
+
+
+@exact()
+def list_rows(c: Choice, s: Strikes) -> int:
+    """List the rows of the impact in ``order``, each gap before its friction, with rates asked for and their modes.
+
+    Friction by reactions comes last; returns the number of all.
+    """
+    _, _, _, _, changes = s.effects.model
+    owners, ties, order, laws, n = changes.owners, s.ties, c.box.order, c.laws, 0
+    for j in range(owners.shape[0]):
+        for i in range(c.dry, c.count):
+            if owners[j] == s.events[i] and s.active[i] != 0:
+                gap = j == 0 or owners[j - 1] != owners[j]
+                order[n] = i if gap else c.partner[i]
+                laws.kept[n], laws.state[n] = ties.values[j], ON if ties.held[j] > 0 else OFF
+                if ties.held[j] < 0:
+                    laws.kept[n], laws.state[n] = 0.0, UPPER if ties.ways[j] < 0.0 else LOWER
+                n += 1
+    for i in range(c.dry):
+        if by_reaction(c, i):
+            order[n], laws.kept[n], laws.state[n] = i, 0.0, s.memory.pins[i]
+            n += 1
+    return n
+
+
+@exact()
+def fill_impact(c: Choice, n: int) -> None:
+    """Write the problem of the impulses of the rows listed."""
+    k, order, laws = c.count, c.box.order, c.laws
+    for a in range(n):
+        i = order[a]
+        begin_row(n, a, laws)
+        laws.offset[a], laws.forces[a] = c.speed[i] - laws.kept[a], 0.0
+        for b in range(n):
+            laws.matrix[a * n + b] = c.matrix[i * k + order[b]]
+        if c.pushes[i] == 0:
+            laws.law[a], laws.kappa[a] = BALL, c.sliding[i]
+            if by_reaction(c, i):
+                laws.components[a] = 2
+                for part in range(2):
+                    for b in range(n):
+                        laws.parts[(COMPONENTS * a + part) * n + b] = c.parts[(2 * i + part) * k + order[b]]
+            else:
+                laws.presser[a] = a - 1
+
+
+@exact()
+def find_kicks(c: Choice, s: Strikes) -> bool:
+    """Set the impulses of friction by reactions, and their work; return whether there are any in these modes."""
+    laws, n, most = c.laws, list_rows(c, s), 0.0
+    fill_impact(c, n)
+    for a in range(n):
+        most = max(most, abs(laws.offset[a]))
+    for row in range(s.ties.kicks.shape[0]):
+        s.ties.kicks[row] = 0.0
+    s.memory.spent[0] = s.memory.spent[1] = 0.0
+    if most == 0.0:
+        return True
+    if not follow_laws(n, True, laws):
+        return False
+    for a in range(n):
+        i = c.box.order[a]
+        if by_reaction(c, i):
+            rate = c.speed[i] + acceleration_of(n, a, laws)
+            s.memory.spent[0] -= 0.5 * laws.forces[a] * rate
+            s.memory.spent[1] += 0.5 * abs(laws.forces[a]) * abs(rate)
+            for row in range(c.layout.m):
+                if c.place_of[row] == i:
+                    s.ties.kicks[row] = -laws.forces[a]
+    return True
+
+
+@exact()
+def push(t: float, c: Choice, s: Strikes, now: Instant) -> bool:
+    """Change velocities by the impulses of ``ties`` and of friction by reactions; return whether joints allow it."""
+    if REACTIONS and not find_kicks(c, s):
+        return False
+    return bool(push_contacts(s.effects.model, t, now, s.chosen, s.effects.work, s.ties) == APPLIED)
+
+
+@exact()
+def probe_impact(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, iw: Integers) -> int:
+    """Set G of all rows that an impact may have impulses along, at the present state with all rows off."""
+    n = 0
+    for i in range(c.count):
+        c.taken[i], c.signs[i] = 0, 0.0
+        if c.pushes[i] != 0 or c.partner[i] >= 0 or by_reaction(c, i):
+            c.rest[n] = i
+            n += 1
+    c.at_rest[0] = n
+    return int(probe_contacts(t, c, y, p, w, iw, s.memory.control))
+
+
+def kicks_along_rows(c: Choice, impulses: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the impulses of friction by reactions at an impact, along all rows of the model."""
+    places = np.asarray(c.place_of)
+    pressed = (places >= 0) & (np.asarray(c.pressed)[places] != 0)
+    return np.where(pressed, impulses[: len(places)], 0.0)
