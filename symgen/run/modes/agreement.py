@@ -16,7 +16,7 @@ from symgen.compile.native.annotations import Array, Integers
 from symgen.run.laws.motions import SEVERAL_MOTIONS, count_motions, find_forces
 from symgen.run.laws.problem import BALL, COMPONENTS, ON, begin_row, load_of
 from symgen.run.laws.problem import LOWER as DOWN
-from symgen.run.layout.redundancy import farthest_row
+from symgen.run.layout.redundancy import farthest_row, is_off
 from symgen.run.modes.bounded_rows import (
     AT_REST,
     CONSTANT,
@@ -52,11 +52,35 @@ from symgen.run.modes.resting import set_bounds, solve_rest
 _AGREED, _AGREEMENTS = 1e-14, 60
 
 
+@exact()
+def reaches_reactions(c: Choice, row: int, w: Array) -> bool:
+    """Return whether a row is tied, by rows in force, to a coordinate whose bounds depend on a reaction.
+
+    Rows with bounds count as in force; coordinates and rows found are marked in ``rate`` and in the scratch.
+    """
+    entries, again = c.layout.entries, True
+    for j in range(c.layout.nv):
+        c.rate[j] = 0.0
+    for i in range(c.layout.m):
+        c.w[i] = 1.0 if i == row else 0.0
+    while again:
+        again = False
+        for e in range(entries.shape[0] // 3):
+            i, j = entries[3 * e], entries[3 * e + 1]
+            if c.place_of[i] >= 0 or not is_off(c.layout, i, w):
+                if c.w[i] != c.rate[j]:
+                    c.w[i], c.rate[j], again = 1.0, 1.0, True
+    for i in range(c.layout.m):
+        if c.w[i] != 0.0 and c.place_of[i] >= 0 and c.pressed[c.place_of[i]] != 0:
+            return True
+    return False
+
+
 @exact(entry=True)
 def find_redundant(c: Choice, w: Array) -> int:
-    """Return the first row left out that has no bounds, -1 for none: it leaves reactions undetermined."""
+    """Return the first row left out that has no bounds and leaves such reactions undetermined, -1 for none."""
     for i in range(c.layout.m):
-        if w[c.layout.mask + i] != 0.0 and c.place_of[i] < 0:
+        if w[c.layout.mask + i] != 0.0 and c.place_of[i] < 0 and reaches_reactions(c, i, w):
             return int(i)
     return -1
 

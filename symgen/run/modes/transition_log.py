@@ -29,6 +29,8 @@ class Transitions(Record):
         Number of transitions of the run so far.
     signs, shut : Array, Array of int64, shapes (rows,)
         Signs of rows, and 1 for closed gaps, before the choice.
+    kept : Array of int64, shape (1,)
+        1 where these are those from before a change that takes all rows out of force.
     """
 
     times: Array
@@ -37,6 +39,7 @@ class Transitions(Record):
     count: Integers
     signs: Array
     shut: Integers
+    kept: Integers
 
 
 def new_transitions(rows: int, length: int = OF_LOG) -> Transitions:
@@ -48,6 +51,7 @@ def new_transitions(rows: int, length: int = OF_LOG) -> Transitions:
         count=np.zeros(1, dtype=np.int64),
         signs=np.zeros(rows),
         shut=np.zeros(rows, dtype=np.int64),
+        kept=np.zeros(1, dtype=np.int64),
     )
 
 

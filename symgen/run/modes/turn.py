@@ -300,7 +300,9 @@ def take_chosen(modes: OfModes, state: EventState) -> int:
 def choose_here(modes: OfModes, state: EventState) -> int:
     """Choose modes at the present state, with its impacts, and log what changes; return `DONE` or `NO_MODES`."""
     c, t = modes.choice, state.clock[abi.TIME]
-    remember_modes(c, state.w, modes.transitions)
+    if modes.transitions.kept[0] == 0:
+        remember_modes(c, state.w, modes.transitions)
+    modes.transitions.kept[0] = 0
     starts = state.control[abi.BEGUN] == 0 and state.control[abi.STEPS] == 0
     code = read_rows(t, c, state.y, state.p, state.w)
     if code == SAME:
@@ -338,7 +340,9 @@ def begin_modes(modes: OfModes, state: EventState) -> int:
 
 
 def open_rows_of(modes: OfModes, state: EventState) -> None:
-    """Take all rows out of force, where closed gaps may strike, and keep which gaps are closed."""
+    """Take all rows out of force, where closed gaps may strike, and keep which gaps are closed, and what slides."""
+    remember_modes(modes.choice, state.w, modes.transitions)
+    modes.transitions.kept[0] = 1
     switch_off(modes.choice, state.w)
 
 
@@ -347,7 +351,7 @@ def forget_modes(modes: OfModes) -> None:
     forget_resets(modes.strikes.effects)
     for i in range(modes.strikes.series.shape[0]):
         modes.strikes.series[i] = 0.0
-    modes.transitions.count[0] = 0
+    modes.transitions.count[0] = modes.transitions.kept[0] = 0
     for i in range(modes.choice.count):
         modes.choice.let_go[i] = math.nan
 
@@ -403,7 +407,7 @@ def take_turn(code: int, modes: OfModes, state: EventState) -> int:
             jammed = modes.jams[k] if modes.jams[k] >= 0 and jammed < 0 else jammed
     last = choose_resets(effects, state)
     if last >= 0:  # rows with two bounds have no impulse, and gaps strike after the reset
-        switch_off(c, state.w)
+        open_rows_of(modes, state)
     ended = change_state(last, effects, state)
     if ended == e.IMPOSSIBLE:
         return int(ended)
