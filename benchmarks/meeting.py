@@ -3,7 +3,8 @@
 python -m benchmarks.meeting [FEATURE ...]
 
 computes the cells, of some features or of all, writes them to ``benchmarks/records/meeting.json`` and prints the page
-from there. A cell is ``+``, or the sentence that refuses.
+from there. A cell is ``+``, or the sentence that refuses. `python -m benchmarks.meeting apart` computes the last table
+alone, of two features in one file on bodies of their own: `benchmarks.bodies_apart`.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import symgen
+from benchmarks import bodies_apart
 from benchmarks.finite_elements import solid
 from symgen.base.errors import InputError, SymgenError
 from symgen.cli import main
@@ -440,7 +442,8 @@ def page(table: Table) -> str:
             lines.append(f"| {name} | {' | '.join(shown)} |")
         lines += ["", *(f"{i}. {_shown(sentence)}" for i, sentence in enumerate(refusals, 1))] if refusals else []
     done = sum(c == "+" for row in table.values() for c in row.values())
-    return "\n".join([*lines, "", f"{done} of {len(FEATURES) * len(PLACES)} cells are done.", ""])
+    lines += ["", f"{done} of {len(FEATURES) * len(PLACES)} cells are done.", ""]
+    return "\n".join([*lines, *bodies_apart.table(bodies_apart.stored()), ""])
 
 
 def _equal(table: Table, places: Mapping[str, Place]) -> dict[tuple[str, ...], list[str]]:
@@ -471,4 +474,8 @@ def record(features: list[str]) -> None:
 
 
 if __name__ == "__main__":
-    record(sys.argv[1:] or list(FEATURES))
+    if sys.argv[1:] != ["apart"]:
+        record(sys.argv[1:] or list(FEATURES))
+    if sys.argv[1:] in ([], ["apart"]):
+        bodies_apart.record()
+        PAGE.write_text(page(stored()), encoding="utf-8")

@@ -4,7 +4,7 @@ from collections import Counter
 
 import pytest
 
-from benchmarks import meeting
+from benchmarks import bodies_apart, meeting
 from symgen.describe.files.json_schema import file_schema
 from symgen.describe.files.load import parse_toml
 from symgen.run.compiling.folders import generator_digest
@@ -37,7 +37,7 @@ def test_every_feature_of_a_file_has_a_row() -> None:
 
 def test_sentences_are_whole() -> None:
     """No cell holds a traceback, a path of this machine or several lines."""
-    for row in meeting.stored().values():
+    for row in [*meeting.stored().values(), bodies_apart.stored()]:
         for said in row.values():
             assert said == "+" or ("\n" not in said and "/tmp" not in said and len(said) > 20), said
 
@@ -48,3 +48,18 @@ def test_the_table_is_what_happens() -> None:
     cells = [(feature, place) for feature in meeting.FEATURES for place in meeting.PLACES]
     own = cells[turn % TURNS :: TURNS]
     assert {cell: meeting.cell(*cell) for cell in own} == {(f, p): table[f][p] for f, p in own}
+
+
+def test_two_features_that_nothing_joins_never_disturb_each_other() -> None:
+    cells = bodies_apart.stored()
+    assert list(cells) == [f"{first} + {second}" for first, second in bodies_apart.PAIRS]
+    assert not [pair for pair, said in cells.items() if "differ" in said]
+
+
+@pytest.mark.slow
+def test_the_table_of_pairs_is_what_happens() -> None:
+    """Another eleventh of the pairs at each state of the sources."""
+    turn, cells = int(generator_digest(), 16), bodies_apart.stored()
+    own = bodies_apart.PAIRS[turn % 11 :: 11]
+    found = {f"{first} + {second}": bodies_apart.compare(first, second) for first, second in own}
+    assert found == {pair: cells[pair] for pair in found}
