@@ -4,12 +4,12 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from benchmarks.bounded.laws.problems import Problem, draw, motions
 from symgen.compile.loopcode.exact import plain_form
 from symgen.run.laws.problem import new_laws
 from symgen.run.modes.agreement import agree_within, moves_otherwise
 from symgen.run.modes.bounded_rows import SAME
 from symgen.run.modes.box import new_box
-from tests.run.laws.drawn import Problem, draw, motions
 
 AGREE, MOVES_OTHERWISE = plain_form(agree_within), plain_form(moves_otherwise)
 
