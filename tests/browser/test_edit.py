@@ -304,7 +304,7 @@ def test_places_are_those_of_the_next_picture(page: Page, file: Path) -> None:
     """A tool that makes room and keeps the picture as it is moves no place until then: a click would miss its point."""
     file.write_text('[mechanism]\nname = "mine"\n\n[run]\nuntil = 1.0\n')
     page.open()
-    page.until("!document.getElementById('errors').hidden")
+    page.until("window.symgen.editor.checked()")
     for ends in (((-0.6, -0.4), (-0.5, -0.1)), ((-0.5, -0.1), (-0.35, 0.0)), ((-0.35, 0.0), (-0.3, 0.1))):
         before = page.text("text")
         page.press("[data-tool=bar]")
@@ -321,7 +321,7 @@ def test_places_are_those_of_the_next_picture(page: Page, file: Path) -> None:
 def test_a_driven_four_bar_from_an_empty_file_by_the_mouse_alone(page: Page, file: Path) -> None:
     file.write_text('# mine\n[mechanism]\nname = "mine"\n\n[run]\nuntil = 1.0\n')
     page.open()
-    page.until("!document.getElementById('errors').hidden")
+    page.until("window.symgen.editor.checked()")
     clicks = 0
 
     def click(x: float, y: float) -> None:
@@ -360,7 +360,7 @@ def test_a_driven_four_bar_from_an_empty_file_by_the_mouse_alone(page: Page, fil
 def test_the_grid_has_steps_of_1_2_and_5_and_says_where_the_hand_is(page: Page, file: Path) -> None:
     file.write_text('[mechanism]\nname = "mine"\n\n[run]\nuntil = 1.0\n')
     page.open()
-    page.until("!document.getElementById('errors').hidden")
+    page.until("window.symgen.editor.checked()")
     for k in range(40):
         scale = 3e-3 * 1.5**k
         step, fine = page.run(f"window.symgen.editor.grid({scale})")
@@ -383,7 +383,7 @@ def test_the_grid_has_steps_of_1_2_and_5_and_says_where_the_hand_is(page: Page, 
 def test_lengths_are_typed_and_keys_alone_slide_a_point(page: Page, file: Path) -> None:
     file.write_text('[mechanism]\nname = "mine"\n\n[run]\nuntil = 1.0\n')
     page.open()
-    page.until("!document.getElementById('errors').hidden")
+    page.until("window.symgen.editor.checked()")
     page.press("[data-tool=bar]")
     for typed in ("0.1, 0.2", "0.5 < 90"):
         page.run("document.getElementById('where').focus()")

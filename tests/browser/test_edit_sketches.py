@@ -254,7 +254,7 @@ def page(chromium: Chromium, tmp_path: Path) -> Iterator[Page]:
     file.write_text(EMPTY)
     with Page.of(chromium, file) as opened:
         opened.open()
-        opened.until("!document.getElementById('errors').hidden")
+        opened.until("window.symgen.editor.checked()")
         yield opened
 
 

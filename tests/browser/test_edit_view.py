@@ -127,6 +127,9 @@ def test_what_is_added_has_its_own_name_and_an_error_shows_nothing_of_another_te
     page.type(0, "wrong\n")
     page.until("!document.getElementById('errors').hidden")
     assert page.text("facts") == page.text("freedoms") == ""
+    assert page.text("told").startswith("the picture is pale")
+    assert page.run("document.getElementById('picture').classList.contains('stale')")
+    assert page.run("document.getElementById('plots').style.visibility") == "hidden"
     page.run("(document.activeElement.blur(), document.getElementById('undo').click())")
     page.rested()
     assert "ok" in page.text("facts") and "1 degree of freedom" in page.text("freedoms")
@@ -147,6 +150,10 @@ def test_the_template_goes_with_its_rod(chromium: Chromium, tmp_path: Path) -> N
         page.until("document.getElementById('status').textContent === 'took out bodies.rod'")
         raw = tomllib.loads(page.text("text"))
         assert "title" not in raw["mechanism"] and raw["parameters"] == {} and raw["run"]["until"] == 10.0
+        page.rested()  # nothing is drawn, and nothing is wrong
+        assert page.run("document.getElementById('errors').hidden") and "no body yet" in page.text("told")
+        assert page.text("facts") == "" and page.run("document.querySelectorAll('.handle').length") == 0
+        page.picture("nothing-drawn")
         hand = Hand(page)
         hand.bar((0.0, 0.0), (1.0, 0.0))
         page.rested()

@@ -12,6 +12,7 @@ import numpy as np
 from symgen.api import Model
 from symgen.base.errors import AssemblyError, InputError, SymgenError
 from symgen.base.memory import without_garbage_collection
+from symgen.cli._editor.editor_page import EMPTY
 from symgen.cli._editor.joints import joint_equations
 from symgen.cli._editor.made import make_file_for_browser
 from symgen.cli._editor.texts import Texts
@@ -42,6 +43,8 @@ from symgen.run.starts.assembler import close_for_drawing
 
 #: Errors of a text that are sent at most.
 MOST_ERRORS = 100
+#: What a page says of a file without bodies.
+FIRST_BODY = "there is no body yet: take Bar and click two points, or Plate and click three"
 
 
 class Drafts:
@@ -70,6 +73,8 @@ class Drafts:
             draft = self._texts.read(text)
         except InputError:
             wrong = problems_of_text(text, self.source)
+            if [(problem.where, problem.got) for problem in wrong] == [("bodies", "none")]:
+                return _sheet_without_bodies(parse_toml(text, self.source))
             return {"errors": [_error_entry(problem) for problem in wrong[:MOST_ERRORS]], "count": len(wrong)}
         parts, mechanism = draft.outline, draft.mechanism
         values = parameter_values(mechanism)
@@ -241,6 +246,14 @@ class Drafts:
     def _refuse_large(self, text: str) -> None:
         if len(text) > LARGEST_FILE or len(text.encode(errors="replace")) > LARGEST_FILE:
             raise InputError(self.source, f"a text of at most {LARGEST_FILE} bytes", "a larger one")
+
+
+def _sheet_without_bodies(raw: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what a page draws of a file whose first body is still to come: nothing, and no error."""
+    names = raw.get("mechanism", {})
+    data = {**EMPTY, "title": str(names.get("title") or names.get("name", "")), "note": FIRST_BODY}
+    nothing = {"joints": [], "bounded": {}, "handles": [], "numbers": {}, "units": {}, "freedoms": {}}
+    return {"errors": [], "count": 0, "data": data, "empty": True, **nothing}
 
 
 def line_of_path(text: str, mentions: Iterable[Any], path: tuple[str, ...]) -> int:

@@ -158,12 +158,15 @@ async function check() {
 function checked(answer, text, own, began) {
   times.checked = own;
   if (answer.error) return tell(answer.error, true);
+  $("plots").style.visibility = answer.data && !answer.empty ? "" : "hidden"; // it keeps its room
   if (!answer.data) {
     movable = [];
     checkedText = null;
     numbers = {};
     insideOf({ joints: [], bounded: {}, freedoms: {} });
     $("facts").textContent = ""; // of another text
+    play(false);
+    tell("the picture is pale: it is of the last text without errors", true);
     showErrors(answer.errors, answer.count);
     times.error = performance.now() - began;
     layHandles();
@@ -181,7 +184,10 @@ function checked(answer, text, own, began) {
   times.frames = (times.frames || 0) + 1;
   tell(answer.data.note);
   clearTimeout(timer);
-  if (!answer.errors.length && own === version && !held) timer = setTimeout(() => move(own, text), MOTION);
+  if (answer.empty) {
+    $("facts").textContent = "";
+    times.moved = own;
+  } else if (!answer.errors.length && own === version && !held) timer = setTimeout(() => move(own, text), MOTION);
 }
 
 async function move(own, text) {

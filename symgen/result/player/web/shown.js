@@ -4,9 +4,8 @@ const visible = () => $("picture").clientWidth > 0 && $("picture").clientHeight 
 
 function render() {
   if (!visible()) return; // in a frame that is hidden
-  const q = between(motion, time);
+  const q = between(motion, time) || []; // of nothing, where nothing is drawn yet
   view.clear();
-  if (!q) return;
   for (const [name, points, colour] of traced) if (name) view.trace(points, colour);
   const ghosts = motion === motions[0] ? motions.slice(1) : motions.slice(0, 1);
   for (const ghost of ghosts) view.draw(between(ghost, Math.min(time, ghost.end)), 0.25, ["body", "force"]);
