@@ -252,7 +252,7 @@ def _sheet_without_bodies(raw: Mapping[str, Any]) -> dict[str, Any]:
     """Return what a page draws of a file whose first body is still to come: nothing, and no error."""
     names = raw.get("mechanism", {})
     data = {**EMPTY, "title": str(names.get("title") or names.get("name", "")), "note": FIRST_BODY}
-    nothing = {"joints": [], "bounded": {}, "handles": [], "numbers": {}, "units": {}, "freedoms": {}}
+    nothing: dict[str, Any] = {"joints": [], "bounded": {}, "handles": [], "numbers": {}, "units": {}, "freedoms": {}}
     return {"errors": [], "count": 0, "data": data, "empty": True, **nothing}
 
 
