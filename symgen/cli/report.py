@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -12,19 +13,36 @@ from symgen.base.errors import InputError, quote
 from symgen.base.settings import Settings
 from symgen.cli import FAILURE, OK, write_complaint, write_files
 from symgen.cli._report import command_line_again, paper_option
-from symgen.cli._shared_options import examples_in_help, setting_options, write_note
+from symgen.cli._shared_options import (
+    examples_in_help,
+    numbers_in_si,
+    read_assignments,
+    read_pairs,
+    setting_options,
+    write_note,
+)
+
+if TYPE_CHECKING:
+    from symgen.result.result import Result
 
 
 @click.command(
     "report",
     epilog=examples_in_help(
-        "symgen report four-bar -o four-bar.html", "symgen report driven-four-bar --over crank.theta -o motor.html"
+        "symgen report four-bar -o four-bar.html",
+        "symgen report driven-four-bar --over crank.theta -o motor.html",
+        "symgen report driven-four-bar --vary crank_speed=3,6,9 -o speeds.pdf",
     ),
 )
 @click.argument("model")
 @setting_options(
     *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "parameters", "inputs", "start"),
     *("options", "coordinates"),
+)
+@click.option(
+    "--vary",
+    metavar="NAME=A,B,...",
+    help="One report of several values of a parameter: verdicts, numbers, limits and curves side by side.",
 )
 @click.option("--over", metavar="NAME", default="t", help="Draw curves over NAME, such as crank.theta.  [default: t]")
 @paper_option
@@ -44,6 +62,7 @@ from symgen.cli._shared_options import examples_in_help, setting_options, write_
 )
 def command(
     model: str,
+    vary: str | None,
     over: str,
     paper: str,
     number: str,
@@ -62,6 +81,7 @@ def command(
     from symgen.study.report.browser_pdf import printer_in_words
     from symgen.study.report.letterhead import letterhead_of_options
     from symgen.study.report.machine_report import machine_report
+    from symgen.study.report.variants_report import variants_report
     from symgen.study.report.write import check_report, write
 
     settings, letterhead = Settings(**values), letterhead_of_options(number, logo, sign, paper)
@@ -69,16 +89,49 @@ def command(
     path = Path(output or f"{loaded.name}.html")
     check_report("--output", path)
     player = None if page is None else page_file_beside(path, page)
-    with Bar(loaded.name, settings.until or loaded.mechanism.defaults.until) as bar:
-        result = loaded.simulate(settings, progress=bar)
-    write_note((*result.notes, *(f"warning: {w}" for w in result.warnings)))
-    document = machine_report(loaded, result, command_line_again(), over, player.name if player else "", letterhead)
-    code = write_complaint(f"failed: {result.reason}", FAILURE) if result.status == "failed" else OK
+    varied, variants = ("", ({},)) if vary is None else parameters_of_variants(model, vary)
+    if varied and page is not None:
+        raise InputError("--page", "the page of one run", "several, by --vary")
+    results: list[Result] = []
+    for own in variants:
+        each = replace(settings, parameters={**settings.parameters, **own})
+        with Bar(loaded.name, settings.until or loaded.mechanism.defaults.until) as bar:
+            results.append(loaded.simulate(each, progress=bar))
+    result, again = results[0], command_line_again()
+    write_note(dict.fromkeys(x for r in results for x in (*r.notes, *(f"warning: {w}" for w in r.warnings))))
+    if varied:
+        document = variants_report(loaded, results, varied, again, over, letterhead)
+    else:
+        document = machine_report(loaded, result, again, over, player.name if player else "", letterhead)
+    code = OK
+    for failed in (r for r in results if r.status == "failed"):
+        value = f"{varied} = {failed.parameters[varied]:g}, " if varied else ""
+        code = write_complaint(f"{value}failed: {failed.reason}", FAILURE)
     by = f", {printer_in_words()}" if path.suffix.lower() == ".pdf" else ""
     files: dict[Path | None, Callable[[Path], object]] = {path: lambda file: write(document, file)}
     if player is not None:
         files[player] = result.view().save
     return write_files(code, files, lambda file: click.echo(f"written: {file}{by if file == path else ''}"))
+
+
+def parameters_of_variants(model: str, text: str) -> tuple[str, list[dict[str, float]]]:
+    """Return the parameter of ``--vary NAME=A,B,...``, and each of its values by that name [SI].
+
+    Raises
+    ------
+    InputError
+        If the word has another form, there are not two to eight different values, or a value is no number of a unit
+        of the parameter.
+    """
+    from symgen.study.report.variants_report import MOST_VARIANTS
+
+    ((name, values),) = read_pairs("--vary", [text], "NAME=VALUE,VALUE").items()
+    texts = [*dict.fromkeys(values.split(","))]
+    if not 2 <= len(texts) <= MOST_VARIANTS:
+        expected = f"two to {MOST_VARIANTS} different values with commas between them"
+        raise InputError("--vary", expected, quote(values), "symgen sweep takes ranges and many values")
+    typed = [read_assignments("--vary", [f"{name}={value}"]) for value in texts]
+    return name, [numbers_in_si("--vary", each, (model,)) for each in typed]
 
 
 def page_file_beside(report: Path, page: str) -> Path:

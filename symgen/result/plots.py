@@ -34,6 +34,8 @@ APART = 1e-6
 MEANINGS = {
     **{"m": "length", "rad": "angle", "m/s": "velocity", "rad/s": "angular velocity", "m/s^2": "acceleration"},
     **{"rad/s^2": "angular acceleration", "N": "force", "N m": "moment", "W": "power", "J": "energy"},
+    **{"mm": "length", "deg": "angle", "deg/s": "angular velocity", "deg/s^2": "angular acceleration"},
+    **{"kN": "force", "kN m": "moment", "kW": "power"},
 }
 
 
@@ -67,7 +69,7 @@ def figure_over_column(along: Labelled, table: Labelled, title: str) -> Any:
     parts = [*panels_of_table(table)]
     figure, axes = empty_figure(title, len(parts))
     for ax, (meaning, unit, logarithmic, columns) in zip(axes, parts, strict=False):
-        _draw_lines(ax, along.values[:, 0], columns, logarithmic)
+        draw_lines(ax, along.values[:, 0], columns, logarithmic)
         ax.set_ylabel(axis_label(columns.names[0] if len(columns.names) == 1 else meaning, unit))
     axes[-1].set_xlabel(axis_label(along.names[0], along.units[0]))
     return figure
@@ -170,7 +172,16 @@ def _most_moving(table: Labelled) -> tuple[Labelled, int]:
     return columns_at(table, chosen), left
 
 
-def _draw_lines(ax: Axes, along: Any, table: Labelled, logarithmic: bool) -> None:
+def draw_lines(ax: Axes, along: Any, table: Labelled, logarithmic: bool) -> None:
+    """Draw the columns of a table into a panel, their sizes where it is logarithmic, with their names.
+
+    They are drawn over an array of shape (k,), or each over its own column of one of shape (k, n).
+    """
+    if along.ndim == 2:
+        for i, name in enumerate(table.names):
+            ax.plot(along[:, i], table.values[:, i], label=name, **line_style_of(i))
+        _name_lines(ax)
+        return
     table, left = _most_moving(table)
     if left:
         count = len(table.names)

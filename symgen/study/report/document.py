@@ -84,7 +84,8 @@ class Section:
     """A part of a report, in this order: text, findings, tables, pictures, parts of its own.
 
     Where `beside` is set, its pictures are left of its tables; with `pictures_first` they are above all else; with
-    `sheet` it is a page of its own on paper, whose rows have room for a hand.
+    `strip` they are small, four beside each other on paper; with `sheet` it is a page of its own on paper, whose rows
+    have room for a hand.
     """
 
     title: str
@@ -95,6 +96,7 @@ class Section:
     parts: tuple[Section, ...] = ()
     beside: bool = False
     pictures_first: bool = False
+    strip: bool = False
     sheet: bool = False
 
     @property

@@ -46,19 +46,22 @@ class KeyNumber(NamedTuple):
     where: str
 
 
-def key_numbers(mechanism: Mechanism, result: Result) -> tuple[KeyNumber, ...]:
-    """Return at most seven numbers of a run that has outputs.
+def key_numbers(mechanism: Mechanism, result: Result, every: bool = False) -> tuple[KeyNumber, ...]:
+    """Return at most seven numbers of a run that has outputs, or all pins and travels as well.
 
     The largest effort of each drive, its largest power and its work; the largest forces of pins; the largest travel
     of a joint, or the ranges of outputs; the least transmission angle of a mechanism in the plane; the room between
     the travel of its driver and a dead centre.
     """
     rest = [
-        *_range_of_output(mechanism, result),
+        *_ranges_of_outputs(mechanism, result)[: None if every else 1],
         *_least_transmission_angle(mechanism, result),
         *_room_to_dead_centre(mechanism, result),
     ]
-    first = [*_loads_of_drivers(mechanism, result)][: MOST_NUMBERS - MOST_PINS - len(rest)]
+    first = [*_loads_of_drivers(mechanism, result)]
+    if every:
+        return (*first, *_largest_pin_forces(mechanism, result), *rest)
+    first = first[: MOST_NUMBERS - MOST_PINS - len(rest)]
     return (*first, *_largest_pin_forces(mechanism, result)[: MOST_NUMBERS - len(first) - len(rest)], *rest)
 
 
@@ -115,14 +118,14 @@ def _largest_pin_forces(mechanism: Mechanism, result: Result) -> list[KeyNumber]
     return [number for _, number in sorted(peaks, key=lambda pair: -pair[0])]
 
 
-def _range_of_output(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
-    """Yield the range of the file's first output that is a length or an angle, else the largest one at the ground."""
+def _ranges_of_outputs(mechanism: Mechanism, result: Result) -> list[KeyNumber]:
+    """Return the ranges of outputs that are lengths or angles, else of joints at the ground, the largest first."""
     table = result.whole(("outputs",))
     ranges = [
         (name, column, unit)
         for name, column, unit in zip(table.names, table.values.T, table.units, strict=True)
         if unit in ("m", "rad")
-    ][:1]
+    ]
     if not ranges:
         grounded = {j.name for j in mechanism.joints if GROUND in j.bodies and j.kind != "driver"}
         joints = result.whole(("joint_coordinates",))
@@ -132,11 +135,13 @@ def _range_of_output(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber
         # the link that swings farthest; an angle that turns round and round says nothing
         ranges = [each for each in ranges if each[2] == "m" or np.ptp(each[1]) < 2.0 * np.pi]
         ranges.sort(key=lambda each: (each[2] != "rad", -np.ptp(each[1])))
-    for name, values, unit in ranges[:1]:
+    found = list[KeyNumber]()
+    for name, values, unit in ranges:
         span = float(np.nanmax(values) - np.nanmin(values))
         ends = (float(np.nanmin(values)), float(np.nanmax(values)))
         low, high = (engineering_number(x if abs(x) > FINEST * span else 0.0, unit) for x in ends)
-        yield KeyNumber(f"travel of {name}", engineering_number(span, unit), f"from {low} to {high}")
+        found.append(KeyNumber(f"travel of {name}", engineering_number(span, unit), f"from {low} to {high}"))
+    return found
 
 
 def _least_transmission_angle(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
@@ -12,21 +10,21 @@ import numpy as np
 
 from symgen.analyses.kinds import AnalysisTable
 from symgen.analyses.kinds.modes import mode_lines as shown_modes
-from symgen.analyses.reached_limits import ReachedLimit, reached_limits
+from symgen.analyses.reached_limits import ReachedLimit
 from symgen.base.errors import SymgenError, enumeration, fit_lines, plural
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.drawing.drawing import Drawing
 from symgen.result.extremes import without_doubles
 from symgen.result.labelled import Labelled, columns_at
-from symgen.result.plots import figure_over_column, panels_of_table
 from symgen.result.summary import summary_lines
 from symgen.study.machine_class import machine_class, version_list
+from symgen.study.report.curves import LOADS, RATE, curves_of_run, in_degrees
 from symgen.study.report.dead_points import outside_passages, passages
 from symgen.study.report.document import DocumentTable, Letterhead, Picture, ReportDocument, Section, TableCell
-from symgen.study.report.key_numbers import MOST_NUMBERS, KeyNumber, key_numbers
+from symgen.study.report.key_numbers import MOST_NUMBERS, KeyNumber
 from symgen.study.report.letterhead import origin_of_file
-from symgen.study.report.picture import MOST_BODIES, picture_of_figure
-from symgen.study.report.verdict import verdict_on_run
+from symgen.study.report.picture import MOST_BODIES
+from symgen.study.report.verdict import judge_run
 from symgen.study.report.words import engineering_number
 
 if TYPE_CHECKING:
@@ -38,14 +36,8 @@ if TYPE_CHECKING:
 POSITIONS = 7
 #: Rows of a table at most.
 MOST_ROWS = 60
-#: Units of loads, in the order of the tables.
-LOADS = {"N m": "Torques and moments", "N": "Forces", "W": "Powers"}
-#: Panels of a picture at most: taller ones are small on paper.
-MOST_PANELS = 2
 #: The head of a report without one.
 PLAIN = Letterhead()
-#: What a rate of change of a joint is called by.
-_RATE = ".rate"
 
 
 def machine_report(
@@ -78,15 +70,14 @@ def machine_report(
     InputError
         If there is no such column, or matplotlib is missing.
     """
-    along = result.along(over)
+    along = in_degrees(result.along(over))
     facts = [
         *summary_lines(result),
-        *((f"parameter {name}", _value_with_unit(model, name, value)) for name, value in result.parameters.items()),
+        *((f"parameter {name}", value_with_unit(model, name, value)) for name, value in result.parameters.items()),
         ("versions", version_list()),
         ("machine", machine_class()),
     ]
-    limits = reached_limits(model.mechanism, result) if len(result.t) else ()
-    numbers = key_numbers(model.mechanism, result) if len(result.t) and result.status != "failed" else ()
+    _, limits, numbers, verdict = judge_run(model.mechanism, result)
     sections = [
         *_first_section(model, result, numbers),
         *_remarks_section(model.mechanism, result),
@@ -94,22 +85,22 @@ def machine_report(
         *_motion_section(model, result),
         *_events_section(result),
         *_loads_section(result, along),
-        Section("Curves", _text_on_curves(result), pictures=(*_curve_pictures(result, along),)),
+        Section("Curves", _text_on_curves(result), pictures=(*curves_of_run(result, along),)),
         *_frequencies_section(model, result),
     ]
     title = model.mechanism.title or model.name
-    lead, verdict = _lead_sentence(result), verdict_on_run(result, limits, numbers)
+    lead = _lead_sentence(result)
     origin = origin_of_file(model.mechanism, letterhead.number)
     return ReportDocument(
         title, (lead,), tuple(facts), command, tuple(sections), quote(page), verdict, origin, letterhead
     )
 
 
-def _value_with_unit(model: Model, name: str, value: float) -> str:
-    """Return a parameter's value with its unit, as in the file."""
+def value_with_unit(model: Model, name: str, value: float, noted: bool = True) -> str:
+    """Return a parameter's value with its unit, as in the file, and with its note if that is wanted."""
     parameter = next((p for p in model.mechanism.parameters if p.name == name), None)
     number, unit = (value, "") if parameter is None else parameter.as_written(value)
-    note = "" if parameter is None or not parameter.note else f", {parameter.note}"
+    note = "" if parameter is None or not parameter.note or not noted else f", {parameter.note}"
     return f"{number:g} {unit}".removesuffix(" 1").strip() + note
 
 
@@ -149,7 +140,7 @@ def _first_section(model: Model, result: Result, numbers: Sequence[KeyNumber]) -
     pictures = []
     if len(model.mechanism.bodies) <= MOST_BODIES:
         moving = Drawing.of_motion(model.mechanism, result.q.values, dict(result.parameters))
-        pictures.append(_sketch_picture("motion", "The start, later positions and paths", moving))
+        pictures.append(sketch_picture("motion", "The start, later positions and paths", moving))
     yield Section("At a glance", tables=(table,) if table.rows else (), pictures=tuple(pictures), beside=True)
 
 
@@ -157,7 +148,7 @@ def _position_at_the_end(mechanism: Mechanism, result: Result) -> DocumentTable:
     """Return how far a failed run came: time and coordinates of joints there and at the start, the ground's first."""
     joints = result.whole(("joint_coordinates",))
     grounded = {joint.name for joint in mechanism.joints if GROUND in joint.bodies}
-    chosen = [i for i, name in enumerate(joints.names) if not name.endswith(_RATE)]
+    chosen = [i for i, name in enumerate(joints.names) if not name.endswith(RATE)]
     chosen.sort(key=lambda i: joints.names[i].partition(".")[0] not in grounded)
     first, last = ([engineering_number(float(joints.values[k, i]), joints.units[i]) for i in chosen] for k in (0, -1))
     rows = [("time", f"{result.t[-1]:.4g} s", f"{result.t[0]:g} s, until {result.until:g} s")]
@@ -171,12 +162,12 @@ def _motion_section(model: Model, result: Result) -> Iterator[Section]:
         return
     q, values = result.q.values, dict(result.parameters)
     pictures = [
-        _sketch_picture("start", f"{model.name} at its start", Drawing.of_mechanism(model.mechanism, q[0], values)),
+        sketch_picture("start", f"{model.name} at its start", Drawing.of_mechanism(model.mechanism, q[0], values)),
     ]
     for k in np.unique(np.linspace(0, len(q) - 1, POSITIONS).round().astype(int))[1:].tolist():
         still = Drawing.of_mechanism(model.mechanism, q[k], values, ghosts=[q[0].tolist()], labels=False)
-        pictures.append(_sketch_picture(f"at-{k}", f"t = {result.t[k]:.4g} s", still))
-    yield Section("Motion", pictures=tuple(pictures))
+        pictures.append(sketch_picture(f"at-{k}", f"t = {result.t[k]:.4g} s", still))
+    yield Section("Motion", pictures=tuple(pictures), strip=True)
 
 
 def _limits_section(found: Sequence[ReachedLimit], failed: bool) -> Iterator[Section]:
@@ -191,7 +182,7 @@ def _limits_section(found: Sequence[ReachedLimit], failed: bool) -> Iterator[Sec
     rows = tuple(
         (
             each.name,
-            f"{'at most' if each.side == 'largest' else 'at least'} {engineering_number(each.limit, each.unit)}",
+            limit_in_words(each),
             engineering_number(each.reached, each.unit),
             "" if each.t is None else f"{each.t:.4g}",
             TableCell("kept", "good") if each.is_met else TableCell("exceeded", "bad"),
@@ -199,6 +190,11 @@ def _limits_section(found: Sequence[ReachedLimit], failed: bool) -> Iterator[Sec
         for each in found
     )
     yield Section("Limits", tables=(DocumentTable("", headings, rows),))
+
+
+def limit_in_words(each: ReachedLimit) -> str:
+    """Return a limit: at most 3 kN m."""
+    return f"{'at most' if each.side == 'largest' else 'at least'} {engineering_number(each.limit, each.unit)}"
 
 
 def _events_section(result: Result) -> Iterator[Section]:
@@ -218,7 +214,8 @@ def _events_section(result: Result) -> Iterator[Section]:
     yield Section("Events", tables=(table,))
 
 
-def _sketch_picture(name: str, caption: str, still: Drawing) -> Picture:
+def sketch_picture(name: str, caption: str, still: Drawing) -> Picture:
+    """Return a drawing of a mechanism as a picture."""
     return Picture(name, caption, caption, still.svg.encode(), "svg", pixels=still.png)
 
 
@@ -242,38 +239,6 @@ def _load_tables(result: Result, along: Labelled) -> Iterator[DocumentTable]:
             first = fit_lines(len(rows), MOST_ROWS)
             notes = (f"{len(rows) - first} smaller ones are left out.",) if len(rows) > first else ()
             yield DocumentTable(title, headings, tuple(row for _, row in rows[:first]), notes=notes)
-
-
-def _curve_pictures(result: Result, along: Labelled) -> Iterator[Picture]:
-    """Yield pictures of loads, of joints and of energies, over time or over a column."""
-    loads, joints = result.whole(("elements", "magnitudes")), result.whole(("joint_coordinates", "outputs"))
-    loads = replace(loads, values=np.where(outside_passages(result)[:, np.newaxis], loads.values, np.nan))
-    loads = columns_at(loads, [i for i in without_doubles(loads.names) if loads.units[i] in LOADS])
-    joints = columns_at(joints, [i for i, name in enumerate(joints.names) if not name.endswith(_RATE)])
-    errors = result.overview()
-    errors = columns_at(errors, [i for i, name in enumerate(errors.names) if name not in result.q.names])
-    if result.status == "failed":
-        joints = columns_at(joints, [i for i, unit in enumerate(joints.units) if unit not in (*LOADS, "J")])
-    parts = [
-        *([] if result.status == "failed" else [("loads", "Efforts, forces and powers", loads)]),
-        ("joints", "Coordinates of joints, and outputs", joints),
-        ("energy", "Energies, and errors beyond rounding", errors),
-    ]
-    for name, caption, whole in parts:
-        tables = [*_parts_of_panels(whole)] if len(result.t) > 1 else []
-        for k, table in enumerate(tables):
-            number = f" ({k + 1} of {len(tables)})" if len(tables) > 1 else ""
-            title = f"{caption} over {along.names[0]}{number}"
-            file = name if k == 0 else f"{name}-{k + 1}"
-            yield picture_of_figure(file, f"{caption}{number}", title, partial(figure_over_column, along, table, title))
-
-
-def _parts_of_panels(table: Labelled) -> Iterator[Labelled]:
-    """Yield the columns of a table, as many as fit into the panels of a picture."""
-    panels = [[*columns.names] for *_, columns in panels_of_table(table)]
-    for k in range(0, len(panels), MOST_PANELS):
-        names = {name for panel in panels[k : k + MOST_PANELS] for name in panel}
-        yield columns_at(table, [i for i, name in enumerate(table.names) if name in names])
 
 
 def _text_on_curves(result: Result) -> tuple[str, ...]:

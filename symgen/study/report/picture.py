@@ -161,4 +161,7 @@ def sketches_section(sketches: Mapping[str, str]) -> list[Section]:
         Picture(f"sketch-{name}", f"{name} at its start", f"A sketch of {name}.", text.encode(), "svg")
         for name, text in list(sketches.items())[:MOST_SKETCHES]
     ]
-    return [Section("Mechanism" if len(pictures) == 1 else "Mechanisms", pictures=tuple(pictures))] if pictures else []
+    if not pictures:
+        return []
+    one = len(pictures) == 1
+    return [Section("Mechanism" if one else "Mechanisms", pictures=tuple(pictures), strip=not one)]

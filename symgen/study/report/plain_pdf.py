@@ -21,8 +21,14 @@ MARGIN, MARK = 0.75, 0.6
 _POINTS, _LETTER, _TYPED = 72.0, 0.53, 0.603
 #: Type of headings by level, of text, and the largest and the smallest type of tables [points].
 _HEADINGS, _TEXT, _LARGE, _TINY = (16.0, 12.5, 10.5), 9.0, 8.0, 3.5
-#: Distance of lines over their type, and of pictures beside each other [inch].
-_LINE, _GAP = 1.35, 0.2
+#: Distance of lines over their type, of pictures beside each other, and of paragraphs [inch].
+_LINE, _GAP, _SPACE = 1.35, 0.2, 0.06
+#: Height of a line of a caption [inch].
+_CAPTION = _LARGE * _LINE / _POINTS
+#: Pictures of a strip beside each other, and others; room that has to be below a heading of text or tables [inch].
+_STRIP, _PAIR, _NEXT = 4, 2, 1.0
+#: The fact that this page is no print.
+_DRAWN = ("paper", "drawn by matplotlib, as there was no browser that prints")
 
 
 def plain_pdf(document: ReportDocument) -> bytes:
@@ -31,21 +37,20 @@ def plain_pdf(document: ReportDocument) -> bytes:
     paper = _Paper(PAPERS[document.letterhead.paper])
     paper.write_paragraph(document.title, _HEADINGS[0], bold=True)
     paper.draw_mark(document.letterhead.logo)
-    if document.origin:
-        paper.write_paragraph(" · ".join(f"{label} {text}" for label, text in document.origin))
     if document.verdict is not None:
         paper.write_paragraph(document.verdict.text, bold=True)
+    if document.origin:
+        paper.write_paragraph(" · ".join(f"{label} {text}" for label, text in document.origin))
     for text in document.lead:
         paper.write_paragraph(text)
     for section in document.sections:
         _write_section(paper, section, 1)
     paper.leave_space(0.15)
     paper.write_paragraph("Settings and versions", _HEADINGS[1], bold=True, together=1.0)
-    paper.write_table(DocumentTable("", ("made with", ""), document.facts, words=2))
+    paper.write_table(DocumentTable("", ("made with", ""), (*document.facts, _DRAWN), words=2))
     if document.command:
         paper.write_paragraph("Reproduce with")
         paper.write_typed_lines([document.command])
-    paper.write_paragraph("Drawn by matplotlib, as there was no browser that prints.")
     for section in signing_section(document):
         _write_section(paper, section, 1)
     return paper.pdf()
@@ -55,9 +60,15 @@ def _write_section(paper: _Paper, section: Section, level: int) -> None:
     if section.sheet:
         paper.begin_page()
     paper.leave_space(0.15)
-    paper.write_paragraph(section.title, _HEADINGS[min(level, len(_HEADINGS) - 1)], bold=True, together=1.0)
+    across = _STRIP if section.strip else _PAIR
+    pictures_next = section.pictures_first or not (section.text or section.findings or section.tables)
+    below = paper.height_of_first(section.pictures, across) if pictures_next else 0.0
+    if section.tables:
+        below = sum(map(paper.height_of_paragraph, section.text)) + _NEXT
+    size = _HEADINGS[min(level, len(_HEADINGS) - 1)]
+    paper.write_paragraph(section.title, size, bold=True, together=max(_NEXT, below))
     if section.pictures_first:
-        paper.draw_pictures(section.pictures)
+        paper.draw_pictures(section.pictures, across)
     for text in section.text:
         paper.write_paragraph(text)
     for text in section.findings:
@@ -65,7 +76,7 @@ def _write_section(paper: _Paper, section: Section, level: int) -> None:
     for table in section.tables:
         paper.write_table(_with_room(table) if section.sheet else table)
     if not section.pictures_first:
-        paper.draw_pictures(section.pictures)
+        paper.draw_pictures(section.pictures, across)
     for part in section.parts:
         _write_section(paper, part, level + 1)
 
@@ -119,9 +130,15 @@ class _Paper:
 
     def write_paragraph(self, text: str, size: float = _TEXT, bold: bool = False, together: float = 0.0) -> None:
         """Write a paragraph; `together`: what has to follow it on its page [inch]."""
-        lines = textwrap.wrap(text, int(self._width * _POINTS / (_LETTER * size))) or [""]
-        self._write_lines(lines, size, {"fontweight": "bold" if bold else "normal"}, together)
-        self.leave_space(0.06)
+        self._write_lines(self._wrapped(text, size), size, {"fontweight": "bold" if bold else "normal"}, together)
+        self.leave_space(_SPACE)
+
+    def height_of_paragraph(self, text: str) -> float:
+        """Return the height of a paragraph with the space below it [inch]."""
+        return len(self._wrapped(text, _TEXT)) * _TEXT * _LINE / _POINTS + _SPACE
+
+    def _wrapped(self, text: str, size: float) -> list[str]:
+        return textwrap.wrap(text, int(self._width * _POINTS / (_LETTER * size))) or [""]
 
     def write_typed_lines(self, lines: Sequence[str]) -> None:
         """Write lines in letters of one width, as large as they fit."""
@@ -152,38 +169,37 @@ class _Paper:
         for note in table.notes:
             self.write_paragraph(note, _LARGE)
 
-    def draw_pictures(self, pictures: Sequence[Picture]) -> None:
-        """Draw pictures, two beside each other where they are narrow."""
-        waiting: list[Picture] = []
-        for picture in pictures:
-            if picture.wide:
-                self._draw_beside(waiting)
-                self._draw_beside([picture])
-                waiting = []
-            else:
-                waiting.append(picture)
-                if len(waiting) == 2:
-                    self._draw_beside(waiting)
-                    waiting = []
-        self._draw_beside(waiting)
+    def draw_pictures(self, pictures: Sequence[Picture], across: int) -> None:
+        """Draw pictures, so many beside each other where they are narrow."""
+        for row in _rows_of_pictures(pictures, across):
+            self._draw_row(row, across)
 
-    def _draw_beside(self, pictures: Sequence[Picture]) -> None:
+    def height_of_first(self, pictures: Sequence[Picture], across: int) -> float:
+        """Return the height of the first row of pictures with its captions [inch]; 0 where there is none."""
+        first = next(iter(_rows_of_pictures(pictures, across)), [])
+        return max((high for *_, high in self._sizes(first, across)), default=-3 * _CAPTION) + 3 * _CAPTION
+
+    def _sizes(self, row: Sequence[Picture], across: int) -> list[tuple[Any, float, float]]:
+        """Return pixels, width and height of the pictures of a row [inch]; no pixels where there is no PNG."""
         from matplotlib.image import imread
 
-        if not pictures:
-            return
-        width = self._width if pictures[0].wide else (self._width - _GAP) / 2
-        caption, images = _LARGE * _LINE / _POINTS, [_png_of_picture(picture) for picture in pictures]
-        arrays: list[Any] = [None if data is None else imread(io.BytesIO(data), format="png") for data in images]
-        tallest = self._height - 3 * caption
-        sizes = []
-        for array in arrays:
+        width = self._width_of_picture(row[0], across) if row else 0.0
+        tallest, found = self._height - 3 * _CAPTION, []
+        for data in map(_png_of_picture, row):
+            array: Any = None if data is None else imread(io.BytesIO(data), format="png")
             height = 0.0 if array is None else width * array.shape[0] / array.shape[1]
-            sizes.append((width if height <= tallest else width * tallest / height, min(height, tallest)))
-        whole = max(height for _, height in sizes)
-        self._begin_page_unless_room(whole + 3 * caption)
+            found.append((array, width if height <= tallest else width * tallest / height, min(height, tallest)))
+        return found
+
+    def _width_of_picture(self, picture: Picture, across: int) -> float:
+        return self._width if picture.wide else (self._width - (across - 1) * _GAP) / across
+
+    def _draw_row(self, row: Sequence[Picture], across: int) -> None:
+        width, sizes = self._width_of_picture(row[0], across), self._sizes(row, across)
+        whole = max(high for *_, high in sizes)
+        self._begin_page_unless_room(whole + 3 * _CAPTION)
         page = self._pages[-1]
-        for i, (picture, array, (wide, high)) in enumerate(zip(pictures, arrays, sizes, strict=True)):
+        for i, (picture, (array, wide, high)) in enumerate(zip(row, sizes, strict=True)):
             left = MARGIN + i * (width + _GAP)
             if array is not None:
                 bottom = self._size[1] - MARGIN - self._below - high
@@ -195,8 +211,8 @@ class _Paper:
             words = picture.caption if array is not None else f"{picture.caption}: as a picture in .html"
             lines = textwrap.wrap(words, int(width * _POINTS / (_LETTER * _LARGE)))[:2]
             for k, line in enumerate(lines):
-                self._write_line(line, left, self._below + whole + (k + 1) * caption, _LARGE, {})
-        self._below += whole + 3 * caption
+                self._write_line(line, left, self._below + whole + (k + 1) * _CAPTION, _LARGE, {})
+        self._below += whole + 3 * _CAPTION
 
     def _write_lines(self, lines: Sequence[str], size: float, look: dict[str, Any], together: float = 0.0) -> None:
         high = size * _LINE / _POINTS
@@ -217,6 +233,17 @@ class _Paper:
     def _write_line(self, line: str, left: float, below: float, size: float, look: dict[str, Any]) -> None:
         place = left / self._size[0], 1.0 - (MARGIN + below) / self._size[1]
         self._pages[-1].text(*place, line, fontsize=size, parse_math=False, **look)
+
+
+def _rows_of_pictures(pictures: Sequence[Picture], across: int) -> list[list[Picture]]:
+    """Return pictures that stand beside each other: a wide one alone."""
+    rows = list[list[Picture]]()
+    for picture in pictures:
+        if rows and not picture.wide and not rows[-1][0].wide and len(rows[-1]) < across:
+            rows[-1].append(picture)
+        else:
+            rows.append([picture])
+    return rows
 
 
 def _png_of_picture(picture: Picture) -> bytes | None:

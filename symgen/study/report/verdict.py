@@ -3,22 +3,51 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from symgen.analyses.reached_limits import ReachedLimit
+from symgen.analyses.reached_limits import ReachedLimit, reached_limits
 from symgen.base.errors import enumeration, fit_lines, plural
 from symgen.study.report.dead_points import sentence_on_passages
 from symgen.study.report.document import TableCell
-from symgen.study.report.key_numbers import ROOM, KeyNumber
+from symgen.study.report.key_numbers import ROOM, KeyNumber, key_numbers
 from symgen.study.report.words import engineering_number, rounded_number
 
 if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
     from symgen.result.result import Result
 
 #: Limits that a verdict names at most.
 MOST_NAMED = 4
+
+
+class JudgedRun(NamedTuple):
+    """A run with what a report says of it first.
+
+    Attributes
+    ----------
+    result : Result
+        The run.
+    limits : tuple of ReachedLimit
+        Of the file, as the run reaches them.
+    numbers : tuple of KeyNumber
+        Of the first screen; a failed run has none.
+    verdict : TableCell
+        One sentence with its mood.
+    """
+
+    result: Result
+    limits: tuple[ReachedLimit, ...]
+    numbers: tuple[KeyNumber, ...]
+    verdict: TableCell
+
+
+def judge_run(mechanism: Mechanism, result: Result) -> JudgedRun:
+    """Return a run with its limits, its first numbers and the verdict on it."""
+    limits = tuple(reached_limits(mechanism, result)) if len(result.t) else ()
+    numbers = key_numbers(mechanism, result) if len(result.t) and result.status != "failed" else ()
+    return JudgedRun(result, limits, numbers, verdict_on_run(result, limits, numbers))
 
 
 def verdict_on_run(result: Result, limits: Sequence[ReachedLimit], numbers: Sequence[KeyNumber] = ()) -> TableCell:

@@ -55,21 +55,34 @@ def seconds_in_words(x: float | None) -> str:
 _PREFIXES = {2: "M", 1: "k", 0: "", -1: "m", -2: "µ"}
 #: Units that take one.
 _PREFIXED = {"N", "N m", "W", "J", "m"}
+#: Units that are written in degrees.
+_ANGLES = {"rad", "rad/s", "rad/s^2"}
+
+
+def engineering_unit(unit: str, size: float) -> tuple[float, str]:
+    """Return the unit in which numbers of a size are written, after its size in the unit given: 1000 and kN.
+
+    Angles are degrees; lengths are metres, or millimetres below 0.1 m.
+    """
+    if unit in _ANGLES:
+        return math.radians(1.0), unit.replace("rad", "deg")
+    if unit not in _PREFIXED or not 1e-6 <= size < 1e9:
+        return 1.0, unit
+    level = math.floor(math.log10(float(f"{size:.3g}")) / 3.0)
+    if unit == "m" and (level > 0 or size >= 0.1):
+        level = 0
+    level = min(2, max(-2, level))
+    return 1000.0**level, f"{_PREFIXES[level]}{unit}"
 
 
 def engineering_number(x: float, unit: str) -> str:
     """Return a number to three digits with its unit as engineers write it: 39.2 kN, 2.49 kW, 40.5 deg, 12 mm."""
     if not math.isfinite(x):
         return f"not finite {unit}".strip()
-    if unit in ("rad", "rad/s"):
-        return f"{_three_digits(math.degrees(x))} {unit.replace('rad', 'deg')}"
-    if unit not in _PREFIXED or not 1e-6 <= abs(x) < 1e9:
+    if unit not in _ANGLES and (unit not in _PREFIXED or not 1e-6 <= abs(x) < 1e9):
         return f"{rounded_number(x, 3)} {unit}".strip()
-    level = math.floor(math.log10(float(f"{abs(x):.3g}")) / 3.0)
-    if unit == "m" and (level > 0 or abs(x) >= 0.1):  # lengths are metres, or millimetres
-        level = 0
-    level = min(2, max(-2, level))
-    return f"{_three_digits(x / 1000.0**level)} {_PREFIXES[level]}{unit}"
+    size, shown = engineering_unit(unit, abs(x))
+    return f"{_three_digits(x / size)} {shown}"
 
 
 def _three_digits(x: float) -> str:
