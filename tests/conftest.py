@@ -6,10 +6,12 @@ Worker processes of pytest-xdist inherit it through the environment. SYMGEN_TEST
 from __future__ import annotations
 
 import gc
+import locale
 import os
 import shutil
 import sys
 import tempfile
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -34,6 +36,10 @@ sys.dont_write_bytecode = False
 # Each processor has a worker: threads of linear algebra would wait for each other, at matrices of a few rows.
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
+
+# Programs with windows take the user's language, and its decimal comma with it, for all that prints numbers in them.
+with suppress(locale.Error):
+    locale.setlocale(locale.LC_ALL, "")
 
 # The turn by which `support.rotation` chooses cases: the same ones every time unless another one, or all, is asked for.
 os.environ.setdefault("SYMGEN_TEST_TURN", "0")
