@@ -35,9 +35,7 @@ from symgen.study.stress.study import stress
 
 #: Stands for the mechanisms of families of their own.
 OWN = "-"
-OWN_FAMILIES = ("length-ratio", "singular-passage")
-#: Families that came after the record was measured, which the next measurement takes in.
-LATER = ("bodies", "driver-rate", "inertia-ratio", "light-stiff", "rounded-start", "scale")
+OWN_FAMILIES = tuple(name for name, family in FAMILIES.items() if family.own)
 #: Quick ones first.
 MODELS = (
     *("four-bar", "andrews", "slider-crank", "pendulum", "spatial-slider-crank", "n-four-bar:2", "heavy-top"),
@@ -71,13 +69,13 @@ class Job(NamedTuple):
 def jobs() -> Iterator[Job]:
     """Yield all families, model by model."""
     yield from (Job(OWN, family) for family in OWN_FAMILIES)
-    yield from (Job(model, family) for model in MODELS for family in FAMILIES if family not in (*OWN_FAMILIES, *LATER))
+    yield from (Job(model, family) for model in MODELS for family in FAMILIES if family not in OWN_FAMILIES)
 
 
 def examine(job: Job, methods: Sequence[str] = ()) -> dict[str, Any]:
     """Return outcomes of cells and false successes by method and integrator, and causes of those of named methods."""
     model = "four-bar" if job.model == OWN else job.model
-    study = stress([model], [job.family], methods, compilation=1.0 if model in LARGE else COMPILATION)
+    study = stress([model], [job.family], methods, compilation=1.0 if model in LARGE else COMPILATION, searches=False)
     cells = dict[str, Counter[str]]()
     for row in study.rows:
         cells.setdefault(f"{row.method} {row.integrator}", Counter())[row.outcome] += 1
@@ -195,7 +193,7 @@ def families() -> PageTable:
             count = outcomes(lines_of(family=family), partial(of_column, column))
             yield f"{count[GOOD]} of {judged(count)}"
 
-    named = [*OWN_FAMILIES, *(family for family in FAMILIES if family not in (*OWN_FAMILIES, *PLANES, *LATER))]
+    named = [*OWN_FAMILIES, *(family for family in FAMILIES if family not in (*OWN_FAMILIES, *PLANES))]
     rows = tuple(((family,), partial(list_of, cells, family)) for family in named)
     headings = ("family", *(f"`{name}`" for name in COLUMNS))
     return PageTable("stress_cells families", PAGE, headings, rows, stored=True, claims=shares)

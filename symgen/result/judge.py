@@ -106,13 +106,9 @@ def _judge_motion(run: Prepared, outcome: Outcome, second: Verification | None =
     verdict = replace(
         verdict, warnings=(*verdict.warnings, *_velocity_warning(run, outcome), *_energy_warning(run, outcome, second))
     )
-    left = 0.0 if verdict.status == FAILED else outcome.imbalance
-    if not left <= LEFT_DOUBT:
-        reason = (
-            f"accelerations leave {left:.2g} of the forces unbalanced: rounding of large penalties or of light bodies "
-            f"stands in for masses ({run.plan.choice.method.name})"
-        )
-        return replace(verdict, status=FAILED if not left <= LEFT_FAILURE else UNVERIFIED, reason=reason)
+    unbalanced = verdict if verdict.status == FAILED else judge_balance(verdict, outcome.imbalance, run.compiled.law)
+    if unbalanced is not verdict:
+        return unbalanced
     if second is None or verdict.status == FAILED:
         return verdict
     if second.doubt is not None:
@@ -122,6 +118,17 @@ def _judge_motion(run: Prepared, outcome: Outcome, second: Verification | None =
     reports = run.plan.verify or run.plan.notes  # else the status alone has the estimate
     notes = (second.note,) if reports and second.note is not None else ()
     return replace(verdict, status=OK, reason=None, notes=notes)
+
+
+def judge_balance(verdict: Verdict, left: float, law: LawInfo) -> Verdict:
+    """Judge a run that has not failed by what its accelerations leave of the forces, as a share of all of them."""
+    if left <= LEFT_DOUBT:
+        return verdict
+    reason = (
+        f"accelerations leave {left:.2g} of the forces unbalanced: rounding of large penalties or of light bodies "
+        f"stands in for masses ({law.method})"
+    )
+    return replace(verdict, status=UNVERIFIED if left <= LEFT_FAILURE else FAILED, reason=reason)
 
 
 def judge_alone(outcome: Ended, law: LawInfo) -> Verdict:

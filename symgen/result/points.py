@@ -92,7 +92,7 @@ class Points:
         extent = float(np.linalg.norm(np.ptp(places, axis=0)))
         return max(longest, extent) or float(np.linalg.norm(places[0] - self.datum))
 
-    def scale_of_errors(self, q: Array) -> float:
+    def scale_of_errors(self, q: Array, small: float = SMALL) -> float:
         """Return what errors of a motion are shares of [m]: the mechanism's size, or the range of a small motion.
 
         A mechanism that stands still would follow every motion far smaller than itself.
@@ -101,10 +101,12 @@ class Points:
         ----------
         q : Array, shape (k, nq)
             The motion, from its start.
+        small : float
+            Share of the size below which a motion is small.
         """
         size = self.size(q)
         moved = self.distances_over_time(q, np.repeat(q[:1], len(q), axis=0)).max(initial=0.0)
-        return float(moved) if STILL * size < moved < SMALL * size else size
+        return float(moved) if STILL * size < moved < small * size else size
 
     def largest_distance(self, a: Array, b: Array) -> float:
         """Return the largest distance [m] between corresponding points, over all bodies and times.

@@ -7,6 +7,9 @@ from scipy.integrate import solve_ivp
 from symgen.api import Model
 from symgen.derive.methods import METHODS
 from symgen.describe.files.validate import validate
+from symgen.run.layout.abi import DONE
+from symgen.run.single.observe import balanced_output, number_of_balances
+from symgen.study.ensemble.verdicts import summary_column
 
 #: Powers of ten of the size and of all masses.
 SCALES = [(0, 0), (-9, 0), (-3, -6), (9, 0), (0, -9), (0, -5), (0, 9), (-9, -9), (9, 9), (-6, -15)]
@@ -125,3 +128,34 @@ def test_what_accelerations_leave_of_forces_ends_in_the_status(shape, coordinate
         status.append(result.status)
     assert status[0] == "ok" and status[2] != "ok" and left[0] < 1e-6 < 1e-4 < left[2]
     assert "of the forces unbalanced" in result.reason
+
+
+@pytest.mark.parametrize(
+    ("target", "coordinates", "until"),
+    [("cpu", "absolute", 1.0), ("cpu", "joint", 0.2), ("lanes", "absolute", 0.2), ("cpu", "absolute", 0.2)],
+)
+def test_rows_of_sweeps_have_the_balance_of_single_runs(target, coordinates, until):
+    """A row evaluates it at the same outputs, the start and one more for each thousand evaluations."""
+    model, values = Model(validate(linkage(), "test")), np.geomspace(1e9, 1e15, 8)
+    how = {"integrator": "rk4", "step": 1e-3, "until": until, "output_step": 0.05, "max_energy_error": 10.0}
+    common = {"method": "penalty", "coordinates": coordinates, **how}
+    rows = model.sweep({"method.penalty": values}, quantities=["a.theta"], target=target, **common)
+    for i, a in enumerate(values):
+        alone = model.simulate(options={"method.penalty": a}, **common)
+        assert rows.status[i] == alone.status
+        if alone.outcome.code == DONE:
+            assert summary_column(rows.summary, "imbalance")[i] == pytest.approx(alone.outcome.imbalance, rel=0.5)
+            assert rows.reason[i].split(" leave ")[0] == (alone.reason or "").split(" leave ")[0]
+    assert len({*rows.status.tolist()}) > 1
+
+
+@pytest.mark.parametrize(
+    ("count", "evaluations", "expected"), [(1, 10**6, 1), (100, 0, 1), (100, 10**6, 8), (5, 4000, 5)]
+)
+def test_outputs_that_forces_are_balanced_at(count, evaluations, expected):
+    """From the start to the end, each once, and for each but the first a run has a thousand evaluations."""
+    some = number_of_balances(count, evaluations)
+    places = [balanced_output(i, some, count) for i in range(some)]
+    assert some == expected and places == sorted(set(places))
+    assert places[0] == 0 and (some == 1 or places[-1] == count - 1)
+    assert some <= 1 + evaluations / 1000

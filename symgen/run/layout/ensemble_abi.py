@@ -52,11 +52,12 @@ SUMMARY = (
     "velocity_violation",
     "length_scale",
     "speed_scale",
+    "imbalance",  # what accelerations leave of the forces, over their terms
 )
 N_SUMMARY = len(SUMMARY)
 #: Positions of the first of them.
 START, START_MOVED, START_VELOCITIES, START_WHERE, START_SIZE, REDUNDANT_ROWS, LIGHT, CODE = range(8)
-END, OUTPUTS, ENERGY_START = map(SUMMARY.index, ("end", "outputs", "energy_start"))
+END, OUTPUTS, ENERGY_START, IMBALANCE = map(SUMMARY.index, ("end", "outputs", "energy_start", "imbalance"))
 
 #: Code of a run with an impossible reset, in addition to those of single runs (`symgen.run.layout.abi`).
 IMPOSSIBLE = 50

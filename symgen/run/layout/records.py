@@ -210,6 +210,8 @@ class RowChunk(Record):
         1 where the only output is the end of a run, also at an event.
     rates, joints : int
         1 where accelerations or multipliers, and joint coordinates, are requested.
+    balanced : int
+        1 where the law has a balance of forces.
     layout, dense : Layout, Array
         For `symgen.run.layout.redundancy.choose_rows`; `dense`, its working memory, is empty where rows stay the same.
     """
@@ -226,6 +228,7 @@ class RowChunk(Record):
     ends: int
     rates: int
     joints: int
+    balanced: int
     layout: Layout
     dense: Array
 
@@ -250,7 +253,7 @@ class ModelSystem(Record):
 
 
 #: Sizes of a model, and the functions called at outputs.
-Observers = tuple[Sizes, abi.Rhs, abi.Rhs, abi.Accept, abi.Observe]
+Observers = tuple[Sizes, abi.Rhs, abi.Rhs, abi.Accept, abi.Observe, abi.Balance]
 #: What the loop over one run takes first: the parts of a `ModelSystem`, or such parts with those of a loop around it.
 #: Each loop knows its own.
 System = tuple[Any, ...]

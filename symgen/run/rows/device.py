@@ -250,7 +250,11 @@ def make_kernel(law: ModuleType, model: ModuleType, need: Need) -> Any:
     n_counters, n_gauges, n_control, n_clock = abi.N_COUNTERS, abi.N_GAUGES, e.N_CONTROL, abi.N_CLOCK
     n_passages, n_memory, n_rows = N_PASSAGES, max(1, need.memory), need.rows
     n_metric = 2 * need.width  # a device takes sizes of arrays as they are, no expressions
-    wants_rates, wants_joints = need.rates, need.joints
+    wants_rates, wants_joints, balanced = need.rates, need.joints, hasattr(law, "balance")
+    observe_balance, balance = (
+        on_device(observe.observe_balance),
+        getattr(law, "balance", on_device(rows.balance_nothing)),
+    )
 
     def kernel(scheme: TableauRecord, sizes: Sizes, span: Span, starts: Starts, results: DeviceResults) -> None:
         i = cuda.grid(1)
@@ -298,6 +302,11 @@ def make_kernel(law: ModuleType, model: ModuleType, need: Need) -> Any:
             observe_rates((sizes, rates, confirm, accept), outputs, count, p, stored, iw, observed, room)
         if wants_joints:
             observe_rows(observed_by, sizes, outputs, count, p, w, observed, room)
+        left = 0.0
+        if balanced:
+            law_of_rows = (sizes, rates, confirm, accept, balance)
+            left = observe_balance(law_of_rows, outputs, count, control[abi.EVALUATIONS], 0, count, p, w, iw, room)
+        results.summary[e.IMBALANCE, i] = left
         pick(sizes, starts.picks, Kept(outputs, observed), count, gauges[abi.ENERGY_START], results.values[:, i])
 
     return kernel

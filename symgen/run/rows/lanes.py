@@ -54,8 +54,8 @@ class LaneSystem(Record):
 
 
 #: Sizes; ``rhs`` and ``accept`` of all lanes; then functions of a single run: the rates with their confirmation,
-#: ``accept`` and ``observe``.
-LaneModel = tuple[Sizes, LaneFunction, LaneFunction, abi.Rhs, abi.Rhs, abi.Accept, abi.Observe]
+#: ``accept``, ``observe`` and ``balance``.
+LaneModel = tuple[Sizes, LaneFunction, LaneFunction, abi.Rhs, abi.Rhs, abi.Accept, abi.Observe, abi.Balance]
 
 _L, _SPARE, _NONE_GOES = LANES, len(LANE_COUNTERS), abi.PAUSED
 _PHI, _DRIFT, _KINETIC, _POTENTIAL = abi.PHI * _L, abi.DRIFT * _L, abi.KINETIC * _L, abi.POTENTIAL * _L
@@ -309,7 +309,7 @@ def run_lanes(model: LaneModel, scheme: TableauRecord, span: Span, chunk: RowChu
         Number of selected rows done: all, unless the run was stopped.
     """
     chunk, state, kept = bare(chunk), bare(state), bare(kept)
-    sizes, rhs, lanes_accept, rates, confirm, accept, observe = model
+    sizes, rhs, lanes_accept, rates, confirm, accept, observe, balance = model
     width, n, n_p, nw, columns = sizes.width, sizes.ny, state.p.shape[0], state.w.shape[0], kept.outputs.status.shape[1]
     times, total, room = kept.outputs.times, chunk.selected.shape[0], state.room
     numbers = 2 * width + (n_p + nw + _SPARE) * _L
@@ -342,7 +342,7 @@ def run_lanes(model: LaneModel, scheme: TableauRecord, span: Span, chunk: RowChu
             select_elements(chunk.ps, r * n_p, n_p, state.p)
             clock[abi.TIME] = span.until
             control[abi.STEPS], control[abi.OUTPUTS], control[abi.EVALUATIONS] = steps, times.shape[0], evaluations
-            end_run(abi.DONE, r, 0, span, (sizes, rates, confirm, accept, observe), chunk, state, kept)
+            end_run(abi.DONE, r, 0, span, (sizes, rates, confirm, accept, observe, balance), chunk, state, kept)
     return int(total)
 
 

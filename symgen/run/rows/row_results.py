@@ -14,7 +14,13 @@ from symgen.run.layout.redundancy import choose_rows
 from symgen.run.loops.frame_parts import store_output
 from symgen.run.loops.unbound import hold
 from symgen.run.loops.watch import iterations_in
-from symgen.run.single.observe import observe_rates, observe_rows
+from symgen.run.single.observe import (
+    balanced_output,
+    left_at_output,
+    number_of_balances,
+    observe_rates,
+    observe_rows,
+)
 
 _N_PASSAGE, _MAX_PASSAGES = abi.N_PASSAGE, abi.MAX_PASSAGES
 
@@ -110,7 +116,7 @@ def observe_outputs(
     count: int, r: int, system: System | int, span: Span, model: Observers, chunk: RowChunk, state: State, series: Kept
 ) -> None:
     """Write the requested quantities of a run with so many outputs; parameters otherwise as for `end_run`."""
-    sizes, rates, confirm, accept, observe = model
+    sizes, rates, confirm, accept, observe, _ = model
     law, nw = (sizes, rates, confirm, accept), state.w.shape[0]
     if chunk.rates == 1:
         for i in range(state.iw.shape[0]):
@@ -134,6 +140,23 @@ def observe_outputs(
         # loops take the padding after a state for zeros; observed values may even be nan
         for i in range(2 * sizes.ny + series.observed.rows.shape[1]):
             state.room[i] = 0.0
+
+
+def imbalance_of_row(
+    count: int, r: int, system: System | int, span: Span, model: Observers, chunk: RowChunk, state: State, series: Kept
+) -> float:
+    """Return what accelerations leave of the forces, as in a single run; scratch is that of the run, which is over."""
+    sizes, rates, confirm, accept, _, balance = model
+    law, times, largest = (sizes, rates, confirm, accept, balance), series.outputs.times, 0.0
+    some = number_of_balances(count, state.control[abi.EVALUATIONS])
+    for i in range(some):
+        k = balanced_output(i, some, count)
+        hold(system, span, chunk, r, state, times, k)
+        left = left_at_output(law, series.outputs, k, state.p, state.w, state.iw, state.room)
+        largest = left if left > largest else largest
+    for i in range(2 * sizes.ny):  # loops take the padding after a state for zeros
+        state.room[i] = 0.0
+    return largest
 
 
 def end_run(
@@ -161,5 +184,8 @@ def end_run(
         count = 1
     part(chunk.ws, r * nw, nw)[abi.STEP_STATUS] = state.w[abi.STEP_STATUS]  # for laws whose gains follow the step
     observe_outputs(count, r, system, span, model, chunk, state, series)
+    if chunk.balanced == 1:
+        left = imbalance_of_row(count, r, system, span, model, chunk, state, series)
+        chunk.summary[r * e.N_SUMMARY + e.IMBALANCE] = left
     series.outputs.times[series.outputs.times.shape[0] - 1] = until
     state.control[e.RUNS_DONE] += 1

@@ -77,8 +77,8 @@ def run_rows(
     ----------
     model : tuple
         First argument of the loop over one run; then, for observed values at outputs, sizes and functions
-        (`symgen.run.layout.abi`): ``rates`` or ``rhs``, its confirmation, ``accept`` and ``observe``; after these,
-        where bounded rows have modes, `OfModes`, else where events change a run, what they change: `OfEffects`.
+        (`symgen.run.layout.abi`): ``rates`` or ``rhs``, its confirmation, ``accept``, ``observe`` and ``balance``;
+        then, where bounded rows have modes, `OfModes`, else where events change a run, what they change: `OfEffects`.
     scheme, span
         As for a single run.
     chunk : Chunk
@@ -165,6 +165,12 @@ def hold_between_seams(system: System, span: Span, chunk: RowChunk, r: int, stat
 @jit(entry=True)
 def observe_nothing_of_coordinates(t: float, y: Array, p: Array, w: Array, ydot: Array, out: Array) -> int:
     """Replace the emitted ``observe`` where no joint coordinate is requested, so that it is not compiled."""
+    return 0
+
+
+@jit(entry=True)
+def balance_nothing(t: float, y: Array, p: Array, w: Array, ydot: Array) -> int:
+    """Replace the emitted ``balance`` of laws that have none, as their forces balance whatever the multipliers are."""
     return 0
 
 

@@ -10,6 +10,9 @@ from symgen.compile.store.jit import jit
 from symgen.run.layout import abi
 from symgen.run.layout.records import Observed, Outputs, Sizes
 
+#: Outputs at which the balance of forces is evaluated at most, and evaluations of a run for each of them but the first.
+_BALANCES, _EVALUATIONS = 8, 1000
+
 
 @jit()
 def put_output(sizes: Sizes, outputs: Outputs, k: int, y: Array, w: Array) -> None:
@@ -71,48 +74,86 @@ def _size_of_forces(sizes: Sizes, w: Array) -> float:
     return total
 
 
-@jit(entry=True)
-def observe_balance(
-    model: tuple[Sizes, abi.Rhs, abi.Rhs, abi.Accept],
-    balance: abi.Balance,
+@jit()
+def left_at_output(
+    model: tuple[Sizes, abi.Rhs, abi.Rhs, abi.Accept, abi.Balance],
     outputs: Outputs,
+    k: int,
     p: Array,
     w: Array,
     iw: Integers,
-    left: Array,
     room: Array,
-) -> int:
-    """Evaluate what v' and lambda of a law leave of the forces at outputs: |M v' + D^T lambda - f| over its terms.
+) -> float:
+    """Return what v' and lambda of a law leave of the forces at an output, over their terms; 0 where nothing acts."""
+    sizes, rates, confirm, accept, balance = model
+    y, rate, t = part(room, 0, sizes.ny), part(room, sizes.ny, sizes.ny), outputs.times[k]
+    put_output(sizes, outputs, k, y, w)
+    accept(t, y, p, w, iw)
+    if rates(t, y, p, w, iw, rate) != 0:
+        confirm(t, y, p, w, iw, rate)
+    balance(t, y, p, w, rate)
+    left = _size_of_forces(sizes, w)
+    for i in range(sizes.m):
+        w[sizes.multipliers + i] = 0.0
+    balance(t, y, p, w, rate)
+    terms = _size_of_forces(sizes, w)  # of M v' - f, which is D^T lambda where all balances
+    for i in range(sizes.nv):
+        rate[sizes.nq + i] = 0.0
+    balance(t, y, p, w, rate)
+    terms += _size_of_forces(sizes, w)
+    return math.sqrt(left / terms) if terms > 0.0 else 0.0
+
+
+@jit()
+def number_of_balances(outputs: int, evaluations: int) -> int:
+    """Return at how many outputs forces are balanced: the start, and one more for each thousand evaluations of a run.
+
+    An output takes some five evaluations, so that a run takes a percent longer at most.
+    """
+    return min(outputs, _BALANCES, 1 + evaluations // _EVALUATIONS)
+
+
+@jit()
+def balanced_output(i: int, some: int, outputs: int) -> int:
+    """Return the place of one of some outputs that lie from the first to the last."""
+    return i * (outputs - 1) // (some - 1) if some > 1 else 0
+
+
+@jit(entry=True)
+def observe_balance(
+    model: tuple[Sizes, abi.Rhs, abi.Rhs, abi.Accept, abi.Balance],
+    outputs: Outputs,
+    count: int,
+    evaluations: int,
+    first: int,
+    last: int,
+    p: Array,
+    w: Array,
+    iw: Integers,
+    room: Array,
+) -> float:
+    """Return the largest |M v' + D^T lambda - f| over its terms at some outputs.
 
     Parameters
     ----------
-    model, outputs, p, w, iw, room
+    model : tuple
+        As for `observe_rates`, then ``balance(t, y, p, w, ydot)``.
+    outputs, p, w, iw, room
         As for `observe_rates`.
-    balance : emitted function
-        ``balance(t, y, p, w, ydot)``.
-    left : Array, shape (k,)
-        Receives it for each output; 0 where nothing acts.
+    count : int
+        Number of outputs that the run has reached.
+    evaluations : int
+        Of the run.
+    first, last : int
+        First and last output (exclusive) that have these parameters.
     """
-    sizes, rates, confirm, accept = model
-    y, rate = part(room, 0, sizes.ny), part(room, sizes.ny, sizes.ny)
-    for k in range(outputs.times.shape[0]):
-        t = outputs.times[k]
-        put_output(sizes, outputs, k, y, w)
-        accept(t, y, p, w, iw)
-        if rates(t, y, p, w, iw, rate) != 0:
-            confirm(t, y, p, w, iw, rate)
-        balance(t, y, p, w, rate)
-        rest = _size_of_forces(sizes, w)
-        for i in range(sizes.m):
-            w[sizes.multipliers + i] = 0.0
-        balance(t, y, p, w, rate)
-        terms = _size_of_forces(sizes, w)  # of M v' - f, which is D^T lambda where all balances
-        for i in range(sizes.nv):
-            rate[sizes.nq + i] = 0.0
-        balance(t, y, p, w, rate)
-        terms += _size_of_forces(sizes, w)
-        left[k] = math.sqrt(rest / terms) if terms > 0.0 else 0.0
-    return 0
+    some, largest = number_of_balances(count, evaluations), 0.0
+    for i in range(some):
+        k = balanced_output(i, some, count)
+        if first <= k and k < last:
+            left = left_at_output(model, outputs, k, p, w, iw, room)
+            largest = left if left > largest else largest
+    return largest
 
 
 @jit(entry=True)

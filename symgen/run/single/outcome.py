@@ -25,10 +25,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-#: Outputs at which the balance of forces is evaluated.
-BALANCES = 8
-
-
 @dataclass(frozen=True)
 class RankEvent:
     """A passage near a singular position, or a change of rank.
@@ -257,7 +253,7 @@ class Outcome(Motion, Ended):
 
     @cached_property
     def imbalance(self) -> float:
-        """Largest |M v' + D^T lambda - f| over its terms at the start and at outputs, at most `BALANCES` of them.
+        """Largest |M v' + D^T lambda - f| over its terms at the start and at some outputs.
 
         It is 0 for laws whose last operation is v' = M^-1 (f - D^T lambda). Others solve with penalties or by
         factorisations that may round M away: such a run stands still and violates nothing.
@@ -268,17 +264,13 @@ class Outcome(Motion, Ended):
         if not hasattr(law, "balance") or not k:
             return 0.0
         sizes, outputs, _ = self._seen
-        some = np.unique(np.linspace(0, k - 1, min(k, BALANCES)).astype(int))
-        model, iw = (sizes, *rate_functions(law), law.accept), np.zeros(abi.N_COUNTERS, dtype=np.int64)
-        w, room, largest = self.start.w.copy(), np.zeros(2 * sizes.ny), 0.0
+        model = (sizes, *rate_functions(law), law.accept, law.balance)
+        w, iw, room = self.start.w.copy(), np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros(2 * sizes.ny)
         w[abi.STEP_STATUS] = self.last_step
-        for first, last, p in self.parameters:
-            here = some[(some >= first) & (some < last)]
-            left = np.zeros(len(here))
-            chosen = type(outputs)(*(array[here] for array in outputs))
-            observe_balance(model, law.balance, chosen, p, w, iw, left, room)
-            largest = max(largest, float(np.max(left, initial=0.0)))  # nan ends a run before
-        return largest
+        return max(  # nan ends a run before
+            observe_balance(model, outputs, k, self.evaluations, first, last, p, w, iw, room)
+            for first, last, p in self.parameters
+        )
 
     @property
     def last_step(self) -> float:

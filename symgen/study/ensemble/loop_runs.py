@@ -22,7 +22,7 @@ from symgen.run.loops.event_loop import loop_with_events
 from symgen.run.loops.seams import arguments_with_table, preparing_functions, seams_of_loop
 from symgen.run.loops.searching import search_of
 from symgen.run.rows.row_observers import observe_rows_between_seams, observe_rows_left
-from symgen.run.rows.rows import observe_nothing_of_coordinates, over_rows
+from symgen.run.rows.rows import balance_nothing, observe_nothing_of_coordinates, over_rows
 from symgen.run.single.events import event_state
 from symgen.run.single.new_state import model_sizes, new_outputs, new_state, span_of
 from symgen.run.single.turn_memory import effects_of_runs, modes_of_runs
@@ -172,6 +172,7 @@ class LoopRuns:
             int(recipe.watch is not None and recipe.watch.ends),
             int(bool(sources & needs)),
             int(e.JOINT in sources),
+            int(hasattr(law, "balance")),
         )
         masked = bool(np.any(compiled.section(starts.w.T, "mask")[:, selected]))
         places = layout_of_starts(compiled), np.zeros(room_of_choice(info.m, info.nv) if masked else 0)
@@ -181,7 +182,8 @@ class LoopRuns:
         room = max(setup.room, 2 * info.ny + series.observed.rows.shape[1])
         datum = recipe.datum if self.width is None else ()  # joint coordinates have no origin
         state = new_state(compiled, sizes, setup.memory, room, datum)._replace(control=control)
-        return (sizes, *rates, law.accept, observe), span, chunk, state, series
+        balance = getattr(law, "balance", balance_nothing)
+        return (sizes, *rates, law.accept, observe, balance), span, chunk, state, series
 
     def _examine_last_step(self, state: Any) -> None:
         """Examine the constraints that may jump in the last step of a run, as a single run does."""

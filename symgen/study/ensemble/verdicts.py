@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.ir.numerics import WARN
-from symgen.result.judge import JUMP_DOUBT, judge_alone
+from symgen.result.judge import JUMP_DOUBT, LEFT_DOUBT, judge_alone, judge_balance
 from symgen.result.result import FAILED, OK
 from symgen.run.effects.applying import NO_VALUES
 from symgen.run.layout import abi
@@ -91,6 +91,7 @@ def judge_runs(
     passed = (summary_column(summary, "rank_event_count") > 0.0) | (summary_column(summary, "smallest_pivot") < WARN)
     doubtful = (summary_column(summary, "start") != e.ASSEMBLED) | (summary_column(summary, "code") != abi.DONE)
     doubtful |= law.energy_correction | _energy_jumped(summary) | (passed & (not law.position_correction))
+    doubtful |= ~(summary_column(summary, "imbalance") <= LEFT_DOUBT)
     for i in np.flatnonzero(done & doubtful):
         row = summary[i]
         if summary_column(row, "start") != e.ASSEMBLED:
@@ -100,6 +101,8 @@ def judge_runs(
             status[i], reason[i] = FAILED, why
             continue
         verdict = judge_alone(_reason_of_end(row, spec), law)
+        if verdict.status != FAILED:
+            verdict = judge_balance(verdict, float(summary_column(row, "imbalance")), law)
         status[i], reason[i] = verdict.status, verdict.reason or ""
     return status, reason
 

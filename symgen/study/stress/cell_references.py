@@ -101,7 +101,7 @@ def _moved_start(level: Level, quick: bool) -> Fields:
         "q": moved.tolist(),
         "decay": falling,
         "sines": _sines_of_angles(equations, times, moved).tolist(),
-        "length": points.scale_of_errors(moved) if level.length is None else level.length,
+        "length": min(points.scale_of_errors(moved, small=1.0), level.length or math.inf),
         "parameters": {
             name: value for name, value in parameters.items() if name in {**level.parameters, FREE_LENGTH: 0}
         },

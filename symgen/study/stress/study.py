@@ -84,6 +84,7 @@ def stress(
     max_attempts: float | None = None,
     coordinates: str = "absolute",
     max_step: float | None = None,
+    searches: bool = True,
 ) -> Stress:
     """Run methods on families of stiff and extreme cases.
 
@@ -113,6 +114,8 @@ def stress(
         Those of the state of all runs; references and errors are of bodies in any.
     max_step : float
         Largest step of adaptive integrators and of references [s].
+    searches : bool
+        Whether largest steps and extreme values are looked for, which takes most of a study.
 
     Returns
     -------
@@ -132,6 +135,7 @@ def stress(
         coordinates=coordinates,
     )
     cases, methods = arguments.words("cases", cases), arguments.words("methods", methods)
+    searches = arguments.truth_value("searches", searches)
     quick, jobs = arguments.truth_value("quick", quick), arguments.whole_number("jobs", jobs, 1, 4096)
     if compilation is None:
         compilation = QUICK_COMPILATION if quick else math.inf
@@ -166,6 +170,7 @@ def stress(
         compilation=compilation,
         common=replace(common, max_step=None),  # mechanisms have it
         max_step=common.max_step,
+        searches=searches,
     )
     return study.run(tuple(skipped))
 
@@ -207,6 +212,7 @@ class _Study:
     compilation: float
     common: Settings
     max_step: float | None = None
+    searches: bool = True
 
     @cached_property
     def left_out(self) -> tuple[tuple[str, str, str, str], ...]:
@@ -239,7 +245,7 @@ class _Study:
         if not interrupted:
             searches, interrupted = self._compute_cells("largest steps", list(self._search_cells(motions)), whole)
         extremes = tuple[ExtremeReached, ...]()
-        if not interrupted:
+        if not interrupted and self.searches:
             # how far a scheme follows stiffness and damping, its largest step says as well
             tried = [(task, run) for task, run in runs if not (self.quick and task.level.family in STIFF)]
             halvings = QUICK_HALVINGS if self.quick else HALVINGS
@@ -298,7 +304,7 @@ class _Study:
     def _search_cells(self, motions: Motions) -> Iterator[LimitTask]:
         """Yield one case of each model and family with a search for largest steps, with every method."""
         cases: dict[tuple[str, str], list[tuple[Level, Outcome]]] = {}
-        for task, motion in motions:
+        for task, motion in motions if self.searches else ():
             if task.level.family in LIMITED:
                 cases.setdefault((task.level.model, task.level.family), []).append((task.level, motion))
         for (_, family), own in cases.items():
