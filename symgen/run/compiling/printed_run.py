@@ -38,7 +38,7 @@ from symgen.run.printed.foreseen_run import foreseen_run
 from symgen.run.printed.kept_loops import KeptLoops, Traits, kept_loops
 from symgen.run.printed.kept_reset import kept_reset
 from symgen.run.printed.kept_run import KeptOutput, Visible
-from symgen.run.rows.rows import observe_nothing_of_coordinates
+from symgen.run.rows.rows import balance_nothing, observe_nothing_of_coordinates
 from symgen.run.single.events import event_state
 from symgen.run.single.new_state import model_sizes, new_state, span_of
 from symgen.run.single.turn_memory import effects_of_runs, modes_of_runs
@@ -285,14 +285,14 @@ class PrintedRun:
             model = *model, watched.function, self._decide, rates[0]
         if self._has_seams:
             model = model, self._seams, self._loops.steps, *preparing_functions(compiled)
-        observers = sizes, *rates, compiled.law_module.accept, observe_nothing_of_coordinates
+        observers = sizes, *rates, compiled.law_module.accept, observe_nothing_of_coordinates, balance_nothing
         integers, nothing = np.zeros(0, dtype=np.int64), np.zeros(0)
         actions = () if watched is None else watched.actions
         own = sum(action != MODE for action in actions)  # a row keeps no events of modes, which end no run
         events = np.zeros(e.HEAD_OF_EVENTS + e.OF_EVENT * own)
         arrays = integers, nothing, np.zeros(len(state.p)), nothing, nothing, integers, nothing, nothing, events
         room = np.zeros(room_of_choice(info.m, info.nv))
-        chunk = RowChunk(*arrays, 0, 0, 0, layout_of_starts(compiled), room)
+        chunk = RowChunk(*arrays, 0, 0, 0, 0, layout_of_starts(compiled), room)
         outputs = KeptOutput(np.zeros(1), np.zeros(info.ny), np.zeros(abi.N_STATUS + info.kept))
         ends = np.array([action == STOP for action in actions[:own]], dtype=np.int64)
         clock = np.array([0.0, self.spec.until][: 1 + self.spec.adaptive])
