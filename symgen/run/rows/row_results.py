@@ -145,7 +145,7 @@ def observe_outputs(
 def imbalance_of_row(
     count: int, r: int, system: System | int, span: Span, model: Observers, chunk: RowChunk, state: State, series: Kept
 ) -> float:
-    """Return what accelerations leave of the forces, as in a single run; scratch is that of the run, which is over."""
+    """Return what accelerations leave of the forces, as a single run does; the run is over, so its scratch is free."""
     sizes, rates, confirm, accept, _, balance = model
     law, times, largest = (sizes, rates, confirm, accept, balance), series.outputs.times, 0.0
     some = number_of_balances(count, state.control[abi.EVALUATIONS])
