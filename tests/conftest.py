@@ -37,9 +37,9 @@ sys.dont_write_bytecode = False
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
 
-# Programs with windows take the user's language, and its decimal comma with it, for all that prints numbers in them.
+# Programs with windows take the decimal comma of the user's language, for all that prints numbers in them.
 with suppress(locale.Error):
-    locale.setlocale(locale.LC_ALL, "")
+    locale.setlocale(locale.LC_NUMERIC, "")
 
 # The turn by which `support.rotation` chooses cases: the same ones every time unless another one, or all, is asked for.
 os.environ.setdefault("SYMGEN_TEST_TURN", "0")
