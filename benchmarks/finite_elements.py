@@ -152,11 +152,18 @@ def bend_to_arc(radius: float, rise: float = 0.0) -> Callable[[Array], Array]:
 
 
 def bar_frame(
-    places: Array, young: float, area: float, inertia: float, density: float, torsion: float = 0.0, shear: float = 0.0
+    places: Array,
+    young: float,
+    area: float,
+    inertia: float | tuple[float, float],
+    density: float,
+    torsion: float = 0.0,
+    shear: float = 0.0,
 ) -> Mesh:
     """Return straight bars from node to node, of Euler and Bernoulli, with consistent masses; nodes have turns.
 
-    In the plane a node has three unknowns, in space six; `inertia` is the second moment of area about each axis.
+    In the plane a node has three unknowns, in space six. `inertia` is the second moment of area about each axis, or a
+    pair: for bends along the second and along the third axis of the bar.
     """
     n, d = places.shape
     u = 3 if d == 2 else 6
@@ -190,7 +197,13 @@ def _axes_along(away: Array) -> Array:
 
 
 def _bar_in_space(
-    length: float, young: float, area: float, inertia: float, density: float, torsion: float, shear: float
+    length: float,
+    young: float,
+    area: float,
+    inertia: float | tuple[float, float],
+    density: float,
+    torsion: float,
+    shear: float,
 ) -> tuple[Array, Array]:
     k, m = np.zeros((12, 12)), np.zeros((12, 12))
     line = np.array([[1, -1], [-1, 1]])
@@ -199,7 +212,8 @@ def _bar_in_space(
     mass = density * area * length
     m[np.ix_([0, 6], [0, 6])] += mass / 6 * np.array([[2, 1], [1, 2]])
     m[np.ix_([3, 9], [3, 9])] += density * torsion * length / 6 * np.array([[2, 1], [1, 2]])
-    for places, s in (([1, 5, 7, 11], 1.0), ([2, 4, 8, 10], -1.0)):
+    both = inertia if isinstance(inertia, tuple) else (inertia, inertia)
+    for places, s, second in (([1, 5, 7, 11], 1.0, both[0]), ([2, 4, 8, 10], -1.0, both[1])):
         h = s * length
         bend = np.array(
             [
@@ -217,6 +231,6 @@ def _bar_in_space(
                 [-13 * h, -3 * h * h, -22 * h, 4 * h * h],
             ]
         )
-        k[np.ix_(places, places)] += young * inertia / length**3 * bend
+        k[np.ix_(places, places)] += young * second / length**3 * bend
         m[np.ix_(places, places)] += mass / 420 * heavy
     return k, m

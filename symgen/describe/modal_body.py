@@ -68,6 +68,21 @@ class HeldStretch(msgspec.Struct, frozen=True):
     stiffness: float
 
 
+class PairedCouple(msgspec.Struct, frozen=True):
+    """The couple along a body in space from one interface to another, over the stiffness against what it couples.
+
+    Attributes
+    ----------
+    ends : tuple of str
+        Names of the interfaces, without the body's.
+    share : tuple of Numbers
+        Three rows by coordinates of modes [1/m].
+    """
+
+    ends: tuple[str, str]
+    share: tuple[Numbers, ...]
+
+
 class Modal(msgspec.Struct, frozen=True):
     """The modes psi of a body about its centre of mass, which have neither momentum nor angular momentum.
 
@@ -96,6 +111,8 @@ class Modal(msgspec.Struct, frozen=True):
         Coordinates and velocities of modes that the file gives.
     stretches : tuple of HeldStretch
         Between pairs of interfaces.
+    couples : tuple of PairedCouple
+        Between pairs of interfaces in space.
     softening : Numbers
         Share of the stiffness that an acceleration less gravity takes away, by its components [s^2/m].
     """
@@ -110,6 +127,7 @@ class Modal(msgspec.Struct, frozen=True):
     outline: ModalOutline = ModalOutline()
     start: tuple[tuple[str, Expr], ...] = ()
     stretches: tuple[HeldStretch, ...] = ()
+    couples: tuple[PairedCouple, ...] = ()
     softening: Numbers = ()
 
     @property

@@ -8,7 +8,9 @@ some periods. The third measure is for what flies: turning at a speed Omega adds
 frequencies.
 
 Two measures see what passes through no interface, as shares of the stiffness: the thrust of a part that is held at both
-ends and bends, so that it stretches; and the weight of what stands on a part.
+ends and bends, so that it stretches; and the weight of what stands on a part. Couples in space bend a part about the
+axis that nothing else bends it about, with an error of a tenth of the square of the measure. Of a body without
+interfaces, the slopes of its outline are judged.
 """
 
 from __future__ import annotations
@@ -21,7 +23,7 @@ from numpy.typing import NDArray
 
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import AnyBody, Mechanism
-from symgen.describe.modal_body import CarriedInterface, HeldStretch, Modal
+from symgen.describe.modal_body import CarriedInterface, HeldStretch, Modal, ModalOutline
 from symgen.result.part_limits import MotionOfBodies, PartLimit
 from symgen.result.points import rotation_matrices
 
@@ -34,6 +36,9 @@ MOST_PUSHED, MOST_PUSHED_ON_PINS = 0.085, 0.04
 MOST_TURNED, MOST_SPUN = 0.1, 0.1
 #: Largest share of the stiffness that a stretch between held interfaces, or weight, may add or take away.
 MOST_SHARE = 0.02
+#: Largest couple between two interfaces over the root of the angular stiffnesses that it couples, and largest slope of
+#: the outline of a body without interfaces [rad].
+MOST_COUPLED, MOST_SLOPED = 0.47, 0.1
 ADVICE = "linear modes leave out what that does to the stiffness: more bodies in a row, or [beams], have it"
 
 
@@ -122,6 +127,32 @@ def _limits_inside(
 
         yield PartLimit(stretched, say_stretched)
 
+    for couple in modal.couples:
+        share = np.array(couple.share)
+
+        def coupled(_: Mapping[str, float], motion: MotionOfBodies, share: Array = share) -> Array:
+            return np.asarray(np.linalg.norm(moving(motion).m @ share.T, axis=1) / MOST_COUPLED)
+
+        def say_coupled(factor: float, ends: tuple[str, str] = couple.ends) -> str:
+            words = (
+                f"the couple from {body.name}.{ends[0]} to {body.name}.{ends[1]} is {factor * MOST_COUPLED:.2g} times"
+            )
+            return f"{words} the angular stiffness across it, where {MOST_COUPLED:g} is the most: {ADVICE}"
+
+        yield PartLimit(coupled, say_coupled)
+    if not any(x.carried is not None and x.carried.host == body.name for x in mechanism.bodies):
+        slopes = _slopes_of(modal.outline)
+
+        def sloped(_: Mapping[str, float], motion: MotionOfBodies) -> Array:
+            turned = np.linalg.norm(np.einsum("sia,ki->ksa", slopes, moving(motion).m), axis=2)
+            return np.asarray(turned.max(axis=1, initial=0.0) / MOST_SLOPED)
+
+        def say_sloped(factor: float) -> str:
+            words = f"{body.name} bends by slopes of {factor * MOST_SLOPED:.2g} rad"
+            return f"{words}, where {MOST_SLOPED:g} rad is the most: {ADVICE}"
+
+        yield PartLimit(sloped, say_sloped)
+
     def weighed(parameters: Mapping[str, float], motion: MotionOfBodies) -> Array:
         gravity = np.array([evaluate(e, parameters, "mechanism.gravity") for e in mechanism.gravity])
         return np.asarray(np.abs(moving(motion).falling(gravity)) @ np.array(modal.softening) / MOST_SHARE)
@@ -132,6 +163,16 @@ def _limits_inside(
 
     if any(modal.softening):
         yield PartLimit(weighed, say_weighed)
+
+
+def _slopes_of(outline: ModalOutline) -> Array:
+    """Return by how much modes turn the lines of an outline, shape (lines, modes, d) [1/m]."""
+    points, shapes = np.array(outline.points), np.array(outline.shapes)
+    start, end = np.array(outline.lines, dtype=np.int64).reshape(-1, 2).T
+    steps, moved = points[end] - points[start], shapes[end] - shapes[start]
+    lengths = np.linalg.norm(steps, axis=1)[:, np.newaxis, np.newaxis]
+    along = steps[:, np.newaxis] / lengths
+    return np.asarray((moved - np.sum(moved * along, axis=2, keepdims=True) * along) / lengths)
 
 
 def _holders(mechanism: Mechanism) -> dict[str, set[str]]:

@@ -186,6 +186,7 @@ class ModalBodies:
             rows=content.rows,
             outline=content.outline,
             stretches=content.stretches,
+            couples=content.couples,
             softening=content.softening,
         )
         modal = msgspec.structs.replace(modal, start=_read_start(scope, section.start or {}, modal))

@@ -19,7 +19,16 @@ from typing import Any, NamedTuple
 
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.files import system_message
-from symgen.describe.modal_body import MOST_MODES, HeldStretch, InterfaceLoad, Matrix, ModalOutline, ModalRow, Numbers
+from symgen.describe.modal_body import (
+    MOST_MODES,
+    HeldStretch,
+    InterfaceLoad,
+    Matrix,
+    ModalOutline,
+    ModalRow,
+    Numbers,
+    PairedCouple,
+)
 from symgen.describe.parts.bodies import is_modal
 
 #: End of the name, and version of the content.
@@ -45,9 +54,10 @@ _SHAPES: dict[str, tuple[str, ...]] = {
 _LATER: dict[str, tuple[str, ...]] = {
     **{"stretch_ends": ("stretches", "two"), "stretch_growth": ("stretches", "k", "k")},
     **{"stretch_stiffness": ("stretches",), "softening": ("d",)},
+    **{"couple_ends": ("couples", "two"), "couple_share": ("couples", "d", "k")},
 }
 _TEXTS = ("interfaces", "row_names", "row_units")
-_WHOLE = ("version", "inner", "lines", "stretch_ends")
+_WHOLE = ("version", "inner", "lines", "stretch_ends", "couple_ends")
 
 
 class InterfaceFile(NamedTuple):
@@ -74,6 +84,7 @@ class ModalFile(NamedTuple):
     rows: tuple[ModalRow, ...]
     outline: ModalOutline
     stretches: tuple[HeldStretch, ...]
+    couples: tuple[PairedCouple, ...]
     softening: Numbers
 
     @property
@@ -216,6 +227,10 @@ def _read(path: str, changed: int, size: int) -> ModalFile:
                 *(arrays[name] for name in ("stretch_ends", "stretch_growth", "stretch_stiffness")), strict=True
             )
         ),
+        couples=tuple(
+            PairedCouple((arrays["interfaces"][i], arrays["interfaces"][j]), share)
+            for (i, j), share in zip(arrays["couple_ends"], arrays["couple_share"], strict=True)
+        ),
         softening=arrays["softening"],
     )
 
@@ -235,8 +250,9 @@ def _check_shapes(arrays: dict[str, Any]) -> None:
         raise _NotModal(f"with {sizes['k']} modes, not 1 to {MOST_MODES}")
     if any(not 0 <= end < sizes["points"] for line in arrays["lines"] for end in line):
         raise _NotModal("whose outline has lines between points that it does not have")
-    if any(not 0 <= end < sizes["n"] for pair in arrays["stretch_ends"] for end in pair):
-        raise _NotModal("with stretches between interfaces that it does not have")
+    for what in ("stretch", "couple"):
+        if any(not 0 <= end < sizes["n"] for pair in arrays[f"{what}_ends"] for end in pair):
+            raise _NotModal(f"with a {what} between interfaces that it does not have")
     if not arrays["mass"] > 0.0 or not all(k > 0.0 for k in arrays["stiffness"]):
         raise _NotModal("with a mass or a stiffness that is not above 0")
 

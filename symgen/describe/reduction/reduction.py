@@ -30,7 +30,7 @@ from symgen.describe.reduction.finite_elements import (
     refuse_massless,
 )
 from symgen.describe.reduction.integrals import bearings_of, integrals_of
-from symgen.describe.reduction.second_order import softening_of, stretches_of
+from symgen.describe.reduction.second_order import couples_of, softening_of, stretches_of
 from symgen.describe.reduction.ways import middles_of, shortest_ways
 
 #: Points of an outline at most.
@@ -157,7 +157,7 @@ def reduced(
     x = elements.x - centre
     modes = modes_of(elements, x, sets, count)
     integrals, bearings = integrals_of(elements, x, modes), bearings_of(elements, x, modes)
-    stretches = stretches_of(elements, x, modes, sets)
+    stretches, couples = stretches_of(elements, x, modes, sets), couples_of(elements, modes)
     shape, turn = _interface_motions(elements, x, modes.shapes, sets, modes.seats)
     names, units, values = _read_rows(rows, elements, modes.shapes, tuple(sets))
     points, ends = _outline(outline, elements, sets)
@@ -189,6 +189,8 @@ def reduced(
         "stretch_ends": np.array([s.ends for s in stretches], dtype=np.int64).reshape(len(stretches), 2),
         "stretch_growth": np.array([s.growth for s in stretches]).reshape(len(stretches), k, k),
         "stretch_stiffness": np.array([s.stiffness for s in stretches]).reshape(len(stretches)),
+        "couple_ends": np.array([c.ends for c in couples], dtype=np.int64).reshape(len(couples), 2),
+        "couple_share": np.array([c.share for c in couples]).reshape(len(couples), d, k),
         "softening": softening_of(elements, x, modes, sets),
         "row_names": np.array(names, dtype=str) if names else empty(0, dtype="<U1"),
         "row_units": np.array(units, dtype=str) if names else empty(0, dtype="<U1"),

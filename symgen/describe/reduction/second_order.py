@@ -1,14 +1,16 @@
-"""What linear modes of a body leave out: how it stretches between interfaces, and how its own weight softens it.
+"""What linear modes of a body leave out: stretches between interfaces, couples, and how its own weight softens it.
 
 A step t along elements that turns by a small angle theta gets shorter by theta^2 t / 2. Between two interfaces that
 joints hold, the sum over the way is a stretch, whose thrust acts against bending. Along ways to heavy nodes, the
-weight does work on the sum, which takes stiffness away.
+weight does work on the sum, which takes stiffness away. A couple M between two interfaces in space turns with neither,
+so that bending about one axis across it bends the body about the other as well.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,6 +70,42 @@ def stretches_of(
             growth = 0.5 * np.einsum("ksa,lsa,s->kl", turned, turned, steps @ along)
             stretches.append(PathStretch((i, j), growth, 1.0 / float(along @ gives[np.ix_(at, at)] @ along)))
     return stretches
+
+
+@dataclass(frozen=True)
+class PairCouple:
+    """The couple that acts along a body from one interface to another, over the stiffness against what it couples.
+
+    Attributes
+    ----------
+    ends : tuple of int
+        Numbers of the interfaces.
+    share : Array, shape (3, k)
+        By coordinates of modes; its length is M over the root of the angular stiffnesses about axes across M [1/m].
+    """
+
+    ends: tuple[int, int]
+    share: Array
+
+
+def couples_of(elements: FiniteElements, modes: ModeBasis) -> list[PairCouple]:
+    """Return the couples between all pairs of interfaces of a body in space; in the plane a couple bends nothing else.
+
+    A couple M does the work ``M . (a x b) / 2`` on a turn a that b follows: over the angular stiffness C, this is the
+    share ``sqrt(M . C M / det C)``. Where the couples at the two ends differ, their mean acts along the body.
+    """
+    if elements.dimension == 2:
+        return []
+    stiffness = modes.static.T @ (elements.stiffness @ modes.static)
+    elastic, couples = modes.static.T @ (elements.stiffness @ modes.shapes), list[PairCouple]()
+    for i, j in combinations(range(len(modes.seats)), 2):
+        places = np.delete(np.arange(len(stiffness)), 6 * i + np.arange(6))
+        first = 6 * (j - 1) + 3
+        gives = np.linalg.inv(stiffness[np.ix_(places, places)])[first : first + 3, first : first + 3]
+        weight = np.linalg.det(gives) * np.linalg.inv(gives)
+        mean = (elastic[6 * j + 3 : 6 * j + 6] - elastic[6 * i + 3 : 6 * i + 6]) / 2.0
+        couples.append(PairCouple((i, j), np.linalg.cholesky(weight).T @ mean))
+    return couples
 
 
 def softening_of(elements: FiniteElements, x: Array, modes: ModeBasis, sets: Mapping[str, NDArray[np.int64]]) -> Array:

@@ -211,7 +211,11 @@ def rewritten(folder, name, **changes):
         ({"mass": np.array(-1.0)}, "got 'x.npz' with a mass or a stiffness that is not above 0"),
         ({"growth": np.zeros((1, 1, 1))}, "got 'x.npz' whose array 'growth' has a size that does not fit the others"),
         ({"centre": np.array(0.0)}, "got 'x.npz' that is neither of the plane nor of space"),
-        ({"stretch_ends": np.array([[0, 9]])}, "got 'x.npz' with stretches between interfaces that it does not have"),
+        ({"stretch_ends": np.array([[0, 9]])}, "got 'x.npz' with a stretch between interfaces that it does not have"),
+        (
+            {"couple_ends": np.array([[0, 9]])},
+            "got 'x.npz' whose array 'couple_share' has a size that does not fit the others",
+        ),
         (
             {"stretch_growth": None},
             "got 'x.npz' whose array 'stretch_growth' has a size that does not fit the others",
@@ -298,7 +302,7 @@ def test_a_builder_and_a_picture_take_a_modal_body(folder, monkeypatch):
 
 
 def test_a_file_of_an_earlier_release_is_read_without_what_it_lacks(folder):
-    later = ("stretch_ends", "stretch_growth", "stretch_stiffness", "softening")
+    later = ("stretch_ends", "stretch_growth", "stretch_stiffness", "couple_ends", "couple_share", "softening")
     name = rewritten(folder, "earlier.npz", **dict.fromkeys(later))
     own = load(folder).mechanism.body("arm").modal
     read = machine(folder, ARM.format(keys="", more="").replace("arm.npz", name), gravity="[0.0, -9.81]").mechanism

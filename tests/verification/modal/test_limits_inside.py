@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 from scipy import sparse
 from scipy.optimize import brentq
-from support.modal_machines import machine
+from support.modal_machines import machine, slender
 
 import symgen
 from benchmarks.finite_elements import bar_frame
+from symgen.result.interface_poses import interface_poses
 
-YOUNG, WIDE = 2.1e11, 0.02
+YOUNG, WIDE, SHEAR = 2.1e11, 0.02, 8e10
 HELD = """
 [bodies.arm]
 type = "modal"
@@ -139,4 +140,107 @@ def test_a_mast_on_a_stiff_beam_sways_by_its_weight(tmp_path):
         exact = 0.05 * mass / weight * (np.tan(0.5 * k) / k - 0.5)
         errors.append(1.0 - sway / exact)
         said.append(words)
+    judge(errors, said)
+
+
+# -- couples in space --------------------------------------------------------------------------------------------------
+
+DEEP = """
+[bodies.arm]
+type = "modal"
+file = "arm.npz"
+
+[joints.wall]
+type = "rigid"
+between = ["ground", "arm.root"]
+at = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]
+
+[forces.couple]
+type = "torque"
+body = "arm.tip"
+torque = [0.0, {couple!r}, 0.0]
+
+[forces.aside]
+type = "force"
+body = "arm.tip"
+at = [0.0, 0.0, 0.0]
+force = [0.0, {aside!r}, 0.0]
+"""
+
+
+def deep_strip(folder, thick, share):
+    """How far a couple about the stiff axis of a clamped strip is off for the sway under a small load across it.
+
+    In a bar of stiffnesses E I and G J, where the other E I' is larger, E I w'' = Q (L - x) - M phi and G J phi' = M w'
+    less what E I' gives way by: with k^2 = M^2 (1 - E I / E I') (1 - G J / E I') / E I G J the sway is in closed form.
+    """
+    deep = 0.04
+    weak, stiff = YOUNG * deep * thick**3 / 12.0, YOUNG * thick * deep**3 / 12.0
+    twist = SHEAR * deep * thick**3 / 3.0
+    x = np.zeros((21, 3))
+    x[:, 0] = np.linspace(0.0, 1.0, 21)
+    mesh = bar_frame(x, YOUNG, thick * deep, (weak / YOUNG, stiff / YOUNG), 7850.0, twist / SHEAR, SHEAR)
+    symgen.reduced(x, mesh.mass, mesh.stiffness, mesh.ends, 3).save(folder / "arm.npz")
+    couple, aside = float(share * np.sqrt(weak * twist)), 0.03 * weak
+    model = machine(folder, DEEP.format(couple=couple, aside=aside), space="spatial")
+    rest = model.equilibrium()
+    m = np.array([[rest.q[f"arm.m{i}"] for i in range(1, 10)]])
+    root, tip = (interface_poses(model.mechanism.body(f"arm.{end}").carried, m) for end in ("root", "tip"))
+    own = (root.turns[0].T @ (tip.origins[0] - root.origins[0]))[1]
+    k = couple * np.sqrt((1.0 - weak / stiff) * (1.0 - twist / stiff) / weak / twist)
+    sway = aside / weak / k**2 * (np.sin(k) / k - np.cos(k))
+    return abs(own / sway - 1.0), [note for note in rest.notes if "limits of its parts" in note]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("thick", [0.002, 0.004])
+def test_a_couple_about_the_stiff_axis_bends_a_strip_aside(thick, tmp_path):
+    """The couple is swept to the root of the stiffnesses that it couples."""
+    errors, said = zip(
+        *(deep_strip(tmp_path, thick, share) for share in (0.1, 0.25, 0.4, 0.55, 0.75, 1.0)), strict=True
+    )
+    judge(errors, said)
+
+
+# -- a body without interfaces -----------------------------------------------------------------------------------------
+
+
+def free_bar(folder, slope, modal):
+    """A free bar that begins straight, with velocities of its first mode that bend it to a slope: two periods."""
+    mesh, count = slender(count=32), 16
+    body = symgen.reduced(mesh.x, mesh.mass, mesh.stiffness, None, 2)
+    body.save(folder / "arm.npz")
+    shape, omega = body.shapes[:, 0].reshape(-1, 3), 2.0 * np.pi * body.frequencies[0]
+    rate = float(slope * omega / np.abs(np.diff(shape[:, 1]) / np.diff(mesh.x[:, 0])).max())
+    if modal:
+        text, start = '[bodies.arm]\ntype = "modal"\nfile = "arm.npz"\n', {"arm.vm1": rate}
+    else:
+        text = "[beams.arm]\nstart = [0.0, 0.0]\nend = [1.0, 0.0]\n"
+        stiff = {"axial": 8e5, "bending": 2e9 * 0.02**4 / 12.0, "mass": 0.4, "rotary": 1000.0 * 0.02**4 / 12.0}
+        text += f"elements = {count}\n" + "".join(f"{key} = {value!r}\n" for key, value in stiff.items())
+        start = {}
+        for i, name in enumerate(["start", *map(str, range(1, count)), "end"]):
+            _, across, turn = rate * shape[2 * i]
+            start |= {f"arm.{name}.vx": 0.0, f"arm.{name}.vy": float(across), f"arm.{name}.omega": float(turn)}
+    settings = {"integrator": "radau5", "rtol": 1e-7, "atol": 1e-9, "max_energy_error": 10.0, "verify": False}
+    period = 2.0 * np.pi / omega
+    result = machine(folder, text, until=float(2.0 * period), output_step=float(period / 20)).simulate(
+        start=start, **settings
+    )
+    bend = result["arm.m1"] if modal else result["arm.start.y"] - result["arm.8.y"]
+    return bend / slope, result
+
+
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
+def test_a_body_without_interfaces_is_judged_by_its_slopes(tmp_path):
+    """Beam elements at small slopes are the linear motion: what larger ones differ from it by, modes leave out."""
+    linear, _ = free_bar(tmp_path, 0.005, modal=False)
+    errors, said = [], []
+    for slope in (0.04, 0.07, 0.11, 0.14, 0.3):
+        bend, exact = free_bar(tmp_path, slope, modal=False)
+        _, run = free_bar(tmp_path, slope, modal=True)
+        assert exact.status == "ok" and run.status == ("ok" if run.reason is None else "unverified")
+        errors.append(np.abs(bend - linear).max() / np.abs(linear).max())
+        said.append("slopes" in (run.reason or ""))
     judge(errors, said)
