@@ -115,6 +115,8 @@ class Modal(msgspec.Struct, frozen=True):
         Between pairs of interfaces in space.
     softening : Numbers
         Share of the stiffness that an acceleration less gravity takes away, by its components [s^2/m].
+    stiffened : bool
+        Whether interfaces move at second order in the coordinates of modes too, so that loads change the stiffness.
     """
 
     growth: tuple[Matrix, ...]
@@ -129,6 +131,7 @@ class Modal(msgspec.Struct, frozen=True):
     stretches: tuple[HeldStretch, ...] = ()
     couples: tuple[PairedCouple, ...] = ()
     softening: Numbers = ()
+    stiffened: bool = False
 
     @property
     def equations(self) -> tuple[object, ...]:
@@ -156,18 +159,23 @@ class InterfaceLoad(msgspec.Struct, frozen=True):
 
 
 class CarriedInterface(msgspec.Struct, frozen=True):
-    """An interface of a modal body: a frame at `place` + `shape` m from the centre of mass, turned by `turn` m."""
+    """An interface of a modal body: a frame at `place` + `shape` m from the centre of mass, turned by `turn` m.
+
+    Where loads stiffen the body, m . `curve` m is added to the one, and m . `twist` m to the other.
+    """
 
     host: str
     place: Numbers
     shape: tuple[Numbers, ...]  # mode -> displacement
     turn: tuple[Numbers, ...]  # mode -> turn
     load: InterfaceLoad
+    curve: tuple[tuple[Numbers, ...], ...] = ()
+    twist: tuple[tuple[Numbers, ...], ...] = ()
 
     @property
     def equations(self) -> tuple[object, ...]:
         """All that equations depend on."""
-        return self.host, self.place, self.shape, self.turn
+        return self.host, self.place, self.shape, self.turn, *((self.curve, self.twist) if self.curve else ())
 
 
 def names_of_modes(prefix: str, count: int) -> tuple[str, ...]:

@@ -44,6 +44,9 @@ def interface_poses(carried: CarriedInterface, modes: Array) -> InterfacePoses:
     """
     origins = np.asarray(carried.place) + modes @ np.asarray(carried.shape).reshape(modes.shape[1], -1)
     turn = modes @ np.asarray(carried.turn).reshape(modes.shape[1], -1)
+    if carried.curve:
+        origins = origins + np.einsum("ki,ija,kj->ka", modes, np.array(carried.curve), modes)
+        turn = turn + np.einsum("ki,ija,kj->ka", modes, np.array(carried.twist), modes)
     if turn.shape[1] == 1:
         c, s = np.cos(turn[:, 0]), np.sin(turn[:, 0])
         return InterfacePoses(origins, np.stack([np.stack([c, -s], 1), np.stack([s, c], 1)], 1))

@@ -10,7 +10,7 @@ frequencies.
 Two measures see what passes through no interface, as shares of the stiffness: the thrust of a part that is held at both
 ends and bends, so that it stretches; and the weight of what stands on a part. Couples in space bend a part about the
 axis that nothing else bends it about, with an error of a tenth of the square of the measure. Of a body without
-interfaces, the slopes of its outline are judged.
+interfaces, the slopes of its outline are judged. Turns and slopes are the limits of a body that loads stiffen.
 """
 
 from __future__ import annotations
@@ -29,17 +29,41 @@ from symgen.result.points import rotation_matrices
 
 Array = NDArray[np.float64]
 
-#: Largest force on an interface over k_t L, where a joint holds the turn of an interface of the body and where none
-#: does: motions are then off by some 3 % of the deflection.
-MOST_PUSHED, MOST_PUSHED_ON_PINS = 0.085, 0.04
-#: Largest turn of an interface [rad], and largest angular velocity over the lowest frequency of the free body.
-MOST_TURNED, MOST_SPUN = 0.1, 0.1
-#: Largest share of the stiffness that a stretch between held interfaces, or weight, may add or take away.
-MOST_SHARE = 0.02
-#: Largest couple between two interfaces over the root of the angular stiffnesses that it couples, and largest slope of
-#: the outline of a body without interfaces [rad].
-MOST_COUPLED, MOST_SLOPED = 0.47, 0.1
-ADVICE = "linear modes leave out what that does to the stiffness: more bodies in a row, or [beams], have it"
+#: Largest turn of an interface, and largest slope of the outline of a body without interfaces [rad].
+MOST_TURNED, MOST_SLOPED = 0.1, 0.1
+#: Largest couple between two interfaces over the root of the angular stiffnesses that it couples.
+MOST_COUPLED = 0.47
+
+
+class _Most(NamedTuple):
+    """Limits of modes that loads stiffen, or do not.
+
+    Attributes
+    ----------
+    pushed, pushed_on_pins : float
+        Largest force on an interface over k_t L, where a joint holds the turn of an interface and where none does.
+    spun : float
+        Largest angular velocity over the lowest frequency of the free body.
+    stretched, weighed : float
+        Largest share of the stiffness that a stretch between held interfaces, or weight, adds or takes away.
+    advice : str
+        What to do.
+    """
+
+    pushed: float
+    pushed_on_pins: float
+    spun: float
+    stretched: float
+    weighed: float
+    advice: str
+
+
+#: At these, motions are off by 2 to 3 % of the deflection; stiffened ones, as few modes do not take the shape.
+LINEAR = _Most(
+    *(0.085, 0.04, 0.1, 0.02, 0.02),
+    "linear modes leave out what that does to the stiffness: more bodies in a row, or [beams], have it",
+)
+STIFFENED = _Most(*(10.0, 10.0, 1.0, 1.0, 0.5), "few modes do not follow that: more bodies in a row, or [beams], do")
 
 
 def limits_of_modes(mechanism: Mechanism) -> Iterator[PartLimit]:
@@ -56,7 +80,8 @@ def limits_of_modes(mechanism: Mechanism) -> Iterator[PartLimit]:
 
 
 def _limits_of_body(mechanism: Mechanism, body: AnyBody, modal: Modal) -> Iterator[PartLimit]:
-    pushed_most = MOST_PUSHED if _holds_turn(mechanism, body.name) else MOST_PUSHED_ON_PINS
+    most = STIFFENED if modal.stiffened else LINEAR
+    pushed_most = most.pushed if _holds_turn(mechanism, body.name) else most.pushed_on_pins
 
     def moving(motion: MotionOfBodies) -> _Moving:
         return _Moving.of_body(mechanism, motion, body, modal)
@@ -79,7 +104,7 @@ def _limits_of_body(mechanism: Mechanism, body: AnyBody, modal: Modal) -> Iterat
         def say_pushed(factor: float, name: str = other.name, limit: float = limit) -> str:
             share = factor * pushed_most
             words = f"interface {name} carries {share * limit:.3g} N, {share:.2g} times k_t L = {limit:.3g} N"
-            return f"{words}, where {pushed_most:g} is the most: {ADVICE}"
+            return f"{words}, where {pushed_most:g} is the most: {most.advice}"
 
         def turned(_: Mapping[str, float], motion: MotionOfBodies, own: CarriedInterface = own) -> Array:
             turns = moving(motion).m @ np.array(own.turn)
@@ -87,26 +112,45 @@ def _limits_of_body(mechanism: Mechanism, body: AnyBody, modal: Modal) -> Iterat
 
         def say_turned(factor: float, name: str = other.name) -> str:
             words = f"interface {name} is turned by {factor * MOST_TURNED:.2g} rad against its body"
-            return f"{words}, where {MOST_TURNED:g} rad is the most: {ADVICE}"
+            return f"{words}, where {MOST_TURNED:g} rad is the most: {most.advice}"
 
         yield PartLimit(pushed, say_pushed)
         yield PartLimit(turned, say_turned)
-    yield from _limits_inside(mechanism, body, modal, moving)
+    yield from _limit_of_slopes(mechanism, body, modal, moving)
+    yield from _limits_inside(mechanism, body, modal, most, moving)
     lowest = float(np.sqrt(min(modal.stiffness) / modal.mass))
 
     def spun(_: Mapping[str, float], motion: MotionOfBodies) -> Array:
-        return np.linalg.norm(moving(motion).omega, axis=1) / (lowest * MOST_SPUN)
+        return np.linalg.norm(moving(motion).omega, axis=1) / (lowest * most.spun)
 
     def say_spun(factor: float) -> str:
-        spin = factor * MOST_SPUN
+        spin = factor * most.spun
         words = f"{body.name} turns at {spin * lowest:.3g} rad/s, {spin:.2g} times its lowest frequency"
-        return f"{words}, where {MOST_SPUN:g} is the most: {ADVICE}"
+        return f"{words}, where {most.spun:g} is the most: {most.advice}"
 
     yield PartLimit(spun, say_spun)
 
 
-def _limits_inside(
+def _limit_of_slopes(
     mechanism: Mechanism, body: AnyBody, modal: Modal, moving: Callable[[MotionOfBodies], _Moving]
+) -> Iterator[PartLimit]:
+    """Yield the limit of a body without interfaces: slopes of its outline."""
+    if not any(x.carried is not None and x.carried.host == body.name for x in mechanism.bodies):
+        slopes = _slopes_of(modal.outline)
+
+        def sloped(_: Mapping[str, float], motion: MotionOfBodies) -> Array:
+            turned = np.linalg.norm(np.einsum("sia,ki->ksa", slopes, moving(motion).m), axis=2)
+            return np.asarray(turned.max(axis=1, initial=0.0) / MOST_SLOPED)
+
+        def say_sloped(factor: float) -> str:
+            words = f"{body.name} bends by slopes of {factor * MOST_SLOPED:.2g} rad"
+            return f"{words}, where {MOST_SLOPED:g} rad is the most: {LINEAR.advice}"
+
+        yield PartLimit(sloped, say_sloped)
+
+
+def _limits_inside(
+    mechanism: Mechanism, body: AnyBody, modal: Modal, most: _Most, moving: Callable[[MotionOfBodies], _Moving]
 ) -> Iterator[PartLimit]:
     """Yield the limits of what passes through no interface: stretches between held interfaces, and weight."""
     holders = _holders(mechanism)
@@ -119,11 +163,12 @@ def _limits_inside(
             m = moving(motion).m
             energy = np.maximum(m * m @ np.array(modal.stiffness), np.finfo(float).tiny)
             grown = np.einsum("ki,ij,kj->k", m, np.array(own.growth), m)
-            return np.asarray(2.0 * own.stiffness * grown**2 / energy / MOST_SHARE)
+            return np.asarray(2.0 * own.stiffness * grown**2 / energy / most.stretched)
 
         def say_stretched(factor: float, first: str = first, second: str = second) -> str:
             words = f"{body.name} is held at {first} and {second}, and bends so far that the stretch between them adds"
-            return f"{words} {factor * MOST_SHARE:.2g} of its stiffness, where {MOST_SHARE:g} is the most: {ADVICE}"
+            words = f"{words} {factor * most.stretched:.2g} of its stiffness"
+            return f"{words}, where {most.stretched:g} is the most: {most.advice}"
 
         yield PartLimit(stretched, say_stretched)
 
@@ -137,29 +182,17 @@ def _limits_inside(
             words = (
                 f"the couple from {body.name}.{ends[0]} to {body.name}.{ends[1]} is {factor * MOST_COUPLED:.2g} times"
             )
-            return f"{words} the angular stiffness across it, where {MOST_COUPLED:g} is the most: {ADVICE}"
+            return f"{words} the angular stiffness across it, where {MOST_COUPLED:g} is the most: {most.advice}"
 
         yield PartLimit(coupled, say_coupled)
-    if not any(x.carried is not None and x.carried.host == body.name for x in mechanism.bodies):
-        slopes = _slopes_of(modal.outline)
-
-        def sloped(_: Mapping[str, float], motion: MotionOfBodies) -> Array:
-            turned = np.linalg.norm(np.einsum("sia,ki->ksa", slopes, moving(motion).m), axis=2)
-            return np.asarray(turned.max(axis=1, initial=0.0) / MOST_SLOPED)
-
-        def say_sloped(factor: float) -> str:
-            words = f"{body.name} bends by slopes of {factor * MOST_SLOPED:.2g} rad"
-            return f"{words}, where {MOST_SLOPED:g} rad is the most: {ADVICE}"
-
-        yield PartLimit(sloped, say_sloped)
 
     def weighed(parameters: Mapping[str, float], motion: MotionOfBodies) -> Array:
         gravity = np.array([evaluate(e, parameters, "mechanism.gravity") for e in mechanism.gravity])
-        return np.asarray(np.abs(moving(motion).falling(gravity)) @ np.array(modal.softening) / MOST_SHARE)
+        return np.asarray(np.abs(moving(motion).falling(gravity)) @ np.array(modal.softening) / most.weighed)
 
     def say_weighed(factor: float) -> str:
-        words = f"the weight of {body.name} changes its stiffness by {factor * MOST_SHARE:.2g} where it is softest"
-        return f"{words}, where {MOST_SHARE:g} is the most: {ADVICE}"
+        words = f"the weight of {body.name} changes its stiffness by {factor * most.weighed:.2g} where it is softest"
+        return f"{words}, where {most.weighed:g} is the most: {most.advice}"
 
     if any(modal.softening):
         yield PartLimit(weighed, say_weighed)

@@ -5,6 +5,8 @@ half of the turn: R = 1 + f (p~ + p~ p~) with f = 2 / (1 + p.p), and the angular
 interface. Turns are small where linear modes hold, so that any rotation of this first order would do; this one is exact
 as a rotation and has no singularity.
 
+Where loads stiffen the body, place and turn are of second order in m, with the first derivatives `_Motion.columns`.
+
 An interface has no velocities of the state. Its own, those of its frame, are combinations of its body's: `columns`,
 with what they are at v' = 0: `biases`.
 """
@@ -13,13 +15,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from symgen.derive.formulate.vector_algebra import PlaneVectors, Triple, Vectors
 from symgen.describe.modal_body import CarriedInterface, Numbers
 
 if TYPE_CHECKING:
     from symgen.derive.formulate.measure_nodes import ModelNodes
+
+#: Factors of products of coordinates of modes.
+_Curve = tuple[tuple[Numbers, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -49,13 +54,49 @@ def interface_frame(model: ModelNodes, carried: CarriedInterface) -> InterfaceFr
     return _in_space(model, carried) if model.spatial else _in_plane(model, carried)
 
 
-def _field(model: ModelNodes, factors: list[int], parts: tuple[Numbers, ...], start: Numbers) -> list[int]:
-    """Return the nodes of a constant vector and of a combination of one for each mode."""
-    g = model.graph
-    return [
-        g.sum_of([g.constant(x), *(g.mul(f, g.constant(part[a])) for f, part in zip(factors, parts, strict=True))])
-        for a, x in enumerate(start)
-    ]
+class _Motion(NamedTuple):
+    """Place or turn of an interface in its body, as functions of the coordinates of modes: nodes of vectors.
+
+    Attributes
+    ----------
+    value, rate : list of int
+        The vector and its rate.
+    columns : tuple of list of int
+        Its derivatives by the coordinates.
+    bias : list of int
+        Its second derivative at m'' = 0.
+    """
+
+    value: list[int]
+    rate: list[int]
+    columns: tuple[list[int], ...]
+    bias: list[int]
+
+
+def _motion(
+    model: ModelNodes, host: str, start: Numbers, parts: tuple[Numbers, ...], curve: _Curve, factor: float = 1.0
+) -> _Motion:
+    """Return the motion start + (parts m + m . curve m) factor."""
+    g, (m, rates), size = model.graph, model.modes(host), range(len(start))
+
+    def combined(factors: list[int], vectors: Sequence[Sequence[int]], first: Numbers) -> list[int]:
+        terms = list(zip(factors, vectors, strict=True))
+        return [g.sum_of([g.constant(first[a]), *(g.mul(f, vector[a]) for f, vector in terms)]) for a in size]
+
+    nothing = (0.0,) * len(start)
+    linear = tuple([g.constant(factor * part[a]) for a in size] for part in parts)
+    if not curve:
+        return _Motion(combined(m, linear, start), combined(rates, linear, nothing), linear, [g.zero] * len(start))
+    bent = [[[g.constant(factor * x) for x in part] for part in own] for own in curve]
+    halves = [combined(m, own, nothing) for own in bent]
+    doubled = [combined(rates, own, nothing) for own in bent]
+    two = g.constant(2.0)
+    secants = tuple([g.add(x, y) for x, y in zip(a, b, strict=True)] for a, b in zip(linear, halves, strict=True))
+    columns = tuple(
+        [g.add(x, g.mul(two, y)) for x, y in zip(a, b, strict=True)] for a, b in zip(linear, halves, strict=True)
+    )
+    bias = [g.mul(two, x) for x in combined(rates, doubled, nothing)]
+    return _Motion(combined(m, secants, start), combined(rates, columns, nothing), columns, bias)
 
 
 def _columns(model: ModelNodes, parts: Sequence[tuple[int, tuple[int, ...]]], size: int) -> list[dict[int, int]]:
@@ -65,14 +106,18 @@ def _columns(model: ModelNodes, parts: Sequence[tuple[int, tuple[int, ...]]], si
 
 def _in_plane(model: ModelNodes, carried: CarriedInterface) -> InterfaceFrame:
     g, v = model.graph, PlaneVectors(model.graph)
-    first, (m, rates) = model.first[carried.host], model.modes(carried.host)
+    first = model.first[carried.host]
     x, y, c, s, vx, vy, w = model.frame_inputs(carried.host)
-    arm = v.rotate((c, s), v.pair(_field(model, m, carried.shape, carried.place)))
-    speed = v.rotate((c, s), v.pair(_field(model, rates, carried.shape, (0.0, 0.0))))
-    turns = [g.constant(turn) for (turn,) in carried.turn]
-    angle = g.add(model.names[f"{carried.host}.theta"], g.dot(turns, m))
+    place = _motion(model, carried.host, carried.place, carried.shape, carried.curve)
+    turning_by = _motion(model, carried.host, (0.0,), carried.turn, carried.twist)
+    arm = v.rotate((c, s), v.pair(place.value))
+    speed = v.rotate((c, s), v.pair(place.rate))
+    turns = [turn for (turn,) in turning_by.columns]
+    angle = g.add(model.names[f"{carried.host}.theta"], *turning_by.value)
     bias = v.sub(v.scale(g.mul(g.constant(2.0), w), v.perp(speed)), v.scale(g.mul(w, w), arm))
-    shapes = [v.rotate((c, s), (g.constant(a), g.constant(b))) for a, b in carried.shape]
+    if carried.curve:
+        bias = v.add(bias, v.rotate((c, s), v.pair(place.bias)))
+    shapes = [v.rotate((c, s), v.pair(column)) for column in place.columns]
     moving = [(first, (g.one, g.zero)), (first + 1, (g.zero, g.one)), (first + 2, v.perp(arm))]
     moving += [(first + 3 + i, shape) for i, shape in enumerate(shapes)]
     turning = {first + 2: g.one} | {first + 3 + i: turn for i, turn in enumerate(turns) if turn != g.zero}
@@ -81,30 +126,30 @@ def _in_plane(model: ModelNodes, carried: CarriedInterface) -> InterfaceFrame:
         *v.add((x, y), arm),
         *(g.call("cos", angle), g.call("sin", angle)),
         *velocity,
-        g.add(w, g.dot(turns, rates)),
+        g.add(w, *turning_by.rate),
     )
-    return InterfaceFrame(slots, (*_columns(model, moving, 2), turning), (*bias, g.zero), angle)
+    return InterfaceFrame(slots, (*_columns(model, moving, 2), turning), (*bias, *turning_by.bias), angle)
 
 
 def _in_space(model: ModelNodes, carried: CarriedInterface) -> InterfaceFrame:
     g, v = model.graph, Vectors(model.graph)
-    first, (m, rates) = model.first[carried.host], model.modes(carried.host)
+    first = model.first[carried.host]
     host = model.frame_inputs(carried.host)
     origin, velocity, omega = v.triple(host[:3]), v.triple(host[12:15]), v.triple(host[15:])
     axes = v.triple(host[3:6]), v.triple(host[6:9]), v.triple(host[9:12])
-    arm = v.triple(_field(model, m, carried.shape, carried.place))
-    speed = v.triple(_field(model, rates, carried.shape, (0.0,) * 3))
+    place = _motion(model, carried.host, carried.place, carried.shape, carried.curve)
+    arm, speed = v.triple(place.value), v.triple(place.rate)
     # the origin: A (w x a + a'), and at w' = 0, m'' = 0 its rate A (w x (w x a + a') + w x a')
     within = v.add(v.cross(omega, arm), speed)
-    bias = v.matrix_times(axes, v.add(v.cross(omega, within), v.cross(omega, speed)))
+    bias = v.matrix_times(axes, v.add(v.cross(omega, within), v.add(v.cross(omega, speed), v.triple(place.bias))))
     moving = [(first + a, unit) for a, unit in enumerate(v.units)]
     moving += [(first + 3 + a, v.matrix_times(axes, v.cross(unit, arm))) for a, unit in enumerate(v.units)]
-    for i, (a, b, c) in enumerate(carried.shape):
-        moving.append((first + 6 + i, v.matrix_times(axes, (g.constant(a), g.constant(b), g.constant(c)))))
+    for i, column in enumerate(place.columns):
+        moving.append((first + 6 + i, v.matrix_times(axes, v.triple(column))))
     # the axes: those of the body, turned by R; in axes of the interface w_i = R^T w + f (p' - p x p')
-    halves = [v.triple([g.constant(0.5 * turn) for turn in turns]) for turns in carried.turn]
-    p = v.triple(_field(model, m, tuple(tuple(0.5 * x for x in turns) for turns in carried.turn), (0.0,) * 3))
-    dp = v.triple(_field(model, rates, tuple(tuple(0.5 * x for x in turns) for turns in carried.turn), (0.0,) * 3))
+    half = _motion(model, carried.host, (0.0,) * 3, carried.turn, carried.twist, 0.5)
+    halves = [v.triple(column) for column in half.columns]
+    p, dp = v.triple(half.value), v.triple(half.rate)
     factor = g.div(g.constant(2.0), g.add(g.one, v.dot(p, p)))
 
     def turned(x: Triple, way: float) -> Triple:
@@ -119,6 +164,8 @@ def _in_space(model: ModelNodes, carried: CarriedInterface) -> InterfaceFrame:
     # the rate of w_i at w' = 0, m'' = 0: (R^T)' w = -spin x R^T w, and f' = -f^2 p.p' of the second part
     slower = g.neg(g.mul(factor, v.dot(p, dp)))
     gain = v.sub(v.scale(slower, spin), v.cross(spin, back))
+    if carried.twist:
+        gain = v.add(gain, spun(v.triple(half.bias)))
     turning = [(first + 3 + a, turned(unit, -1.0)) for a, unit in enumerate(v.units)]
     turning += [(first + 6 + i, spun(half)) for i, half in enumerate(halves)]
     relative = v.transpose(tuple(turned(unit, 1.0) for unit in v.units))  # type: ignore[arg-type]  # three columns

@@ -5,6 +5,7 @@ from __future__ import annotations
 from symgen.base.vocabulary.expressions import (
     ONE,
     ZERO,
+    Expr,
     Name,
     call,
     difference,
@@ -60,23 +61,26 @@ def point_of_interface(carried: CarriedInterface, point: Vec) -> Vec:
     """Return a point of an interface from the centre of mass of its body, in the axes of that body."""
     modes = [Name(f"{carried.host}.{m}") for m in names_of_modes(COORDINATE, len(carried.shape))]
 
-    def combined(start: Numbers, parts: tuple[Numbers, ...], factor: float = 1.0) -> Vec:
+    def combined(
+        start: Numbers, parts: tuple[Numbers, ...], curve: tuple[tuple[Numbers, ...], ...], factor: float = 1.0
+    ) -> Vec:
+        terms: list[tuple[Numbers, Expr]] = list(zip(parts, modes, strict=True))
+        for own, m in zip(curve, modes, strict=bool(curve)):
+            terms += [(part, product(m, other)) for part, other in zip(own, modes, strict=True)]
         return tuple(
-            sum_of_terms(
-                literal_of(x), *(product(literal_of(factor * part[a]), m) for part, m in zip(parts, modes, strict=True))
-            )
+            sum_of_terms(literal_of(x), *(product(literal_of(factor * part[a]), m) for part, m in terms))
             for a, x in enumerate(start)
         )
 
-    origin = combined(carried.place, carried.shape)
+    origin = combined(carried.place, carried.shape, carried.curve)
     if all(x == ZERO for x in point):
         return origin
     if len(point) == 2:
-        (angle,) = combined((0.0,), carried.turn)
+        (angle,) = combined((0.0,), carried.turn, carried.twist)
         c, s, (x, y) = call("cos", angle), call("sin", angle), point
         turned: Vec = (difference(product(c, x), product(s, y)), sum_of_terms(product(s, x), product(c, y)))
     else:
-        p = combined((0.0,) * 3, carried.turn, 0.5)
+        p = combined((0.0,) * 3, carried.turn, carried.twist, 0.5)
         factor = call("div", literal_of(2.0), sum_of_terms(ONE, *(product(e, e) for e in p)))
         once = vector_product(p, point)
         twice = vector_product(p, once)

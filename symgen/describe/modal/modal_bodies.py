@@ -188,6 +188,7 @@ class ModalBodies:
             stretches=content.stretches,
             couples=content.couples,
             softening=content.softening,
+            stiffened=content.stiffened,
         )
         modal = msgspec.structs.replace(modal, start=_read_start(scope, section.start or {}, modal))
         nothing = (0.0,) * scope.dimension
@@ -218,7 +219,7 @@ class ModalBodies:
         content = self._files[host]
         frame = content.interfaces[name]
         place = tuple(x - c for x, c in zip(frame.place, content.centre, strict=True))
-        carried = CarriedInterface(host, place, frame.shape, frame.turn, frame.load)
+        carried = CarriedInterface(host, place, frame.shape, frame.turn, frame.load, frame.curve, frame.twist)
         if scope.spatial:
             return SpatialBody(scope.name, ZERO, (ONE, ONE, ONE, ZERO, ZERO, ZERO), carried=carried)
         return Body(scope.name, ZERO, ONE, carried=carried)

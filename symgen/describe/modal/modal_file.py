@@ -55,9 +55,10 @@ _LATER: dict[str, tuple[str, ...]] = {
     **{"stretch_ends": ("stretches", "two"), "stretch_growth": ("stretches", "k", "k")},
     **{"stretch_stiffness": ("stretches",), "softening": ("d",)},
     **{"couple_ends": ("couples", "two"), "couple_share": ("couples", "d", "k")},
+    **{"stiffened": (), "curve": ("curved", "k", "k", "d"), "twist": ("curved", "k", "k", "r")},
 }
 _TEXTS = ("interfaces", "row_names", "row_units")
-_WHOLE = ("version", "inner", "lines", "stretch_ends", "couple_ends")
+_WHOLE = ("version", "inner", "lines", "stretch_ends", "couple_ends", "stiffened")
 
 
 class InterfaceFile(NamedTuple):
@@ -67,6 +68,8 @@ class InterfaceFile(NamedTuple):
     shape: tuple[Numbers, ...]
     turn: tuple[Numbers, ...]
     load: InterfaceLoad
+    curve: tuple[tuple[Numbers, ...], ...]
+    twist: tuple[tuple[Numbers, ...], ...]
 
 
 class ModalFile(NamedTuple):
@@ -86,6 +89,7 @@ class ModalFile(NamedTuple):
     stretches: tuple[HeldStretch, ...]
     couples: tuple[PairedCouple, ...]
     softening: Numbers
+    stiffened: bool
 
     @property
     def dimension(self) -> int:
@@ -199,7 +203,7 @@ def _read(path: str, changed: int, size: int) -> ModalFile:
         raise _NotModal(f"without the array '{missing[0]}'")
     centre = arrays.get("centre")
     no_softening = (0.0,) * len(centre) if isinstance(centre, tuple) else ()
-    arrays = {**dict.fromkeys(_LATER, ()), "softening": no_softening, **arrays}
+    arrays = {**dict.fromkeys(_LATER, ()), "softening": no_softening, "stiffened": 0, **arrays}
     _check_shapes(arrays)
     names = arrays["row_names"]
     rows = tuple(
@@ -210,15 +214,17 @@ def _read(path: str, changed: int, size: int) -> ModalFile:
         *(arrays[name] for name in ("elastic", "shifted", "spread", "modal", "bearing_stiffness", "bearing_length")),
         strict=True,
     )
-    frames = zip(
-        arrays["place"], arrays["shape"], arrays["turn"], (InterfaceLoad(*load) for load in loads), strict=True
+    curved = ((c, t) for c, t in zip(arrays["curve"], arrays["twist"], strict=True))
+    frames = (
+        InterfaceFile(place, shape, turn, InterfaceLoad(*load), *next(curved, ((), ())))
+        for place, shape, turn, load in zip(arrays["place"], arrays["shape"], arrays["turn"], loads, strict=True)
     )
     return ModalFile(
         **{
             name: arrays[name]
             for name in ("mass", "centre", "inertia", "stiffness", "inner", "growth", "second", "cross")
         },
-        interfaces={name: InterfaceFile(*frame) for name, frame in zip(arrays["interfaces"], frames, strict=True)},
+        interfaces=dict(zip(arrays["interfaces"], frames, strict=True)),
         rows=rows,
         outline=ModalOutline(arrays["points"], arrays["point_shapes"], arrays["lines"]),
         stretches=tuple(
@@ -232,6 +238,7 @@ def _read(path: str, changed: int, size: int) -> ModalFile:
             for (i, j), share in zip(arrays["couple_ends"], arrays["couple_share"], strict=True)
         ),
         softening=arrays["softening"],
+        stiffened=bool(arrays["stiffened"]),
     )
 
 
@@ -250,6 +257,8 @@ def _check_shapes(arrays: dict[str, Any]) -> None:
         raise _NotModal(f"with {sizes['k']} modes, not 1 to {MOST_MODES}")
     if any(not 0 <= end < sizes["points"] for line in arrays["lines"] for end in line):
         raise _NotModal("whose outline has lines between points that it does not have")
+    if sizes["curved"] not in (0, sizes["n"]):
+        raise _NotModal("whose array 'curve' has a size that does not fit the others")
     for what in ("stretch", "couple"):
         if any(not 0 <= end < sizes["n"] for pair in arrays[f"{what}_ends"] for end in pair):
             raise _NotModal(f"with a {what} between interfaces that it does not have")

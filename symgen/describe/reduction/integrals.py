@@ -43,14 +43,14 @@ def integrals_of(elements: FiniteElements, x: Array, modes: ModeBasis) -> Integr
     fields = _displacements(elements, modes.shapes)
     weighted = np.array([elements.density @ field for field in fields])
     whole, size = float(elements.density.sum()), elements.size
-    rest = _inertia(np.einsum("na,nb->ab", x, elements.density @ x)) + elements.rotary.sum(axis=0)
+    rest = inertia_tensor(np.einsum("na,nb->ab", x, elements.density @ x)) + elements.rotary.sum(axis=0)
     mixed = np.einsum("na,knb->kab", x, weighted)
     products = np.einsum("ina,jnb->ijab", fields, weighted)
-    second = np.array([[_inertia(s) for s in line] for line in products])
+    second = np.array([[inertia_tensor(s) for s in line] for line in products])
     cross = np.array([[_axis(s) for s in line] for line in products])
     return Integrals(
         inertia=rest,
-        growth=_without_rounding(2.0 * np.array([_inertia(s) for s in mixed]), whole * size),
+        growth=_without_rounding(2.0 * np.array([inertia_tensor(s) for s in mixed]), whole * size),
         second=_without_rounding((second + np.swapaxes(second, 0, 1)) / 2.0, whole),
         cross=_without_rounding((cross - np.swapaxes(cross, 0, 1)) / 2.0, whole),
     )
@@ -67,7 +67,7 @@ def _displacements(elements: FiniteElements, shapes: Array) -> Array:
     return np.ascontiguousarray(shapes.T.reshape(-1, n, elements.unknowns)[:, :, :d])
 
 
-def _inertia(second: Array) -> Array:
+def inertia_tensor(second: Array) -> Array:
     """Return the tensor tr(S) 1 - S of the symmetric part of second moments; in the plane its one entry."""
     s = (second + second.T) / 2.0
     return np.array([[np.trace(s)]]) if len(s) == 2 else np.trace(s) * np.eye(3) - s

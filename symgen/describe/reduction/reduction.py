@@ -20,7 +20,7 @@ from symgen.describe.coordinate_names import names_of_modal_body
 from symgen.describe.formulas.identifiers import check_identifier
 from symgen.describe.modal.modal_file import SUFFIX, VERSION
 from symgen.describe.modal_body import MOST_MODES
-from symgen.describe.reduction.basis import modes_of
+from symgen.describe.reduction.basis import ModeBasis, modes_of
 from symgen.describe.reduction.finite_elements import (
     Array,
     FiniteElements,
@@ -30,11 +30,14 @@ from symgen.describe.reduction.finite_elements import (
     refuse_massless,
 )
 from symgen.describe.reduction.integrals import bearings_of, integrals_of
+from symgen.describe.reduction.second_motion import SecondMotion, second_motion_of
 from symgen.describe.reduction.second_order import couples_of, softening_of, stretches_of
 from symgen.describe.reduction.ways import middles_of, shortest_ways
 
 #: Points of an outline at most.
 MOST_POINTS = 400
+#: What `stiffening` may be.
+STIFFENING = "interfaces"
 
 
 @dataclass(frozen=True, repr=False)
@@ -108,6 +111,7 @@ def reduced(
     inner: int = 0,
     rows: Mapping[str, object] | None = None,
     outline: object = None,
+    stiffening: str | None = None,
 ) -> Reduced:
     """Return a body of finite elements as a modal body, with modes about mean axes.
 
@@ -130,6 +134,9 @@ def reduced(
         and a unit. Formulas read them as ``arm.sigma``.
     outline : list of lists of int, optional
         Lines of nodes that pictures show; by default the shortest ways along elements between the interfaces.
+    stiffening : str, optional
+        ``"interfaces"``: loads on interfaces and inertia stiffen and soften the body, as interfaces move at second
+        order in the coordinates of modes. Of bodies of bars, whose nodes turn.
 
     Returns
     -------
@@ -157,6 +164,7 @@ def reduced(
     x = elements.x - centre
     modes = modes_of(elements, x, sets, count)
     integrals, bearings = integrals_of(elements, x, modes), bearings_of(elements, x, modes)
+    second = _second_motion(stiffening, elements, x, modes, sets)
     stretches, couples = stretches_of(elements, x, modes, sets), couples_of(elements, modes)
     shape, turn = _interface_motions(elements, x, modes.shapes, sets, modes.seats)
     names, units, values = _read_rows(rows, elements, modes.shapes, tuple(sets))
@@ -174,7 +182,7 @@ def reduced(
         "stiffness": mass * modes.squares,
         "inner": np.array(count),
         "growth": integrals.growth,
-        "second": integrals.second,
+        "second": integrals.second if second is None else integrals.second + second.second,
         "cross": integrals.cross,
         "interfaces": np.array(list(sets), dtype=str) if sets else empty(0, dtype="<U1"),
         "place": np.array([seat + centre for seat in modes.seats.values()]).reshape(n, d),
@@ -192,6 +200,9 @@ def reduced(
         "couple_ends": np.array([c.ends for c in couples], dtype=np.int64).reshape(len(couples), 2),
         "couple_share": np.array([c.share for c in couples]).reshape(len(couples), d, k),
         "softening": softening_of(elements, x, modes, sets),
+        "stiffened": np.array(int(second is not None)),
+        "curve": empty((0, k, k, d)) if second is None else second.place,
+        "twist": empty((0, k, k, elements.rotations)) if second is None else second.turn,
         "row_names": np.array(names, dtype=str) if names else empty(0, dtype="<U1"),
         "row_units": np.array(units, dtype=str) if names else empty(0, dtype="<U1"),
         "rows": values,
@@ -209,6 +220,18 @@ def reduced(
         shapes=modes.shapes,
         _arrays={name: _plain(array) for name, array in arrays.items()},
     )
+
+
+def _second_motion(
+    stiffening: object, elements: FiniteElements, x: Array, modes: ModeBasis, sets: Mapping[str, NDArray[np.int64]]
+) -> SecondMotion | None:
+    """Return the displacements of second order where stiffening asks for them."""
+    if stiffening is None:
+        return None
+    if stiffening != STIFFENING:
+        got = quote(stiffening) if isinstance(stiffening, str) else kind_of_value(stiffening)
+        raise InputError("stiffening", f"{quote(STIFFENING)}, or None for linear modes", got)
+    return second_motion_of(elements, x, modes, sets)
 
 
 def _plain(array: NDArray[np.generic]) -> NDArray[np.generic]:

@@ -45,12 +45,12 @@ def judge(errors, said):
         assert words if error > 0.03 else not words if error < 0.007 else True, (error, words)
 
 
-def pushed_strip(folder, thick, force, joint):
+def pushed_strip(folder, thick, force, joint, **keys):
     """The middle of a steel strip one metre long, held at both ends: by modes, and the sentences on it."""
     x = np.column_stack([np.linspace(0.0, 1.0, 41), np.zeros(41)])
     mesh = bar_frame(x, YOUNG, WIDE * thick, WIDE * thick**3 / 12.0, 7850.0)
     faces = {"root": [0], "middle": [20], "tip": [40]}
-    symgen.reduced(x, mesh.mass, mesh.stiffness, faces, 2).save(folder / "arm.npz")
+    symgen.reduced(x, mesh.mass, mesh.stiffness, faces, 2, **keys).save(folder / "arm.npz")
     text = HELD.format(left=[0.0, 0.0], right=[1.0, 0.0], joint=joint)
     text += f'[forces.push]\ntype = "force"\nbody = "arm.middle"\nat = [0.0, 0.0]\nforce = [0.0, {force!r}]\n'
     return place_at_rest(machine(folder, text), "arm.middle")
@@ -103,7 +103,7 @@ def test_a_strip_with_an_end_that_slides_has_no_thrust(tmp_path):
     assert middle == pytest.approx(0.004, rel=1e-3) and not said
 
 
-def mast(folder, mass, tilt):
+def mast(folder, mass, tilt, **keys):
     """A mast half a metre high with a mass, on a stiff beam held at both ends, under weight: its top."""
     beam = bar_frame(np.column_stack([np.linspace(-0.8, 0.8, 13), np.zeros(13)]), YOUNG, 1.2e-3, 3.6e-7, 7850.0)
     pole = bar_frame(np.column_stack([np.zeros(21), np.linspace(0.0, 0.5, 21)]), YOUNG, 6e-5, 4.5e-11, 0.1)
@@ -118,7 +118,7 @@ def mast(folder, mass, tilt):
     matrices[0][[96, 97, 98], [96, 97, 98]] += mass, mass, 1e-6
     rows = {"aside": np.eye(99)[96], "up": np.eye(99)[97]}
     m, k = (sparse.csc_array(matrix) for matrix in matrices)
-    body = symgen.reduced(x, m, k, {"root": [0], "tip": [12]}, 4, rows=rows)
+    body = symgen.reduced(x, m, k, {"root": [0], "tip": [12]}, 4, rows=rows, **keys)
     body.save(folder / "arm.npz")
     text = HELD.format(left=[-0.8, 0.0], right=[0.8, 0.0], joint="rigid")
     model = machine(folder, text, gravity=f"[{tilt}, -9.81]")
