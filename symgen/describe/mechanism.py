@@ -335,6 +335,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     author: str = ""  # as is the title, for people
     revision: str = ""
     holding: tuple[Holding, ...] = ()  # those of `switchable` whose states and events say where they are in force
+    restitution_law: str = "newton"  # or "poisson", of impacts at one-sided rows
     remarks: tuple[str, ...] = ()  # what a reader of any result has to know; `symgen.describe.files.remarks`
 
     def __repr__(self) -> str:

@@ -78,11 +78,11 @@ def pressed_rows(mechanism: Mechanism) -> tuple[BoundedRow, ...]:
     return tuple(row for row in mechanism.bounded if row.pressed)
 
 
-def rubs_at_impacts(mechanism: Mechanism) -> bool:
-    """Return whether friction has impulses: at contacts, or by reactions beside one-sided rows."""
+def has_tied_impulses(mechanism: Mechanism) -> bool:
+    """Return whether impulses depend on others: at contacts, by reactions beside one-sided rows, by Poisson's law."""
     one_sided = any(row.one_sided for row in mechanism.bounded)
-    by_reaction = bool(rows_bounded_by_reactions(mechanism)) and one_sided
-    return by_reaction or any(row.in_contact for row in mechanism.bounded)
+    depends = bool(rows_bounded_by_reactions(mechanism)) or mechanism.restitution_law != "newton"
+    return (depends and one_sided) or any(row.in_contact for row in mechanism.bounded)
 
 
 def refuse_shared_reactions(row: BoundedRow, repeats: Iterable[tuple[str, str]]) -> None:

@@ -96,6 +96,7 @@ def mechanism_digest(mechanism: Mechanism) -> str:
         ", switchable=()",
         ", holding=()",
         ", remarks=()",
+        ", restitution_law='newton'",
         ", pressed=()",
         ", across=()",
         ", speed=None",

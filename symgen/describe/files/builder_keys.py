@@ -21,6 +21,7 @@ class MechanismKeys(TypedDict, total=False):
     remarks: Iterable[str]
     space: Literal["planar", "spatial"]
     gravity: Vector
+    restitution_law: Literal["newton", "poisson"]
     shape: Mapping[str, Any] | Iterable[Mapping[str, Any]]
 
 

@@ -230,6 +230,7 @@ class _Validator:
             author=one_line(head.author),
             revision=one_line(head.revision),
             remarks=tuple(map(one_line, head.remarks)),
+            restitution_law=head.restitution_law,
         )
         with self.errors.part_of_description():
             mechanism = with_rope_sheaves(with_holding(mechanism, holding), self.joints.sheaves)

@@ -37,6 +37,8 @@ class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         ``"planar"`` or ``"spatial"``.
     gravity : vector
         Gravitational acceleration in the ground frame [m/s^2]; none by default.
+    restitution_law : str
+        What a restitution is a ratio of at impacts: ``"newton"`` of rates, ``"poisson"`` of impulses.
     remarks : list of str
         What a reader of any result has to know, such as what an import left out; every result repeats it.
     shape : table, or list of tables
@@ -51,6 +53,7 @@ class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     remarks: tuple[Text, ...] = ()
     space: Literal["planar", "spatial"] = "planar"
     gravity: Vector | None = None
+    restitution_law: Literal["newton", "poisson"] = "newton"
     shape: ShapeSection | tuple[ShapeSection, ...] | None = None
 
 

@@ -137,6 +137,7 @@ def bounded_names(mechanism: Mechanism) -> BoundedNames:
         ),
         tuple(i for i, row in enumerate(every) if row.in_contact and row.one_sided),
         _partners_of(every),
+        mechanism.restitution_law == "poisson",
     )
 
 

@@ -116,6 +116,8 @@ class PushDirections(ResetDirections):
     def __init__(self, *given: Any) -> None:
         *others, self.ties, self.watched, self.parts, self.pins = given
         super().__init__(*others)
+        if self.watched.bounded.poisson:
+            raise InputError("derivatives", 'restitution_law = "newton"', '"poisson", whose impacts have none')
         if self.losses:
             raise InputError("derivatives", "outputs without the energy that contacts take", "one that reads it")
 

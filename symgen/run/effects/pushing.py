@@ -34,6 +34,8 @@ from symgen.run.starts.start_solvers import least_norm_above
 _EPSILON = 2.0**-52
 #: Whether bounds depend on reactions of joints beside one-sided rows.
 REACTIONS = False
+#: Whether restitutions are ratios of impulses, of expansion to compression.
+POISSON = False
 
 
 class Ties(Record):

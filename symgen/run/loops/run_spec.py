@@ -104,6 +104,8 @@ class BoundedNames:
         One-sided rows that are gaps of contacts.
     partners : tuple of int
         Of each row the other row of its contact, the gap or what acts along it; -1 for others.
+    poisson : bool
+        Whether restitutions are ratios of impulses.
     """
 
     names: tuple[str, ...]
@@ -115,6 +117,7 @@ class BoundedNames:
     pieces: tuple[int, ...] = ()
     contacts: tuple[int, ...] = ()
     partners: tuple[int, ...] = ()
+    poisson: bool = False
 
     @property
     def one_sided(self) -> bool:
@@ -123,8 +126,8 @@ class BoundedNames:
 
     @property
     def one_problem(self) -> bool:
-        """Whether one-sided rows are beside bounds by reactions, which have impulses as contacts do."""
-        return self.one_sided and bool(self.pressed)
+        """Whether one-sided rows have the impacts of contacts: beside reactions, and by Poisson's law."""
+        return self.one_sided and (bool(self.pressed) or self.poisson)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,7 +136,7 @@ class BoundedRows(BoundedNames):
 
     Attributes
     ----------
-    names, kinds, nouns, dry, pressed, drivers, pieces, contacts, partners
+    names, kinds, nouns, dry, pressed, drivers, pieces, contacts, partners, poisson
         See `BoundedNames`.
     state, accelerations : callable
         ``(t, y, p, w, rate)`` -> coordinates and gaps, their rates, bounds at rest and bounds at the beginning
@@ -241,6 +244,7 @@ class Watched:
             "pieces": rows.pieces,
             "contacts": rows.contacts,
             "reactions": rows.one_problem,
+            "poisson": rows.one_problem and rows.poisson,
         }
         return (*(kind for kind, those in has.items() if those), *holding)
 

@@ -16,7 +16,7 @@ from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.effects.accumulation import OF_EVENT, accumulation, add_resets
-from symgen.run.effects.pushing import REACTIONS
+from symgen.run.effects.pushing import POISSON, REACTIONS
 from symgen.run.layout import abi
 from symgen.run.layout.scales import larger_number
 from symgen.run.layout.start_records import Instant
@@ -25,6 +25,7 @@ from symgen.run.modes.bounded_rows import (
     NOT_APPLIED,
     NOT_FINITE,
     OTHERS,
+    OUT_OF_RANGE,
     SAME,
     SIGN,
     STILL,
@@ -34,6 +35,7 @@ from symgen.run.modes.bounded_rows import (
     sign_of_number,
     switch_off,
 )
+from symgen.run.modes.choice import read_rows
 from symgen.run.modes.contact_combinations import LOWER, OFF, ON, UPPER
 from symgen.run.modes.contact_parts import by_reaction, choose_part, find_parts, probe_contacts
 from symgen.run.modes.contact_series import ends_closed, find_leading, remember_impact, sum_series
@@ -77,6 +79,19 @@ def find_struck_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: 
 
 
 @exact()
+def add_kicks(c: Choice, s: Strikes, i: int) -> None:
+    """Add what impulses that follow from compression make of the rate of a row, and of what its bound depends on."""
+    k = c.count
+    for gap in range(c.dry, k):
+        c.offset[i] += c.matrix[i * k + gap] * s.memory.kicked[gap]
+        if c.pressed[i] != 0:
+            for part in range(2):
+                c.apart[2 * i + part] += c.parts[(2 * i + part) * k + gap] * s.memory.kicked[gap]
+    if c.pushes[i] == 0 and c.partner[i] >= 0:
+        c.apart[2 * i] = s.memory.kicked[c.partner[i]]
+
+
+@exact()
 def find_impulses(c: Choice, s: Strikes) -> int:
     """Find the modes of an impact; return `SAME`, or why there are none."""
     rows = c.at_rest[0]
@@ -87,6 +102,8 @@ def find_impulses(c: Choice, s: Strikes) -> int:
         c.best[i], c.forces[i], c.signs[i] = OFF, 0.0, 0.0
         if REACTIONS:  # without impulses joints have none
             c.apart[2 * i] = c.apart[2 * i + 1] = 0.0
+        if POISSON:
+            add_kicks(c, s, i)
     find_parts(c)
     for i in range(c.count):
         s.memory.groups[i] = -1
@@ -111,17 +128,20 @@ def find_pushing(c: Choice, s: Strikes) -> int:
         s.active[i] = 0
     for r in range(c.at_rest[0]):
         most = larger_number(most, abs(c.forces[c.rest[r]]) if c.pushes[c.rest[r]] != 0 else 0.0)
+        if POISSON:
+            most = larger_number(most, s.memory.kicked[c.rest[r]])
     for r in range(c.at_rest[0]):
         i = c.rest[r]
-        if c.pushes[i] != 0 and -c.forces[i] > _NOTHING * most:
+        impulse = -c.forces[i] + (s.memory.kicked[i] if POISSON else 0.0)
+        if c.pushes[i] != 0 and impulse > _NOTHING * most:
             s.active[i] = 1
             count += 1
     return count
 
 
 @exact()
-def tie_velocities(c: Choice, s: Strikes, rests: bool) -> None:
-    """Say which velocities of the events that push impulses hold, and at which values."""
+def tie_velocities(c: Choice, s: Strikes, rests: bool, keeps: bool) -> None:
+    """Say which velocities of the events that push impulses hold, and at which values; `keeps`: for what follows."""
     _, _, _, _, changes = s.effects.model
     owners, ties = changes.owners, s.ties
     for j in range(owners.shape[0]):
@@ -132,41 +152,110 @@ def tie_velocities(c: Choice, s: Strikes, rests: bool) -> None:
                 friction = c.partner[i]
                 if j == 0 or owners[j - 1] != owners[j]:
                     ties.held[j], ties.values[j] = 1, 0.0 if rests else s.asked[i]
-                elif c.mode[friction] >= UPPER:
+                    if POISSON and not rests and c.mode[i] != ON:  # its impulse is that of compression alone
+                        ties.held[j] = 0
+                elif c.mode[friction] >= UPPER and (not POISSON or ties.held[j - 1] > 0):
                     sign = 1.0 if c.mode[friction] == UPPER else -1.0
                     ties.held[j], ties.ways[j], ties.ratio[j] = -1, -sign, -sign * c.sliding[friction]
                 elif c.mode[friction] == ON:
                     ties.held[j] = 1
-        if not rests:
+        if keeps:
             ties.kept[j], ties.kept_ways[j] = ties.held[j], ties.ways[j]
 
 
 @exact()
-def lose_at_contacts(c: Choice, s: Strikes, y: Array, before: bool) -> float:
-    """Add what an impact takes to the losses of its contacts; return the work of its impulses, nan without a gain.
+def lose_at_contacts(c: Choice, s: Strikes, y: Array) -> None:
+    """Add what impulses take to the losses of their contacts, and their work to ``spent``.
 
     Each impulse does work by the sum of the rates before and after it.
     """
     _, _, _, _, changes = s.effects.model
-    owners, ties, n = changes.owners, s.ties, c.layout.nv
-    work, size = 0.0, 0.0
+    owners, ties, n, spent = changes.owners, s.ties, c.layout.nv, s.memory.spent
     for j in range(owners.shape[0]):
         for i in range(c.dry, c.count):
             if owners[j] == s.events[i] and s.active[i] != 0:
                 gap = j == 0 or owners[j - 1] != owners[j]
                 place = i if gap else c.partner[i]
-                rate = c.speed[place] if before or not gap else s.asked[i]
+                rate, impulse = c.speed[place], ties.impulses[j]
+                if POISSON:
+                    impulse += s.memory.kicked[place]
                 after = rate
                 for q in range(n):
                     after += ties.push[j * n + q] * (y[c.layout.nq + q] - s.effects.work.still[q])
-                done = 0.5 * ties.impulses[j] * (rate + after)
-                work += done
-                size += 0.5 * abs(ties.impulses[j]) * (abs(rate) + abs(after))
+                done = 0.5 * impulse * (rate + after)
+                spent[0] += done
+                spent[1] += 0.5 * abs(impulse) * (abs(rate) + abs(after))
                 if s.losses[i] >= 0:
                     y[s.losses[i]] -= done
-    if REACTIONS:
-        work, size = work + s.memory.spent[0], size + s.memory.spent[1]
-    return work if work > _GAIN * size else math.nan
+
+
+@exact()
+def apply_impulses(t: float, c: Choice, s: Strikes, now: Instant, keeps: bool) -> int:
+    """Find the impulses of an impact, or of a part of it, and apply them; return `SAME`, or why there are none."""
+    code = find_impulses(c, s)
+    if code != SAME:
+        return int(code)
+    s.pushing[0] = find_pushing(c, s)
+    for i in range(c.count):
+        c.mode[i] = c.best[i]
+        if REACTIONS:
+            s.memory.pins[i] = c.best[i]
+    choose_events(c, s, False)
+    tie_velocities(c, s, False, keeps)
+    if not push(t, c, s, now):
+        return NOT_APPLIED
+    lose_at_contacts(c, s, now.y)
+    return SAME
+
+
+@exact()
+def expand(t: float, c: Choice, s: Strikes, now: Instant) -> int:
+    """Apply the impulses of expansion after compression: each gap has at least its restitution times its first impulse.
+
+    What the impact keeps is the sum of both. Returns as `apply_impulses` does.
+    """
+    _, _, _, _, changes = s.effects.model
+    owners, memory, impulse, m = changes.owners, s.memory, s.effects.work.impulse, c.layout.m
+    energy, count = s.effects.work.energy[0], owners.shape[0]
+    for row in range(m):
+        memory.compressed[row] = impulse.impulses[row]
+    for j in range(count):
+        memory.compressed[m + j] = s.ties.impulses[j]
+        for i in range(c.dry, c.count):
+            if owners[j] == s.events[i] and (j == 0 or owners[j - 1] != owners[j]):
+                memory.kicked[i] = c.restitution[i] * s.ties.impulses[j] if s.active[i] != 0 else 0.0
+                memory.closes[i] = s.active[i]
+    if read_rows(t, c, now.y, now.p, now.w) != SAME:
+        return OUT_OF_RANGE
+    code = apply_impulses(t, c, s, now, False)
+    for i in range(c.dry):
+        c.apart[2 * i] = 0.0 if c.partner[i] >= 0 else c.apart[2 * i]
+    if code != SAME:
+        return int(code)
+    for i in range(c.dry, c.count):
+        s.active[i] = 1 if memory.closes[i] != 0 else s.active[i]
+    choose_events(c, s, False)
+    s.effects.work.energy[0] += energy
+    for row in range(m):
+        own = c.place_of[row] < 0 or c.pressed[c.place_of[row]] != 0
+        impulse.impulses[row] = memory.compressed[row] + impulse.impulses[row] if own else 0.0
+    place = m
+    for j in range(count):
+        if s.chosen[owners[j]] != 0:
+            total = memory.compressed[m + j] + s.ties.impulses[j]
+            for i in range(c.dry, c.count):
+                if owners[j] == s.events[i]:
+                    gap = j == 0 or owners[j - 1] != owners[j]
+                    total += memory.kicked[i if gap else c.partner[i]]
+            impulse.impulses[place] = total
+            place += 1
+    for i in range(c.count):
+        memory.kicked[i] = 0.0
+    if read_rows(t, c, now.y, now.p, now.w) != SAME:
+        return OUT_OF_RANGE
+    for i in range(c.dry, c.count):
+        s.asked[i] = c.speed[i] if s.active[i] != 0 else s.asked[i]
+    return SAME
 
 
 @exact(entry=True)
@@ -181,28 +270,24 @@ def strike_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
     switch_off(c, w)
     for i in range(c.count):
         s.left[i], s.before[i] = math.nan, c.speed[i]
-    ask_rates(t, c, s, now)
-    code = find_impulses(c, s)
+    s.memory.spent[0] = s.memory.spent[1] = 0.0
+    if POISSON:  # compression takes all rates of gaps that close
+        for i in range(c.count):
+            s.asked[i] = s.memory.kicked[i] = 0.0
+    else:
+        ask_rates(t, c, s, now)
+    code = apply_impulses(t, c, s, now, True)
+    if POISSON and code == SAME:
+        code = expand(t, c, s, now)
     if code != SAME:
         return int(code)
-    count = find_pushing(c, s)
-    for i in range(c.count):
-        c.mode[i] = c.best[i]
-        if REACTIONS:
-            s.memory.pins[i] = c.best[i]
-    choose_events(c, s, False)
-    tie_velocities(c, s, False)
-    if not push(t, c, s, now):
-        return NOT_APPLIED
-    gain = lose_at_contacts(c, s, y, True)
-    if gain == gain:
+    if s.memory.spent[0] > _GAIN * s.memory.spent[1]:
         for i in range(c.count):
             c.named[0] = i if s.active[i] != 0 else c.named[0]
-        c.jam[0] = gain
+        c.jam[0] = s.memory.spent[0]
         return GAINED
     choose_events(c, s, True)
     add_resets(s.effects.past, s.chosen, t)
-    s.pushing[0] = count
     return SAME
 
 
@@ -282,12 +367,12 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, in_series: bool, 
                 still = abs(c.speed[j]) <= STILL * row_scale(c, now.w, j, abi.SPEED)
                 c.mode[j] = ON if still else (UPPER if sign_of_number(c.speed[j]) > 0.0 else LOWER)
     choose_events(c, s, False)
-    tie_velocities(c, s, True)
+    tie_velocities(c, s, True, False)
     if in_series and not sum_series(t, c, s, now, iw):
-        tie_velocities(c, s, True)
+        tie_velocities(c, s, True, False)
     if not push(t, c, s, now):
         return NOT_APPLIED
-    lose_at_contacts(c, s, now.y, True)
+    lose_at_contacts(c, s, now.y)
     for i in range(c.dry, c.count):
         if s.active[i] != 0:
             s.left[i] = larger_number(end - t, 0.0)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
+from symgen.run.effects.pushing import POISSON
 from symgen.run.laws.motions import NOT_SOUGHT, SEVERAL_MOTIONS, count_motions, find_forces, seek_another
 from symgen.run.laws.problem import BALL, COMPONENTS, LOWER, NOTHING, OFF, ON, PUSH, UPPER, begin_row, load_of
 from symgen.run.laws.problem import bound_of as load_bound
@@ -55,6 +56,7 @@ def fill_part(c: Choice, count: int) -> None:
                         laws.parts[at * count + b] = c.parts[(2 * i + part) * k + order[b]]
         if c.pushes[i] == 0 and c.partner[i] >= 0:
             laws.kappa[a], laws.way[a] = bound_of(c, i), c.signs[i]
+            laws.beta[a] = bound_of(c, i) * c.apart[2 * i] if POISSON else 0.0
             for b in range(count):
                 if order[b] == c.partner[i]:
                     laws.presser[a] = b
@@ -152,7 +154,7 @@ def solve_by_laws(c: Choice, count: int) -> int:
     for a in range(count):  # the friction of an open contact is off
         i = order[a]
         if c.pushes[i] == 0 and c.partner[i] >= 0 and c.best[c.partner[i]] == OFF:
-            c.best[i] = OFF
+            c.best[i] = c.best[i] if POISSON and c.apart[2 * i] > 0.0 else OFF
     find_carriers_of_part(c, count)
     if several and reacts:
         name_different(c, count)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 
 from symgen.compile.loopcode.exact import exact
+from symgen.run.effects.pushing import POISSON
 from symgen.run.modes.bounded_rows import (
     NO_CONTACT_MODES,
     ROUNDED,
@@ -121,7 +122,7 @@ def try_combinations(c: Choice, count: int) -> int:
         i = box.order[a]
         contacts += 1 if c.pushes[i] != 0 else 0
         c.option[i] = 0
-    if contacts > _MOST_CONTACTS or count > _MOST_ROWS or has_middle(c, count) or has_reaction(c, count):
+    if contacts > _MOST_CONTACTS or count > _MOST_ROWS or has_middle(c, count) or POISSON or has_reaction(c, count):
         code = solve_by_laws(c, count)
         if code == NO_CONTACT_MODES or code == SEVERAL_MODES:
             name_fault(c, count)

@@ -33,7 +33,11 @@ class ImpactMemory(Record):
     pins : Array of int64, shape (k,)
         Modes of friction by reactions at the latest impact.
     spent : Array, shape (2,)
-        Work of the impulses of friction by reactions, and of their sizes [J].
+        Work of the impulses of an impact, and of their sizes [J].
+    kicked : Array, shape (k,)
+        By Poisson's law, what follows from compression: impulses of gaps, and of sliding friction by them.
+    compressed : Array
+        Impulses of compression.
     y, w, control : Array, Array of int64
         State and scratch, kept while rest is tried.
     """
@@ -45,6 +49,8 @@ class ImpactMemory(Record):
     closes: Integers
     pins: Integers
     spent: Array
+    kicked: Array
+    compressed: Array
     rates: Array
     rested: Array
     rests: Array
@@ -54,12 +60,13 @@ class ImpactMemory(Record):
     control: Integers
 
 
-def new_impact_memory(k: int, width: int, nw: int) -> Any:
-    """Return an empty memory for k rows, and states and scratches of `width` and `nw` numbers."""
+def new_impact_memory(k: int, width: int, nw: int, impulses: int) -> Any:
+    """Return an empty memory for k rows, states and scratches of `width` and `nw` numbers, and some `impulses`."""
     numbers, control = np.zeros, np.zeros(abi.N_CONTROL if k else 0, dtype=np.int64)
     impacts, groups, leads = numbers(REMEMBERED * (HEAD + k) * k), np.full(k, -1), np.full(k, -1)
     modes, closes, pins = (np.zeros(k, dtype=np.int64) for _ in range(3))
     rates = numbers(k), numbers(k), numbers(k), numbers(k)
     return ImpactMemory(
-        impacts, modes, groups, leads, closes, pins, numbers(2), *rates, numbers(width), numbers(nw), control
+        *(impacts, modes, groups, leads, closes, pins, numbers(2), numbers(k), numbers(impulses)),
+        *(*rates, numbers(width), numbers(nw), control),
     )

@@ -15,7 +15,7 @@ from symgen.compile.loopcode.exact import exact
 from symgen.compile.loopcode.loop_instances import Meanings, exact_instance
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.effects.applying import APPLIED
-from symgen.run.effects.pushing import REACTIONS, push_contacts
+from symgen.run.effects.pushing import POISSON, REACTIONS, push_contacts
 from symgen.run.laws.newton import follow_laws
 from symgen.run.laws.problem import BALL, COMPONENTS, LOWER, OFF, ON, UPPER, acceleration_of, begin_row
 from symgen.run.layout.start_records import Instant
@@ -26,6 +26,12 @@ from symgen.run.modes.strikes import Strikes
 #: Where bounds depend on reactions beside one-sided rows.
 BY_REACTIONS = Meanings("runs with one-sided rows beside bounds that depend on reactions", REACTIONS=True)
 push_with_kicks = exact_instance(push_contacts, BY_REACTIONS)
+
+
+@exact()
+def kick_of(c: Choice, s: Strikes, i: int) -> float:
+    """Return the impulse of a gap that follows from its compression, 0 for other rows."""
+    return float(s.memory.kicked[i]) if c.pushes[i] != 0 else 0.0
 
 
 @exact()
@@ -44,6 +50,8 @@ def list_rows(c: Choice, s: Strikes) -> int:
                 laws.kept[n], laws.state[n] = ties.values[j], ON if ties.held[j] > 0 else OFF
                 if ties.held[j] < 0:
                     laws.kept[n], laws.state[n] = 0.0, UPPER if ties.ways[j] < 0.0 else LOWER
+                elif POISSON and not gap and ties.held[j] == 0:  # it slides by the impulse of compression alone
+                    laws.state[n] = c.mode[order[n]]
                 n += 1
     for i in range(c.dry):
         if by_reaction(c, i):
@@ -53,7 +61,7 @@ def list_rows(c: Choice, s: Strikes) -> int:
 
 
 @exact()
-def fill_impact(c: Choice, n: int) -> None:
+def fill_impact(c: Choice, s: Strikes, n: int) -> None:
     """Write the problem of the impulses of the rows listed."""
     k, order, laws = c.count, c.box.order, c.laws
     for a in range(n):
@@ -62,40 +70,46 @@ def fill_impact(c: Choice, n: int) -> None:
         laws.offset[a], laws.forces[a] = c.speed[i] - laws.kept[a], 0.0
         for b in range(n):
             laws.matrix[a * n + b] = c.matrix[i * k + order[b]]
+            if POISSON:
+                laws.offset[a] += c.matrix[i * k + order[b]] * kick_of(c, s, order[b])
         if c.pushes[i] == 0:
             laws.law[a], laws.kappa[a] = BALL, c.sliding[i]
             if by_reaction(c, i):
                 laws.components[a] = 2
                 for part in range(2):
                     for b in range(n):
-                        laws.parts[(COMPONENTS * a + part) * n + b] = c.parts[(2 * i + part) * k + order[b]]
+                        by_unit = c.parts[(2 * i + part) * k + order[b]]
+                        laws.parts[(COMPONENTS * a + part) * n + b] = by_unit
+                        if POISSON:
+                            laws.apart[COMPONENTS * a + part] += by_unit * kick_of(c, s, order[b])
             else:
                 laws.presser[a] = a - 1
+                laws.beta[a] = c.sliding[i] * s.memory.kicked[order[a - 1]] if POISSON else 0.0
 
 
 @exact()
 def find_kicks(c: Choice, s: Strikes) -> bool:
     """Set the impulses of friction by reactions, and their work; return whether there are any in these modes."""
-    laws, n, most = c.laws, list_rows(c, s), 0.0
-    fill_impact(c, n)
-    for a in range(n):
-        most = max(most, abs(laws.offset[a]))
+    laws, n, kicked = c.laws, list_rows(c, s), s.memory.kicked
+    fill_impact(c, s, n)
     for row in range(s.ties.kicks.shape[0]):
         s.ties.kicks[row] = 0.0
-    s.memory.spent[0] = s.memory.spent[1] = 0.0
-    if most == 0.0:
-        return True
     if not follow_laws(n, True, laws):
         return False
     for a in range(n):
-        i = c.box.order[a]
+        i, kick = c.box.order[a], 0.0
         if by_reaction(c, i):
-            rate = c.speed[i] + acceleration_of(n, a, laws)
-            s.memory.spent[0] -= 0.5 * laws.forces[a] * rate
-            s.memory.spent[1] += 0.5 * abs(laws.forces[a]) * abs(rate)
-            for row in range(c.layout.m):
-                if c.place_of[row] == i:
-                    s.ties.kicks[row] = -laws.forces[a]
+            rate, kick = c.speed[i] + acceleration_of(n, a, laws), -laws.forces[a]
+            s.memory.spent[0] += 0.5 * kick * rate
+            s.memory.spent[1] += 0.5 * abs(kick) * abs(rate)
+        elif POISSON and c.pushes[i] != 0:
+            kick = kicked[i]
+        elif POISSON and laws.state[a] >= UPPER:
+            kick = (-1.0 if laws.state[a] == UPPER else 1.0) * laws.beta[a]
+            kicked[i] = kick
+        for row in range(c.layout.m):
+            if c.place_of[row] == i:
+                s.ties.kicks[row] = kick
     return True
 
 

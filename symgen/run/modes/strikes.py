@@ -112,7 +112,9 @@ def new_strikes(effects: OfEffects, hits: Sequence[int], losses: Sequence[int], 
         Whether there are contacts.
     """
     k = len(hits)
-    remembered = (k, len(effects.work.state), len(effects.work.scratch)) if contacts else (0, 0, 0)
+    work = effects.work
+    sizes = k, len(work.state), len(work.scratch), len(work.impulse.impulses)
+    remembered = sizes if contacts else (0, 0, 0, 0)
     return Strikes(
         effects=effects,
         chosen=np.zeros(len(effects.chosen), dtype=np.int64),

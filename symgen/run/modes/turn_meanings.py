@@ -49,10 +49,14 @@ REACTING = Meanings(
     strike=exact_instance(strike_contacts, BY_REACTIONS),
     gather=exact_instance(gather_contacts, BY_REACTIONS),
 )
+BY_POISSON = Meanings(
+    "runs whose restitutions are ratios of impulses",
+    strike=exact_instance(strike_contacts, BY_REACTIONS | {"POISSON": True}),
+)
 #: Meanings for what a run's rows have (`symgen.run.loops.run_spec.Watched.turning`).
 TURNING = {
     **{"pressed": PRESSED, "corners": CORNERED, "pieces": IN_PIECES, "contacts": TOUCHED, "reactions": REACTING},
-    "holding": HOLDING,
+    **{"poisson": BY_POISSON, "holding": HOLDING},
 }
 
 
