@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +13,7 @@ from symgen.base.errors import InputError, fit_lines, plural
 from symgen.base.escapes import printable
 from symgen.cli import BAD_INPUT, OK, write_json
 from symgen.cli._shared_options import examples_in_help, json_option, setting_options
+from symgen.describe.bounds.by_reaction import pressed_rows
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.modal_body import MANY_MODES
 
@@ -155,12 +156,23 @@ def _facts_of_assembly(
         "redundant_rows": list(start.redundant_rows),
         "dropped_rows": list(info.dropped_rows),
         "notes": list(start.notes),
-        "warnings": [*mechanism.remarks, *start.warnings],
+        "warnings": [*mechanism.remarks, *start.warnings, *_shared_losses(mechanism, start.redundant_rows)],
         "start": {
             "q": {each.name: float(x) for each, x in zip(info.coordinates, q, strict=True)},
             "v": {each.name: float(x) for each, x in zip(info.velocities, v, strict=True)},
         },
     }
+
+
+def _shared_losses(mechanism: Mechanism, redundant: Sequence[str]) -> Iterator[str]:
+    """Yield a sentence on each loss by the reaction of a joint whose rows other joints repeat, as runs refuse it."""
+    for row in pressed_rows(mechanism):
+        joint = row.row.partition(".")[0]
+        if shared := [name for name in redundant if name.startswith(f"{joint}.")]:
+            yield (
+                f"runs refuse {row.family.one} of {joint}, as other joints share its reaction: {', '.join(shared)} are "
+                "redundant; a joint with fewer rows determines it, such as 'perpendicular' in place of 'prismatic'"
+            )
 
 
 def _facts_of_modes(mechanism: Mechanism) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from symgen.base import arguments
 from symgen.base.arguments import kind_of_value
-from symgen.base.errors import InputError, plural, quote
+from symgen.base.errors import InputError, plural, quote, suggest
 from symgen.base.files import check_file_name, check_writable, write_whole
 from symgen.base.units import unit_of
 from symgen.describe.coordinate_names import names_of_modal_body
@@ -131,7 +131,9 @@ def reduced(
         Number of modes with all interfaces held; without interfaces, number of modes of the free body.
     rows : mapping of str to array, optional
         Quantities that are linear in the unknowns, such as stresses, by name: a row, several rows, or a pair of these
-        and a unit. Formulas read them as ``arm.sigma``.
+        and a unit. ``{"node": 40, "from": "base"}`` is how far a node moves as seen from an interface, along each axis
+        [m]; a plain row of a displacement is seen from the mean motion of the body. Formulas read them as
+        ``arm.sigma``.
     outline : list of lists of int, optional
         Lines of nodes that pictures show; by default the shortest ways along elements between the interfaces.
     stiffening : str, optional
@@ -167,7 +169,7 @@ def reduced(
     second = _second_motion(stiffening, elements, x, modes, sets)
     stretches, couples = stretches_of(elements, x, modes, sets), couples_of(elements, modes)
     shape, turn = _interface_motions(elements, x, modes.shapes, sets, modes.seats)
-    names, units, values = _read_rows(rows, elements, modes.shapes, tuple(sets))
+    names, units, values = _read_rows(rows, elements, modes.shapes, sets)
     points, ends = _outline(outline, elements, sets)
     d, k = elements.dimension, len(modes.squares)
     field = modes.shapes.T.reshape(k, len(x), -1)[:, :, :d]
@@ -255,7 +257,10 @@ def _interface_motions(
 
 
 def _read_rows(
-    given: Mapping[str, object] | None, elements: FiniteElements, shapes: Array, interfaces: tuple[str, ...]
+    given: Mapping[str, object] | None,
+    elements: FiniteElements,
+    shapes: Array,
+    sets: Mapping[str, NDArray[np.int64]],
 ) -> tuple[list[str], list[str], Array]:
     """Return the name and the unit of each row, and the rows over the coordinates of modes."""
     names, units, values = list[str](), list[str](), [np.zeros((0, shapes.shape[1]))]
@@ -263,13 +268,15 @@ def _read_rows(
         return names, units, values[0]
     if not isinstance(given, Mapping):
         raise InputError("rows", "a dictionary of names and rows", kind_of_value(given))
-    taken = {*names_of_modal_body(elements.dimension, shapes.shape[1]), *interfaces}
+    taken = {*names_of_modal_body(elements.dimension, shapes.shape[1]), *sets}
     for name, entry in given.items():
         where = f"rows[{quote(name)}]"
         check_identifier(name, "rows", "row")
         if name in taken:
             raise InputError(where, "another name", f"'{name}', which the body has already")
         unit = ""
+        if isinstance(entry, Mapping):
+            entry, unit = _displacement(where, entry, elements, sets), "m"
         if isinstance(entry, tuple) and len(entry) == 2 and isinstance(entry[1], str):
             entry, unit = entry[0], unit_of(entry[1], where).text
         try:
@@ -286,6 +293,29 @@ def _read_rows(
         units += [unit] * len(matrix)
         values.append(matrix @ shapes)
     return names, units, np.concatenate(values)
+
+
+def _displacement(
+    where: str, entry: Mapping[str, object], elements: FiniteElements, sets: Mapping[str, NDArray[np.int64]]
+) -> Array:
+    """Return the rows of how far a node moves, as seen from an interface."""
+    if set(entry) != {"node", "from"}:
+        expected = "a node and the interface that it is seen from, {'node': 40, 'from': 'base'}"
+        raise InputError(where, expected, f"the keys {', '.join(map(str, entry)) or 'of an empty table'}")
+    node, base = arguments.whole_number(f"{where}['node']", entry["node"], 0, len(elements.x) - 1), entry["from"]
+    if not isinstance(base, str) or base not in sets:
+        hint = "make the node an interface, whose place in the ground formulas read" if base == "ground" else ""
+        hint = hint or (suggest(base, list(sets)) if isinstance(base, str) else "")
+        raise InputError(
+            f"{where}['from']", f"an interface: {', '.join(sets) or 'the body has none'}", repr(base), hint
+        )
+    own, seat = elements.unknowns_of(sets[base]), elements.x[sets[base]].mean(axis=0)
+    follow = np.linalg.pinv(elements.rigid_motions(elements.x[sets[base]], seat))
+    place = elements.unknowns * node + np.arange(elements.dimension)
+    rows = np.zeros((elements.dimension, elements.mass.shape[0]))
+    rows[np.arange(elements.dimension), place] = 1.0
+    rows[:, own] -= elements.rigid_motions(elements.x[[node]], seat)[: elements.dimension] @ follow
+    return rows
 
 
 def _outline(

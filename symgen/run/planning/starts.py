@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symgen.describe.bounds.by_reaction import pressed_rows
 from symgen.describe.facts.balance import balance_rows
 from symgen.describe.facts.lengths import origin_of_sizes
 from symgen.describe.facts.sides import sided_joints, wrong_sides
@@ -310,7 +311,8 @@ def close_with_light_bodies(
     code : callable
         Returns the code of a mechanism for a method.
     """
-    start = close(compiled, plan.solver_is_free)
+    # laws of reactions need multipliers at once, which the other solver finds by iteration
+    start = close(compiled, plan.solver_is_free and not pressed_rows(plan.mechanism))
     if not start.light:
         return compiled, start
     compiled = code(plan.mechanism, plan.choice.with_options(solver="augmented"))

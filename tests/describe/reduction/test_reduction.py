@@ -251,6 +251,22 @@ WRONG = {
         "rows['m1']: expected another name, got 'm1', which the body has already",
     ),
     "row unit": ({"rows": {"s": (np.ones(2 * N), "furlong")}}, "rows['s']: expected a unit"),
+    "row of another table": (
+        {"rows": {"s": {"node": 3}}, "interfaces": MESH.ends},
+        "rows['s']: expected a node and the interface that it is seen from, {'node': 40, 'from': 'base'}",
+    ),
+    "row from nowhere": (
+        {"rows": {"s": {"node": 3, "from": "rot"}}, "interfaces": MESH.ends},
+        "rows['s']['from']: expected an interface: root, tip, got 'rot'; did you mean 'root'?",
+    ),
+    "row from the ground": (
+        {"rows": {"s": {"node": 3, "from": "ground"}}, "interfaces": MESH.ends},
+        "got 'ground'; make the node an interface, whose place in the ground formulas read",
+    ),
+    "row of an unknown node": (
+        {"rows": {"s": {"node": N, "from": "root"}}, "interfaces": MESH.ends},
+        f"rows['s']['node']: expected a whole number from 0 to {N - 1}",
+    ),
     "outline": ({"outline": [[0, N]]}, f"outline[0]: expected nodes from 0 to {N - 1}, got {N}"),
 }
 

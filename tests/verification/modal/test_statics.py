@@ -53,6 +53,21 @@ def test_nodes_with_turns_make_a_cantilever(tmp_path):
     assert result["arm.tip.theta"][-1] == pytest.approx(1.0 / (2.0 * 2e9 * second), rel=2e-4)
 
 
+@pytest.mark.parametrize("make", [slender, straight])
+def test_a_row_says_from_where_it_measures(make, tmp_path):
+    """The middle of a cantilever seen from its root, 5 P L^3 / 48 E I; from mean axes it moves by a part of that."""
+    mesh = make()
+    middle = int(np.argmin(np.linalg.norm(mesh.x - [0.5, 0.0], axis=1)))
+    plain = np.zeros(mesh.mass.shape[0])
+    plain[mesh.mass.shape[0] // len(mesh.x) * middle + 1] = 1.0
+    rows = {"seen": {"node": middle, "from": "root"}, "mean": (plain, "m")}
+    reduce_to(tmp_path / "arm.npz", mesh, 2, rows=rows)
+    _, result = at_rest(tmp_path, "planar", [0.0, 1.0], [0.0, 0.0])
+    exact = 5.0 / (48.0 * 2e9 * 0.02**4 / 12.0)
+    assert result["arm.seen2"][-1] == pytest.approx(exact, rel=2e-3) and abs(result["arm.seen1"][-1]) < 1e-3 * exact
+    assert abs(result["arm.mean"][-1]) < 0.5 * exact and result.outputs.unit("arm.seen2") == "m"
+
+
 @pytest.mark.slow
 def test_a_curved_body_in_space_gives_as_all_of_k_does(tmp_path):
     """To 1e-6 of the displacement, under a load so small that nothing turns."""
