@@ -1,7 +1,7 @@
 """What gaps and friction do at one state, or at one impact: sought by signs, and verified.
 
 A mode says of each gap whether it is closed, and of each friction whether it is at rest (0) or the sign of its rate.
-Forces at rest that are many are the least sum of (force / bound)^2.
+Forces at rest that are many are those that are farthest within their bounds.
 """
 
 from __future__ import annotations
@@ -11,14 +11,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import linprog
 
 from benchmarks.bounded.rubbing.bodies import Machine
 from benchmarks.bounded.touch.bodies import Array
 
 #: Rates below this are zero [m/s, rad/s], and rounding over sizes.
 STILL, _ROUNDING = 1e-9, 1e-9
-#: Turns of loads that are lengths, of signs, and most combinations that are tried where signs do not settle.
-_TURNS, _SIGNS, _MOST = 60, 30, 6000
+#: Turns of loads that are lengths, of signs, most combinations that are tried where signs do not settle, and shares.
+_TURNS, _SIGNS, _MOST, _SHARES = 60, 30, 6000, 3
 
 
 class Unsolved(Exception):
@@ -103,22 +104,40 @@ class State:
         return np.asarray(factors[:, 0] + factors[:, 1] * loads)
 
     def _shared(self, matrix: Array, forces: Array, resting: list[int], closed: list[int], factors: Array) -> Array:
-        """Return forces of which those at rest that are many have the least sum of (force / bound)^2."""
-        if not len(matrix):
+        """Return forces of which those at rest that are many are as far within their bounds as they can be."""
+        if not len(matrix) or not resting:
             return forces
         _, sizes, rows = np.linalg.svd(matrix)
         spare = rows[int(np.sum(sizes > 1e-9 * sizes[0])) :].T
-        if not spare.shape[1] or not resting:
+        if not spare.shape[1]:
             return forces
-        first = self.m + len(closed)
-        for _ in range(3):
-            pushes = np.zeros(self.n)
-            pushes[closed] = forces[self.m : first]
-            bounds = self._bounds(forces[: self.m], pushes, factors)[resting]
-            most = float(bounds.max())
-            weights = 1.0 / np.maximum(bounds / most, 1e-9) if most > 0.0 else np.ones(len(resting))
-            part = np.linalg.lstsq(weights[:, None] * spare[first:], -weights * forces[first:], rcond=1e-9)[0]
-            forces = forces + spare @ part
+        first, m = self.m + len(closed), self.m
+        for _ in range(_SHARES):
+            bounds = np.zeros((len(resting), 1 + len(forces)))  # constant parts, and slopes by all forces
+            for line, i in zip(bounds, resting, strict=True):
+                rub = self.machine.rubs[i]
+                line[0] = factors[i, 0]
+                if rub.gap in closed:
+                    line[1 + m + closed.index(rub.gap)] = factors[i, 1]
+                elif rub.joint >= 0:
+                    place, size = self.places[rub.joint], float(np.linalg.norm(forces[self.places[rub.joint]]))
+                    line[1 + place.start : 1 + place.stop] = factors[i, 1] * forces[place] / max(size, 1e-300)
+            own, room = spare[first:], bounds[:, :1] + bounds[:, 1:] @ forces[:, None]
+            ones, push = np.ones((len(resting), 1)), -spare[m:first]
+            lines = np.vstack(
+                [
+                    np.hstack([own - bounds[:, 1:] @ spare, ones]),
+                    np.hstack([-own - bounds[:, 1:] @ spare, ones]),
+                    np.hstack([push, np.zeros((len(closed), 1))]),
+                ]
+            )
+            right = np.concatenate([room[:, 0] - forces[first:], room[:, 0] + forces[first:], forces[m:first]])
+            scale = 1.0 + float(np.abs(forces).max())
+            limits = [(-1e3 * scale, 1e3 * scale)] * (spare.shape[1] + 1)
+            best = linprog(np.append(np.zeros(spare.shape[1]), -1.0), lines, right, bounds=limits)
+            if best.x is None:
+                break
+            forces = forces + spare @ best.x[:-1]
         return forces
 
 
