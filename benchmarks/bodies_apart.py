@@ -190,7 +190,7 @@ def motion(*features: str) -> dict[str, Array]:
     """
     with tempfile.TemporaryDirectory() as folder:
         (file := Path(folder) / "apart.toml").write_text(HEAD + "".join(FEATURES[f] for f in features))
-        result = symgen.load(file).simulate(times=TIMES, until=TIMES[-1], rtol=1e-11, atol=1e-12, verify=False)
+        result = symgen.load(file).simulate(times=TIMES, until=TIMES[-1], rtol=1e-13, atol=1e-14, verify=False)
     if not result.ok:
         raise SimulationError(str(result.reason or result.status))
     return {place: result[place] for feature in features for place in places_of(feature)}

@@ -20,9 +20,9 @@ Margins = dict[Key, float]
 Dense = Callable[[float], Array]
 #: Parts of a step that are looked at, longest step [s], most events.
 _PARTS, _LONGEST, _MOST = 4, 1e-2, 600
-#: Gaps that are zero [m]; rates at which gaps close that do not spring back [m/s]: what is left of a series of impacts
-#: has the impulse of one without restitution to second order.
-_NEAR, _SLOW = 1e-11, 1e-5
+#: Gaps that are zero [m]; rates at which gaps close that do not spring back, and below which a series is at its
+#: end [m/s].
+_NEAR, _SLOW, _LAST = 1e-11, 1e-6, 1e-3
 #: Gaps and forces above which a margin counts that has begun at 0, and its depth that contradicts the mode.
 _AWAKE, _DEEP = {"hit": 1e-14}, -1e-7
 
@@ -49,6 +49,7 @@ def run(machine: Machine, q: Array, v: Array, times: Array, rtol: float = 1e-11)
     q, v, closed = _met(machine, t, q, v)
     stops = [x for x in machine.breaks if x > t] + [pending[-1]]
     forced: dict[int, int] = {}
+    past = dict[int, list[Array]]()
     for _ in range(_MOST):
         state = State(machine, t, q, v)
         answer, loose = choose(state, closed, forced)
@@ -63,12 +64,33 @@ def run(machine: Machine, q: Array, v: Array, times: Array, rtol: float = 1e-11)
         motion.events.append((t, what, i))
         if what == "hit":
             q, v, closed = _met(machine, t, q, v)
+            rate = float(State(machine, t, q, v).gap[i] @ v)
+            past.setdefault(i, []).append(np.array([rate, t, *q, *v]))
+            if i not in closed and (ended := _end_of_series(past[i][-3:])) is not None:
+                t, q, v = float(ended[0]), ended[1 : len(q) + 1], ended[len(q) + 1 :]
+                _note(motion, pending, t, _standing(q), len(q))
+                v = strike(State(machine, t, q, v), [*closed, i], np.inf).value
+                closed, past[i] = sorted([*closed, i]), []
         elif what == "lift":
             closed = [j for j in closed if j != i]
         elif what == "slip":
             now = accelerate(State(machine, t, q, v), answer.mode, factors_of(machine, loose))
             forced[i] = -int(np.sign(now.rubs[i]))
     raise Unsolved("events do not end")
+
+
+def _standing(q: Array) -> Dense:
+    """Return a place as a function of time."""
+    return lambda _: q
+
+
+def _end_of_series(past: list[Array]) -> Array | None:
+    """Return time and state at the end of a series of impacts: smooth functions of the rate left, at the rate 0."""
+    if len(past) < 3 or not past[0][0] > past[1][0] > past[2][0] > 0.0 or past[2][0] > _LAST:
+        return None
+    rates = np.array([each[0] for each in past])
+    weights = [np.prod([b / (b - a) for b in rates if b != a]) for a in rates]
+    return np.asarray(weights @ np.array(past)[:, 1:])
 
 
 def _met(machine: Machine, t: float, q: Array, v: Array) -> tuple[Array, Array, list[int]]:

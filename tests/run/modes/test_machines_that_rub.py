@@ -12,6 +12,8 @@ from benchmarks.bounded.touch.bodies import GROUND, Pin
 
 #: Values of each machine; all are run in 101 turns, of which none is left out beside tests of every second turn.
 VALUES = 300
+#: Largest difference [m, rad]; a series of impacts is at its end where rates are rounding, in either of both.
+OFF = 1e-7
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.02, 0.05])
@@ -40,20 +42,20 @@ def test_the_simulation_knows_what_a_pin_takes_from_an_impact(friction: float) -
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["blocks"])
+@pytest.mark.parametrize("name", MACHINES)
 def test_machines_move_as_their_simulation_says(name: str) -> None:
     """Some of 300 values of a parameter as runs over time; `python -m benchmarks.bounded.rubbing` has all."""
     for value in of_turn(values_of(name, VALUES), 101, name):
         case = MACHINES[name][0](float(value))
-        assert np.abs(simulated(case) - reference(case)).max() < 1e-9
+        assert np.abs(simulated(case) - reference(case)).max() < OFF
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(7)
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["blocks"])
+@pytest.mark.parametrize("name", MACHINES)
 def test_rows_of_300_values_are_smooth_and_none_fails(name: str) -> None:
     values = values_of(name, VALUES)
     statuses, last = swept(name, values)
     assert statuses == ["ok"] * VALUES
     for i in of_turn(range(VALUES), 101, name):
-        assert np.abs(last[i] - reference(MACHINES[name][0](float(values[i])))[-1]).max() < 1e-9
+        assert np.abs(last[i] - reference(MACHINES[name][0](float(values[i])))[-1]).max() < OFF
