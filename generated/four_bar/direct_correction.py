@@ -1,7 +1,10 @@
 """Method `direct-correction` for model `four-bar`. Emitted by symgen; do not edit.
 
 Positions and velocities are projected after each step with the pseudoinverse of D.
-Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076; Yoon, Howe, Greenwood, J. Mech. D...
+Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y
+Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076
+Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
+Yu, Chen, Comput. Mech. 26 (2000) 52-57
 digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a1bfe8da2fcb1eac
 option solver = elimination
 option weight = identity
@@ -87,7 +90,7 @@ TOLERANCE = 27  # parameters of the method in p
 
 @njit(error_model="numpy", fastmath={"contract"})
 def prepare(p):
-    """Numbers that depend on parameters alone: 23 operations, 33 before sharing."""
+    """Numbers that depend on parameters alone: 23 operations."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
@@ -117,7 +120,7 @@ def prepare(p):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def rhs(t, y, p, w, iw, ydot):
-    """q', v', power and multipliers; 1 where a loop or a pivot of S is suspicious: 155 operations, 32586 before sharing."""
+    """q', v', power and multipliers; 1 where a loop or a pivot of S is suspicious: 155 operations."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
@@ -236,7 +239,7 @@ def rhs(t, y, p, w, iw, ydot):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def rhs_by_pivots(t, y, p, w, iw, ydot):
-    """The same with a pivot for each row of a loop, q', v', power and multipliers; 1 where a pivot of S is suspicious: 174 operations, 87807 before sharing."""
+    """The same with a pivot for each row of a loop, q', v', power and multipliers; 1 where a pivot of S is suspicious: 174 operations."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
@@ -359,7 +362,7 @@ def rhs_by_pivots(t, y, p, w, iw, ydot):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
-    """The correction -D^+ times the section `residual`, of v, or of q by N: 147 operations, 49299 before sharing."""
+    """The correction -D^+ times the section `residual`, of v, or of q by N: 147 operations."""
     # inputs
     mask_4 = w[MASK + 4]  # C.x
     mask_5 = w[MASK + 5]  # C.y
@@ -434,7 +437,7 @@ def spread(p, w):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def drift(t, y, p, w):
-    """D v - nu with the D and nu that `geometry` left: 28 operations, 28 before sharing."""
+    """D v - nu with the D and nu that `geometry` left: 28 operations."""
     # inputs
     v0 = y[9]  # crank.vx [m/s]
     v1 = y[10]  # crank.vy [m/s]

@@ -75,7 +75,7 @@ LIGHT = 2
 
 @njit(error_model="numpy", fastmath={"contract"})
 def prepare(p):
-    """Numbers that depend on parameters alone: 23 operations, 33 before sharing."""
+    """Numbers that depend on parameters alone: 23 operations."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
@@ -105,7 +105,7 @@ def prepare(p):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def rhs(t, y, p, w, iw, ydot):
-    """q', v', power and multipliers; 1 where a loop or a pivot of S is suspicious: 155 operations, 32586 before sharing."""
+    """q', v', power and multipliers; 1 where a loop or a pivot of S is suspicious: 155 operations."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
@@ -224,7 +224,7 @@ def rhs(t, y, p, w, iw, ydot):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def rhs_by_pivots(t, y, p, w, iw, ydot):
-    """The same with a pivot for each row of a loop, q', v', power and multipliers; 1 where a pivot of S is suspicious: 174 operations, 87807 before sharing."""
+    """The same with a pivot for each row of a loop, q', v', power and multipliers; 1 where a pivot of S is suspicious: 174 operations."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]

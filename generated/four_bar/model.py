@@ -69,7 +69,6 @@ MASK = 27  # sections of w
 RESIDUAL = 43
 PIVOT = 59
 CHANGE = 67
-MASS = 76
 GAUGE = 85
 JACOBIAN = 102
 POSITION_VIOLATION = 0  # numbers in w
@@ -85,7 +84,7 @@ SHORTEST_ROW = 10
 
 @njit(error_model="numpy", fastmath={"contract"})
 def prepare(p):
-    """Numbers that depend on parameters alone: 12 operations, 12 before sharing."""
+    """Numbers that depend on parameters alone: 12 operations."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
@@ -108,7 +107,7 @@ def prepare(p):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, and the factorisation of D G D^T that decides rank: 129 operations, 1986 before sharing."""
+    """Phi, nu, D, and the factorisation of D G D^T that decides rank: 129 operations."""
     # inputs
     q0 = y[0]  # crank.x [m]
     q1 = y[1]  # crank.y [m]
@@ -201,7 +200,7 @@ def geometry(t, y, p, w):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
-    """The correction -D^+ times the section `residual`, of v, or of q by N: 150 operations, 51826 before sharing."""
+    """The correction -D^+ times the section `residual`, of v, or of q by N: 150 operations."""
     # inputs
     mask_4 = w[MASK + 4]  # C.x
     mask_5 = w[MASK + 5]  # C.y
@@ -279,7 +278,7 @@ def spread(p, w):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def measure(t, y, p, w):
-    """D v - nu with the D and nu that `geometry` left, and the energies: 75 operations, 203 before sharing."""
+    """D v - nu with the D and nu that `geometry` left, and the energies: 75 operations."""
     # inputs
     q1 = y[1]  # crank.y [m]
     v0 = y[9]  # crank.vx [m/s]
@@ -338,88 +337,4 @@ def measure(t, y, p, w):
     w[VELOCITY_MEASURE] = s9  # velocity_measure
     w[KINETIC] = s0 + v8*v8*p11  # kinetic
     w[POTENTIAL] = q1*p4 + q4*p7 + q7*p10  # potential
-    return 0
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def observe(t, y, p, w, ydot, out):
-    """D v' - gamma, then joint coordinates and their rates: 57 operations, 108 before sharing."""
-    # inputs
-    q2 = y[2]  # crank.theta [rad]
-    v2 = y[11]  # crank.omega [rad/s]
-    q5 = y[5]  # coupler.theta [rad]
-    v5 = y[14]  # coupler.omega [rad/s]
-    q8 = y[8]  # rocker.theta [rad]
-    v8 = y[17]  # rocker.omega [rad/s]
-    ydot_9 = ydot[9]  # rate of crank.vx
-    ydot_10 = ydot[10]  # rate of crank.vy
-    ydot_11 = ydot[11]  # rate of crank.omega
-    ydot_12 = ydot[12]  # rate of coupler.vx
-    ydot_13 = ydot[13]  # rate of coupler.vy
-    ydot_14 = ydot[14]  # rate of coupler.omega
-    ydot_15 = ydot[15]  # rate of rocker.vx
-    ydot_16 = ydot[16]  # rate of rocker.vy
-    ydot_17 = ydot[17]  # rate of rocker.omega
-    # intermediate terms
-    s0 = math.cos(q2)
-    s1 = math.sin(q2)
-    s2 = v2*v2
-    s3 = s0*s2
-    s4 = s1*s2
-    s5 = 4.0*math.cos(q5)
-    s6 = 4.0*math.sin(q5)
-    s7 = v5*v5
-    s8 = s5*s7
-    s9 = s6*s7
-    s10 = 2.5*math.cos(q8)
-    s11 = 2.5*math.sin(q8)
-    s12 = v8*v8
-    s13 = s10*s12
-    s14 = s11*s12
-    s15 = s1*ydot_11
-    s16 = s0*ydot_11
-    s17 = s6*ydot_14
-    s18 = s5*ydot_14
-    s19 = s11*ydot_17
-    s20 = s10*ydot_17
-    # outputs
-    out[0] = s3 + ydot_9 + s15  # A.x
-    out[1] = s4 + ydot_10 - s16  # A.y
-    out[2] = s3 + s8 + ydot_12 + s15 - ydot_9 + s17  # B.x
-    out[3] = s4 + s9 + ydot_13 - (ydot_10 + s16) - s18  # B.y
-    out[4] = ydot_15 + s17 - ydot_12 - s19 - (s13 - s8)  # C.x
-    out[5] = ydot_16 - (ydot_13 + s18) + s20 - (s14 - s9)  # C.y
-    out[6] = s13 + ydot_15 + s19  # D.x
-    out[7] = s14 + ydot_16 - s20  # D.y
-    out[8] = q2  # A.angle
-    out[9] = v2  # rate of A.angle
-    out[10] = q5 - q2  # B.angle
-    out[11] = v5 - v2  # rate of B.angle
-    out[12] = q8 - q5  # C.angle
-    out[13] = v8 - v5  # rate of C.angle
-    out[14] = q8  # D.angle
-    out[15] = v8  # rate of D.angle
-    return 0
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def masses(p, w):
-    """Diagonal of M: 0 operations, 0 before sharing."""
-    # inputs
-    p0 = p[0]  # crank_mass [kg]
-    p1 = p[1]  # coupler_mass [kg]
-    p2 = p[2]  # rocker_mass [kg]
-    p12 = p[12]  # 0.3333333333333333*crank_mass
-    p13 = p[13]  # 5.333333333333333*coupler_mass
-    p14 = p[14]  # 2.083333333333333*rocker_mass
-    # outputs
-    w[MASS] = p0  # crank.vx
-    w[MASS + 1] = p0  # crank.vy
-    w[MASS + 2] = p12  # crank.omega
-    w[MASS + 3] = p1  # coupler.vx
-    w[MASS + 4] = p1  # coupler.vy
-    w[MASS + 5] = p13  # coupler.omega
-    w[MASS + 6] = p2  # rocker.vx
-    w[MASS + 7] = p2  # rocker.vy
-    w[MASS + 8] = p14  # rocker.omega
     return 0

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.golden import SHOWN
 from support.rotation import of_turn
 
 import symgen
@@ -65,10 +66,18 @@ def agrees(name, alone, tmp_path, coordinates="absolute", steps=20, compiled=Fal
     folder = tmp_path / "emitted"
     arguments = ["--method", method, "--coordinates", coordinates]
     assert main(["generate", name, "-o", str(folder), *arguments]) == 0
+    return agrees_in(folder, name, alone, tmp_path, coordinates, steps, compiled, method)
+
+
+def agrees_in(
+    folder, name, alone, tmp_path, coordinates="absolute", steps=20, compiled=False, method="direct-correction"
+):
+    """A few steps of a folder are those of a run."""
     start = json.loads((folder / "model.json").read_text())["run"]
     until = steps * start["step"]
     found = simulated(folder, alone, tmp_path, method, until, compiled=compiled)
-    settings = {"integrator": "rk4", "step": start["step"], "until": until, "coordinates": coordinates}
+    integrator = "rattle" if method == "rattle" else "rk4"
+    settings = {"integrator": integrator, "step": start["step"], "until": until, "coordinates": coordinates}
     result = symgen.load(name).simulate(method=method, shape="straight", **settings)
     assert result.status == "ok", result.reason
     final = result.to_json()["final"]
@@ -136,6 +145,18 @@ def test_all_methods_that_suit_a_mechanism(tmp_path):
 @pytest.mark.parametrize("method", ["coordinate-partitioning", "null-space", "augmented-lagrangian"])
 def test_a_package_gives_the_numbers_of_runs_by_other_methods(method, alone, tmp_path):
     agrees("four-bar", alone, tmp_path, method=method)
+
+
+@pytest.mark.fast("four-bar-rattle")
+@pytest.mark.by_turns(3)
+@pytest.mark.slow_cases("front-suspension-direct-correction", "bricard-direct-correction")
+@pytest.mark.parametrize(("name", "method"), [(name, method) for name in SHOWN for method in SHOWN[name]])
+def test_packages_in_the_repository_give_the_numbers_of_runs(name, method, alone, tmp_path):
+    folder = Path(__file__).resolve().parents[2] / "generated" / name.replace("-", "_")
+    agrees_in(folder, name, alone, tmp_path, method=method, steps=10)
+    command = re.search(r"^    symgen generate .*$", (folder / "README.md").read_text(), re.MULTILINE)[0].split()
+    assert method in command and main([*command[1:-1], str(tmp_path / "anew")]) == 0
+    assert {path.name for path in folder.iterdir()} - {"__pycache__"} == {p.name for p in (tmp_path / "anew").iterdir()}
 
 
 #: Methods with a scheme of their own: constant steps of their default integrator.

@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping
 from functools import cache, partial
 from pathlib import Path
 
+from symgen.api import load
 from symgen.derive.lower.looped.looped_law import is_loopable
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS
@@ -121,18 +122,19 @@ def everything() -> dict[str, Callable[[], dict[str, str]]]:
     return straight | {f"looped_{folder(model)}": partial(emitted_looped, model) for model in LOOPED}
 
 
-#: Modules that are checked in as they are: each shape, each target, both kinds of coordinates, an implicit method.
+#: Packages that are checked in: mechanisms of the paper that symgen comes from, and methods, one with its own scheme.
 SHOWN = {
-    "four_bar": (
-        *("model", "lagrange", "direct_correction", "null_space", "ggl_implicit"),
-        *("model_cuda", "direct_correction_cuda", "model_lanes", "direct_correction_lanes"),
-    ),
-    "bricard": ("model", "lagrange"),
-    "bricard_joint": ("model", "direct_correction_mass"),
+    "four-bar": ("direct-correction", "lagrange", "null-space", "rattle"),
+    "spatial-slider-crank": ("direct-correction", "lagrange"),
+    "bricard": ("direct-correction",),
+    "front-suspension": ("direct-correction",),
 }
 
 
-def shown() -> dict[str, dict[str, str]]:
-    """Return the modules that are checked in, by folder."""
-    found = {name: {stem: everything()[name]()[stem] for stem in stems} for name, stems in SHOWN.items()}
-    return found | {"four_bar_looped": _looped("four-bar", (choose_method("direct-correction"),), True)}
+def shown(where: Path) -> dict[Path, str]:
+    """Return the files of the packages that are checked in, written into a folder."""
+    found = {}
+    for name, methods in SHOWN.items():
+        package = load(name).generate(where / folder(name), methods)
+        found |= {path.relative_to(where): path.read_text(encoding="utf-8") for path in package.files}
+    return found

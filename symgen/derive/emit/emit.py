@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from symgen.base.errors import InputError, plural
@@ -40,7 +40,13 @@ MOST_CONSTANTS = 8000
 _MANY_NUMBERS = 4096
 
 
-def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu", whole: bool = False) -> str:
+def emit_model(
+    program: ModelProgram,
+    equations: Equations,
+    target: str = "cpu",
+    whole: bool = False,
+    called: Collection[str] | None = None,
+) -> str:
     """Return the source of the module that all methods of a model share, for a target of `TARGETS`.
 
     Parameters
@@ -49,6 +55,8 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu",
         Program, equations and target.
     whole : bool
         Whether the source is for readers, with names of the places in arrays.
+    called : collection of str, optional
+        Functions that methods call; others are left out then.
 
     Raises
     ------
@@ -81,9 +89,20 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu",
     ]
     platform = PLATFORMS[target]
     title = f"Model `{program.name}`: what every method of it shares{platform.words}."
+    if called is not None:
+        codes = _called_pieces(codes, called)
     if whole:
         return Places(layout.sections).module(title, header, [codes], {}, numba=platform.numba)
     return module_source(title, header, codes, {}, {}, platform.numba)
+
+
+def _called_pieces(codes: Sequence[ModulePiece], called: Collection[str]) -> list[ModulePiece]:
+    """Return the pieces that define what is called, and what these call."""
+    wanted, count = set(called), -1
+    while count != len(wanted):
+        count = len(wanted)
+        wanted |= {name for code in codes if wanted & {*code.names} for name in code.calls}
+    return [code for code in codes if wanted & {*code.names}]
 
 
 def _line_on_elimination(program: ModelProgram) -> str:
@@ -167,7 +186,7 @@ def law_header(info: LawInfo, summary: str, reference: str, source: str, place: 
     """Return the lines of a law's docstring; `source` names the origin, `place` locates the method's parameters."""
     parameters = enumerate(info.parameters, info.parameter_offset)
     return [
-        *(f"{capitalise(summary)}.", reference, source),
+        *(f"{capitalise(summary)}.", *reference.split("; "), source),
         *(f"option {option} = {value}" for option, value in sorted(info.options.items())),
         *(f"{place.format(i)} {name} (default {default})" for i, (name, default) in parameters),
     ]
@@ -260,7 +279,7 @@ def straight_functions(
         for title, part in (("inputs", lines.inputs), ("intermediate terms", lines.terms), ("outputs", lines.outputs)):
             body += [f"# {title}", *part] if part else []
         body.append(f"return int({lines.flag})" if lines.flag else "return 0")
-        purpose = f"{block.purpose}: {block.operations} operations, {block.tree_operations} before sharing."
+        purpose = f"{block.purpose}: {plural(block.operations, 'operation')}."
         arguments = ", ".join(block.arguments)
         codes.append(
             function_source(block.name, arguments, purpose, body, PLATFORMS[target].decorator, calls=lines.functions)

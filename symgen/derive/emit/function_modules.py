@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from symgen.base.errors import plural
 from symgen.base.ir.program import FORMAT, OutputSlot
 from symgen.derive.emit.emit import table_codes
 from symgen.derive.emit.module import function_source, module_source, templates_digest
@@ -36,7 +37,7 @@ def emit_function(program: FunctionProgram, parameters: int) -> str:
     block = program.block
     lines = Printer(block, VectorAccess(parameters, program.sizes["p"])).lines()
     body = [*lines.inputs, *lines.terms, *lines.outputs, f"return int({lines.flag})" if lines.flag else "return 0"]
-    purpose = f"{block.purpose}: {block.operations} operations, {block.tree_operations} before sharing."
+    purpose = f"{block.purpose}: {plural(block.operations, 'operation')}."
     code = function_source(block.name, ", ".join(block.arguments), purpose, body, calls=lines.functions)
     header = [f"format {FORMAT}, templates {templates_digest()}"]
     title = f"{block.purpose}, for model `{program.mechanism}`."

@@ -176,3 +176,9 @@ def _rename_function(code: ModulePiece, names: Mapping[str, str]) -> ModulePiece
 def import_siblings_by_name(source: str) -> str:
     """Return a module that imports its siblings by their names alone, as in the folder of a script."""
     return re.sub(r"^from \.(?=\w)", "from ", source, flags=re.MULTILINE)
+
+
+def names_from_model(laws: str) -> set[str]:
+    """Return the names that the text of laws imports from the model."""
+    found = re.findall(r"^from model import (\([^)]*\)|.*)$", laws, re.MULTILINE)
+    return {name for names in found for name in re.findall(r"(?:^|[(,]\s*)(\w+)", names.strip())}

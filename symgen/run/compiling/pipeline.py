@@ -41,7 +41,12 @@ def generate_in_stages(stages: PipelineStages[Any, Any]) -> Generated:
 
 
 def stages_of(
-    mechanism: Mechanism, choices: tuple[MethodChoice, ...], shape: str, target: str = "cpu", whole: bool = False
+    mechanism: Mechanism,
+    choices: tuple[MethodChoice, ...],
+    shape: str,
+    target: str = "cpu",
+    whole: bool = False,
+    lean: bool = False,
 ) -> PipelineStages[Any, Any]:
     """Return the stages of a shape of code; parameters and errors as of `generate`."""
     if target != "cpu":
@@ -51,7 +56,7 @@ def stages_of(
 
         refuse_loops(mechanism)
         return LoopedStages(mechanism, choices, whole)
-    return StraightStages(mechanism, choices, target, whole)
+    return StraightStages(mechanism, choices, target, whole, lean)
 
 
 # -- who calls it ------------------------------------------------------------------------------------------------------
@@ -104,6 +109,7 @@ def generate(
     shape: str = "straight",
     target: str = "cpu",
     whole: bool = False,
+    lean: bool = False,
 ) -> Generated:
     """Derive, lower and emit `mechanism` with every method of `choices`.
 
@@ -119,6 +125,8 @@ def generate(
         Target of the code; stems of modules end in ``_lanes`` or ``_cuda`` then.
     whole : bool
         Whether each law is one readable module, and not modules that laws share, as in the cache.
+    lean : bool
+        Whether a readable model has only what these laws call, in straight code.
 
     Returns
     -------
@@ -132,7 +140,7 @@ def generate(
         ``cuda``, or a method iterates for ``lanes``; if numbers overflow.
     """
     choices = tuple(choice_for_coordinates(mechanism, choice) for choice in choices)
-    return generate_in_stages(stages_of(mechanism, choices, shape, target, whole))
+    return generate_in_stages(stages_of(mechanism, choices, shape, target, whole, lean))
 
 
 # -- refusals ----------------------------------------------------------------------------------------------------------

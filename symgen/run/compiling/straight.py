@@ -21,6 +21,7 @@ from symgen.base.vocabulary.infos import LawInfo
 from symgen.base.vocabulary.quantities import Quantity
 from symgen.compile.store.entries import Modules
 from symgen.compile.store.loaded_modules import load_module
+from symgen.derive.methods._base import EXPLICIT_FORMS
 from symgen.describe.facts.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.folders import folder_of
@@ -31,6 +32,9 @@ from symgen.run.layout.compiled import Array, CompiledModel, ModelInfo, RowInfo
 if TYPE_CHECKING:
     from symgen.base.ir.program import EliminationPlan, LawProgram, ModelProgram
     from symgen.derive.formulate.equations import Equations
+
+#: Functions of a model that schemes of methods call, beside those that laws do.
+OF_OWN_SCHEMES = frozenset(("geometry", "measure", "spread", "turn"))
 
 Stage = TypeVar("Stage", bound=Callable[..., Any])
 
@@ -89,10 +93,15 @@ class StraightStages(PipelineStages[Derivation, Programs]):
     """The stages of straight code; parameters as of `symgen.run.compiling.pipeline.generate`."""
 
     def __init__(
-        self, mechanism: Mechanism, choices: tuple[MethodChoice, ...], target: str = "cpu", whole: bool = False
+        self,
+        mechanism: Mechanism,
+        choices: tuple[MethodChoice, ...],
+        target: str = "cpu",
+        whole: bool = False,
+        lean: bool = False,
     ) -> None:
         super().__init__(mechanism, choices, folder_of(mechanism), whole)
-        self.target, self.suffix = target, SUFFIXES[target]
+        self.target, self.suffix, self.lean = target, SUFFIXES[target], lean
 
     @property
     def stems(self) -> tuple[str, ...]:
@@ -138,18 +147,19 @@ class StraightStages(PipelineStages[Derivation, Programs]):
         """Return the sources, and leave the derivation to the next method."""
         modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
         with self.emitting():
-            modules[f"model{self.suffix}"] = self._model(programs)
             for choice, law in zip(self.choices, programs.laws, strict=True):
                 sources = self._law(choice, law, programs)
                 *shared, own = sources
                 modules |= {stem: (sources[stem], {}) for stem in shared}
                 law_info = msgspec.structs.replace(law.info, modules=tuple(shared))
                 modules[own] = sources[own], law_info.to_dict()
+            laws = "".join(source for source, _ in modules.values())
+            modules = {self.stems[0]: self._model(programs, laws), **modules}
         key = id(self.mechanism), self.target
         _latest[key] = weakref.ref(self.mechanism, lambda _: _latest.pop(key, None)), programs.derivation
         return modules
 
-    def _model(self, programs: Programs) -> tuple[str, Mapping[str, Any]]:
+    def _model(self, programs: Programs, laws: str) -> tuple[str, Mapping[str, Any]]:
         """Return source and metadata of the model: made once for all methods, unless the source is for readers."""
         from symgen.derive.emit.emit import emit_model
         from symgen.derive.emit.lane_modules import emit_lanes_model
@@ -160,8 +170,16 @@ class StraightStages(PipelineStages[Derivation, Programs]):
             shared.source = emit_lanes_model(model) if lanes else emit_model(model, shared.equations, self.target)
             shared.info = model_info(model, shared.equations).to_dict()
         if self.whole and self.target != "lanes":  # lanes have their own places of elements
-            return emit_model(model, shared.equations, self.target, True), shared.info
+            called = self._called(laws) if self.lean else None
+            return emit_model(model, shared.equations, self.target, True, called), shared.info
         return shared.source, shared.info
+
+    def _called(self, laws: str) -> frozenset[str]:
+        """Return the functions of the model that laws and the schemes of their methods call."""
+        from symgen.derive.emit.whole import names_from_model
+
+        own = any(not EXPLICIT_FORMS & {*choice.method.forms} for choice in self.choices)
+        return frozenset(("prepare", *names_from_model(laws))) | (OF_OWN_SCHEMES if own else frozenset())
 
     def _law(self, choice: MethodChoice, law: LawProgram, programs: Programs) -> Mapping[str, str]:
         """Return the sources of a law, those that other laws share first."""

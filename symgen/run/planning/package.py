@@ -6,6 +6,7 @@ import json
 import math
 import os
 import re
+import shlex
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -122,7 +123,7 @@ def write_package(
     choices = tuple(choice_for_coordinates(derived, plan.choice) for plan in plans)
     if shape == "straight":
         choices = tuple(choice_at_start(derived, choice) for choice in choices)
-    generated = generate(derived, choices, shape, target, whole=True)
+    generated = generate(derived, choices, shape, target, whole=True, lean=run is not None)
     modules, laws = _modules_by_method(generated.modules, choices, SUFFIXES[target])
     files: dict[str, Content] = {f"{stem}.py": source for stem, (source, _) in modules.items()}
     schemes: dict[str, PackageScheme] = {}
@@ -131,7 +132,11 @@ def write_package(
         schemes = {law: scheme for law, scheme in own_schemes if scheme is not None}
     files |= {f"{scheme.stem}.py": scheme.text for scheme in schemes.values() if scheme.text}
     files["model.json"] = _metadata(modules, laws, run, schemes)
-    files["README.md"] = _readme(mechanism, modules, reason, schemes)
+    asked = {"--method": methods or (), "--option": [f"{key}={value}" for key, value in options.items()]}
+    further = {"--coordinates": coordinates, "--shape": shape, "--target": target}
+    asked |= {flag: [value] for flag, value in further.items() if value not in ("absolute", "straight", "cpu")}
+    command = _command(mechanism, asked, every=not methods)
+    files["README.md"] = _readme(mechanism, modules, reason, schemes, command)
     script = folder / "simulate.py"
     if run is not None:
         files[script.name] = (templates_folder() / "package" / script.name).read_text(encoding="utf-8")
@@ -248,8 +253,19 @@ def _metadata(
     return text + "\n"
 
 
-def _readme(mechanism: Mechanism, modules: Modules, reason: str, schemes: Mapping[str, PackageScheme]) -> str:
-    """Return the page of a package; `reason` says why nothing simulates it."""
+def _command(mechanism: Mechanism, asked: Mapping[str, Sequence[str]], every: bool) -> str:
+    """Return the command that writes a package."""
+    from symgen.describe.catalogue import all_names
+
+    name = mechanism.name if mechanism.name in all_names() else "FILE"
+    flags = [shlex.join((flag, value)) for flag, values in asked.items() for value in values]
+    return " ".join(["symgen generate", name, *(["--all"] if every else []), *flags, "--output FOLDER"])
+
+
+def _readme(
+    mechanism: Mechanism, modules: Modules, reason: str, schemes: Mapping[str, PackageScheme], command: str
+) -> str:
+    """Return the page of a package; `reason` says why nothing simulates it, `command` writes it."""
     files = {f"{stem}.py": source.split('"""')[1].split(" Emitted by")[0] for stem, (source, _) in modules.items()}
     files |= {f"{s.stem}.py": s.text.split("\n")[0].strip('"').rstrip(".") for s in schemes.values() if s.text}
     files["model.json"] = "The same for programs: names, units, places in arrays"
@@ -259,6 +275,7 @@ def _readme(mechanism: Mechanism, modules: Modules, reason: str, schemes: Mappin
     events = ", ".join(f"`{e.name}` {DOES[e.action]}" for e in mechanism.events if e.action in DOES)
     title = markdown_text(mechanism.title or mechanism.name)
     values = {"name": markdown_text(mechanism.name), "title": title, "files": list(files.items()), "reason": reason}
+    values["command"] = command
     return render_template("package/README.md.j2", values | {"events": events})
 
 

@@ -1,7 +1,8 @@
-"""Method `ggl` for model `four-bar`. Emitted by symgen; do not edit.
+"""Method `rattle` for model `four-bar`. Emitted by symgen; do not edit.
 
-Stabilised index 2: constraints at position and velocity level in every implicit stage.
-Gear, Leimkuhler, Gupta, J. Comput. Appl. Math. 12-13 (1985) 77-90, doi 10.1016/0377-0427(85)90008-1
+Index 3, explicit: positions and velocities on their constraints, reversible, energy bounded.
+Ryckaert, Ciccotti, Berendsen, J. Comput. Phys. 23 (1977) 327-341
+Andersen, J. Comput. Phys. 52 (1983) 24-34, doi 10.1016/0021-9991(83)90014-1
 digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a1bfe8da2fcb1eac
 option solver = elimination
 
@@ -77,7 +78,7 @@ LIGHT = 2
 
 @njit(error_model="numpy", fastmath={"contract"})
 def prepare(p):
-    """Numbers that depend on parameters alone: 23 operations, 29 before sharing."""
+    """Numbers that depend on parameters alone: 23 operations."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
@@ -109,7 +110,7 @@ def prepare(p):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def rhs(t, y, p, w, iw, ydot):
-    """q', v', power and multipliers; 1 where a pivot of S is suspicious: 174 operations, 87807 before sharing."""
+    """q', v', power and multipliers; 1 where a pivot of S is suspicious: 174 operations."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
@@ -259,7 +260,7 @@ def confirm(t, y, p, w, iw, ydot):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def residual(t, y, k, p, w, r):
-    """F(t, y, k) of the descriptor form, and the power: 142 operations, 218 before sharing."""
+    """F(t, y, k) of the descriptor form, and the power: 106 operations."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
@@ -314,14 +315,6 @@ def residual(t, y, k, p, w, r):
     k23 = k[23]
     k24 = k[24]
     k25 = k[25]
-    k26 = k[26]
-    k27 = k[27]
-    k28 = k[28]
-    k29 = k[29]
-    k30 = k[30]
-    k31 = k[31]
-    k32 = k[32]
-    k33 = k[33]
     # intermediate terms
     s0 = math.cos(q2)
     s1 = math.sin(q2)
@@ -336,15 +329,15 @@ def residual(t, y, k, p, w, r):
     s10 = v8*s5
     s11 = v8*s4
     # outputs
-    r[0] = k0 - v0 + k26 - k28
-    r[1] = k1 - v1 + k27 - k29
-    r[2] = k2 - v2 + s1*k26 - s0*k27 + s1*k28 - s0*k29
-    r[3] = k3 - v3 + k28 - k30
-    r[4] = k4 - v4 + k29 - k31
-    r[5] = k5 - v5 + s3*k28 - s2*k29 + s3*k30 - s2*k31
-    r[6] = k6 - v6 + k30 + k32
-    r[7] = k7 - v7 + k31 + k33
-    r[8] = k8 - v8 + s4*k31 - s5*k30 + s5*k32 - s4*k33
+    r[0] = k0 - v0
+    r[1] = k1 - v1
+    r[2] = k2 - v2
+    r[3] = k3 - v3
+    r[4] = k4 - v4
+    r[5] = k5 - v5
+    r[6] = k6 - v6
+    r[7] = k7 - v7
+    r[8] = k8 - v8
     r[9] = p0*k9 + k18 - k20
     r[10] = p15 + p0*k10 + k19 - k21
     r[11] = p27*k11 + s1*k18 - s0*k19 + s1*k20 - s0*k21
@@ -354,215 +347,78 @@ def residual(t, y, k, p, w, r):
     r[15] = p2*k15 + k22 + k24
     r[16] = p17 + p2*k16 + k23 + k25
     r[17] = p29*k17 + s4*k23 - s5*k22 + s5*k24 - s4*k25
-    r[18] = v0 + s6
-    r[19] = v1 - s7
-    r[20] = v3 + s6 - v0 + s8
-    r[21] = v4 - (v1 + s7) - s9
-    r[22] = v6 + s8 - v3 - s10
-    r[23] = v7 - (v4 + s9) + s11
-    r[24] = v6 + s10
-    r[25] = v7 - s11
-    r[26] = q0 - s0
-    r[27] = q1 - s1
-    r[28] = q3 - q0 - s2 - s0
-    r[29] = q4 - q1 - s3 - s1
-    r[30] = q6 - q3 + s4 - s2
-    r[31] = q7 - q4 + s5 - s3
-    r[32] = q6 - 10.0 - s4
-    r[33] = q7 - s5
+    r[18] = q0 - s0
+    r[19] = q1 - s1
+    r[20] = q3 - q0 - s2 - s0
+    r[21] = q4 - q1 - s3 - s1
+    r[22] = q6 - q3 + s4 - s2
+    r[23] = q7 - q4 + s5 - s3
+    r[24] = q6 - 10.0 - s4
+    r[25] = q7 - s5
+    r[26] = v0 + s6
+    r[27] = v1 - s7
+    r[28] = v3 + s6 - v0 + s8
+    r[29] = v4 - (v1 + s7) - s9
+    r[30] = v6 + s8 - v3 - s10
+    r[31] = v7 - (v4 + s9) + s11
+    r[32] = v6 + s10
+    r[33] = v7 - s11
     w[POWER] = 0.0  # power
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def tangent(t, y, k, p, w, j):
-    """Entries of dF/dk and dF/dy of the descriptor form: 64 operations, 220 before sharing."""
+    """Entries of dF/dk and dF/dy of the descriptor form: 14 operations."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
     p2 = p[2]  # rocker_mass [kg]
     q2 = y[2]  # crank.theta [rad]
-    v2 = y[11]  # crank.omega [rad/s]
     q5 = y[5]  # coupler.theta [rad]
-    v5 = y[14]  # coupler.omega [rad/s]
     q8 = y[8]  # rocker.theta [rad]
-    v8 = y[17]  # rocker.omega [rad/s]
     p27 = p[27]  # 0.3333333333333333*crank_mass
     p28 = p[28]  # 5.333333333333333*coupler_mass
     p29 = p[29]  # 2.083333333333333*rocker_mass
-    k18 = k[18]
-    k19 = k[19]
-    k20 = k[20]
-    k21 = k[21]
-    k22 = k[22]
-    k23 = k[23]
-    k24 = k[24]
-    k25 = k[25]
-    k26 = k[26]
-    k27 = k[27]
-    k28 = k[28]
-    k29 = k[29]
-    k30 = k[30]
-    k31 = k[31]
-    k32 = k[32]
-    k33 = k[33]
     # intermediate terms
-    s0 = math.cos(q2)
-    s1 = math.sin(q2)
-    s2 = -s0
-    s3 = 4.0*math.cos(q5)
-    s4 = -s3
-    s5 = 4.0*math.sin(q5)
-    s6 = 2.5*math.cos(q8)
-    s7 = 2.5*math.sin(q8)
-    s8 = -s7
-    s9 = -s6
-    s10 = v2*s1
-    s11 = v2*s0
-    s12 = v5*s5
-    s13 = v5*s3
-    s14 = v8*s7
-    s15 = v8*s6
+    s0 = math.sin(q2)
+    s1 = -math.cos(q2)
+    s2 = -4.0*math.cos(q5)
+    s3 = 4.0*math.sin(q5)
+    s4 = 2.5*math.cos(q8)
+    s5 = 2.5*math.sin(q8)
     # outputs
-    j[0] = 1.0
+    j[0] = p0
     j[1] = 1.0
     j[2] = -1.0
-    j[3] = -1.0
+    j[3] = p0
     j[4] = 1.0
-    j[5] = 1.0
-    j[6] = -1.0
-    j[7] = -1.0
-    j[8] = 1.0
-    j[9] = s1
-    j[10] = s2
-    j[11] = s1
-    j[12] = s2
-    j[13] = s0*k26 + s1*k27 + s0*k28 + s1*k29
-    j[14] = -1.0
+    j[5] = -1.0
+    j[6] = p27
+    j[7] = s0
+    j[8] = s1
+    j[9] = s0
+    j[10] = s1
+    j[11] = p1
+    j[12] = 1.0
+    j[13] = -1.0
+    j[14] = p1
     j[15] = 1.0
-    j[16] = 1.0
-    j[17] = -1.0
-    j[18] = -1.0
-    j[19] = 1.0
-    j[20] = 1.0
-    j[21] = -1.0
-    j[22] = -1.0
+    j[16] = -1.0
+    j[17] = p28
+    j[18] = s3
+    j[19] = s2
+    j[20] = s3
+    j[21] = s2
+    j[22] = p2
     j[23] = 1.0
-    j[24] = s5
-    j[25] = s4
-    j[26] = s5
-    j[27] = s4
-    j[28] = s3*k28 + s5*k29 + s3*k30 + s5*k31
-    j[29] = -1.0
-    j[30] = 1.0
-    j[31] = 1.0
-    j[32] = 1.0
-    j[33] = -1.0
-    j[34] = 1.0
-    j[35] = 1.0
-    j[36] = 1.0
-    j[37] = -1.0
-    j[38] = 1.0
-    j[39] = s8
-    j[40] = s6
-    j[41] = s7
-    j[42] = s9
-    j[43] = s6*k32 - (s6*k30 + s7*k31) + s7*k33
-    j[44] = -1.0
-    j[45] = p0
-    j[46] = 1.0
-    j[47] = -1.0
-    j[48] = p0
-    j[49] = 1.0
-    j[50] = -1.0
-    j[51] = p27
-    j[52] = s1
-    j[53] = s2
-    j[54] = s1
-    j[55] = s2
-    j[56] = s0*k18 + s1*k19 + s0*k20 + s1*k21
-    j[57] = p1
-    j[58] = 1.0
-    j[59] = -1.0
-    j[60] = p1
-    j[61] = 1.0
-    j[62] = -1.0
-    j[63] = p28
-    j[64] = s5
-    j[65] = s4
-    j[66] = s5
-    j[67] = s4
-    j[68] = s3*k20 + s5*k21 + s3*k22 + s5*k23
-    j[69] = p2
-    j[70] = 1.0
-    j[71] = 1.0
-    j[72] = p2
-    j[73] = 1.0
-    j[74] = 1.0
-    j[75] = p29
-    j[76] = s8
-    j[77] = s6
-    j[78] = s7
-    j[79] = s9
-    j[80] = s6*k24 - (s6*k22 + s7*k23) + s7*k25
-    j[81] = s11
-    j[82] = 1.0
-    j[83] = s1
-    j[84] = s10
-    j[85] = 1.0
-    j[86] = s2
-    j[87] = s11
-    j[88] = s13
-    j[89] = -1.0
-    j[90] = s1
-    j[91] = 1.0
-    j[92] = s5
-    j[93] = s10
-    j[94] = s12
-    j[95] = -1.0
-    j[96] = s2
-    j[97] = 1.0
-    j[98] = s4
-    j[99] = s13
-    j[100] = -s15
-    j[101] = -1.0
-    j[102] = s5
-    j[103] = 1.0
-    j[104] = s8
-    j[105] = s12
-    j[106] = -s14
-    j[107] = -1.0
-    j[108] = s4
-    j[109] = 1.0
-    j[110] = s6
-    j[111] = s15
-    j[112] = 1.0
-    j[113] = s7
-    j[114] = s14
-    j[115] = 1.0
-    j[116] = s9
-    j[117] = 1.0
-    j[118] = s1
-    j[119] = 1.0
-    j[120] = s2
-    j[121] = -1.0
-    j[122] = s1
-    j[123] = 1.0
-    j[124] = s5
-    j[125] = -1.0
-    j[126] = s2
-    j[127] = 1.0
-    j[128] = s4
-    j[129] = -1.0
-    j[130] = s5
-    j[131] = 1.0
-    j[132] = s8
-    j[133] = -1.0
-    j[134] = s4
-    j[135] = 1.0
-    j[136] = s6
-    j[137] = 1.0
-    j[138] = s7
-    j[139] = 1.0
-    j[140] = s9
+    j[24] = 1.0
+    j[25] = p2
+    j[26] = 1.0
+    j[27] = 1.0
+    j[28] = p29
+    j[29] = -s5
+    j[30] = s4
+    j[31] = s5
+    j[32] = -s4
     return 0

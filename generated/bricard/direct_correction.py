@@ -1,9 +1,15 @@
-"""Method `lagrange` for model `bricard`. Emitted by symgen; do not edit.
+"""Method `direct-correction` for model `bricard`. Emitted by symgen; do not edit.
 
-Constraints at acceleration level only; violations grow with time.
-Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall, 1988
+Positions and velocities are projected after each step with the pseudoinverse of D.
+Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y
+Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076
+Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
+Yu, Chen, Comput. Mech. 26 (2000) 52-57
 digest fd3274b7e385658e1bb048363112e7da7c265e25ce2beed16a493807bb5250bb, format 3, templates a1bfe8da2fcb1eac
 option solver = elimination
+option weight = identity
+option when = step
+p[0] tolerance (default 1e-13)
 
 Constraints Phi(q, t) = 0, their rates D v = nu and D v' = gamma; M v' = f - D^T lambda; S = D M^-1 D^T.
 
@@ -127,26 +133,35 @@ import math
 
 from numba import njit
 
-from model import geometry, measure, normalise
+from model import geometry, measure, move, normalise
 
 MULTIPLIERS = 25  # sections of w
 MASK = 55
 SAVED = 85
+RESIDUAL = 115
 PIVOT = 175
+CHANGE = 205
 GAUGE = 265
+JACOBIAN = 325
+SMALLEST_PIVOT = 4  # numbers in w
+LENGTH_SCALE = 6
+POSITION_MEASURE = 8
 SUSPECTS = 1  # counters in iw
 LIGHT = 2
+ITERATIONS = 3
+FAILURES = 4
+TOLERANCE = 0  # parameters of the method in p
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def prepare(p):
-    """Numbers that depend on parameters alone: 0 operations, 0 before sharing."""
+    """Numbers that depend on parameters alone: 0 operations."""
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def rhs(t, y, p, w, iw, ydot):
-    """q', v', power and multipliers; 1 where a pivot of S is suspicious: 2758 operations, 320157586840626705 before sharing."""
+    """q', v', power and multipliers; 1 where a pivot of S is suspicious: 2758 operations."""
     # inputs
     q3 = y[3]  # rod1.e0 [1]
     q4 = y[4]  # rod1.e1 [1]
@@ -1078,12 +1093,700 @@ def rhs(t, y, p, w, iw, ydot):
 
 
 @njit(error_model="numpy", fastmath={"contract"})
+def spread(p, w):
+    """The correction -D^+ times the section `residual`, of v, or of q by N: 1498 operations."""
+    # inputs
+    mask_15 = w[MASK + 15]  # P3.x
+    mask_16 = w[MASK + 16]  # P3.y
+    mask_17 = w[MASK + 17]  # P3.z
+    mask_28 = w[MASK + 28]  # P5.first
+    mask_29 = w[MASK + 29]  # P5.second
+    residual_0 = w[RESIDUAL]  # P0.x
+    residual_1 = w[RESIDUAL + 1]  # P0.y
+    residual_2 = w[RESIDUAL + 2]  # P0.z
+    residual_3 = w[RESIDUAL + 3]  # P0.first
+    residual_4 = w[RESIDUAL + 4]  # P0.second
+    residual_5 = w[RESIDUAL + 5]  # P1.x
+    residual_6 = w[RESIDUAL + 6]  # P1.y
+    residual_7 = w[RESIDUAL + 7]  # P1.z
+    residual_8 = w[RESIDUAL + 8]  # P1.first
+    residual_9 = w[RESIDUAL + 9]  # P1.second
+    residual_10 = w[RESIDUAL + 10]  # P2.x
+    residual_11 = w[RESIDUAL + 11]  # P2.y
+    residual_12 = w[RESIDUAL + 12]  # P2.z
+    residual_13 = w[RESIDUAL + 13]  # P2.first
+    residual_14 = w[RESIDUAL + 14]  # P2.second
+    residual_15 = w[RESIDUAL + 15]  # P3.x
+    residual_16 = w[RESIDUAL + 16]  # P3.y
+    residual_17 = w[RESIDUAL + 17]  # P3.z
+    residual_18 = w[RESIDUAL + 18]  # P3.first
+    residual_19 = w[RESIDUAL + 19]  # P3.second
+    residual_20 = w[RESIDUAL + 20]  # P4.x
+    residual_21 = w[RESIDUAL + 21]  # P4.y
+    residual_22 = w[RESIDUAL + 22]  # P4.z
+    residual_23 = w[RESIDUAL + 23]  # P4.first
+    residual_24 = w[RESIDUAL + 24]  # P4.second
+    residual_25 = w[RESIDUAL + 25]  # P5.x
+    residual_26 = w[RESIDUAL + 26]  # P5.y
+    residual_27 = w[RESIDUAL + 27]  # P5.z
+    residual_28 = w[RESIDUAL + 28]  # P5.first
+    residual_29 = w[RESIDUAL + 29]  # P5.second
+    jacobian_0 = w[JACOBIAN]  # D P0.x, rod1.wy
+    jacobian_1 = w[JACOBIAN + 1]  # D P0.x, rod1.wz
+    jacobian_2 = w[JACOBIAN + 2]  # D P0.y, rod1.wy
+    jacobian_3 = w[JACOBIAN + 3]  # D P0.y, rod1.wz
+    jacobian_4 = w[JACOBIAN + 4]  # D P0.z, rod1.wy
+    jacobian_5 = w[JACOBIAN + 5]  # D P0.z, rod1.wz
+    jacobian_6 = w[JACOBIAN + 6]  # D P0.first, rod1.wx
+    jacobian_7 = w[JACOBIAN + 7]  # D P0.first, rod1.wz
+    jacobian_8 = w[JACOBIAN + 8]  # D P0.second, rod1.wx
+    jacobian_9 = w[JACOBIAN + 9]  # D P0.second, rod1.wz
+    jacobian_10 = w[JACOBIAN + 10]  # D P1.x, rod1.wy
+    jacobian_11 = w[JACOBIAN + 11]  # D P1.x, rod1.wz
+    jacobian_12 = w[JACOBIAN + 12]  # D P1.x, rod2.wx
+    jacobian_13 = w[JACOBIAN + 13]  # D P1.x, rod2.wz
+    jacobian_14 = w[JACOBIAN + 14]  # D P1.y, rod1.wy
+    jacobian_15 = w[JACOBIAN + 15]  # D P1.y, rod1.wz
+    jacobian_16 = w[JACOBIAN + 16]  # D P1.y, rod2.wx
+    jacobian_17 = w[JACOBIAN + 17]  # D P1.y, rod2.wz
+    jacobian_18 = w[JACOBIAN + 18]  # D P1.z, rod1.wy
+    jacobian_19 = w[JACOBIAN + 19]  # D P1.z, rod1.wz
+    jacobian_20 = w[JACOBIAN + 20]  # D P1.z, rod2.wx
+    jacobian_21 = w[JACOBIAN + 21]  # D P1.z, rod2.wz
+    jacobian_22 = w[JACOBIAN + 22]  # D P1.first, rod1.wx
+    jacobian_23 = w[JACOBIAN + 23]  # D P1.first, rod1.wz
+    jacobian_24 = w[JACOBIAN + 24]  # D P1.first, rod2.wx
+    jacobian_25 = w[JACOBIAN + 25]  # D P1.first, rod2.wy
+    jacobian_26 = w[JACOBIAN + 26]  # D P1.second, rod1.wy
+    jacobian_27 = w[JACOBIAN + 27]  # D P1.second, rod1.wz
+    jacobian_28 = w[JACOBIAN + 28]  # D P1.second, rod2.wx
+    jacobian_29 = w[JACOBIAN + 29]  # D P1.second, rod2.wy
+    jacobian_30 = w[JACOBIAN + 30]  # D P2.x, rod2.wx
+    jacobian_31 = w[JACOBIAN + 31]  # D P2.x, rod2.wz
+    jacobian_32 = w[JACOBIAN + 32]  # D P2.x, rod3.wx
+    jacobian_33 = w[JACOBIAN + 33]  # D P2.x, rod3.wy
+    jacobian_34 = w[JACOBIAN + 34]  # D P2.y, rod2.wx
+    jacobian_35 = w[JACOBIAN + 35]  # D P2.y, rod2.wz
+    jacobian_36 = w[JACOBIAN + 36]  # D P2.y, rod3.wx
+    jacobian_37 = w[JACOBIAN + 37]  # D P2.y, rod3.wy
+    jacobian_38 = w[JACOBIAN + 38]  # D P2.z, rod2.wx
+    jacobian_39 = w[JACOBIAN + 39]  # D P2.z, rod2.wz
+    jacobian_40 = w[JACOBIAN + 40]  # D P2.z, rod3.wx
+    jacobian_41 = w[JACOBIAN + 41]  # D P2.z, rod3.wy
+    jacobian_42 = w[JACOBIAN + 42]  # D P2.first, rod2.wx
+    jacobian_43 = w[JACOBIAN + 43]  # D P2.first, rod2.wy
+    jacobian_44 = w[JACOBIAN + 44]  # D P2.first, rod3.wy
+    jacobian_45 = w[JACOBIAN + 45]  # D P2.first, rod3.wz
+    jacobian_46 = w[JACOBIAN + 46]  # D P2.second, rod2.wx
+    jacobian_47 = w[JACOBIAN + 47]  # D P2.second, rod2.wz
+    jacobian_48 = w[JACOBIAN + 48]  # D P2.second, rod3.wy
+    jacobian_49 = w[JACOBIAN + 49]  # D P2.second, rod3.wz
+    jacobian_50 = w[JACOBIAN + 50]  # D P3.x, rod3.wx
+    jacobian_51 = w[JACOBIAN + 51]  # D P3.x, rod3.wy
+    jacobian_52 = w[JACOBIAN + 52]  # D P3.x, rod4.wy
+    jacobian_53 = w[JACOBIAN + 53]  # D P3.x, rod4.wz
+    jacobian_54 = w[JACOBIAN + 54]  # D P3.y, rod3.wx
+    jacobian_55 = w[JACOBIAN + 55]  # D P3.y, rod3.wy
+    jacobian_56 = w[JACOBIAN + 56]  # D P3.y, rod4.wy
+    jacobian_57 = w[JACOBIAN + 57]  # D P3.y, rod4.wz
+    jacobian_58 = w[JACOBIAN + 58]  # D P3.z, rod3.wx
+    jacobian_59 = w[JACOBIAN + 59]  # D P3.z, rod3.wy
+    jacobian_60 = w[JACOBIAN + 60]  # D P3.z, rod4.wy
+    jacobian_61 = w[JACOBIAN + 61]  # D P3.z, rod4.wz
+    jacobian_62 = w[JACOBIAN + 62]  # D P3.first, rod3.wy
+    jacobian_63 = w[JACOBIAN + 63]  # D P3.first, rod3.wz
+    jacobian_64 = w[JACOBIAN + 64]  # D P3.first, rod4.wx
+    jacobian_65 = w[JACOBIAN + 65]  # D P3.first, rod4.wz
+    jacobian_66 = w[JACOBIAN + 66]  # D P3.second, rod3.wx
+    jacobian_67 = w[JACOBIAN + 67]  # D P3.second, rod3.wy
+    jacobian_68 = w[JACOBIAN + 68]  # D P3.second, rod4.wx
+    jacobian_69 = w[JACOBIAN + 69]  # D P3.second, rod4.wz
+    jacobian_70 = w[JACOBIAN + 70]  # D P4.x, rod4.wy
+    jacobian_71 = w[JACOBIAN + 71]  # D P4.x, rod4.wz
+    jacobian_72 = w[JACOBIAN + 72]  # D P4.x, rod5.wx
+    jacobian_73 = w[JACOBIAN + 73]  # D P4.x, rod5.wz
+    jacobian_74 = w[JACOBIAN + 74]  # D P4.y, rod4.wy
+    jacobian_75 = w[JACOBIAN + 75]  # D P4.y, rod4.wz
+    jacobian_76 = w[JACOBIAN + 76]  # D P4.y, rod5.wx
+    jacobian_77 = w[JACOBIAN + 77]  # D P4.y, rod5.wz
+    jacobian_78 = w[JACOBIAN + 78]  # D P4.z, rod4.wy
+    jacobian_79 = w[JACOBIAN + 79]  # D P4.z, rod4.wz
+    jacobian_80 = w[JACOBIAN + 80]  # D P4.z, rod5.wx
+    jacobian_81 = w[JACOBIAN + 81]  # D P4.z, rod5.wz
+    jacobian_82 = w[JACOBIAN + 82]  # D P4.first, rod4.wx
+    jacobian_83 = w[JACOBIAN + 83]  # D P4.first, rod4.wz
+    jacobian_84 = w[JACOBIAN + 84]  # D P4.first, rod5.wx
+    jacobian_85 = w[JACOBIAN + 85]  # D P4.first, rod5.wy
+    jacobian_86 = w[JACOBIAN + 86]  # D P4.second, rod4.wy
+    jacobian_87 = w[JACOBIAN + 87]  # D P4.second, rod4.wz
+    jacobian_88 = w[JACOBIAN + 88]  # D P4.second, rod5.wx
+    jacobian_89 = w[JACOBIAN + 89]  # D P4.second, rod5.wy
+    jacobian_90 = w[JACOBIAN + 90]  # D P5.x, rod5.wx
+    jacobian_91 = w[JACOBIAN + 91]  # D P5.x, rod5.wz
+    jacobian_92 = w[JACOBIAN + 92]  # D P5.y, rod5.wx
+    jacobian_93 = w[JACOBIAN + 93]  # D P5.y, rod5.wz
+    jacobian_94 = w[JACOBIAN + 94]  # D P5.z, rod5.wx
+    jacobian_95 = w[JACOBIAN + 95]  # D P5.z, rod5.wz
+    jacobian_96 = w[JACOBIAN + 96]  # D P5.first, rod5.wx
+    jacobian_97 = w[JACOBIAN + 97]  # D P5.first, rod5.wy
+    jacobian_98 = w[JACOBIAN + 98]  # D P5.second, rod5.wx
+    jacobian_99 = w[JACOBIAN + 99]  # D P5.second, rod5.wz
+    pivot_15 = w[PIVOT + 15]  # P3.x
+    pivot_16 = w[PIVOT + 16]  # P3.y
+    pivot_17 = w[PIVOT + 17]  # P3.z
+    pivot_28 = w[PIVOT + 28]  # P5.first
+    pivot_29 = w[PIVOT + 29]  # P5.second
+    # intermediate terms
+    s0 = 1.0/(jacobian_6*jacobian_9 - jacobian_7*jacobian_8)
+    s1 = jacobian_0 + jacobian_10
+    s2 = jacobian_2 + jacobian_14
+    s3 = jacobian_4 + jacobian_18
+    s4 = jacobian_72 + jacobian_90
+    s5 = jacobian_73 + jacobian_91
+    s6 = jacobian_76 + jacobian_92
+    s7 = jacobian_77 + jacobian_93
+    s8 = jacobian_80 + jacobian_94
+    s9 = jacobian_81 + jacobian_95
+    s10 = jacobian_12 + jacobian_30
+    s11 = jacobian_13 + jacobian_31
+    s12 = 1.0 + jacobian_0*jacobian_0 + jacobian_2*jacobian_2 + jacobian_4*jacobian_4 + s1*s1 + s2*s2
+    s13 = jacobian_16 + jacobian_34
+    s14 = jacobian_17 + jacobian_35
+    s15 = jacobian_12*s1 + jacobian_16*s2 + jacobian_20*s3
+    s16 = jacobian_12*jacobian_13 + jacobian_16*jacobian_17 + jacobian_20*jacobian_21
+    s17 = jacobian_20 + jacobian_38
+    s18 = jacobian_21 + jacobian_39
+    s19 = 1.0/(jacobian_24*jacobian_29 - jacobian_25*jacobian_28)
+    s20 = jacobian_25*s19
+    s21 = jacobian_24*s19
+    s22 = jacobian_26*s20
+    s23 = jacobian_26*s21
+    s24 = s15 + (1.0 + jacobian_12*jacobian_12 + jacobian_16*jacobian_16 + jacobian_20*jacobian_20)*s22
+    s25 = s1 + s10*s22
+    s26 = s2 + s13*s22
+    s27 = s3 + s17*s22
+    s28 = jacobian_42*s22 - jacobian_43*s23
+    s29 = jacobian_46*s22
+    s30 = 1.0 + jacobian_13*jacobian_13 + jacobian_17*jacobian_17 + jacobian_21*jacobian_21 + s11*s11
+    s31 = jacobian_33 + jacobian_51
+    s32 = jacobian_37 + jacobian_55
+    s33 = jacobian_33*s25 + jacobian_37*s26 + jacobian_41*s27
+    s34 = jacobian_33*s11 + jacobian_37*s14 + jacobian_41*s18
+    s35 = jacobian_32*jacobian_33 + jacobian_36*jacobian_37 + jacobian_40*jacobian_41
+    s36 = 1.0 + jacobian_33*jacobian_33 + jacobian_37*jacobian_37 + jacobian_41*jacobian_41
+    s37 = jacobian_41 + jacobian_59
+    s38 = jacobian_53 + jacobian_71
+    s39 = jacobian_57 + jacobian_75
+    s40 = 1.0 + jacobian_90*jacobian_90 + jacobian_92*jacobian_92 + jacobian_94*jacobian_94 + s4*s4 + s6*s6
+    s41 = jacobian_90*jacobian_91 + jacobian_92*jacobian_93 + jacobian_94*jacobian_95 + s4*s5 + s6*s7
+    s42 = 1.0 + jacobian_91*jacobian_91 + jacobian_93*jacobian_93 + jacobian_95*jacobian_95 + s5*s5 + s7*s7
+    s43 = jacobian_70*jacobian_71 + jacobian_74*jacobian_75 + jacobian_78*jacobian_79
+    s44 = jacobian_70*s4 + jacobian_74*s6 + jacobian_78*s8
+    s45 = 1.0 + jacobian_71*jacobian_71 + jacobian_75*jacobian_75 + jacobian_79*jacobian_79
+    s46 = jacobian_71*s4 + jacobian_75*s6 + jacobian_79*s8
+    s47 = jacobian_71*s5 + jacobian_75*s7 + jacobian_79*s9
+    s48 = jacobian_61 + jacobian_79
+    s49 = s40 + s8*s8
+    s50 = s41 + s8*s9
+    s51 = 1.0/(jacobian_44*jacobian_49 - jacobian_45*jacobian_48)
+    s52 = jacobian_49*s51
+    s53 = jacobian_45*s51
+    s54 = jacobian_48*s51
+    s55 = jacobian_44*s51
+    s56 = s28*s52 - s29*s53
+    s57 = s29*s55 - s28*s54
+    s58 = jacobian_47*s53
+    s59 = jacobian_47*s55
+    s60 = s36*s56 - s33
+    s61 = s12 + s3*s3 + s22*s24 + s23*s23 + s15*s22 + s25*s25 + s26*s26 + s27*s27 + s56*s60 + s57*s57
+    s62 = jacobian_13*s1 + jacobian_17*s2 + jacobian_21*s3 + s16*s22 + s11*s25 + s14*s26 + s18*s27 + s57*s59 - s58*s60
+    s63 = jacobian_62*s56 + jacobian_63*s57
+    s64 = jacobian_67*s56
+    s65 = jacobian_62*s58 - jacobian_63*s59
+    s66 = jacobian_67*s58
+    s67 = 1.0/(jacobian_64*jacobian_69 - jacobian_65*jacobian_68)
+    s68 = jacobian_69*s67
+    s69 = jacobian_65*s67
+    s70 = jacobian_68*s67
+    s71 = jacobian_64*s67
+    s72 = s64*s69 - s63*s68
+    s73 = s63*s70 - s64*s71
+    s74 = s65*s68 - s66*s69
+    s75 = s66*s71 - s65*s70
+    s76 = jacobian_66*s69
+    s77 = jacobian_66*s71
+    s78 = s45*s73
+    s79 = s45*s75
+    s80 = s46*s73
+    s81 = jacobian_82*s72 + jacobian_83*s73
+    s82 = jacobian_87*s73
+    s83 = s46*s75
+    s84 = jacobian_82*s74 + jacobian_83*s75
+    s85 = jacobian_87*s75
+    s86 = 1.0 + jacobian_32*jacobian_32 + jacobian_36*jacobian_36 + jacobian_40*jacobian_40 + s76*s76 + s77*(s45*s77)
+    s87 = s46*s77
+    s88 = jacobian_82*s76 - jacobian_83*s77
+    s89 = jacobian_87*s77
+    s90 = 1.0/(jacobian_84*jacobian_89 - jacobian_85*jacobian_88)
+    s91 = jacobian_89*s90
+    s92 = jacobian_85*s90
+    s93 = jacobian_88*s90
+    s94 = jacobian_84*s90
+    s95 = s82*s92 - s81*s91
+    s96 = s81*s93 - s82*s94
+    s97 = s85*s92 - s84*s91
+    s98 = s84*s93 - s85*s94
+    s99 = s88*s91 + s89*s92
+    s100 = s88*s93 + s89*s94
+    s101 = jacobian_86*s92
+    s102 = jacobian_86*s94
+    s103 = s80 + s49*s95
+    s104 = s83 + s49*s97
+    s105 = s87 + s49*s99
+    s106 = jacobian_32*s25 + jacobian_36*s26 + jacobian_40*s27 - s35*s56 + s77*s78 - s72*s76 + s99*s103 - s96*s100
+    s107 = s47*s73 + s50*s95
+    s108 = jacobian_96*s95 + jacobian_97*s96
+    s109 = s30 + s14*s14 + s18*s18 + s58*(s34 + s36*s58) + s59*s59 + s34*s58 + s74*s74 + s75*s79 + s97*s104 + s98*s98
+    s110 = jacobian_32*s11 + jacobian_36*s14 + jacobian_40*s18 + s35*s58 + s77*s79 - s74*s76 + s99*s104 - s98*s100
+    s111 = s47*s75 + s50*s97
+    s112 = s47*s77 + s50*s99
+    s113 = 1.0 + jacobian_70*jacobian_70 + jacobian_74*jacobian_74 + jacobian_78*jacobian_78 + s101*(s44 + s49*s101) + s102*s102
+    s114 = jacobian_70*s5 + jacobian_74*s7 + jacobian_78*s9 + s50*s101
+    s115 = 1.0/(s42 + s9*s9)
+    s116 = s107*s115
+    s117 = s111*s115
+    s118 = s112*s115
+    s119 = s114*s115
+    s120 = s5*s115
+    s121 = s7*s115
+    s122 = s9*s115
+    s123 = jacobian_99*s115
+    s124 = s62 - s34*s56 + s72*s74 + s75*s78 + s97*s103 + s96*s98 + s83*s95 - s111*s116
+    s125 = s106 + s87*s95 - s112*s116
+    s126 = s96*s102 - s101*s103 - s43*s73 - s44*s95 + s114*s116
+    s127 = s25 - s31*s56 - s38*s73 - s4*s95 + s5*s116
+    s128 = s26 - s32*s56 - s39*s73 - s6*s95 + s7*s116
+    s129 = s27 - s37*s56 - s48*s73 - s8*s95 + s9*s116
+    s130 = jacobian_99*s116 - jacobian_98*s95
+    s131 = 1.0/(s61 - s33*s56 + s72*s72 + s73*s78 + s95*s103 + s96*s96 + s80*s95 - s107*s116)
+    s132 = s124*s131
+    s133 = s125*s131
+    s134 = s126*s131
+    s135 = s127*s131
+    s136 = s128*s131
+    s137 = s129*s131
+    s138 = s108*s131
+    s139 = s130*s131
+    s140 = s110 + s87*s97 - s112*s117 - s125*s132
+    s141 = s98*s102 - s101*s104 - s43*s75 - s44*s97 + s114*s117 - s126*s132
+    s142 = s11 + s31*s58 - s38*s75 - s4*s97 + s5*s117 - s127*s132
+    s143 = s14 + s32*s58 - s39*s75 - s6*s97 + s7*s117 - s128*s132
+    s144 = s18 + s37*s58 - s48*s75 - s8*s97 + s9*s117 - s129*s132
+    s145 = s108*s132 - (jacobian_96*s97 + jacobian_97*s98)
+    s146 = jacobian_99*s117 - jacobian_98*s97 - s130*s132
+    s147 = 1.0/(s109 + s83*s97 - s111*s117 - s124*s132)
+    s148 = s140*s147
+    s149 = s141*s147
+    s150 = s142*s147
+    s151 = s143*s147
+    s152 = s144*s147
+    s153 = s145*s147
+    s154 = s146*s147
+    s155 = s114*s118 - (s43*s77 + s101*s105 + s100*s102 + s44*s99) - s126*s133 - s141*s148
+    s156 = jacobian_32 + jacobian_50 - s38*s77 - s4*s99 + s5*s118 - s127*s133 - s142*s148
+    s157 = jacobian_36 + jacobian_54 - s39*s77 - s6*s99 + s7*s118 - s128*s133 - s143*s148
+    s158 = jacobian_40 + jacobian_58 - s48*s77 - s8*s99 + s9*s118 - s129*s133 - s144*s148
+    s159 = jacobian_97*s100 - jacobian_96*s99 + s108*s133 - s145*s148
+    s160 = jacobian_99*s118 - jacobian_98*s99 - s130*s133 - s146*s148
+    s161 = 1.0/(s86 + s99*s105 + s100*s100 + s87*s99 - s112*s118 - s125*s133 - s140*s148)
+    s162 = s155*s161
+    s163 = s156*s161
+    s164 = s157*s161
+    s165 = s158*s161
+    s166 = s159*s161
+    s167 = s160*s161
+    s168 = jacobian_52 + jacobian_70 + s4*s101 - s5*s119 - s127*s134 - s142*s149 - s156*s162
+    s169 = jacobian_56 + jacobian_74 + s6*s101 - s7*s119 - s128*s134 - s143*s149 - s157*s162
+    s170 = jacobian_60 + jacobian_78 + s8*s101 - s9*s119 - s129*s134 - s144*s149 - s158*s162
+    s171 = jacobian_96*s101 - jacobian_97*s102 + s108*s134 - s145*s149 - s159*s162
+    s172 = jacobian_98*s101 - jacobian_99*s119 - s130*s134 - s146*s149 - s160*s162
+    s173 = 1.0/(s113 + s44*s101 - s114*s119 - s126*s134 - s141*s149 - s155*s162)
+    s174 = s168*s173
+    s175 = s169*s173
+    s176 = s170*s173
+    s177 = s171*s173
+    s178 = s172*s173
+    s179 = s7*s120 + s128*s135 + s143*s150 + s157*s163 + s169*s174
+    s180 = s9*s120 + s129*s135 + s144*s150 + s158*s163 + s170*s174
+    s181 = s108*s135 - s145*s150 - s159*s163 - s171*s174
+    s182 = jacobian_99*s120 + s130*s135 + s146*s150 + s160*s163 + s172*s174
+    s183 = 1.0*(pivot_15 > mask_15 + 1e-12)/max(s5*s120 + s127*s135 + s142*s150 + s156*s163 + s168*s174, 1e-300)
+    s184 = s179*s183
+    s185 = s180*s183
+    s186 = s181*s183
+    s187 = s182*s183
+    s188 = s180*s184 - (s9*s121 + s129*s136 + s144*s151 + s158*s164 + s170*s175)
+    s189 = s108*s136 - s145*s151 - s159*s164 - s171*s175 - s181*s184
+    s190 = s182*s184 - (jacobian_99*s121 + s130*s136 + s146*s151 + s160*s164 + s172*s175)
+    s191 = 1.0*(pivot_16 > mask_16 + 1e-12)/max(s7*s121 + s128*s136 + s143*s151 + s157*s164 + s169*s175 - s179*s184, 1e-300)
+    s192 = s188*s191
+    s193 = s189*s191
+    s194 = s190*s191
+    s195 = s108*s137 - s145*s152 - s159*s165 - s171*s176 - s181*s185 + s189*s192
+    s196 = s182*s185 - (jacobian_99*s122 + s130*s137 + s146*s152 + s160*s165 + s172*s176) + s190*s192
+    s197 = max(-(s180*s185 - (s9*s122 + s129*s137 + s144*s152 + s158*s165 + s170*s176) + s188*s192), 1e-300)
+    s198 = 1.0*(pivot_17 > mask_17 + 1e-12)/s197
+    s199 = s195*s198
+    s200 = s196*s198
+    s201 = s130*s138 - s146*s153 - s160*s166 - s172*s177 - s182*s186 + s190*s193 + s196*s199
+    s202 = s182*s187 - (jacobian_99*s123 + s130*s139 + s146*s154 + s160*s167 + s172*s178) + s190*s194 + s196*s200
+    s203 = max(-(s181*s186 - (s108*s138 + s145*s153 + s159*s166 + s171*s177) + s189*s193 + s195*s199), 1e-300)
+    s204 = 1.0*(pivot_28 > mask_28 + 1e-12)/s203
+    s205 = s201*s204
+    s206 = residual_4*(jacobian_7*s0) - residual_3*(jacobian_9*s0)
+    s207 = residual_3*(jacobian_8*s0) - residual_4*(jacobian_6*s0)
+    s208 = jacobian_1*s207
+    s209 = residual_0 + s208
+    s210 = jacobian_3*s207
+    s211 = residual_1 + s210
+    s212 = jacobian_5*s207
+    s213 = residual_2 + s212
+    s214 = jacobian_11*s207
+    s215 = jacobian_15*s207
+    s216 = jacobian_19*s207
+    s217 = residual_8 + jacobian_22*s206 + jacobian_23*s207
+    s218 = jacobian_27*s207
+    s219 = residual_9 + s218
+    s220 = s209 + residual_5 + s214
+    s221 = s211 + residual_6 + s215
+    s222 = s213 + residual_7 + s216
+    s223 = residual_20 + residual_25
+    s224 = residual_21 + residual_26
+    s225 = residual_22 + residual_27
+    s226 = jacobian_29*s19*s217
+    s227 = s20*s219 - s226
+    s228 = jacobian_28*s19*s217
+    s229 = s228 - s21*s219
+    s230 = jacobian_0*s209 + jacobian_2*s211 + jacobian_4*s213 + s1*s220 + s2*s221 + s3*s222 + s22*(jacobian_12*s220 + jacobian_16*s221 + jacobian_20*s222)
+    s231 = residual_10 + s220 + s10*s227
+    s232 = residual_11 + s221 + s13*s227
+    s233 = residual_12 + s222 + s17*s227
+    s234 = residual_13 + jacobian_42*s227 + jacobian_43*s229
+    s235 = residual_14 + jacobian_46*s227
+    s236 = jacobian_13*s220 + jacobian_17*s221 + jacobian_21*s222 + s16*s227 + s11*s231 + s14*s232 + s18*s233
+    s237 = residual_25*jacobian_90 + residual_26*jacobian_92 + residual_27*jacobian_94 + s4*s223 + s6*s224
+    s238 = residual_25*jacobian_91 + residual_26*jacobian_93 + residual_27*jacobian_95 + s5*s223 + s7*s224
+    s239 = s53*s235 - s52*s234
+    s240 = s54*s234
+    s241 = s55*s235
+    s242 = jacobian_33*s231 + jacobian_37*s232 + jacobian_41*s233 + s36*s239
+    s243 = s241 - s240
+    s244 = s23*s229 - s24*s227 - s230 - s25*s231 - s26*s232 - s27*s233 - (s57*s243 - s56*s242) - s33*s239
+    s245 = residual_18 + jacobian_62*s239 + jacobian_63*(s240 - s241)
+    s246 = residual_19 + jacobian_67*s239
+    s247 = s68*s245
+    s248 = s69*s246
+    s249 = s70*s245 - s71*s246
+    s250 = s247 - s248
+    s251 = jacobian_71*s223 + jacobian_75*s224 + jacobian_79*s225 + s45*s249
+    s252 = residual_23 + jacobian_82*(s248 - s247) + jacobian_83*s249
+    s253 = residual_24 + jacobian_87*s249
+    s254 = s92*s253 - s91*s252
+    s255 = s93*s252
+    s256 = s94*s253
+    s257 = s237 + s8*s225 + s46*s249 + s49*s254
+    s258 = s256 - s255
+    s259 = s76*s250 + s77*s251 - (jacobian_32*s231 + jacobian_36*s232 + jacobian_40*s233 + s35*s239) + s99*s257 + s100*s258
+    s260 = s83*s254 - (s236 + s58*s242 + s59*s243 + s34*s239 + s74*s250 - s75*s251 + s98*s258 - s97*s257)
+    s261 = jacobian_70*s223 + jacobian_74*s224 + jacobian_78*s225 + s43*s249 + s101*s257 + s102*s258 + s44*s254
+    s262 = s238 + s9*s225 + s47*s249 + s50*s254
+    s263 = s244 - (s72*s250 - s73*s251) - (s96*s258 - s95*s257) + s80*s254 - s116*s262
+    s264 = s260 - s117*s262 - s132*s263
+    s265 = s259 + s87*s254 - s118*s262 - s133*s263 - s148*s264
+    s266 = s120*s262 - (s223 + residual_15 + s231 + s31*s239 + s38*s249 + s4*s254) - s135*s263 - s150*s264
+    s267 = s121*s262 - (s224 + residual_16 + s232 + s32*s239 + s39*s249 + s6*s254) - s136*s263 - s151*s264
+    s268 = s122*s262 - (s225 + residual_17 + s233 + s37*s239 + s48*s249 + s8*s254) - s137*s263 - s152*s264
+    s269 = s119*s262 - s261 - s134*s263 - s149*s264 - s162*s265
+    s270 = s138*s263 - (residual_28 + jacobian_96*s254 + jacobian_97*(s255 - s256)) - s153*s264 - s166*s265
+    s271 = s266 - s163*s265 - s174*s269
+    s272 = s123*s262 - (residual_29 + jacobian_98*s254) - s139*s263 - s154*s264 - s167*s265 - s178*s269
+    s273 = s267 - s164*s265 - s175*s269 - s184*s271
+    s274 = s268 - s165*s265 - s176*s269 - s185*s271 + s192*s273
+    s275 = s270 - s177*s269 + s186*s271 + s193*s273 + s199*s274
+    s276 = 1.0*(pivot_29 > mask_29 + 1e-12)/max(-(s202 + s201*s205), 1e-300)*(s272 - s187*s271 + s194*s273 + s200*s274 + s205*s275)
+    s277 = s204*s275 + s205*s276
+    s278 = s198*s274 + s199*s277 + s200*s276
+    s279 = s191*s273 + s192*s278 + s193*s277 + s194*s276
+    s280 = s184*s279 - s183*s271 + s185*s278 - s186*s277 + s187*s276
+    s281 = s173*s269 - s174*s280 + s175*s279 + s176*s278 + s177*s277 + s178*s276
+    s282 = s161*s265 - s162*s281 - s163*s280 + s164*s279 + s165*s278 + s166*s277 + s167*s276
+    s283 = s147*s264 - s148*s282 - s149*s281 - s150*s280 + s151*s279 + s152*s278 + s153*s277 + s154*s276
+    s284 = s131*s263 - s132*s283 - s133*s282 - s134*s281 - s135*s280 + s136*s279 + s137*s278 - s138*s277
+    s285 = s284 + s139*s276
+    s286 = s116*s285 - s115*s262 + s117*s283 + s118*s282 - s119*s281 - s120*s280 + s121*s279 + s122*s278
+    s287 = s286 + s123*s276
+    s288 = residual_0 + s208 + jacobian_0*s285
+    s289 = residual_1 + s210 + jacobian_2*s285
+    s290 = residual_2 + s212 + jacobian_4*s285
+    s291 = residual_9 + s218 + jacobian_26*s285
+    s292 = s20*s291 - s226
+    s293 = s228 - s21*s291
+    s294 = residual_13 + jacobian_42*s292 + jacobian_43*s293
+    s295 = residual_14 + jacobian_46*s292 + jacobian_47*s283
+    s296 = s53*s295 - s52*s294
+    s297 = s54*s294 - s55*s295
+    s298 = residual_18 + jacobian_62*s296 + jacobian_63*s297
+    s299 = residual_19 + jacobian_66*s282 + jacobian_67*s296
+    s300 = s69*s299 - s68*s298
+    s301 = s70*s298 - s71*s299
+    s302 = residual_23 + jacobian_82*s300 + jacobian_83*s301
+    s303 = residual_24 + jacobian_86*s281 + jacobian_87*s301
+    s304 = s92*s303 - s91*s302
+    s305 = residual_25 + jacobian_90*s304 + jacobian_91*s287
+    s306 = residual_26 + jacobian_92*s304 + jacobian_93*s287
+    s307 = residual_27 + jacobian_94*s304 + jacobian_95*s287
+    s308 = residual_5 + s214 + s288 + jacobian_10*s285 + jacobian_12*s292 + jacobian_13*s283
+    s309 = residual_6 + s215 + s289 + jacobian_14*s285 + jacobian_16*s292 + jacobian_17*s283
+    s310 = residual_7 + s216 + s290 + jacobian_18*s285 + jacobian_20*s292 + jacobian_21*s283
+    s311 = residual_10 + s308 + jacobian_30*s292 + jacobian_31*s283 + jacobian_32*s282 + jacobian_33*s296
+    s312 = residual_11 + s309 + jacobian_34*s292 + jacobian_35*s283 + jacobian_36*s282 + jacobian_37*s296
+    s313 = residual_12 + s310 + jacobian_38*s292 + jacobian_39*s283 + jacobian_40*s282 + jacobian_41*s296
+    s314 = residual_20 + s305 + jacobian_70*s281 + jacobian_71*s301 + jacobian_72*s304 + jacobian_73*s287
+    s315 = residual_21 + s306 + jacobian_74*s281 + jacobian_75*s301 + jacobian_76*s304 + jacobian_77*s287
+    s316 = residual_22 + s307 + jacobian_78*s281 + jacobian_79*s301 + jacobian_80*s304 + jacobian_81*s287
+    # outputs
+    w[CHANGE] = -s288  # rod1.vx
+    w[CHANGE + 1] = -s289  # rod1.vy
+    w[CHANGE + 2] = -s290  # rod1.vz
+    w[CHANGE + 3] = s206  # rod1.wx
+    w[CHANGE + 4] = s285  # rod1.wy
+    w[CHANGE + 5] = s207  # rod1.wz
+    w[CHANGE + 6] = -s308  # rod2.vx
+    w[CHANGE + 7] = -s309  # rod2.vy
+    w[CHANGE + 8] = -s310  # rod2.vz
+    w[CHANGE + 9] = s292  # rod2.wx
+    w[CHANGE + 10] = s293  # rod2.wy
+    w[CHANGE + 11] = s283  # rod2.wz
+    w[CHANGE + 12] = -s311  # rod3.vx
+    w[CHANGE + 13] = -s312  # rod3.vy
+    w[CHANGE + 14] = -s313  # rod3.vz
+    w[CHANGE + 15] = s282  # rod3.wx
+    w[CHANGE + 16] = s296  # rod3.wy
+    w[CHANGE + 17] = s297  # rod3.wz
+    w[CHANGE + 18] = s314  # rod4.vx
+    w[CHANGE + 19] = s315  # rod4.vy
+    w[CHANGE + 20] = s316  # rod4.vz
+    w[CHANGE + 21] = s300  # rod4.wx
+    w[CHANGE + 22] = s281  # rod4.wy
+    w[CHANGE + 23] = s301  # rod4.wz
+    w[CHANGE + 24] = s305  # rod5.vx
+    w[CHANGE + 25] = s306  # rod5.vy
+    w[CHANGE + 26] = s307  # rod5.vz
+    w[CHANGE + 27] = s304  # rod5.wx
+    w[CHANGE + 28] = s93*s302 - s94*s303  # rod5.wy
+    w[CHANGE + 29] = s287  # rod5.wz
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def drift(t, y, p, w):
+    """D v - nu with the D and nu that `geometry` left: 200 operations."""
+    # inputs
+    v0 = y[35]  # rod1.vx [m/s]
+    v1 = y[36]  # rod1.vy [m/s]
+    v2 = y[37]  # rod1.vz [m/s]
+    v3 = y[38]  # rod1.wx [rad/s]
+    v4 = y[39]  # rod1.wy [rad/s]
+    v5 = y[40]  # rod1.wz [rad/s]
+    v6 = y[41]  # rod2.vx [m/s]
+    v7 = y[42]  # rod2.vy [m/s]
+    v8 = y[43]  # rod2.vz [m/s]
+    v9 = y[44]  # rod2.wx [rad/s]
+    v10 = y[45]  # rod2.wy [rad/s]
+    v11 = y[46]  # rod2.wz [rad/s]
+    v12 = y[47]  # rod3.vx [m/s]
+    v13 = y[48]  # rod3.vy [m/s]
+    v14 = y[49]  # rod3.vz [m/s]
+    v15 = y[50]  # rod3.wx [rad/s]
+    v16 = y[51]  # rod3.wy [rad/s]
+    v17 = y[52]  # rod3.wz [rad/s]
+    v18 = y[53]  # rod4.vx [m/s]
+    v19 = y[54]  # rod4.vy [m/s]
+    v20 = y[55]  # rod4.vz [m/s]
+    v21 = y[56]  # rod4.wx [rad/s]
+    v22 = y[57]  # rod4.wy [rad/s]
+    v23 = y[58]  # rod4.wz [rad/s]
+    v24 = y[59]  # rod5.vx [m/s]
+    v25 = y[60]  # rod5.vy [m/s]
+    v26 = y[61]  # rod5.vz [m/s]
+    v27 = y[62]  # rod5.wx [rad/s]
+    v28 = y[63]  # rod5.wy [rad/s]
+    v29 = y[64]  # rod5.wz [rad/s]
+    jacobian_0 = w[JACOBIAN]  # D P0.x, rod1.wy
+    jacobian_1 = w[JACOBIAN + 1]  # D P0.x, rod1.wz
+    jacobian_2 = w[JACOBIAN + 2]  # D P0.y, rod1.wy
+    jacobian_3 = w[JACOBIAN + 3]  # D P0.y, rod1.wz
+    jacobian_4 = w[JACOBIAN + 4]  # D P0.z, rod1.wy
+    jacobian_5 = w[JACOBIAN + 5]  # D P0.z, rod1.wz
+    jacobian_6 = w[JACOBIAN + 6]  # D P0.first, rod1.wx
+    jacobian_7 = w[JACOBIAN + 7]  # D P0.first, rod1.wz
+    jacobian_8 = w[JACOBIAN + 8]  # D P0.second, rod1.wx
+    jacobian_9 = w[JACOBIAN + 9]  # D P0.second, rod1.wz
+    jacobian_10 = w[JACOBIAN + 10]  # D P1.x, rod1.wy
+    jacobian_11 = w[JACOBIAN + 11]  # D P1.x, rod1.wz
+    jacobian_12 = w[JACOBIAN + 12]  # D P1.x, rod2.wx
+    jacobian_13 = w[JACOBIAN + 13]  # D P1.x, rod2.wz
+    jacobian_14 = w[JACOBIAN + 14]  # D P1.y, rod1.wy
+    jacobian_15 = w[JACOBIAN + 15]  # D P1.y, rod1.wz
+    jacobian_16 = w[JACOBIAN + 16]  # D P1.y, rod2.wx
+    jacobian_17 = w[JACOBIAN + 17]  # D P1.y, rod2.wz
+    jacobian_18 = w[JACOBIAN + 18]  # D P1.z, rod1.wy
+    jacobian_19 = w[JACOBIAN + 19]  # D P1.z, rod1.wz
+    jacobian_20 = w[JACOBIAN + 20]  # D P1.z, rod2.wx
+    jacobian_21 = w[JACOBIAN + 21]  # D P1.z, rod2.wz
+    jacobian_22 = w[JACOBIAN + 22]  # D P1.first, rod1.wx
+    jacobian_23 = w[JACOBIAN + 23]  # D P1.first, rod1.wz
+    jacobian_24 = w[JACOBIAN + 24]  # D P1.first, rod2.wx
+    jacobian_25 = w[JACOBIAN + 25]  # D P1.first, rod2.wy
+    jacobian_26 = w[JACOBIAN + 26]  # D P1.second, rod1.wy
+    jacobian_27 = w[JACOBIAN + 27]  # D P1.second, rod1.wz
+    jacobian_28 = w[JACOBIAN + 28]  # D P1.second, rod2.wx
+    jacobian_29 = w[JACOBIAN + 29]  # D P1.second, rod2.wy
+    jacobian_30 = w[JACOBIAN + 30]  # D P2.x, rod2.wx
+    jacobian_31 = w[JACOBIAN + 31]  # D P2.x, rod2.wz
+    jacobian_32 = w[JACOBIAN + 32]  # D P2.x, rod3.wx
+    jacobian_33 = w[JACOBIAN + 33]  # D P2.x, rod3.wy
+    jacobian_34 = w[JACOBIAN + 34]  # D P2.y, rod2.wx
+    jacobian_35 = w[JACOBIAN + 35]  # D P2.y, rod2.wz
+    jacobian_36 = w[JACOBIAN + 36]  # D P2.y, rod3.wx
+    jacobian_37 = w[JACOBIAN + 37]  # D P2.y, rod3.wy
+    jacobian_38 = w[JACOBIAN + 38]  # D P2.z, rod2.wx
+    jacobian_39 = w[JACOBIAN + 39]  # D P2.z, rod2.wz
+    jacobian_40 = w[JACOBIAN + 40]  # D P2.z, rod3.wx
+    jacobian_41 = w[JACOBIAN + 41]  # D P2.z, rod3.wy
+    jacobian_42 = w[JACOBIAN + 42]  # D P2.first, rod2.wx
+    jacobian_43 = w[JACOBIAN + 43]  # D P2.first, rod2.wy
+    jacobian_44 = w[JACOBIAN + 44]  # D P2.first, rod3.wy
+    jacobian_45 = w[JACOBIAN + 45]  # D P2.first, rod3.wz
+    jacobian_46 = w[JACOBIAN + 46]  # D P2.second, rod2.wx
+    jacobian_47 = w[JACOBIAN + 47]  # D P2.second, rod2.wz
+    jacobian_48 = w[JACOBIAN + 48]  # D P2.second, rod3.wy
+    jacobian_49 = w[JACOBIAN + 49]  # D P2.second, rod3.wz
+    jacobian_50 = w[JACOBIAN + 50]  # D P3.x, rod3.wx
+    jacobian_51 = w[JACOBIAN + 51]  # D P3.x, rod3.wy
+    jacobian_52 = w[JACOBIAN + 52]  # D P3.x, rod4.wy
+    jacobian_53 = w[JACOBIAN + 53]  # D P3.x, rod4.wz
+    jacobian_54 = w[JACOBIAN + 54]  # D P3.y, rod3.wx
+    jacobian_55 = w[JACOBIAN + 55]  # D P3.y, rod3.wy
+    jacobian_56 = w[JACOBIAN + 56]  # D P3.y, rod4.wy
+    jacobian_57 = w[JACOBIAN + 57]  # D P3.y, rod4.wz
+    jacobian_58 = w[JACOBIAN + 58]  # D P3.z, rod3.wx
+    jacobian_59 = w[JACOBIAN + 59]  # D P3.z, rod3.wy
+    jacobian_60 = w[JACOBIAN + 60]  # D P3.z, rod4.wy
+    jacobian_61 = w[JACOBIAN + 61]  # D P3.z, rod4.wz
+    jacobian_62 = w[JACOBIAN + 62]  # D P3.first, rod3.wy
+    jacobian_63 = w[JACOBIAN + 63]  # D P3.first, rod3.wz
+    jacobian_64 = w[JACOBIAN + 64]  # D P3.first, rod4.wx
+    jacobian_65 = w[JACOBIAN + 65]  # D P3.first, rod4.wz
+    jacobian_66 = w[JACOBIAN + 66]  # D P3.second, rod3.wx
+    jacobian_67 = w[JACOBIAN + 67]  # D P3.second, rod3.wy
+    jacobian_68 = w[JACOBIAN + 68]  # D P3.second, rod4.wx
+    jacobian_69 = w[JACOBIAN + 69]  # D P3.second, rod4.wz
+    jacobian_70 = w[JACOBIAN + 70]  # D P4.x, rod4.wy
+    jacobian_71 = w[JACOBIAN + 71]  # D P4.x, rod4.wz
+    jacobian_72 = w[JACOBIAN + 72]  # D P4.x, rod5.wx
+    jacobian_73 = w[JACOBIAN + 73]  # D P4.x, rod5.wz
+    jacobian_74 = w[JACOBIAN + 74]  # D P4.y, rod4.wy
+    jacobian_75 = w[JACOBIAN + 75]  # D P4.y, rod4.wz
+    jacobian_76 = w[JACOBIAN + 76]  # D P4.y, rod5.wx
+    jacobian_77 = w[JACOBIAN + 77]  # D P4.y, rod5.wz
+    jacobian_78 = w[JACOBIAN + 78]  # D P4.z, rod4.wy
+    jacobian_79 = w[JACOBIAN + 79]  # D P4.z, rod4.wz
+    jacobian_80 = w[JACOBIAN + 80]  # D P4.z, rod5.wx
+    jacobian_81 = w[JACOBIAN + 81]  # D P4.z, rod5.wz
+    jacobian_82 = w[JACOBIAN + 82]  # D P4.first, rod4.wx
+    jacobian_83 = w[JACOBIAN + 83]  # D P4.first, rod4.wz
+    jacobian_84 = w[JACOBIAN + 84]  # D P4.first, rod5.wx
+    jacobian_85 = w[JACOBIAN + 85]  # D P4.first, rod5.wy
+    jacobian_86 = w[JACOBIAN + 86]  # D P4.second, rod4.wy
+    jacobian_87 = w[JACOBIAN + 87]  # D P4.second, rod4.wz
+    jacobian_88 = w[JACOBIAN + 88]  # D P4.second, rod5.wx
+    jacobian_89 = w[JACOBIAN + 89]  # D P4.second, rod5.wy
+    jacobian_90 = w[JACOBIAN + 90]  # D P5.x, rod5.wx
+    jacobian_91 = w[JACOBIAN + 91]  # D P5.x, rod5.wz
+    jacobian_92 = w[JACOBIAN + 92]  # D P5.y, rod5.wx
+    jacobian_93 = w[JACOBIAN + 93]  # D P5.y, rod5.wz
+    jacobian_94 = w[JACOBIAN + 94]  # D P5.z, rod5.wx
+    jacobian_95 = w[JACOBIAN + 95]  # D P5.z, rod5.wz
+    jacobian_96 = w[JACOBIAN + 96]  # D P5.first, rod5.wx
+    jacobian_97 = w[JACOBIAN + 97]  # D P5.first, rod5.wy
+    jacobian_98 = w[JACOBIAN + 98]  # D P5.second, rod5.wx
+    jacobian_99 = w[JACOBIAN + 99]  # D P5.second, rod5.wz
+    # outputs
+    w[RESIDUAL] = v0 + v4*jacobian_0 + v5*jacobian_1  # P0.x
+    w[RESIDUAL + 1] = v1 + v4*jacobian_2 + v5*jacobian_3  # P0.y
+    w[RESIDUAL + 2] = v2 + v4*jacobian_4 + v5*jacobian_5  # P0.z
+    w[RESIDUAL + 3] = v3*jacobian_6 + v5*jacobian_7  # P0.first
+    w[RESIDUAL + 4] = v3*jacobian_8 + v5*jacobian_9  # P0.second
+    w[RESIDUAL + 5] = v6 + v4*jacobian_10 - v0 + v5*jacobian_11 + v9*jacobian_12 + v11*jacobian_13  # P1.x
+    w[RESIDUAL + 6] = v7 + v4*jacobian_14 - v1 + v5*jacobian_15 + v9*jacobian_16 + v11*jacobian_17  # P1.y
+    w[RESIDUAL + 7] = v8 + v4*jacobian_18 - v2 + v5*jacobian_19 + v9*jacobian_20 + v11*jacobian_21  # P1.z
+    w[RESIDUAL + 8] = v3*jacobian_22 + v5*jacobian_23 + v9*jacobian_24 + v10*jacobian_25  # P1.first
+    w[RESIDUAL + 9] = v4*jacobian_26 + v5*jacobian_27 + v9*jacobian_28 + v10*jacobian_29  # P1.second
+    w[RESIDUAL + 10] = v12 + v9*jacobian_30 - v6 + v11*jacobian_31 + v15*jacobian_32 + v16*jacobian_33  # P2.x
+    w[RESIDUAL + 11] = v13 + v9*jacobian_34 - v7 + v11*jacobian_35 + v15*jacobian_36 + v16*jacobian_37  # P2.y
+    w[RESIDUAL + 12] = v14 + v9*jacobian_38 - v8 + v11*jacobian_39 + v15*jacobian_40 + v16*jacobian_41  # P2.z
+    w[RESIDUAL + 13] = v9*jacobian_42 + v10*jacobian_43 + v16*jacobian_44 + v17*jacobian_45  # P2.first
+    w[RESIDUAL + 14] = v9*jacobian_46 + v11*jacobian_47 + v16*jacobian_48 + v17*jacobian_49  # P2.second
+    w[RESIDUAL + 15] = v18 + v15*jacobian_50 - v12 + v16*jacobian_51 + v22*jacobian_52 + v23*jacobian_53  # P3.x
+    w[RESIDUAL + 16] = v19 + v15*jacobian_54 - v13 + v16*jacobian_55 + v22*jacobian_56 + v23*jacobian_57  # P3.y
+    w[RESIDUAL + 17] = v20 + v15*jacobian_58 - v14 + v16*jacobian_59 + v22*jacobian_60 + v23*jacobian_61  # P3.z
+    w[RESIDUAL + 18] = v16*jacobian_62 + v17*jacobian_63 + v21*jacobian_64 + v23*jacobian_65  # P3.first
+    w[RESIDUAL + 19] = v15*jacobian_66 + v16*jacobian_67 + v21*jacobian_68 + v23*jacobian_69  # P3.second
+    w[RESIDUAL + 20] = v24 + v22*jacobian_70 - v18 + v23*jacobian_71 + v27*jacobian_72 + v29*jacobian_73  # P4.x
+    w[RESIDUAL + 21] = v25 + v22*jacobian_74 - v19 + v23*jacobian_75 + v27*jacobian_76 + v29*jacobian_77  # P4.y
+    w[RESIDUAL + 22] = v26 + v22*jacobian_78 - v20 + v23*jacobian_79 + v27*jacobian_80 + v29*jacobian_81  # P4.z
+    w[RESIDUAL + 23] = v21*jacobian_82 + v23*jacobian_83 + v27*jacobian_84 + v28*jacobian_85  # P4.first
+    w[RESIDUAL + 24] = v22*jacobian_86 + v23*jacobian_87 + v27*jacobian_88 + v28*jacobian_89  # P4.second
+    w[RESIDUAL + 25] = v27*jacobian_90 - v24 + v29*jacobian_91  # P5.x
+    w[RESIDUAL + 26] = v27*jacobian_92 - v25 + v29*jacobian_93  # P5.y
+    w[RESIDUAL + 27] = v27*jacobian_94 - v26 + v29*jacobian_95  # P5.z
+    w[RESIDUAL + 28] = v27*jacobian_96 + v28*jacobian_97  # P5.first
+    w[RESIDUAL + 29] = v27*jacobian_98 + v29*jacobian_99  # P5.second
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
 def accept(t, y, p, w, iw):
-    """Measure an accepted state; nothing is corrected but the length of Euler parameters."""
-    changed = normalise(y)
-    geometry(t, y, p, w)
+    """Correct an accepted state and measure it; bit 1: the correction failed, bit 2: the state was changed."""
+    # each helper is called at one place only: the compiler copies it to every place it is called from
+    tolerance = p[TOLERANCE] * w[LENGTH_SCALE]
+    last = math.inf
+    bits = 2
+    normalise(y)
+    for round in range(15):
+        geometry(t, y, p, w)
+        violation = w[POSITION_MEASURE]
+        # at the floor of rounding another iteration gains nothing
+        stalled = violation > 0.5 * last and violation <= 1e4 * tolerance
+        # near a singular position what is left of a violation opens another way: no more than rounding may be left
+        near = w[SMALLEST_PIVOT] < 1e-4
+        closed = violation <= (0.01 * tolerance if near else tolerance) or stalled or round == 14
+        if closed:
+            drift(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
+        spread(p, w)
+        if closed:
+            for j in range(35, 65):
+                y[j] += w[CHANGE - 35 + j]
+            break
+        move(y, w)
+        last = violation
+        iw[ITERATIONS] += 1
+    if not violation <= 1e4 * tolerance:
+        iw[FAILURES] += 1
+        bits |= 1
     measure(t, y, p, w)
-    return 2 * changed
+    return bits
 
 
 @njit(error_model="numpy", fastmath={"contract"})
