@@ -1,18 +1,22 @@
 """What becomes of a run, told from constructed facts; the search for the largest step; the map and the findings."""
 
+import json
 import math
 from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from study.report.made import stress_row
 from symgen.study.runner import Cell, Status
+from symgen.study.stress import study_progress
 from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES, CellRun, classify_outcome, false_success
 from symgen.study.stress.findings import cause_of_failure, explain_failures, findings_of_study, largest_root
 from symgen.study.stress.searches import largest_steps
 from symgen.study.stress.stress_rows import Map, Stress
-from symgen.study.stress.study_progress import Whole
+from symgen.study.stress.study_progress import Whole, expected_work, with_first_cells
 
 REGULAR = np.ones(11)
 FLAT = np.array([1.0, 0.8, 0.5, 0.3, 0.1, 0.05, 0.2, 0.4, 0.6, 0.8, 1.0])
@@ -216,3 +220,42 @@ def test_progress_counts_all_parts_and_what_a_journal_had_is_no_work():
     assert seen[0][1].seconds_left is None, "nothing was computed yet"
     spent = seen[1][1].seconds_left / 6.0  # one of seven parts of the work, six remain
     assert 0.0 < spent < 60.0
+
+
+#: Cells of two quick studies: kind, group, integrator, steps, and processor time [ms] beside other work.
+MEASURED = json.loads((Path(__file__).parents[1] / "data" / "stress_seconds.json").read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("speed", [0.2, 1.0, 7.0])
+@pytest.mark.parametrize("model", MEASURED)
+def test_the_time_left_is_right_within_a_factor_of_one_and_a_half(model, speed, monkeypatch):
+    """From a tenth of the time on, by a clock that goes on as cells took their time, on machines of any speed."""
+    now = [0.0]
+    monkeypatch.setattr(study_progress, "time", SimpleNamespace(monotonic=lambda: now[0]))
+
+    def longer(kind, integrator):
+        if kind == "run":
+            own = integrator not in ("rk4", "auto", "radau5")
+            return study_progress.FIRST_SCHEME if own else study_progress.FIRST_RUN
+        return study_progress.FIRST_REFERENCE if kind == "reference" else 0.0
+
+    parts = {kind: [line for line in MEASURED[model] if line[0] == kind] for kind in ("reference", "run", "search")}
+    cells = {
+        kind: with_first_cells(
+            (Cell(f"{kind}{i}", group, None, expected_work(kind, steps, integrator)), longer(kind, integrator))
+            for i, (_, group, integrator, steps, _) in enumerate(lines)
+        )
+        for kind, lines in parts.items()
+    }
+    seen, total = [], speed * sum(line[-1] for line in MEASURED[model]) / 1e3
+    whole = Whole.of_study([cell for own in cells.values() for cell in own], lambda _, status: seen.append(status))
+    for kind, lines in parts.items():
+        show, work, done = whole.begin_part(kind, cells[kind]), sum(cell.cost for cell in cells[kind]), 0.0
+        show(Status(0, len(lines), 0.0, None))
+        for i, (cell, line) in enumerate(zip(cells[kind], lines, strict=True), 1):
+            now[0] += speed * line[-1] / 1e3
+            done += cell.cost
+            show(Status(i, len(lines), done / work, None))
+            if 0.1 <= now[0] / total <= 0.9:
+                assert 1.0 / 1.5 < seen[-1].seconds_left / (total - now[0]) < 1.5
+    assert seen[-1].share == pytest.approx(1.0) and seen[-1].seconds_left == pytest.approx(0.0, abs=1e-9)

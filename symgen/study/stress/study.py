@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -13,6 +13,7 @@ from symgen.base import arguments
 from symgen.base.errors import InputError
 from symgen.base.settings import Settings, default_of_setting
 from symgen.derive.methods import METHODS
+from symgen.derive.methods._base import EXPLICIT_FORMS
 from symgen.describe.mechanism import with_largest_step
 from symgen.describe.parts.event_sections import RESET
 from symgen.run.integrators import INTEGRATORS
@@ -30,7 +31,15 @@ from symgen.study.stress.extreme_values import HALVINGS, QUICK_HALVINGS, search_
 from symgen.study.stress.families import FAMILIES, levels_of_family
 from symgen.study.stress.shared_by_cells import identity_of
 from symgen.study.stress.stress_rows import ExtremeReached, LargestSteps, Stress, StressRow
-from symgen.study.stress.study_progress import Progress, Whole
+from symgen.study.stress.study_progress import (
+    FIRST_REFERENCE,
+    FIRST_RUN,
+    FIRST_SCHEME,
+    Progress,
+    Whole,
+    expected_work,
+    with_first_cells,
+)
 
 #: Integrators of each method besides its own default: an explicit adaptive one and an implicit one.
 FURTHER = ("dop853", "picard", "radau5")
@@ -40,8 +49,6 @@ STIFF, SUITED = ("stiffness", "damping"), "radau5"
 INDEX_ONE = ("lagrange", "velocity-projection", "post-stabilization", "direct-correction")
 #: Default base model.
 DEFAULT_MODEL = "four-bar"
-#: Work of a reference in steps of a run, its compilation included; runs that a search for the largest step takes.
-REFERENCE, SEARCH = 2e4, 15.0
 #: Expected seconds of compilation in a quick study: all methods of small mechanisms, some of large ones.
 QUICK_COMPILATION = 7.0
 #: Families with a search for the largest step of each method, in the case nearest to a value: for stiffer springs
@@ -237,7 +244,7 @@ class _Study:
             *self._run_cells(unknown),
             *self._search_cells(unknown),
         )
-        whole = Whole.of_study((_make_cell(task) for task in tasks), self.progress)
+        whole = Whole.of_study(_make_cells(tasks), self.progress)
         motions, interrupted = self._compute_cells("references", references, whole)
         runs, searches = list[tuple[RunTask, Outcome]](), list[tuple[RunTask, Outcome]]()
         if not interrupted:
@@ -271,13 +278,13 @@ class _Study:
 
     def _compute_cells(self, what: str, tasks: Sequence[Task], whole: Whole) -> tuple[list[tuple[Task, Outcome]], bool]:
         """Return the finished tasks with their outcomes, and whether the study was interrupted."""
-        cells = [_make_cell(task) for task in tasks]
+        cells = _make_cells(tasks)
         done, interrupted = run_cells(cells, compute_cell, self.journal, self.jobs, whole.begin_part(what, cells))
         return [(cell.task, done[cell.key]) for cell in cells if cell.key in done], interrupted
 
     def _compute_more(self, what: str, tasks: Sequence[Any]) -> tuple[list[tuple[Any, Outcome]], bool]:
         """Compute cells that follow from others, whose number was not known before."""
-        return self._compute_cells(what, tasks, Whole.of_study(map(_make_cell, tasks), self.progress))
+        return self._compute_cells(what, tasks, Whole.of_study(_make_cells(tasks), self.progress))
 
     def _level_at(self, model: str, family: str, value: float) -> Level | None:
         """Return the case of a family at a value."""
@@ -317,6 +324,21 @@ class _Study:
         return (level.mechanism.name, *pair) not in [out[:3] for out in self.left_out]
 
 
+def _make_cells(tasks: Iterable[CellReference | RunTask]) -> list[Cell]:
+    """Return the cells of tasks; the first ones of a group compile its code."""
+    return with_first_cells((_make_cell(task), _compilation(task)) for task in tasks)
+
+
+def _compilation(task: CellReference | RunTask) -> float:
+    """Return what the first cell with some code takes longer; searches have that of runs."""
+    if isinstance(task, CellReference):
+        return FIRST_REFERENCE
+    if isinstance(task, LimitTask):
+        return 0.0
+    over_rates = task.method == AUTO or bool(EXPLICIT_FORMS & {*METHODS.get(task.method, "methods").forms})
+    return FIRST_RUN if over_rates else FIRST_SCHEME
+
+
 def _make_cell(task: CellReference | RunTask) -> Cell:
     """Return the cell of a task, its key from everything that the outcome depends on."""
     level, name = task.level, task.mechanism.name
@@ -334,15 +356,13 @@ def _make_cell(task: CellReference | RunTask) -> Cell:
     }
     steps = min(level.until / level.step, float(BUDGET))
     if isinstance(task, CellReference):
-        return Cell(cell_key(**parts), name, task, REFERENCE + steps, check_motion)
+        return Cell(cell_key(**parts), name, task, expected_work("reference", steps), check_motion)
     parts |= {"step": level.step, "options": dict(level.options), "watched": level.watched}
     parts |= {"method": task.method, "integrator": task.integrator, "coordinates": task.common.coordinates}
     limits = [task.common.max_violation, task.common.max_energy_error, task.common.max_attempts]
-    # roughly how long a run takes, in steps
-    cost = 50.0 + steps * (10.0 if task.integrator == "radau5" else 1.0)
-    if isinstance(task, LimitTask):
-        cost *= SEARCH
-    check = check_limit if isinstance(task, LimitTask) else check_run
+    searches = isinstance(task, LimitTask)
+    cost = expected_work("search" if searches else "run", steps, task.integrator)
+    check = check_limit if searches else check_run
     return Cell(cell_key(**parts, limits=limits), f"{name} {task.method}", task, cost, check)
 
 

@@ -4,12 +4,51 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from symgen.study.runner import Cell, Status
 
+#: Expected work in microseconds, by quick studies of `four-bar` and `pendulum`: of a reference, a run, and a step of
+#: either; runs that a search for the largest step takes. Other mechanisms have another unit, which a study finds.
+REFERENCE, RUN, STEP, SEARCH = 1e5, 5e3, 0.5, 12.0
+#: What the first cells with some code take longer: references, runs over the right-hand side, schemes of methods.
+FIRST_REFERENCE, FIRST_RUN, FIRST_SCHEME = 1.5e6, 2e5, 4e5
+#: Integrators of which a step takes so many explicit ones.
+STEPS_OF = {"radau5": 10.0}
+
 #: Called with the current activity and the progress.
 Progress = Callable[[str, Status], None]
+
+
+def expected_work(kind: str, steps: float, integrator: str = "") -> float:
+    """Return how long a cell takes, in the unit of a study.
+
+    Parameters
+    ----------
+    kind : {"reference", "run", "search"}
+        What it computes.
+    steps : float
+        Steps of a run by the case.
+    integrator : str
+        Of a run, or of a search.
+    """
+    each = STEP * steps * STEPS_OF.get(integrator, 1.0)
+    return REFERENCE + each if kind == "reference" else RUN + each * (SEARCH if kind == "search" else 1.0)
+
+
+def with_first_cells(cells: Iterable[tuple[Cell, float]]) -> list[Cell]:
+    """Return cells, the first of each group with what its code takes: compiling is most of a quick study.
+
+    Parameters
+    ----------
+    cells : iterable of (Cell, float)
+        Cells, and what the first one of its group takes longer.
+    """
+    known, found = set[str](), list[Cell]()
+    for cell, longer in cells:
+        found.append(cell if cell.group in known else replace(cell, cost=cell.cost + longer))
+        known.add(cell.group)
+    return found
 
 
 @dataclass
