@@ -68,7 +68,7 @@ class Whole:
     progress: Progress
     _done: int = 0
     _worked: float = 0.0
-    _began: float = field(default_factory=time.monotonic)
+    _began: float = field(default_factory=lambda: time.monotonic())
     _ready: float = 0.0
 
     @classmethod
