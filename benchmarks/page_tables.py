@@ -14,10 +14,9 @@ from typing import Any
 ROOT = Path(__file__).parents[1]
 #: Numbers below are rounding: they agree with one another.
 ROUNDING = 1e-10
-#: Ratios of times, in turns, agree on any processor and under any load if they differ by no more than this factor.
-BAND = 3.0
-#: Ratios that a page keeps when they are measured again on a quiet machine.
-QUIET = 1.25
+#: Medians of ratios of times, in turns, agree if they differ by no more than this factor: beside busy processes they
+#: hold within 3 percent. A page keeps those that agree.
+BAND = 1.15
 #: Errors that rounding decides agree if they differ by no more than this factor.
 DECADE = 10.0
 #: Stands for a cell that is not measured: the page keeps its own.
@@ -192,8 +191,7 @@ def differences(table: PageTable, text: str, measured: Mapping[int, Sequence[str
 
 def stays(table: PageTable, column: int, printed: str, measured: str) -> bool:
     """Whether a page keeps a cell: it was not measured, or agrees and is no cell of a record."""
-    band = QUIET if column in table.times else table.band(column)
-    return measured == KEPT or (not table.stored and agrees(printed, measured, band))
+    return measured == KEPT or (not table.stored and agrees(printed, measured, table.band(column)))
 
 
 def clause_of(table: PageTable, text: str) -> str:

@@ -6,8 +6,8 @@
 
 A line of the record is a family on a model, with the outcomes of its cells by method and integrator, with the cells
 that report success and are wrong, and why. `models` counts outcomes, `causes` false successes; `families` has the
-accurate cells of those judged, for integrators that all methods are run with; models whose families are not all there
-are left out. `methods` has the cells of four families on the four-bar by method.
+accurate cells of those judged, for integrators that all methods are run with. A record may lack families of a model:
+tables say how many there are. `methods` has the cells of four families on the four-bar by method.
 """
 
 from __future__ import annotations
@@ -116,20 +116,26 @@ def judged(count: Outcomes) -> int:
     return count.total() - count[REFUSED] - count[UNJUDGED]
 
 
-def whole() -> tuple[str, ...]:
-    """Return the models of which the record has all families."""
-    done = {Job(line["model"], line["family"]) for line in RECORD.lines() if "cells" in line}
-    return tuple(model for model in (OWN, *MODELS) if all(job in done for job in jobs() if job.model == model))
+def measured_models() -> tuple[str, ...]:
+    """Return the models of which the record has families."""
+    there = {line["model"] for line in lines_of()}
+    return tuple(model for model in (OWN, *MODELS) if model in there)
 
 
 def lines_of(model: str = "", family: str = "") -> list[Line]:
-    """Return the lines of a model or a family, of models that are whole."""
-    complete = whole()
+    """Return the lines of a model or a family."""
     return [
         line
         for line in RECORD.lines()
-        if line["model"] in complete and model in ("", line["model"]) and family in ("", line["family"])
+        if "cells" in line and model in ("", line["model"]) and family in ("", line["family"])
     ]
+
+
+def share_of_jobs(model: str = "", family: str = "") -> str:
+    """Return how many of the jobs of a model or a family the record has."""
+    wanted = [job for job in jobs() if model in ("", job.model) and family in ("", job.family)]
+    there = {Job(line["model"], line["family"]) for line in lines_of()}
+    return f"{sum(job in there for job in wanted)} of {len(wanted)}"
 
 
 def false_of(lines: Iterable[Line], auto: bool) -> int:
@@ -145,11 +151,12 @@ def models() -> PageTable:
     def cells(model: str) -> Iterator[str]:
         lines = lines_of(model)
         count, false = outcomes(lines), [false_of(lines, auto) for auto in (False, True)]
+        yield share_of_jobs(model)
         yield from map(str, (count.total(), *(count[name] for name in shown), *false))
 
-    rows = [((f"`{model}`",), partial(list_of, cells, model)) for model in whole()]
+    rows = [((f"`{model}`",), partial(list_of, cells, model)) for model in measured_models()]
     rows.append((("all",), partial(list_of, cells, "")))
-    headings = ("model", "cells", *shown, "false successes", "of `auto`")
+    headings = ("model", "families", "cells", *shown, "false successes", "of `auto`")
     return PageTable("stress_cells models", PAGE, headings, tuple(rows), stored=True, claims=claims)
 
 
@@ -164,9 +171,6 @@ def claims() -> Iterator[str]:
     named, false = outcomes(watched, lambda method, _: method != AUTO).total(), false_of(lines, auto=False)
     share = 100.0 * false / max(named, 1)
     yield f"Of {named} cells of named methods {false} ({share:.2g} percent) are false successes."
-    missing = [f"`{model}`" for model in MODELS if model not in whole()]
-    if missing:
-        yield f"Not measured: {', '.join(missing)}."
 
 
 def causes() -> PageTable:
@@ -189,13 +193,14 @@ def families() -> PageTable:
     """Return the accurate cells of those judged, by family and integrator."""
 
     def cells(family: str) -> Iterator[str]:
+        yield share_of_jobs(family=family)
         for column in COLUMNS:
             count = outcomes(lines_of(family=family), partial(of_column, column))
             yield f"{count[GOOD]} of {judged(count)}"
 
     named = [*OWN_FAMILIES, *(family for family in FAMILIES if family not in (*OWN_FAMILIES, *PLANES))]
     rows = tuple(((family,), partial(list_of, cells, family)) for family in named)
-    headings = ("family", *(f"`{name}`" for name in COLUMNS))
+    headings = ("family", "models", *(f"`{name}`" for name in COLUMNS))
     return PageTable("stress_cells families", PAGE, headings, rows, stored=True, claims=shares)
 
 
@@ -270,13 +275,17 @@ def picture(path: Path) -> None:
                 false[line["model"], name] += line["false"].get(name, 0)
     order = {name: i for i, name in enumerate((*METHODS.names, AUTO))}
     pairs = sorted({name for _, name in cells}, key=lambda name: (order[name.split()[0]], name))
-    share, wrong = np.full((len(pairs), len(whole())), np.nan), np.zeros((len(pairs), len(whole())), dtype=int)
+    models_there = measured_models()
+    share, wrong = (
+        np.full((len(pairs), len(models_there)), np.nan),
+        np.zeros((len(pairs), len(models_there)), dtype=int),
+    )
     for i, j in np.ndindex(share.shape):
-        key = whole()[j], pairs[i]
+        key = models_there[j], pairs[i]
         if key in cells and judged(cells[key]):
             share[i, j], wrong[i, j] = 100.0 * cells[key][GOOD] / judged(cells[key]), false[key]
     lines = [(method, integrator) for method, integrator in map(str.split, pairs)]
-    drawn = picture_of_shares(lines, whole(), share, wrong)
+    drawn = picture_of_shares(lines, models_there, share, wrong)
     # letters stand in hundredths of their height, of which whole ones are enough
     text = re.sub(r"translate\((\d+)[.\d]* 0\)", r"translate(\1)", slim(drawn.data.decode()))
     text = re.sub(r"M (\S+) (\S+) (\S+) \2 ?(?=[M\"])", r"M\1 \2H\3", text)  # marks are horizontal

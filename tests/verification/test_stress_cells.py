@@ -26,34 +26,40 @@ def four_bar(tmp_path, monkeypatch):
 
 def test_every_family_stands_once_for_each_model_and_those_of_their_own_once():
     found = list(jobs())
-    assert len(found) == len(set(found)) == 2 + len(stress_cells.MODELS) * 14
+    assert len(found) == len(set(found)) == 5 + len(stress_cells.MODELS) * 17
     together = [model for model, _ in groupby(job.model for job in found)]
     assert together == [stress_cells.OWN, *stress_cells.MODELS]
 
 
-def test_tables_count_outcomes_of_models_that_are_whole(four_bar):
-    numbers = ["98", "70", "14", "0", "0", "0", "0", "0", "14", "0"]
-    assert models().measured() == [["`four-bar`", *numbers], ["all", *numbers]]
+def test_tables_count_outcomes_and_say_how_many_families_there_are(four_bar):
+    def row(name, share, lines):
+        counts = (7 * lines, 5 * lines, lines, 0, 0, 0, 0, 0, lines, 0)
+        return [name, share, *map(str, counts)]
+
+    assert models().measured() == [
+        row("`four-bar`", "17 of 17", 17),
+        row("`andrews`", "1 of 17", 1),
+        row("all", "18 of 39", 18),
+    ]
     by_family = {row[0]: row[1:] for row in families().measured()}
-    assert by_family["gravity"] == ["3 of 4", "0 of 0", "0 of 0", "2 of 2"]
-    assert by_family["length-ratio"] == ["0 of 0"] * 4
+    assert by_family["gravity"] == ["2 of 2", "6 of 8", "0 of 0", "0 of 0", "4 of 4"]
+    assert by_family["length-ratio"] == ["0 of 1", *["0 of 0"] * 4]
     by_method = {row[0]: row[1:] for row in methods().measured()}
     assert by_method["`lagrange`"] == [KEPT, *["3 of 4; 1 inaccurate"] * 3]
     ((why, count, listed),) = causes().measured()
-    assert (why, count) == (WHY, "14") and "gravity 1" in listed
+    assert (why, count) == (WHY, "18") and "gravity 2" in listed
 
 
 def test_sentences_count_what_the_tables_do(four_bar):
     assert list(models().claims()) == [
-        "False successes of `auto`: none in 28 cells; 28 ok.",
-        "Of 55 cells of named methods 14 (25 percent) are false successes.",
-        "Not measured: `andrews`.",
+        "False successes of `auto`: none in 36 cells; 36 ok.",
+        "Of 75 cells of named methods 18 (24 percent) are false successes.",
     ]
-    assert list(families().claims())[1] == "Least often accurate [percent]: ."
+    assert list(families().claims())[1] == "Least often accurate [percent]: `lagrange` with `rk4` 75."
     assert list(methods().claims()) == ["Of these 21 cells 3 are false successes: `lagrange` with `rk4` 3."]
 
 
-def test_the_picture_has_a_column_for_a_model_that_is_whole(four_bar, tmp_path):
+def test_the_picture_has_a_column_for_each_model(four_bar, tmp_path):
     stress_cells.picture(tmp_path / "shares.svg")
     assert "<svg" in (tmp_path / "shares.svg").read_text(encoding="utf-8")
 
