@@ -2,7 +2,8 @@ r"""The paper: its numbers and tables from records and measured pages, its pictu
 
     python -m benchmarks.paper FOLDER [--minutes M]
         writes paper.tex, numbers.tex, three pictures and, with pdflatex, paper.pdf; tables.md has the tables of all
-        records, lock.txt the libraries, and again.md what M minutes of measuring anew have found
+        records, records/ these, lock.txt the libraries, CITATION.cff how to cite it, and again.md what M minutes of
+        measuring anew have found
 
 The text is ``docs/paper/paper.tex``, in which every measured number is ``\n{KEY}`` and every table of numbers
 ``\numbers{KEY}``. What it says in words about their order is in `claims`, and a test asks for it.
@@ -26,12 +27,12 @@ import numpy as np
 
 from benchmarks import equal_error, equal_work, literature, measured_again, statistics
 from benchmarks.page_tables import ROOT, PageTable, cells_of, markdown, place
-from benchmarks.records import Line
+from benchmarks.records import FOLDER, Line
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-SOURCE = ROOT / "docs" / "paper" / "paper.tex"
+SOURCE, CITATION = ROOT / "docs" / "paper" / "paper.tex", ROOT / "CITATION.cff"
 #: Words of a key -> the method in `benchmarks.statistics` and `benchmarks.equal_error`.
 METHODS = {
     "baumgarte": "baumgarte",
@@ -289,6 +290,8 @@ def main(arguments: Sequence[str]) -> int:
     (folder / "numbers.tex").write_text(macros(), encoding="utf-8")
     (folder / "tables.md").write_text(tables_of_records(), encoding="utf-8")
     (folder / "lock.txt").write_text(lock(), encoding="utf-8")
+    shutil.copy(CITATION, folder)
+    shutil.copytree(FOLDER, folder / FOLDER.name, dirs_exist_ok=True)
     pictures(folder)
     done = typeset(folder)  # before what takes long: an error of LaTeX shows in the first minute
     try:

@@ -2,9 +2,11 @@
 
 import re
 import shutil
+from datetime import date
 
 import pytest
 
+import symgen
 from benchmarks import paper
 
 TEXT = paper.SOURCE.read_text(encoding="utf-8")
@@ -35,3 +37,11 @@ def test_it_is_set(tmp_path):
     assert paper.main([str(tmp_path)]) == 0
     log = (tmp_path / "paper.log").read_text(encoding="latin-1")
     assert "(6 pages" in log and "undefined" not in log and "Overfull" not in log
+
+
+def test_the_citation_has_the_version_of_the_package_and_the_title_of_the_paper():
+    cited = dict(re.findall(r"^ *([a-z-]+): *(.*)$", paper.CITATION.read_text(encoding="utf-8"), re.MULTILINE))
+    assert cited["version"] == symgen.__version__ and date.fromisoformat(cited["date-released"])
+    assert {"cff-version", "message", "title", "abstract", "license", "authors", "keywords"} <= cited.keys()
+    (title,) = re.findall(r"\\title\{(.*)\}", TEXT)
+    assert cited["title"].strip('"') == title.replace(r"\\", " ")  # the last one, of the preferred citation
