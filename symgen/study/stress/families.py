@@ -16,7 +16,7 @@ from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.joints import JOINTS
 from symgen.describe.parts.scope import CENTRE, ORIGIN
 from symgen.study.stress.bench import DAMPING, GRAVITY, INERTIA, MASS, STIFFNESS, Base, Level, NotApplicable
-from symgen.study.stress.own_mechanisms import bodies, driver_rate, length_ratio, scale, singular_passage
+from symgen.study.stress.own_mechanisms import bodies, driver_rate, length_ratio, near_singular, scale, singular_passage
 
 #: Unit in the last place of numbers from 1 to 2.
 EPSILON = 2.0**-52
@@ -287,6 +287,7 @@ FAMILIES: Mapping[str, Family] = {
     "length-ratio": Family(length_ratio, (1.0, 1e1, 1e2, 1e4, 1e6), (1.0, 1e2), own=True),
     "light-stiff": Family(light_and_stiff, (1e-6, 1e-3, 1e-1), (1e-3,)),
     "mass-ratio": Family(mass_ratio, (1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9), (1e-9, 1e3)),
+    "near-singular": Family(near_singular, (1e-1, 1e-2, 1e-3, 1e-4), (1e-3,), own=True),
     "penalty-factor": Family(penalty_factor, (1e2, 1e4, 1e6, 1e8, 1e10, 1e12), (1e4, 1e8, 1e12)),
     "redundancy": Family(redundancy, (1.0, 2.0), (1.0,)),
     "rounded-start": Family(rounded_start, (1.0, 1e3), (1.0,)),

@@ -47,6 +47,12 @@ def bodies(base: Base, count: float) -> Level:
     return Level(f"{int(count)} loops", (count,), mechanism, until=1.0, step=mechanism.defaults.step)
 
 
+def near_singular(base: Base, gap: float) -> Level:
+    """Return the case of two parallel cranks whose pins are a gap apart [m]: rows are almost dependent all the time."""
+    mechanism = quadrilateral(1.0, gap, 1.0, gap, -math.pi / 3.0)  # they hang, and do not come to lie flat
+    return Level(f"pins {gap:g} m apart", (gap,), mechanism, until=2.0, step=1e-3)
+
+
 def singular_passage(base: Base, gap: float) -> Level:
     """Return the case of a parallelogram whose base is longer than the coupler by a gap [m]; 0 is singular."""
     mechanism = quadrilateral(1.0, 1.0, 1.0, 1.0 + gap, math.pi / 2.0, -1.0)

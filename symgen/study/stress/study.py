@@ -330,7 +330,7 @@ def _make_cells(tasks: Iterable[CellReference | RunTask]) -> list[Cell]:
 
 
 def _compilation(task: CellReference | RunTask) -> float:
-    """Return what the first cell with some code takes longer; searches have that of runs."""
+    """Return what the first cell with some code takes longer than others; runs compile the code of searches."""
     if isinstance(task, CellReference):
         return FIRST_REFERENCE
     if isinstance(task, LimitTask):
