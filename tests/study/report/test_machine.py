@@ -75,7 +75,7 @@ def test_the_report_has_pictures_and_what_repeats_it(driven):
     titles = ["At a glance", "Motion", "Largest loads", "Curves"]  # and no frequencies, as no freedom is left
     assert [s.title for s in document.sections] == titles
     curves = [picture.caption for picture in document.sections[-1].pictures]
-    assert curves == ["Force over t", "Power over t", "motor.effort over t", "Angle over t", "Energy over t"]
+    assert curves == ["Force over t", "motor.effort over t", "motor.power over t", "Angle over t", "Energy over t"]
     assert len([*document.pictures()]) == 2 + 6 + len(curves)
     page = html_report(document)
     assert "symgen report driven-four-bar" in page and "prefers-color-scheme: dark" in page
