@@ -65,6 +65,13 @@ class EditedFile:
         self._used.add(f"{stem}{number}")
         return f"{stem}{number}"
 
+    def take_name(self, name: str) -> str:
+        """Return a name, with a number behind it where it is in use, which is taken then."""
+        if name in self._used:
+            return self.take_free_name(name)
+        self._used.add(name)
+        return name
+
     def angle_of_body(self, name: str) -> float:
         """Return how far a body is turned at the start [rad]; what closing leaves of 0 is 0."""
         angle = self._angles.get(name, 0.0)
@@ -193,3 +200,40 @@ def exact_number(value: float) -> str:
 def vector_text(values: Sequence[float]) -> str:
     """Return a vector for a file."""
     return f"[{', '.join(map(exact_number, values))}]"
+
+
+#: The path of a table, and its text.
+Table = tuple[str, str]
+
+
+def table_at(path: str, *lines: str) -> Table:
+    """Return a table with its header."""
+    return path, "\n".join((f"[{path}]", *lines))
+
+
+def ordered_pair(kind: str, spots: Sequence[Spot]) -> tuple[Spot, Spot]:
+    """Return two points, the one of the ground first."""
+    a, b = spots if not spots[0].body or spots[1].body else (spots[1], spots[0])
+    if a.owner == b.owner:
+        raise InputError(kind, "points of two bodies, or of a body and the ground", f"'{a.owner}' twice")
+    return a, b
+
+
+def between_lines(a: Spot, b: Spot) -> list[str]:
+    """Return the bodies and the points of a joint or force, as a file has them."""
+    return [f'between = ["{a.owner}", "{b.owner}"]', f"at = [{a.written}, {b.written}]"]
+
+
+def pin_table(file: EditedFile, a: Spot, b: Spot) -> Table:
+    """Return a pin of two points."""
+    return table_at(f"joints.{file.take_free_name('pin')}", 'type = "revolute"', *between_lines(a, b))
+
+
+def displacement_at(joint: Mapping[str, Any], spot: Spot) -> float | None:
+    """Return how far the point at a spot has gone along a slide of the ground; None for other joints."""
+    if joint.get("type") not in ("translational", "prismatic") or joint["between"][0] != GROUND:
+        return None
+    on, axis = joint["at"][0], joint.get("axis", ())
+    if not all(isinstance(v, list) and all(type(x) in (int, float) for x in v) for v in (on, axis)):
+        return None
+    return float(((spot.x - on[0]) * axis[0] + (spot.y - on[1]) * axis[1]) / math.hypot(*axis))

@@ -13,12 +13,19 @@ from symgen.describe.edits.snippet_tables import (
     FINEST,
     EditedFile,
     Spot,
+    Table,
+    between_lines,
+    displacement_at,
     exact_number,
     insert_tables,
     need_body,
+    ordered_pair,
+    pin_table,
     short_number,
+    table_at,
     vector_text,
 )
+from symgen.describe.edits.snippet_wheels import WHEELS
 from symgen.describe.edits.text_changes import Change
 from symgen.describe.files.places import DocumentOutline
 
@@ -32,9 +39,10 @@ POINTS_OF_KIND = {
     **{"body": (2, 3), "point": (2, 2), "copy": (2, 2)},
     **{"pin": (2, 2), "weld": (2, 2), "slide": (1, 2), "slot": (1, 2), "rod": (2, 2), "gear": (2, 2), "motor": (1, 1)},
     **{"stop": (1, 1), "friction": (1, 1), "spring": (2, 2), "cylinder": (2, 2), "load": (1, 1)},
+    **{"wheel": (2, 2), "touch": (2, 2), "roll": (2, 2), "rack": (2, 2), "rope": (4, 4)},
 }
 #: What needs to know how bodies are turned.
-TURNED = ("weld", "slide", "slot", "gear", "motor", "point", "stop")
+TURNED = ("weld", "slide", "slot", "gear", "motor", "point", "stop", "touch", "roll", "rack")
 
 
 def snippet_changes(
@@ -77,7 +85,7 @@ def snippet_changes(
         return key_change(kind, file, *spots)
     if kind in ("point", "copy"):
         return (point_change if kind == "point" else copy_changes)(file, *spots)
-    makers: dict[str, Callable[[EditedFile, Sequence[Spot]], list[_Table]]] = {
+    makers: dict[str, Callable[[EditedFile, Sequence[Spot]], list[Table]]] = {
         "body": _body_snippet,
         "pin": _pin_snippet,
         "weld": _weld_snippet,
@@ -89,20 +97,13 @@ def snippet_changes(
         "cylinder": _cylinder_snippet,
         "motor": _motor_snippet,
         "load": _load_snippet,
+        **WHEELS,
     }
     tables = makers[kind](file, spots)
-    return insert_tables(tables, parts, text), tables[0][0]
+    return insert_tables(tables, parts, text), next(path for path, _ in tables if not path.startswith("parameters."))
 
 
-#: The path of a table, and its text.
-_Table = tuple[str, str]
-
-
-def _table(path: str, *lines: str) -> _Table:
-    return path, "\n".join((f"[{path}]", *lines))
-
-
-def _body_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[_Table]:
+def _body_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
     """Return a body through points; where they are points of others, a pin holds them there.
 
     Its frame is at the first point, with the axes of the ground: its numbers are those of the hand, and joints that are
@@ -125,60 +126,44 @@ def _body_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[_Table]:
         f"points = {{ {points} }}",
         f"position = {vector_text(corners[0])}",
     )
-    blocks = [_table(f"bodies.{name}", *lines)]
+    blocks = [table_at(f"bodies.{name}", *lines)]
     for letter, spot in zip(_LETTERS, spots, strict=False):
         if spot.body:
-            blocks.append(_pin_table(file, spot, Spot(spot.x, spot.y, name, letter)))
+            blocks.append(pin_table(file, spot, Spot(spot.x, spot.y, name, letter)))
     return blocks
 
 
-def _pin_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[_Table]:
-    return [_pin_table(file, *_ordered_pair("pin", spots))]
+def _pin_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
+    return [pin_table(file, *ordered_pair("pin", spots))]
 
 
-def _weld_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[_Table]:
+def _weld_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
     """Return a weld of two points in one place; the bodies keep their angles."""
-    a, b = _ordered_pair("weld", spots)
-    lines = ['type = "rigid"', *_between_lines(a, b)]
+    a, b = ordered_pair("weld", spots)
+    lines = ['type = "rigid"', *between_lines(a, b)]
     if angle := file.angle_between(a.owner, b.owner):
         lines.append(f"angle = {exact_number(angle)}")
-    return [_table(f"joints.{file.take_free_name('weld')}", *lines)]
+    return [table_at(f"joints.{file.take_free_name('weld')}", *lines)]
 
 
-def _ordered_pair(kind: str, spots: Sequence[Spot]) -> tuple[Spot, Spot]:
-    """Return two points, the one of the ground first."""
-    a, b = spots if not spots[0].body or spots[1].body else (spots[1], spots[0])
-    if a.owner == b.owner:
-        raise InputError(kind, "points of two bodies, or of a body and the ground", f"'{a.owner}' twice")
-    return a, b
-
-
-def _between_lines(a: Spot, b: Spot) -> list[str]:
-    return [f'between = ["{a.owner}", "{b.owner}"]', f"at = [{a.written}, {b.written}]"]
-
-
-def _pin_table(file: EditedFile, a: Spot, b: Spot) -> _Table:
-    return _table(f"joints.{file.take_free_name('pin')}", 'type = "revolute"', *_between_lines(a, b))
-
-
-def _slide_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[_Table]:
+def _slide_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
     """Return a slide of a point of a body, along the ground or along another body; the body keeps its angle."""
     first, start, axis = _line_of_slide("slide", file, spots)
     body, point = _sliding_end(file, spots[0], first)
     lines = ['type = "translational"', f'between = ["{first}", "{body}"]', f"at = [{start}, {point}]", f"axis = {axis}"]
     if angle := file.angle_between(first, body):
         lines.append(f"angle = {exact_number(angle)}")
-    return [_table(f"joints.{file.take_free_name('slide')}", *lines)]
+    return [table_at(f"joints.{file.take_free_name('slide')}", *lines)]
 
 
-def _slot_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[_Table]:
+def _slot_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
     """Return a slot in which a point of a body moves, in the ground or in another body; the body may turn."""
     first, start, axis = _line_of_slide("slot", file, spots)
     spot = spots[0]
     if first == spot.body or first in file.ends_at_pin(spot.joint):
         raise InputError("slot", "a point that can move along it", f"one that a pin holds on '{first}'")
     lines = [f'between = ["{spot.body}", "{first}"]', f"at = [{spot.written}, {start}]", f"axis = {axis}"]
-    return [_table(f"joints.{file.take_free_name('slot')}", 'type = "pin-in-slot"', *lines)]
+    return [table_at(f"joints.{file.take_free_name('slot')}", 'type = "pin-in-slot"', *lines)]
 
 
 def _line_of_slide(kind: str, file: EditedFile, spots: Sequence[Spot]) -> tuple[str, str, str]:
@@ -195,17 +180,17 @@ def _line_of_slide(kind: str, file: EditedFile, spots: Sequence[Spot]) -> tuple[
     return first, start, vector_text(file.turn_into_body(first, *way))
 
 
-def _rod_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[_Table]:
+def _rod_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
     """Return a rod without mass that keeps the distance of two points."""
-    a, b = _ordered_pair("rod", spots)
+    a, b = ordered_pair("rod", spots)
     length = math.dist((a.x, a.y), (b.x, b.y))
     if length <= 0.0:
         raise InputError("rod", "points in different places", "two in one place")
-    lines = ('type = "distance"', *_between_lines(a, b), f"length = {exact_number(length)}")
-    return [_table(f"joints.{file.take_free_name('rod')}", *lines)]
+    lines = ('type = "distance"', *between_lines(a, b), f"length = {exact_number(length)}")
+    return [table_at(f"joints.{file.take_free_name('rod')}", *lines)]
 
 
-def _gear_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[_Table]:
+def _gear_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
     """Return a pair of wheels of one size at two pins; another ratio moves the place where they touch.
 
     Raises
@@ -225,7 +210,7 @@ def _gear_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[_Table]:
     offset = float(radius) * sum(file.angle_between(common[0], wheel) for wheel in wheels)
     if offset:
         lines.append(f"offset = {exact_number(offset)}")
-    return [_table(f"joints.{file.take_free_name('gear')}", *lines)]
+    return [table_at(f"joints.{file.take_free_name('gear')}", *lines)]
 
 
 def _sliding_end(file: EditedFile, spot: Spot, first: str) -> tuple[str, str]:
@@ -248,54 +233,44 @@ def _sliding_end(file: EditedFile, spot: Spot, first: str) -> tuple[str, str]:
     return body, ends[body]
 
 
-def _spring_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[_Table]:
+def _spring_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
     lines = _lines_of_stretch("spring", spots)
     length = math.dist(*((spot.x, spot.y) for spot in spots))
     lines += [f"stiffness = {STIFFNESS}", f"damping = {DAMPING}", f"free_length = {short_number(length)}"]
-    return [_table(f"forces.{file.take_free_name('spring')}", *lines)]
+    return [table_at(f"forces.{file.take_free_name('spring')}", *lines)]
 
 
-def _cylinder_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[_Table]:
+def _cylinder_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
     """Return a cylinder that pushes two points apart."""
     lines = [*_lines_of_stretch("cylinder", spots), f"damping = {DAMPING}", f"actuator = {PUSH}"]
-    return [_table(f"forces.{file.take_free_name('cylinder')}", *lines)]
+    return [table_at(f"forces.{file.take_free_name('cylinder')}", *lines)]
 
 
 def _lines_of_stretch(kind: str, spots: Sequence[Spot]) -> list[str]:
     a, b = spots
     if a.owner == b.owner:
         raise InputError(kind, "points of two bodies, or of a body and the ground", f"'{a.owner}' twice")
-    return ['type = "spring-damper"', *_between_lines(a, b)]
+    return ['type = "spring-damper"', *between_lines(a, b)]
 
 
-def _motor_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[_Table]:
+def _motor_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
     """Return a driver that turns a pin, or moves a slide of the ground, on from where it is at the start."""
     (spot,) = spots
     name = file.joint_at(spot)
     joint = file.raw.get("joints", {}).get(name, {})
     if joint.get("type") == "revolute":
         begin, rate = file.angle_between(*joint["between"]), SPEED
-    elif (displacement := _displacement_at(joint, spot)) is not None:
+    elif (displacement := displacement_at(joint, spot)) is not None:
         begin, rate = displacement, CREEP
     else:
         got = f"'{name}'" if name else "another point"
         raise InputError("motor", "a pin, which it turns, or a slide on the ground", got)
     value = f'value = "{exact_number(begin)} + {rate}*t"' if abs(begin) > FINEST else f'value = "{rate}*t"'
-    return [_table(f"joints.{file.take_free_name('motor')}", 'type = "driver"', f'joint = "{name}"', value)]
+    return [table_at(f"joints.{file.take_free_name('motor')}", 'type = "driver"', f'joint = "{name}"', value)]
 
 
-def _displacement_at(joint: Mapping[str, Any], spot: Spot) -> float | None:
-    """Return how far the point at a spot has gone along a slide of the ground; None for other joints."""
-    if joint.get("type") not in ("translational", "prismatic") or joint["between"][0] != GROUND:
-        return None
-    on, axis = joint["at"][0], joint.get("axis", ())
-    if not all(isinstance(v, list) and all(type(x) in (int, float) for x in v) for v in (on, axis)):
-        return None
-    return float(((spot.x - on[0]) * axis[0] + (spot.y - on[1]) * axis[1]) / math.hypot(*axis))
-
-
-def _load_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[_Table]:
+def _load_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
     (spot,) = spots
     need_body("load", spot)
     lines = ('type = "force"', f'body = "{spot.body}"', f"at = {spot.written}", f"force = [0.0, {-LOAD}]")
-    return [_table(f"forces.{file.take_free_name('load')}", *lines)]
+    return [table_at(f"forces.{file.take_free_name('load')}", *lines)]

@@ -308,7 +308,7 @@ def test_a_spring_a_slide_and_a_load() -> None:
         ("spring", (Spot(0, 0, "crank", "A"), Spot(1, 0, "crank", "B")), "'crank' twice"),
         ("load", (Spot(0, 0),), "a point of a body"),
         ("motor", (Spot(0, 0, "crank", "A"),), "a pin, which it turns"),
-        ("wheel", (Spot(0, 0),), "a part that can be added"),
+        ("anchor", (Spot(0, 0),), "a part that can be added"),
         (
             "slide",
             (Spot(0, 0, "crank", "A", joint="A"),),

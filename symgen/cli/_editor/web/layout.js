@@ -47,7 +47,7 @@ function selectPart(path) {
 }
 
 // The body, joint or force that is nearest to a place of the picture.
-const SECTIONS = { body: "bodies", joint: "joints", force: "forces" };
+const SECTIONS = { body: "bodies", joint: "joints", force: "forces", contact: "contacts" };
 const pathOf = (item) => `${SECTIONS[item.role]}.${item.name}`;
 function partAt(px, py) {
   const found = view.spatial ? null : itemAt(px, py, Object.keys(SECTIONS));
@@ -79,7 +79,7 @@ drawn.push((q) => {
 document.addEventListener("selectionchange", () => {
   if (document.activeElement !== T) return;
   const path = atCursor().split(".").slice(0, 2).join(".");
-  if (path === selected || !/^(bodies|joints|forces)\./.test(path)) return;
+  if (path === selected || !/^(bodies|joints|forces|contacts)\./.test(path)) return;
   selected = path;
   wanted = true;
 });
