@@ -33,9 +33,9 @@ class Mouse(Hand):
 
 
 def cart(hand: Mouse) -> None:
-    """A wheel on a slope of 1 to 2."""
-    hand.use("wheel", (0.1, 0.4), (0.1, 0.6))
-    hand.use("roll", "bodies.wheel1.points.A", (0.2, 0.2))
+    """A wheel on a slope of 3 to 4."""
+    hand.use("wheel", (0.0, 0.4), (0.5, 0.4))
+    hand.use("roll", "bodies.wheel1.points.A", (0.3, 0.0))
 
 
 def ball(hand: Mouse) -> None:
@@ -55,8 +55,9 @@ def rack_lift(hand: Mouse) -> None:
 
 
 def hoist(hand: Mouse) -> None:
-    """A load on a rope over a sheave, and a bar with a driver on its other end."""
+    """Two cages on a rope over a sheave, in guides; a driver lowers one of them."""
     hand.use("bar", (-0.1, -0.5), (-0.1, -0.2))
+    hand.drag("slide", "bodies.bar1.points.A", (0, 60))
     hand.use("bar", (0.1, -0.5), (0.1, -0.2))
     hand.drag("slide", "bodies.bar2.points.A", (0, 60))
     hand.use("rope", "bodies.bar1.points.B", (0.0, 0.3), (0.0, 0.4), "bodies.bar2.points.B")
@@ -115,13 +116,13 @@ class Machine:
     motion: Callable[[Callable[[str], Any]], Any]
 
 
-SINE = 1.0 / np.sqrt(5.0)  # of a slope of 1 to 2
+TIMES = np.linspace(0.0, 1.0, 1001)
 MACHINES = [
     # a uniform disc takes two thirds of the weight along the slope
-    Machine(cart, ("rolling",), 1, lambda c: c("wheel1.vx") - (2.0 / 3.0) * G * SINE * (2.0 * SINE) * c("t")),
+    Machine(cart, ("rolling",), 1, lambda c: c("wheel1.x") + (1.0 / 3.0) * G * 0.6 * 0.8 * TIMES**2),
     Machine(ball, ("touch",), 3, lambda c: np.minimum(c("wheel1.y") - 0.2, 0.0)),
     Machine(rack_lift, ("coupling", "driver", "revolute", "translational"), 0, lambda c: c("bar1.vy") - 0.2 * 2.0),
-    Machine(hoist, ("driver", "rope", "translational"), 2, lambda c: c("bar2.vy") + 0.1),
+    Machine(hoist, ("driver", "rope", *("translational",) * 2), 0, lambda c: c("bar1.vy") - 0.1),
     Machine(
         *(cam, ("driver", "revolute", "touch", "translational"), 1),
         lambda c: np.minimum(c("bar1.y") - c("wheel1.y") - 0.2, 0.0),
@@ -130,8 +131,8 @@ MACHINES = [
         *(five_bar, ("driver", "gear", *("revolute",) * 5), 0),
         lambda c: c("bar1.omega") + c("bar2.omega"),
     ),
-    Machine(toggle_clamp, ("revolute",) * 4, 1, lambda c: c("energy.error") * 1e3),
-    Machine(door, ("pin-in-slot", "revolute"), 3, lambda c: c("energy.error") * 1e3),
+    Machine(toggle_clamp, ("revolute",) * 4, 1, lambda c: 10.0 ** c("energy.error")),
+    Machine(door, ("pin-in-slot", "revolute"), 3, lambda c: 10.0 ** c("energy.error")),
 ]
 
 

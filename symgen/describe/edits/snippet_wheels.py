@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from symgen.base.errors import InputError
 from symgen.describe.edits.snippet_tables import (
+    FINEST,
     EditedFile,
     Spot,
     Table,
@@ -98,8 +99,13 @@ def _rack_tables(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
     lever = ((centre.y - rack.y) * x - (centre.x - rack.x) * y) / size
     if abs(lever) <= _STRAIGHT * size:
         raise InputError("rack", "a slide beside the pin", "one through it")
-    lines = ['type = "coupling"', f"terms = {{ {pin} = {exact_number(lever)}, {slide} = -1.0 }}"]
-    if offset := lever * file.angle_between(*joints[pin]["between"]) - moved:
+    radius = f"{joints[pin]['between'][1]}{_RADIUS}"
+    own = file.raw.get("parameters", {}).get(radius, {})
+    fits = isinstance(own, Mapping) and own.get("value") == float(exact_number(abs(lever)))
+    factor = _times(math.copysign(1.0, lever), radius) if fits else exact_number(lever)
+    lines = ['type = "coupling"', f"terms = {{ {pin} = {factor}, {slide} = -1.0 }}"]
+    offset = lever * file.angle_between(*joints[pin]["between"]) - moved
+    if abs(offset) > FINEST:
         lines.append(f"value = {exact_number(offset)}")
     return [table_at(f"joints.{file.take_free_name('rack')}", *lines)]
 

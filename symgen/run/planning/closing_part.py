@@ -6,14 +6,16 @@ import msgspec
 
 from symgen.base.errors import InputError
 from symgen.base.settings import Settings
+from symgen.base.vocabulary.expressions import ZERO
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.pipeline import refuse_loops
 
 
 def closing_part(mechanism: Mechanism) -> tuple[Mechanism, Settings]:
     """Return the parts of a mechanism that close it, without forces, in a shape that needs no compiling."""
+    kept = tuple(state for state in mechanism.states if state.rate == ZERO)  # whether a rope is on its sheave
     bare = msgspec.structs.replace(
-        mechanism, forces=(), outputs=(), events=(), states=(), rotors=(), bounded=(), switchable=()
+        mechanism, forces=(), outputs=(), events=(), states=kept, rotors=(), bounded=(), switchable=()
     )
     return bare, settings_in_loops(bare)
 

@@ -8,6 +8,7 @@ import pytest
 
 from symgen.api import load
 from symgen.base.errors import InputError
+from symgen.cli._editor.drafts import Drafts
 from symgen.describe.edits.snippet_tables import Spot
 from symgen.describe.edits.snippets import snippet_changes
 from symgen.describe.edits.text_changes import apply_changes
@@ -118,6 +119,8 @@ def test_a_rope_over_a_sheave_pulls_alike_on_both_sides(heavy: float, tmp_path) 
     )
     text = text.replace("mass = 1.0", f"mass = {heavy}", 1)
     result = run(text, tmp_path)
+    start = Drafts(tmp_path / "mine.toml").check_text(text)  # as the page draws it
+    assert start["errors"] == [] and start["freedoms"]["count"] == 5
     fallen = 0.5 * (heavy - 1.0) / (heavy + 1.0) * G * result.t**2
     assert result["bar1.y"][0] - result["bar1.y"] == pytest.approx(fallen, abs=1e-8)
     assert result["bar2.y"] - result["bar2.y"][0] == pytest.approx(fallen, abs=1e-8)
