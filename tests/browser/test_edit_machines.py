@@ -48,8 +48,8 @@ def rack_lift(hand: Mouse) -> None:
     """A pinion at the ground beside a rack that a slide guides upwards."""
     hand.use("wheel", (0.0, 0.0), (0.2, 0.0))
     hand.ground("bodies.wheel1.points.A")
-    hand.use("bar", (0.2, 0.3), (0.2, 0.6))
-    hand.drag("slide", "bodies.bar1.points.A", (0, -60))
+    hand.use("bar", (0.2, 0.3), (0.2, 0.8))
+    hand.drag("slide", "bodies.bar1.points.A", (0, -30))
     hand.use("rack", "joints.pin1", "bodies.bar1.points.A")
     hand.use("motor", "joints.pin1")
 
