@@ -29,7 +29,7 @@ _STRAIGHT = 1e-6
 
 
 def _wheel_tables(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
-    """Return a disc about a point, whose radius is a parameter; a pin holds it where the point is that of a body."""
+    """Return a disc about a point, whose radius is a parameter; a pin holds it where a body has the point."""
     centre, rim = spots
     radius = _distance("wheel", centre, rim)
     name = file.take_free_name("wheel")
