@@ -242,7 +242,7 @@ class PinsAtImpact:
         push.w[:] = kept
         bounds = push._evaluate_reset(bounded.state.function, bounded.values, push.y)
         for i, (k, row) in self.slide.items():
-            way = 1.0 if self.modes[i] == UPPER else -1.0
+            way = -np.sign(push.ties.kicks[row])
             at, place = slice(2 * k, 2 * k + 2), 2 * len(bounded.names) + bounded.dry + i
             parts = np.array(by_impulse)[:, at]
             reaction = impulses @ parts

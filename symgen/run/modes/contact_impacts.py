@@ -40,7 +40,7 @@ from symgen.run.modes.contact_combinations import LOWER, OFF, ON, UPPER
 from symgen.run.modes.contact_parts import by_reaction, choose_part, find_parts, probe_contacts
 from symgen.run.modes.contact_series import ends_closed, find_leading, remember_impact, sum_series
 from symgen.run.modes.contact_verification import try_combinations
-from symgen.run.modes.pin_impulses import probe_impact, push
+from symgen.run.modes.pin_impulses import find_shortfall, probe_impact, push
 from symgen.run.modes.strikes import (
     OF_SERIES,
     Strikes,
@@ -202,7 +202,7 @@ def apply_impulses(t: float, c: Choice, s: Strikes, now: Instant, keeps: bool) -
             s.memory.pins[i] = c.best[i]
     choose_events(c, s, False)
     tie_velocities(c, s, False, keeps)
-    if not push(t, c, s, now):
+    if not push(t, c, s, now, False):
         return NOT_APPLIED
     lose_at_contacts(c, s, now.y)
     return SAME
@@ -271,9 +271,11 @@ def strike_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
     for i in range(c.count):
         s.left[i], s.before[i] = math.nan, c.speed[i]
     s.memory.spent[0] = s.memory.spent[1] = 0.0
+    for i in range(c.count):
+        s.memory.kicked[i] = 0.0
     if POISSON:  # compression takes all rates of gaps that close
         for i in range(c.count):
-            s.asked[i] = s.memory.kicked[i] = 0.0
+            s.asked[i] = 0.0
     else:
         ask_rates(t, c, s, now)
     code = apply_impulses(t, c, s, now, True)
@@ -368,9 +370,11 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, in_series: bool, 
                 c.mode[j] = ON if still else (UPPER if sign_of_number(c.speed[j]) > 0.0 else LOWER)
     choose_events(c, s, False)
     tie_velocities(c, s, True, False)
+    if REACTIONS:
+        find_shortfall(c, s, end - t)
     if in_series and not sum_series(t, c, s, now, iw):
         tie_velocities(c, s, True, False)
-    if not push(t, c, s, now):
+    if not push(t, c, s, now, True):
         return NOT_APPLIED
     lose_at_contacts(c, s, now.y)
     for i in range(c.dry, c.count):

@@ -177,7 +177,7 @@ def try_rest(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers) -> boo
         memory.rests[i] = 0.0
         c.broken[i] = c.stopped[i] = c.left[i] = 0
     c.begins[0] = 0
-    if push(t, c, s, now):
+    if push(t, c, s, now, True):
         if read_rows(t, c, now.y, now.p, now.w) == SAME:
             find_starting(t, c, now.w)
             if choose_contacts(t, c, now.y, now.p, now.w, iw, memory.control) <= 1:

@@ -35,7 +35,8 @@ class ImpactMemory(Record):
     spent : Array, shape (2,)
         Work of the impulses of an impact, and of their sizes [J].
     kicked : Array, shape (k,)
-        By Poisson's law, what follows from compression: impulses of gaps, and of sliding friction by them.
+        By Poisson's law, what follows from compression: impulses of gaps, and of sliding friction by them. Of friction
+        by reactions, what rest lacks of its bound at the end of a series.
     compressed : Array
         Impulses of compression.
     y, w, control : Array, Array of int64

@@ -17,7 +17,7 @@ from symgen.compile.native.annotations import Array, Integers
 from symgen.run.effects.applying import APPLIED
 from symgen.run.effects.pushing import POISSON, REACTIONS, push_contacts
 from symgen.run.laws.newton import follow_laws
-from symgen.run.laws.problem import BALL, COMPONENTS, LOWER, OFF, ON, UPPER, acceleration_of, begin_row
+from symgen.run.laws.problem import BALL, COMPONENTS, LOWER, OFF, ON, UPPER, acceleration_of, begin_row, load_of
 from symgen.run.layout.start_records import Instant
 from symgen.run.modes.bounded_rows import Choice
 from symgen.run.modes.contact_parts import by_reaction, probe_contacts
@@ -61,8 +61,12 @@ def list_rows(c: Choice, s: Strikes) -> int:
 
 
 @exact()
-def fill_impact(c: Choice, s: Strikes, n: int) -> None:
-    """Write the problem of the impulses of the rows listed."""
+def fill_impact(c: Choice, s: Strikes, n: int, rests: bool) -> None:
+    """Write the problem of the impulses of the rows listed.
+
+    Where a series of impacts comes to rest, gaps have what is left of their impulses less what rest has in their place:
+    they pull, and friction by reactions has the other sign.
+    """
     k, order, laws = c.count, c.box.order, c.laws
     for a in range(n):
         i = order[a]
@@ -75,7 +79,8 @@ def fill_impact(c: Choice, s: Strikes, n: int) -> None:
         if c.pushes[i] == 0:
             laws.law[a], laws.kappa[a] = BALL, c.sliding[i]
             if by_reaction(c, i):
-                laws.components[a] = 2
+                laws.components[a], laws.beta[a] = 2, s.memory.kicked[i]
+                laws.kappa[a] = -c.sliding[i] if rests else c.sliding[i]
                 for part in range(2):
                     for b in range(n):
                         by_unit = c.parts[(2 * i + part) * k + order[b]]
@@ -88,10 +93,61 @@ def fill_impact(c: Choice, s: Strikes, n: int) -> None:
 
 
 @exact()
-def find_kicks(c: Choice, s: Strikes) -> bool:
+def solve_motion(c: Choice, s: Strikes, flies: bool) -> int:
+    """Find the forces of motion of the rows of the impact, in its modes or where its gaps fly; return their number.
+
+    0 where there are none.
+    """
+    laws, n = c.laws, list_rows(c, s)
+    fill_impact(c, s, n, False)
+    for a in range(n):
+        i = c.box.order[a]
+        laws.offset[a], laws.beta[a] = c.offset[i], 0.0
+        laws.state[a] = OFF if flies and not by_reaction(c, i) else laws.state[a]
+        for part in range(laws.components[a]):
+            laws.apart[COMPONENTS * a + part] = c.apart[2 * i + part]
+    return n if follow_laws(n, True, laws) else 0
+
+
+@exact()
+def find_shortfall(c: Choice, s: Strikes, left: float) -> None:
+    """Set what rest lacks of the impulses of friction in the time that is left of a series of impacts of one gap.
+
+    Flights and impacts have reactions N and R in turn, rest has their sum: friction is over ``|N| + |R|``, not over
+    ``|N + R|``. A unit of the gap's impulse says how large R is for the force that rest has.
+    """
+    laws, gap, gaps, pushed = c.laws, -1, 0, 0.0
+    for i in range(c.count):
+        s.memory.kicked[i] = c.sizes[i] = 0.0
+    n = solve_motion(c, s, True)
+    for a in range(n):
+        if by_reaction(c, c.box.order[a]):
+            c.sizes[c.box.order[a]] = load_of(n, a, laws)
+    n = solve_motion(c, s, False)
+    for a in range(n):
+        if by_reaction(c, c.box.order[a]):
+            c.sizes[c.box.order[a]] -= load_of(n, a, laws)
+        elif c.pushes[c.box.order[a]] != 0:
+            gap, gaps, pushed = a, gaps + 1, -laws.forces[a]
+    if gaps != 1 or not (pushed > 0.0 and left > 0.0):
+        return
+    n = list_rows(c, s)
+    fill_impact(c, s, n, False)
+    for a in range(n):
+        laws.beta[a], laws.offset[a] = 0.0, -1.0 if a == gap else 0.0
+    if follow_laws(n, True, laws) and laws.forces[gap] < 0.0:
+        for a in range(n):
+            i = c.box.order[a]
+            if by_reaction(c, i) and s.memory.pins[i] >= UPPER:
+                lacks = c.sizes[i] - pushed * load_of(n, a, laws) / laws.forces[gap]
+                s.memory.kicked[i] = c.sliding[i] * left * lacks
+
+
+@exact()
+def find_kicks(c: Choice, s: Strikes, rests: bool) -> bool:
     """Set the impulses of friction by reactions, and their work; return whether there are any in these modes."""
     laws, n, kicked = c.laws, list_rows(c, s), s.memory.kicked
-    fill_impact(c, s, n)
+    fill_impact(c, s, n, rests)
     for row in range(s.ties.kicks.shape[0]):
         s.ties.kicks[row] = 0.0
     if not follow_laws(n, True, laws):
@@ -114,9 +170,12 @@ def find_kicks(c: Choice, s: Strikes) -> bool:
 
 
 @exact()
-def push(t: float, c: Choice, s: Strikes, now: Instant) -> bool:
-    """Change velocities by the impulses of ``ties`` and of friction by reactions; return whether joints allow it."""
-    if REACTIONS and not find_kicks(c, s):
+def push(t: float, c: Choice, s: Strikes, now: Instant, rests: bool) -> bool:
+    """Change velocities by the impulses of ``ties`` and of friction by reactions; return whether joints allow it.
+
+    `rests`: a series of impacts comes to rest.
+    """
+    if REACTIONS and not find_kicks(c, s, rests):
         return False
     return bool(push_contacts(s.effects.model, t, now, s.chosen, s.effects.work, s.ties) == APPLIED)
 
