@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
+import threading
 import time
 from typing import Any, Self
 
@@ -11,10 +12,14 @@ from typing import Any, Self
 PATIENCE = 0.7
 #: Time between two lines about a long study where standard error is no terminal [s].
 BETWEEN_LINES = 20.0
+#: What is done before a run begins, as long as nothing has been reached.
+BEFORE = "deriving and compiling"
 
 
 class Bar:
     """Progress bar, called with the work done; draws nothing unless standard error is a terminal.
+
+    Until it is called for the first time it says that code is derived and compiled, and for how long already.
 
     Parameters
     ----------
@@ -30,26 +35,55 @@ class Bar:
         self.shown = sys.stderr.isatty()
         self.progress: Any = None
         self.task: Any = None
+        self.lock, self.ended = threading.Lock(), False
+        self.timer = threading.Timer(PATIENCE, self._show_beginning)
+        self.timer.daemon = True
 
     def __enter__(self) -> Self:
+        if self.shown:
+            self.timer.start()
         return self
 
     def __call__(self, reached: float) -> None:
         if not self.shown or (self.progress is None and time.perf_counter() - self.began < PATIENCE):
             return
-        if self.progress is None:
-            from rich.console import Console
-            from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
-
-            columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
-            self.progress = Progress(*columns, console=Console(stderr=True), transient=True)
-            self.progress.start()
-            self.task = self.progress.add_task(self.title, total=self.total)
-        self.progress.update(self.task, completed=reached, description=self.title)
+        with self.lock:
+            self._begin()
+        self.progress.update(self.task, completed=reached, total=self.total, description=self.title)
 
     def __exit__(self, *error: object) -> None:
+        self.timer.cancel()
+        with self.lock:
+            self.ended = True
+            if self.progress is not None:
+                self.progress.stop()
+
+    def _show_beginning(self) -> None:
+        """Say what is done while nothing has been reached."""
+        with self.lock:
+            if not self.ended:
+                self._begin()
+
+    def _begin(self) -> None:
+        """Begin to draw, where nothing is drawn yet."""
         if self.progress is not None:
-            self.progress.stop()
+            return
+        from rich.console import Console
+        from rich.progress import (
+            BarColumn,
+            Progress,
+            TaskProgressColumn,
+            TextColumn,
+            TimeElapsedColumn,
+            TimeRemainingColumn,
+        )
+
+        times = (TimeElapsedColumn(), TimeRemainingColumn())
+        columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), *times)
+        progress = Progress(*columns, console=Console(stderr=True), transient=True)
+        self.task = progress.add_task(f"{self.title}: {BEFORE}" if self.title else BEFORE, total=None)
+        progress.start()
+        self.progress = progress
 
 
 class Lines(Bar):

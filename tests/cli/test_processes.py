@@ -164,17 +164,15 @@ def test_a_closed_pipe_is_no_error():
     assert found.stderr == "" and "n-four-bar-8" in found.stdout
 
 
-@pytest.mark.slow
-def test_a_long_run_shows_progress_on_a_terminal_only():
-    """Standard error is a terminal, standard output a pipe: the bar is drawn, and JSON stays alone."""
+def shown_on_a_terminal(*arguments: str, before: str = "", **environment: str) -> tuple[int, str, bytes]:
+    """Return the code, standard output and what a command draws on standard error, which is a terminal."""
     leader, follower = pty.openpty()
-    script = "from symgen.cli import main; raise SystemExit(main())"
-    arguments = ["run", "pendulum", "--integrator", "rk4", "--until", "20000", "--output-step", "100", "--json"]
     process = subprocess.Popen(
-        [sys.executable, "-c", script, *arguments],
+        [sys.executable, "-c", f"{before}from symgen.cli import main; raise SystemExit(main())", *arguments],
         stdout=subprocess.PIPE,
         stderr=follower,
-        env={**os.environ, "TERM": "xterm", "COLUMNS": "100"},
+        text=True,
+        env={**os.environ, "TERM": "xterm", "COLUMNS": "100", **environment},
     )
     os.close(follower)
     shown = b""
@@ -189,9 +187,28 @@ def test_a_long_run_shows_progress_on_a_terminal_only():
         shown += part
     out, _ = process.communicate(timeout=600)
     os.close(leader)
-    assert process.returncode == 0
-    assert json.loads(out)["status"] == "ok"
+    return process.returncode, out, shown
+
+
+@pytest.mark.slow
+def test_a_long_run_shows_progress_on_a_terminal_only():
+    """Standard error is a terminal, standard output a pipe: the bar is drawn, and JSON stays alone."""
+    times = ("--until", "20000", "--output-step", "100")
+    code, out, shown = shown_on_a_terminal("run", "pendulum", "--integrator", "rk4", *times, "--json")
+    assert code == 0 and json.loads(out)["status"] == "ok"
     assert b"pendulum, direct-correction" in shown and b"%" in shown
+
+
+@pytest.mark.slow
+def test_a_first_run_says_that_it_compiles_before_anything_is_reached(tmp_path):
+    """With an empty cache nothing is reached for seconds; what is done is drawn meanwhile, and goes away."""
+    soon = "import symgen.cli._progress as p; p.PATIENCE = 0.05; "
+    cache = str(tmp_path / "cache")
+    words = ("run", "four-bar", "--until", "0.1", "--json")
+    code, out, shown = shown_on_a_terminal(*words, before=soon, SYMGEN_CACHE_DIR=cache)
+    assert code == 0 and json.loads(out)["status"] == "ok"
+    assert b"four-bar, direct-correction: deriving and compiling" in shown
+    assert shown.rstrip().endswith(b"\x1b[2K")  # the line is erased
 
 
 @pytest.mark.slow
