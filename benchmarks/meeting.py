@@ -18,9 +18,11 @@ import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+import numpy as np
+
 import symgen
 from benchmarks import bodies_apart
-from benchmarks.finite_elements import solid
+from benchmarks.finite_elements import bar_frame, solid
 from symgen.base.errors import InputError, SymgenError
 from symgen.cli import main
 
@@ -252,6 +254,7 @@ over = [{ at = [0.2, 0.0, 0.5] }, { at = [0.4, 0.0, 0.6], radius = 0.1, turn = "
     ),
     "beam": cart(more=f'[beams.bar]\n{_BEAM}\nclamp = "ground"'),
     "modal body": cart(more=MODAL_BAR),
+    "modal body that loads stiffen": cart(more=MODAL_BAR.replace("bar.npz", "strip.npz")),
 }
 
 #: Takes a file and a folder; returns "" where it is done, and else the sentence.
@@ -410,10 +413,20 @@ def cell(feature: str, place: str) -> str:
     """Return ``+``, or the sentence that refuses a feature in a place."""
     with tempfile.TemporaryDirectory() as folder:
         (file := Path(folder) / "cart.toml").write_text(FEATURES[feature], encoding="utf-8")
-        if "bar.npz" in FEATURES[feature]:
-            bar = solid((0.4, 0.02), (4, 1), young=1e8, thick=0.02)
-            symgen.reduced(bar.x, bar.mass, bar.stiffness, bar.ends).save(Path(folder) / "bar.npz")
+        for name in ("bar.npz", "strip.npz"):
+            if name in FEATURES[feature]:
+                _reduce_bar(Path(folder) / name)
         return PLACES[place](file, Path(folder)).replace(f"{folder}/", "") or "+"
+
+
+def _reduce_bar(file: Path) -> None:
+    """Write a bar of solids, or a strip of bars that loads stiffen, as a modal body."""
+    if file.stem == "bar":
+        bar = solid((0.4, 0.02), (4, 1), young=1e8, thick=0.02)
+        symgen.reduced(bar.x, bar.mass, bar.stiffness, bar.ends).save(file)
+    else:
+        strip = bar_frame(np.column_stack([np.linspace(0.0, 0.4, 9), np.zeros(9)]), 1e8, 4e-4, 1.3e-8, 1000.0)
+        symgen.reduced(strip.x, strip.mass, strip.stiffness, strip.ends, stiffening="interfaces").save(file)
 
 
 def stored() -> Table:

@@ -8,6 +8,8 @@ from support.modal_machines import arc, machine, slender
 import symgen
 from benchmarks.finite_elements import bar_frame
 from symgen.base.errors import InputError
+from tests.result.targets.compilers import compiled, written
+from tests.result.targets.test_c import rows_of
 from verification.modal.test_limits_inside import WIDE, YOUNG, mast, pushed_strip, strip_by_closed_form
 
 STIFF = 2e9 * 0.02**4 / 12.0  # E I of the slender bar of one metre
@@ -62,6 +64,7 @@ force = [0.0, 1.0]
 """
 
 
+@pytest.mark.slow
 def test_a_strut_to_nine_tenths_of_eulers_load(tmp_path):
     """Thrusts and pulls between pins: the middle under a load across is in closed form."""
     mesh = slender()
@@ -116,7 +119,10 @@ at = ["centre", [0.0, 0.0]]
 """
 
 
-@pytest.mark.parametrize(("speed", "flap"), [(1.0, 3.6817), (2.0, 4.1373), (3.0, 4.7973), (6.0, 7.3604)])
+@pytest.mark.fast("2.0")
+@pytest.mark.parametrize(
+    ("speed", "flap"), [(1.0, 3.6817), (2.0, 4.1373), (3.0, 4.7973), (6.0, 7.3604)], ids=["1.0", "2.0", "3.0", "6.0"]
+)
 def test_a_blade_rings_as_published(speed, flap, tmp_path):
     """Flapping of A. D. Wright, C. E. Smith, R. W. Thresher, J. L. C. Wang, J. Appl. Mech. 49 (1982) 197-202.
 
@@ -136,6 +142,8 @@ def test_a_blade_rings_as_published(speed, flap, tmp_path):
     assert np.pi / np.mean(np.diff(times[-5:])) == pytest.approx(lag, rel=5e-3) and result.status == "ok"
 
 
+@pytest.mark.by_turns(2)
+@pytest.mark.slow
 def test_a_free_frame_in_space_keeps_its_energy(tmp_path):
     """A bent bar on a ball joint, turned by large angles: interfaces of second order do the work that inertia has."""
     x = np.zeros((17, 3))
@@ -196,3 +204,40 @@ def test_elements_of_three_nodes_are_no_bars():
     shells += ties.T @ ties
     with pytest.raises(InputError, match="elements that join more than two nodes"):
         symgen.reduced(places, np.eye(9), sparse.csc_array(shells), {"a": [0]}, 2, stiffening="interfaces")
+
+
+def swung(folder, **run):
+    """A pendulum of bars with a payload of m kg, which weight bends by second order too."""
+    mesh = slender()
+    keys = {"stiffening": "interfaces"}
+    symgen.reduced(mesh.x, mesh.mass, mesh.stiffness, mesh.ends, 2, **keys).save(folder / "arm.npz")
+    text = '[parameters]\nm = 0.1\n\n[bodies.arm]\ntype = "modal"\nfile = "arm.npz"\n\n[bodies.bob]\nmass = "m"\n'
+    text += (
+        'inertia = 1e-4\nposition = [1.0, 0.0]\n\n[joints.pin]\ntype = "revolute"\nbetween = ["ground", "arm.root"]\n'
+    )
+    text += 'at = [[0.0, 0.0], [0.0, 0.0]]\n\n[joints.end]\ntype = "rigid"\nbetween = ["arm.tip", "bob"]\n'
+    text += 'at = [[0.0, 0.0], "centre"]\n'
+    return machine(folder, text, gravity="[0.0, -9.81]", until=0.02, output_step=0.01, **run)
+
+
+@pytest.mark.by_turns(2)
+@pytest.mark.slow
+def test_derivatives_follow_the_second_order(tmp_path):
+    """By the payload's mass, beside a central difference."""
+    model = swung(tmp_path)
+    settings = {"rtol": 1e-10, "atol": 1e-13, "integrator": "dop853"}
+    own = model.simulate(sensitivities=["m"], **settings)
+    more, less = (model.simulate(parameters={"m": m}, **settings)["bob.y"][-1] for m in (0.101, 0.099))
+    assert own.gradient("bob.y").row()["m"] == pytest.approx((more - less) / 0.002, rel=1e-4)
+
+
+@pytest.mark.by_turns(2)
+@pytest.mark.slow
+def test_a_program_in_c_follows_the_second_order(tmp_path):
+    model = swung(tmp_path, step=1e-5)
+    keys = {"method": "direct-correction", "integrator": "rk4", "step": 1e-5, "shape": "straight", "verify": False}
+    names, rows = rows_of(compiled(written(model.mechanism, tmp_path, coordinates="absolute")), "0.02")
+    result = model.simulate(until=0.02, **keys)
+    end = np.concatenate([result.q.values[-1], result.v.values[-1]])
+    assert "arm.m5" in names
+    np.testing.assert_allclose(rows[-1, 1 : len(end) + 1], end, rtol=1e-10, atol=1e-12)
