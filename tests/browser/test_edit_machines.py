@@ -106,6 +106,45 @@ def door(hand: Mouse) -> None:
     hand.ground("bodies.bar2.points.A")
 
 
+def bogie(hand: Mouse) -> None:
+    """Two wheels on the ground that carry a bar, and a motor in one of them."""
+    for x in (-0.4, 0.4):
+        hand.use("wheel", (x, 0.2), (x, 0.4))
+    hand.use("roll", "bodies.wheel1.points.A", (-0.4, 0.0))
+    hand.use("roll", "bodies.wheel2.points.A", (0.4, 0.0))
+    hand.use("bar", "bodies.wheel1.points.A", "bodies.wheel2.points.A")
+    hand.use("motor", "joints.pin1")
+
+
+def lever_on_a_cam(hand: Mouse) -> None:
+    """A disc that turns about a point of its rim lifts a lever that lies on it."""
+    hand.use("wheel", (0.2, 0.0), (0.2, -0.2))
+    hand.use("bar", (-0.6, 0.2), (0.6, 0.2))
+    hand.use("point", "bodies.bar1.points.A", (0.2, 0.2))
+    hand.ground("bodies.bar1.points.A")
+    hand.ground("bodies.wheel1.points.B")
+    hand.use("touch", "bodies.wheel1.points.A", "bodies.bar1.points.C")
+    hand.use("motor", "joints.pin2")
+
+
+def rack_drive(hand: Mouse) -> None:
+    """A rack that a driver pushes turns a pinion above it."""
+    hand.use("wheel", (0.0, 0.2), (0.2, 0.2))
+    hand.ground("bodies.wheel1.points.A")
+    hand.use("bar", (0.4, 0.0), (0.8, 0.0))
+    hand.use("slide", "bodies.bar1.points.A")
+    hand.use("rack", "joints.pin1", "bodies.bar1.points.A")
+    hand.use("motor", "bodies.bar1.points.A")
+
+
+def locomotive(hand: Mouse) -> None:
+    """A wheel on the ground, a rod at its rim, and the other end of the rod in a slot of the ground."""
+    hand.use("wheel", (0.0, 0.2), (0.2, 0.2))
+    hand.use("roll", "bodies.wheel1.points.A", (0.0, 0.0))
+    hand.use("bar", "bodies.wheel1.points.B", (0.8, 0.2))
+    hand.use("slot", "bodies.bar1.points.B")
+
+
 @dataclass(frozen=True)
 class Machine:
     """What a drawing gives: types of its joints and contacts, freedoms, and a residual of its motion that is 0."""
@@ -131,6 +170,24 @@ MACHINES = [
         *(five_bar, ("driver", "gear", *("revolute",) * 5), 0),
         lambda c: c("bar1.omega") + c("bar2.omega"),
     ),
+    Machine(
+        *(bogie, ("driver", "revolute", "revolute", "rolling", "rolling"), 0),
+        lambda c: np.abs(c("bar1.vx")) - 0.2 * 2.0,
+    ),
+    Machine(
+        *(lever_on_a_cam, ("driver", "revolute", "revolute", "touch"), 1),
+        lambda c: np.minimum(
+            (c("bar1.y") - c("wheel1.y")) * np.cos(c("bar1.theta"))
+            - (c("bar1.x") - c("wheel1.x")) * np.sin(c("bar1.theta"))
+            - 0.2,
+            0.0,
+        ),
+    ),
+    Machine(
+        *(rack_drive, ("coupling", "driver", "revolute", "translational"), 0),
+        lambda c: c("wheel1.omega") - 0.1 / 0.2,
+    ),
+    Machine(locomotive, ("pin-in-slot", "revolute", "rolling"), 1, lambda c: 10.0 ** c("energy.error")),
     Machine(toggle_clamp, ("revolute",) * 4, 1, lambda c: 10.0 ** c("energy.error")),
     Machine(door, ("pin-in-slot", "revolute"), 3, lambda c: 10.0 ** c("energy.error")),
 ]
@@ -146,6 +203,7 @@ def page(request: pytest.FixtureRequest, chromium: Chromium, tmp_path: Path) -> 
         yield opened
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.draw.__name__)
 def test_a_machine_by_the_mouse_alone(machine: Machine, page: Page) -> None:
     hand = Mouse(page)
