@@ -211,6 +211,7 @@ FEATURES: Mapping[str, str] = {
     "stop, elastic": cart(pin="stop = { lower = -2.2, upper = -1.0, stiffness = 50.0 }"),
     "stop, moving": cart(more='[stops.wall]\ngap = "0.2 - 0.02*t - cart.x"'),
     "friction and stop": cart(pin=f"friction = {{ sliding = 0.3 }}\n{_STOP}"),
+    "friction by a reaction and stop": cart(pin=f"friction = {{ coefficient = 0.2, radius = 0.05 }}\n{_STOP}"),
     "rope": cart(more=_ROPE),
     "corner in a gap": cart(more=_RAMP),
     "rotor and stop": cart(pin=f"rotor_inertia = 1e-3\ngear_ratio = 10.0\n{_STOP}"),
