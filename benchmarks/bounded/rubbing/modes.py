@@ -57,8 +57,11 @@ class State:
         self.gap, self.rub = self.rows[self.m : self.m + self.n], self.rows[self.m + self.n :]
         self.free = machine.force(t, q, v) / machine.masses
 
-    def solve(self, mode: Mode, factors: Array, free: Array, target: Array) -> Answer:
-        """Return the solution in a mode: `factors` are beta and kappa of all that rubs, `target` of all rows' rates."""
+    def solve(self, mode: Mode, factors: Array, free: Array, target: Array, judged: bool = True) -> Answer:
+        """Return the solution in a mode: `factors` are beta and kappa of all that rubs, `target` of all rows' rates.
+
+        Where it is not `judged`, forces that are many are any of them: what they leave is the same.
+        """
         closed, m, n = sorted(mode.closed), self.m, self.n
         resting = [i for i, way in enumerate(mode.ways) if way == 0]
         moving = [i for i, way in enumerate(mode.ways) if way != 0]
@@ -84,7 +87,8 @@ class State:
             forces = found
             if settled or not any(self.machine.rubs[i].joint >= 0 for i in moving):
                 break
-        forces = self._shared(matrix, forces, resting, closed, factors)
+        if judged:
+            forces = self._shared(matrix, forces, resting, closed, factors)
         value = free + offset / self.machine.masses + taken @ forces
         pushes, rubs = np.zeros(n), np.zeros(self.k)
         pushes[closed], rubs[resting] = forces[m : m + len(closed)], forces[m + len(closed) :]
@@ -162,9 +166,9 @@ def factors_of(machine: Machine, loose: set[int]) -> Array:
     return np.array([rub.sliding if i in loose else rub.static for i, rub in enumerate(machine.rubs)]).reshape(-1, 2)
 
 
-def accelerate(state: State, mode: Mode, factors: Array) -> Answer:
+def accelerate(state: State, mode: Mode, factors: Array, judged: bool = True) -> Answer:
     """Return the accelerations in a mode."""
-    return state.solve(mode, factors, state.free, -state.gained)
+    return state.solve(mode, factors, state.free, -state.gained, judged)
 
 
 def choose(state: State, closed: list[int], forced: dict[int, int]) -> tuple[Answer, set[int]]:

@@ -110,16 +110,13 @@ def _until_event(
     """Integrate in a mode up to the next event; return time, state, what it is, and of which gap or friction."""
     n, mode, factors = len(q), chosen.mode, factors_of(machine, loose)
 
-    def answer(x: float, y: Array) -> tuple[State, Answer]:
-        state = State(machine, x, y[:n], y[n:])
-        return state, accelerate(state, mode, factors)
-
     def rates(x: float, y: Array) -> Array:
-        return np.concatenate([y[n:], answer(x, y)[1].value])
+        return np.concatenate([y[n:], accelerate(State(machine, x, y[:n], y[n:]), mode, factors, judged=False).value])
 
     def margins(x: float, y: Array) -> Margins:
         """Return what is above zero as long as the mode holds."""
-        state, now = answer(x, y)
+        state = State(machine, x, y[:n], y[n:])
+        now = accelerate(state, mode, factors)
         found, gaps = Margins(), machine.gap_values(y[:n])
         for j in range(state.n):
             found["lift" if j in mode.closed else "hit", j] = float(now.pushes[j] if j in mode.closed else gaps[j])
