@@ -148,6 +148,15 @@ def pytest_unconfigure() -> None:
 
 
 @pytest.fixture
+def decimal_point():
+    """Other programs read their files by the language of the process, which is set beside symgen."""
+    before = locale.setlocale(locale.LC_NUMERIC)
+    locale.setlocale(locale.LC_NUMERIC, "C")
+    yield
+    locale.setlocale(locale.LC_NUMERIC, before)
+
+
+@pytest.fixture
 def cli(capsys):
     """Run the command line; return exit code, standard output and standard error."""
     from symgen.cli import main  # behind the choice of the cache

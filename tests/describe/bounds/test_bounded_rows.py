@@ -23,7 +23,7 @@ from symgen.describe.parts.scope import Scope
 
 PACKAGE = Path(symgen.__file__).parent
 #: Who may name a kind: its own room, formats of other programs, whose keys these are, and rolling, by its forces; and
-#: the law of contacts, which is one of a gap and of the friction along it.
+#: the laws of contacts and of impacts, which are those of a gap and of the friction along it or by reactions.
 NAMING = (
     *(
         "describe/bounds/",
@@ -35,7 +35,8 @@ NAMING = (
         "describe/files/joint_tables.py",
         "describe/edits/snippet",
     ),
-    *("run/modes/contact", "run/modes/refusals.py", "run/effects/pushing.py", "run/directions/push_directions.py"),
+    *("run/modes/contact", "run/modes/impact_memory.py", "run/modes/pin_impulses.py", "run/modes/refusals.py"),
+    *("run/effects/pushing.py", "run/directions/push_directions.py"),
 )
 PENDULUM = """
 [mechanism]

@@ -15,6 +15,9 @@ from symgen.describe.drawing.scene import Solid
 from symgen.describe.files.load import load_mechanism
 from symgen.describe.formats import Import, format_of, read_robot
 
+#: MuJoCo reads numbers of meshes by the language of the process.
+pytestmark = pytest.mark.usefixtures("decimal_point")
+
 CORNERS = np.array([[0.1, 0.0, 0.2], [1.0, 0.1, 0.0], [0.0, 2.0, 0.3], [0.2, 0.1, 3.0]])
 WAVEFRONT = "".join(f"v {x} {y} {z}\n" for x, y, z in CORNERS) + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 
