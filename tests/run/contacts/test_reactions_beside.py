@@ -291,3 +291,21 @@ def test_the_end_of_a_series_has_the_impulses_of_pins(tmp_path: Path) -> None:
         counts.add(sum(event.name == "floor.hit" for event in run.events))
     assert len(counts) > 1
     assert np.abs(np.diff(ends, 4)).max() < 5e-10
+
+
+@pytest.mark.slow
+def test_a_hinge_in_space_beside_a_stop(tmp_path: Path) -> None:
+    """Both coordinates bounce alike, and derivatives pass impulses across the hinge."""
+    text = (
+        '[mechanism]\nname = "hinge"\nspace = "spatial"\ngravity = [0.0, 0.0, -9.81]\n[parameters]\nmu = 0.3\ne = 0.5\n'
+    )
+    text += "[bodies.arm]\nmass = 1.0\ninertia = [0.02, 0.05, 0.04]\nposition = [0.5, 0.0, 0.0]\n"
+    text += 'points = { a = [-0.5, 0.0, 0.0] }\n[joints.pin]\ntype = "revolute"\nbetween = ["ground", "arm"]\n'
+    text += 'at = [[0.0, 0.0, 0.0], "a"]\naxis = [0.0, 1.0, 0.0]\nfriction = { coefficient = "mu", radius = 0.05 }\n'
+    text += '[stops.floor]\ngap = "arm.z + 0.2"\nrestitution = "e"\n'
+    model = loaded(text, tmp_path)
+    settings: dict[str, Any] = {"until": 0.5, "rtol": 1e-11, "integrator": "dop853", "verify": False}
+    first, second = (model.simulate(coordinates=each, **settings) for each in ("absolute", "joint"))
+    assert first.ok and second.ok and first.events[0].name == "floor.hit"
+    assert first["arm.z"][-1] == pytest.approx(second["arm.z"][-1], abs=1e-11)
+    slopes_of(text, 0.4, "arm.z", {"mu": 0.3, "e": 0.5}, tmp_path)
