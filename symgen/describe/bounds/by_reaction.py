@@ -78,11 +78,14 @@ def pressed_rows(mechanism: Mechanism) -> tuple[BoundedRow, ...]:
     return tuple(row for row in mechanism.bounded if row.pressed)
 
 
-def has_tied_impulses(mechanism: Mechanism) -> bool:
-    """Return whether impulses depend on others: at contacts, by reactions beside one-sided rows, by Poisson's law."""
-    one_sided = any(row.one_sided for row in mechanism.bounded)
-    depends = bool(rows_bounded_by_reactions(mechanism)) or mechanism.restitution_law != "newton"
-    return (depends and one_sided) or any(row.in_contact for row in mechanism.bounded)
+def tied_impulses(mechanism: Mechanism) -> str:
+    """Return what has impulses that depend on others, in words; empty where nothing has."""
+    pushing, pressed = [row for row in mechanism.bounded if row.one_sided], rows_bounded_by_reactions(mechanism)
+    if any(row.in_contact for row in mechanism.bounded):
+        return "contacts"
+    if pushing and pressed:
+        return f"{pressed[0].family.noun} by reactions beside {pushing[0].family.noun}"
+    return "impacts by Poisson's law" if pushing and mechanism.restitution_law != "newton" else ""
 
 
 def refuse_shared_reactions(row: BoundedRow, repeats: Iterable[tuple[str, str]]) -> None:

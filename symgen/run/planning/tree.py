@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.derive.lower.windings import winding_order
 from symgen.describe.bounds.bounded_modes import mode_events
-from symgen.describe.bounds.by_reaction import has_tied_impulses
+from symgen.describe.bounds.by_reaction import tied_impulses
 from symgen.describe.parts.topology import state_measures
 from symgen.describe.spanning_tree import Topology
 from symgen.run.layout import abi
@@ -173,7 +173,7 @@ class TreeRun:
         y[: info.work] = state
         y[info.own_states] = event.own
         given = numbers, event.t, y, self._parameters(p), self.body_start.w.copy()
-        if has_tied_impulses(self.whole):
+        if tied_impulses(self.whole):
             assert event.impact is not None, "the event has changed something"
             places = {row.name: i for i, row in enumerate(info.rows)}
             impulses = {places[own.rows[i].name]: float(event.impact.impulses[i]) for i in own.bounded}
