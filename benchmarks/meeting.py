@@ -221,6 +221,7 @@ FEATURES: Mapping[str, str] = {
     ),
     "contact": cart(more=_WALL),
     "contact, two feet": cart(more=_SLED),
+    "contact by Poisson's law": cart(more=_WALL).replace("[mechanism]", '[mechanism]\nrestitution_law = "poisson"', 1),
     "clearance": lowered(0.001, cart(pin=_PLAY)),
     "clearance of a slide": lowered(0.002, cart())
     .replace(_RAIL, f"{_RAIL}\n{_GUIDE}")

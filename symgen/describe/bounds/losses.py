@@ -1,7 +1,7 @@
 """Energy lost at rows with bounds, as quantities of outputs: ``NAME.dissipated`` [J].
 
-Each is an integral beside the state, which only runs whose outputs read it have. That of a one-sided row is 0 between
-impacts, which add what they take (`symgen.run.modes.strikes`).
+Each is an integral beside the state, which only runs whose outputs read it have. Impacts add what they take
+(`symgen.run.modes.strikes`); between them that of a one-sided row is 0.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from symgen.base.vocabulary.expressions import Expr, Reading, call
 from symgen.base.vocabulary.measures import Integral
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.bounds.bounded_modes import measure_derivative, one_sided_rows
+from symgen.describe.bounds.bounded_modes import measure_derivative
 from symgen.describe.formulas.results_read import integrals_of_outputs
 from symgen.describe.mechanism import Mechanism
 
@@ -39,6 +39,13 @@ def losses_by_name(rows: Iterable[BoundedRow]) -> dict[str, Expr]:
 
 
 def places_of_losses(mechanism: Mechanism) -> tuple[int | None, ...]:
-    """Return the places of the losses of one-sided rows among the integrals; None where no output reads one."""
+    """Return the places of the losses of rows that have impulses among the integrals; None where no output reads one.
+
+    Of the two rows of a contact the gap has them.
+    """
     numbers = integrals_of_outputs(mechanism)
-    return tuple(numbers.get(_integral_of_power(row)) for row in one_sided_rows(mechanism))
+    struck = (row.one_sided or (row.pressed and not row.in_contact) for row in mechanism.bounded)
+    return tuple(
+        numbers.get(_integral_of_power(row)) if has else None
+        for row, has in zip(mechanism.bounded, struck, strict=True)
+    )

@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from symgen.base.ir.program import EliminationPlan, LawProgram, ModelProgram
     from symgen.derive.formulate.equations import Equations
 
+#: Functions of a model that whoever has it calls: what follows from parameters, and bodies of joint coordinates.
+OF_READERS = frozenset(("prepare", "bodies"))
 #: Functions of a model that schemes of methods call, beside those that laws do.
 OF_OWN_SCHEMES = frozenset(("geometry", "measure", "spread", "turn"))
 
@@ -179,7 +181,7 @@ class StraightStages(PipelineStages[Derivation, Programs]):
         from symgen.derive.emit.whole import names_from_model
 
         own = any(not EXPLICIT_FORMS & {*choice.method.forms} for choice in self.choices)
-        return frozenset(("prepare", *names_from_model(laws))) | (OF_OWN_SCHEMES if own else frozenset())
+        return OF_READERS | names_from_model(laws) | (OF_OWN_SCHEMES if own else frozenset())
 
     def _law(self, choice: MethodChoice, law: LawProgram, programs: Programs) -> Mapping[str, str]:
         """Return the sources of a law, those that other laws share first."""

@@ -118,7 +118,7 @@ class PushDirections(ResetDirections):
         super().__init__(*others)
         if self.watched.bounded.poisson:
             raise InputError("derivatives", 'restitution_law = "newton"', '"poisson", whose impacts have none')
-        if self.losses:
+        if self.losses or any(place is not None for place in self.watched.bounded.losses):
             raise InputError("derivatives", "outputs without the energy that contacts take", "one that reads it")
 
     def _strike_directions(self, struck: list[int], values: Array, entries: Array) -> tuple[Array, Array, Array]:

@@ -289,8 +289,9 @@ class Transfer:
         if watched is None or watched.bounded is None:
             return caught
         rows = watched.bounded
-        hits = watched.events_of_rows(HIT, len(rows.names))[rows.dry :]
-        return caught | {hit: place for hit, place in zip(hits, rows.losses, strict=True) if place is not None}
+        hits = watched.events_of_rows(HIT, len(rows.names))
+        places = zip(hits[rows.dry :], rows.losses[rows.dry :], strict=True)
+        return caught | {hit: place for hit, place in places if place is not None}
 
     @property
     def _count(self) -> int:

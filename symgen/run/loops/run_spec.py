@@ -152,7 +152,8 @@ class BoundedRows(BoundedNames):
     changes : bool
         Whether anything but the motion and inputs changes over time.
     losses : tuple of int or None
-        Of each one-sided row, the place in the state of the energy that it has taken; None where no output reads it.
+        Of each row that has impulses, the place in the state of the energy that it has taken; None for others, and
+        where no output reads it.
     """
 
     state: RunFormulas

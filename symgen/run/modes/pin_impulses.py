@@ -144,8 +144,8 @@ def find_shortfall(c: Choice, s: Strikes, left: float) -> None:
 
 
 @exact()
-def find_kicks(c: Choice, s: Strikes, rests: bool) -> bool:
-    """Set the impulses of friction by reactions, and their work; return whether there are any in these modes."""
+def find_kicks(c: Choice, s: Strikes, rests: bool, y: Array) -> bool:
+    """Set the impulses of friction by reactions, and what they take; return whether there are any in these modes."""
     laws, n, kicked = c.laws, list_rows(c, s), s.memory.kicked
     fill_impact(c, s, n, rests)
     for row in range(s.ties.kicks.shape[0]):
@@ -158,6 +158,8 @@ def find_kicks(c: Choice, s: Strikes, rests: bool) -> bool:
             rate, kick = c.speed[i] + acceleration_of(n, a, laws), -laws.forces[a]
             s.memory.spent[0] += 0.5 * kick * rate
             s.memory.spent[1] += 0.5 * abs(kick) * abs(rate)
+            if s.losses[i] >= 0:
+                y[s.losses[i]] -= 0.5 * kick * rate
         elif POISSON and c.pushes[i] != 0:
             kick = kicked[i]
         elif POISSON and laws.state[a] >= UPPER:
@@ -175,7 +177,7 @@ def push(t: float, c: Choice, s: Strikes, now: Instant, rests: bool) -> bool:
 
     `rests`: a series of impacts comes to rest.
     """
-    if REACTIONS and not find_kicks(c, s, rests):
+    if REACTIONS and not find_kicks(c, s, rests, now.y):
         return False
     return bool(push_contacts(s.effects.model, t, now, s.chosen, s.effects.work, s.ties) == APPLIED)
 

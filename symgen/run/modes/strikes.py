@@ -63,7 +63,7 @@ class Strikes(Record):
     chosen : Array of int64, shape (events,)
         1 for events that happen.
     events, losses, active : Array of int64, shapes (rows,)
-        Event of each one-sided row, -1 for others; place in the state of the energy that it has taken, or -1; 1
+        Event of each one-sided row, -1 for others; place in the state of the energy that a row has taken, or -1; 1
         for gaps that strike.
     pushing : Array of int64, shape (1,)
         Number of rows that push at an impact whose accumulation has not been asked for.

@@ -90,7 +90,7 @@ def modes_of_runs(
     end = span.end if np.isfinite(span.end) else span.duration  # a run that is stepped has no end of its own
     effects = effects_of_runs(compiled, watched, end, width, nw, keeps)
     hits = watched.events_of_rows(HIT, len(rows.names))
-    losses = [-1] * rows.dry + [-1 if place is None else place for place in rows.losses]
+    losses = [-1 if place is None else place for place in rows.losses]
 
     def rows_of_turn(word: str) -> NDArray[np.int64]:
         pairs = zip(watched.owners, watched.words, strict=True)

@@ -309,3 +309,24 @@ def test_a_hinge_in_space_beside_a_stop(tmp_path: Path) -> None:
     assert first.ok and second.ok and first.events[0].name == "floor.hit"
     assert first["arm.z"][-1] == pytest.approx(second["arm.z"][-1], abs=1e-11)
     slopes_of(text, 0.4, "arm.z", {"mu": 0.3, "e": 0.5}, tmp_path)
+
+
+@pytest.mark.slow_cases("contact")
+@pytest.mark.parametrize("touch", ["stop", "contact"])
+def test_the_energy_that_rows_take_is_what_the_rods_lose(touch: str, tmp_path: Path) -> None:
+    """Pins take energy while they turn and at impacts, and so does what the tip strikes, until it rests."""
+    taken = [f"{name}.dissipated" for name in ("A", "B", "floor")]
+    outputs = "".join(f'{name.replace(".", "_")} = {{ value = "{name}", unit = "J" }}\n' for name in taken)
+    text = two_rods(touch=touch, below=0.05) + f"[outputs]\n{outputs}"
+    ends = []
+    for until in (0.05, 1.5):
+        result = loaded(text, tmp_path).simulate(until=until, verify=False, integrator="dop853", rtol=1e-11)
+        assert result.ok and len(result.events) > 0, result.reason
+        energy = np.asarray(result["energy.kinetic"]) + np.asarray(result["energy.potential"])
+        ends.append(float(sum(result[name.replace(".", "_")][-1] for name in taken)))
+        assert ends[-1] == pytest.approx(float(energy[0] - energy[-1]), rel=1e-9)
+    assert ends[1] > ends[0] > 0.0
+    pins = loaded(text, tmp_path).simulate(until=0.05, verify=False, integrator="dop853", rtol=1e-11)
+    at = next(e.t for e in pins.events if e.name == "floor.hit")
+    before, after = (int(np.searchsorted(pins.t, at, side=side)) for side in ("left", "right"))
+    assert pins["A_dissipated"][after] - pins["A_dissipated"][before - 1] > 1e-3
