@@ -78,6 +78,11 @@ def lowered(play: float, text: str) -> str:
     return text.replace('"-size*cos(0.4)"', f'"-size*cos(0.4) - {play!r}"')
 
 
+def thrown(text: str) -> str:
+    """Return a file whose cart moves at the start, so that its pole strikes a wall at the right."""
+    return text.replace("position = [0.1, 0.0]", "position = [0.1, 0.0]\nvelocity = [1.0, 0.0]", 1)
+
+
 _PIN = 'type = "revolute"\nbetween = ["cart", "pole"]\nat = ["centre", "pin"]'
 _ROWS = 'type = "rows"\nrows = [{ position = "pole.pin.x - cart.x" }, { position = "pole.pin.y - cart.y" }]'
 _RAIL = (
@@ -219,9 +224,11 @@ FEATURES: Mapping[str, str] = {
         pin="rotor_inertia = 1e-3\ngear_ratio = 10.0",
         more='[events.kick]\nwhen = "cart.x - 0.09"\nreset = { "cart.vx" = "0.5" }',
     ),
-    "contact": cart(more=_WALL),
+    "contact": thrown(cart(more=_WALL)),
     "contact, two feet": cart(more=_SLED),
-    "contact by Poisson's law": cart(more=_WALL).replace("[mechanism]", '[mechanism]\nrestitution_law = "poisson"', 1),
+    "contact by Poisson's law": thrown(cart(more=_WALL)).replace(
+        "[mechanism]", '[mechanism]\nrestitution_law = "poisson"'
+    ),
     "clearance": lowered(0.001, cart(pin=_PLAY)),
     "clearance of a slide": lowered(0.002, cart())
     .replace(_RAIL, f"{_RAIL}\n{_GUIDE}")

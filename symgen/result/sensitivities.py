@@ -23,6 +23,7 @@ from symgen.result.step_errors import DOUBTFUL, errors_of_steps
 from symgen.result.unmoved import unmoved_sentence
 from symgen.run.compiling.side import compile_side
 from symgen.run.directions.directions import DirectedCourse, run_with_directions
+from symgen.run.directions.push_directions import refuse_law_without_directions
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.planning.moving_breaks import with_moving_kinks
 from symgen.run.planning.named_directions import named_directions
@@ -85,6 +86,7 @@ def prepare_for_directions(mechanism: Mechanism, settings: Settings) -> tuple[Pr
         raise InputError("sensitivities: integrator", f"an explicit scheme ({', '.join(works)})", got, hint)
     run = _add_derivative_code(ready).run()
     watched = run.spec.events
+    refuse_law_without_directions(watched)
     if any(x.jumps for x in discontinuities_of(run.plan.mechanism)) or (watched and watched.rows is not None):
         expected, got = "a run without jumps of formulas", "formulas that jump where the state passes zero"
         hint = "write kinks by max, min or abs, and jumps as an event, which resets a state of the file"

@@ -20,6 +20,7 @@ from symgen.result.sensitivities import SCHEMES
 from symgen.result.stepping.horizon import Horizon
 from symgen.run.compiling.side import compile_side
 from symgen.run.directions.directed_model import DirectedModel, Seeds, lanes_of_few_passes
+from symgen.run.directions.push_directions import refuse_law_without_directions
 from symgen.run.directions.step_directions import StepsAgain
 from symgen.run.directions.steps_ahead import DirectedRun, StepsAhead
 from symgen.run.layout import abi
@@ -333,6 +334,7 @@ def _check_names(prepared: Prepared, loop: Simulation) -> None:
         raise InputError(WHERE, expected, f"'{name}'")
     if compiled.shape != "straight":
         raise InputError(WHERE, "code of the shape 'straight'", f"shape '{compiled.shape}'")
+    refuse_law_without_directions(watched)
     jumps = any(x.jumps for x in discontinuities_of(prepared.mechanism))
     if jumps or (watched is not None and watched.rows is not None):
         hint = "write kinks by max, min or abs, and jumps as an event, which resets a state of the file"

@@ -19,9 +19,8 @@ from symgen.base.errors import refuse_overflow
 from symgen.base.vocabulary.infos import BY, LinearisedInfo
 from symgen.compile.store.loaded_modules import load_module
 from symgen.describe.formulas.evaluate import dependent_parameters
-from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Mechanism
-from symgen.run.compiling.side import compile_beside, side_module
+from symgen.run.compiling.side import compile_beside, digest_of_formulas, side_module
 from symgen.run.layout.abi import OBSERVE
 from symgen.run.layout.compiled import CompiledModel
 from symgen.run.layout.probe import Few
@@ -169,7 +168,8 @@ def _compile_module(
 ) -> DescriptorForm | None:
     of_model, around = compiled.info, compile_beside(mechanism, compiled)
     # the digest that names folders does not cover outputs
-    reported = () if groups else [(o.name, o.unit, to_text(o.value)) for o in mechanism.outputs]
+    outputs = () if groups else mechanism.outputs
+    reported = [(o.name, o.unit) for o in outputs], digest_of_formulas(o.value for o in outputs)
 
     def make() -> tuple[str, dict[str, Any]]:
         from symgen.derive.emit.emit import emit_side

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import inspect
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -25,7 +25,6 @@ from symgen.base.vocabulary.expressions import Expr
 from symgen.compile.store.entries import Entries
 from symgen.compile.store.loaded_modules import load_module, plain_function
 from symgen.derive.lower.windings import Beside, winding_order
-from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.formulas.results_read import integrals_of_outputs
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.folders import folder_of, generator_digest
@@ -107,6 +106,11 @@ def side_module(
     return store.description(folder, stem, make), store.path(folder, stem)
 
 
+def digest_of_formulas(formulas: Iterable[Expr]) -> str:
+    """Return what tells formulas apart, with the measures that they read, which a mechanism's digest may lack."""
+    return hashlib.sha256(msgspec.msgpack.encode(list(formulas))).hexdigest()
+
+
 def compile_side(
     mechanism: Mechanism,
     compiled: CompiledModel,
@@ -141,7 +145,7 @@ def compile_side(
     """
     labels = ["rate of " * k + label for k in range(rates + 1) for label, _ in formulas]
     labels += ["size of " + label for label, _ in formulas if sizes]
-    around, texts = compile_beside(mechanism, compiled), [to_text(e) for _, e in formulas]
+    around = compile_beside(mechanism, compiled)
 
     def make() -> tuple[str, dict[str, Any]]:
         from symgen.derive.emit.emit import emit_side
@@ -151,7 +155,8 @@ def compile_side(
             program = lower_side(mechanism, name, purpose, formulas, around, rates, sizes)
         return emit_side(program), {"reads": list(program.reads), "of_forces": list(program.of_forces)}
 
-    identity = purpose, rates, around, list(integrals_of_outputs(mechanism)), *labels, *texts
+    written = digest_of_formulas(e for _, e in formulas)
+    identity = purpose, rates, around, list(integrals_of_outputs(mechanism)), *labels, written
     metadata, path = side_module(mechanism, name, identity, make)
     reads, of_forces = frozenset(metadata["reads"]), frozenset(metadata["of_forces"])
     return Side(getattr(load_module(path), name), path, tuple(labels), reads, of_forces)
@@ -181,9 +186,9 @@ def add_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledMode
     around = replace(around, sections={**around.sections, "auxiliary": auxiliary})
     files = _files_of_module(law)
     stems = {name: file.stem for name, file in sorted(files.items())}
-    texts = [to_text(integral.of) for integral in formulas]
+    written = digest_of_formulas(integral.of for integral in formulas)
     store, folder = Entries(), next(iter(files.values())).parent.name
-    stem = stem_of("integrals", folder_of(mechanism), around, stems, *texts)
+    stem = stem_of("integrals", folder_of(mechanism), around, stems, written)
 
     def make() -> tuple[str, dict[str, Any]]:
         from symgen.derive.emit.emit import emit_integrals

@@ -96,6 +96,19 @@ def push_state(
     return effects.impact(numbers, y[effects.compiled.info.nq : effects.compiled.info.work], work.impulse.impulses, 0.0)
 
 
+def refuse_law_without_directions(watched: Watched | None) -> None:
+    """Refuse derivatives of a run whose impacts obey a law that has none.
+
+    Raises
+    ------
+    InputError
+        If one-sided rows have Poisson's law.
+    """
+    rows = None if watched is None else watched.bounded
+    if rows is not None and rows.one_sided and rows.poisson:
+        raise InputError("derivatives", 'restitution_law = "newton"', '"poisson", whose impacts have none')
+
+
 class PushDirections(ResetDirections):
     """An impact of contacts, and how it changes along the directions of the state at its event.
 
@@ -116,8 +129,6 @@ class PushDirections(ResetDirections):
     def __init__(self, *given: Any) -> None:
         *others, self.ties, self.watched, self.parts, self.pins = given
         super().__init__(*others)
-        if self.watched.bounded.poisson:
-            raise InputError("derivatives", 'restitution_law = "newton"', '"poisson", whose impacts have none')
         if self.losses or any(place is not None for place in self.watched.bounded.losses):
             raise InputError("derivatives", "outputs without the energy that contacts take", "one that reads it")
 

@@ -181,3 +181,35 @@ gap = "point.y - max(0, point.x - 1)"
     modes = model.modes(at="start")
     assert [abs(x.imag) for x in modes.eigenvalues] == pytest.approx([5.0, 5.0], abs=1e-12)
     assert any("floor.1" in note and "floor.2" in note for note in modes.notes)
+
+
+@pytest.mark.parametrize("at", [0.3, 0.7])
+def test_a_contact_is_judged_where_its_file_has_it(at: float) -> None:
+    """Files that differ in the place of a wall alone, which is left out where it is open, have gaps of their own."""
+    between = [{"body": "bob", "disc": 0.1}, {"line": "ground", "on": [0.0, -at], "normal": [0.0, 1.0]}]
+    model = symgen.load(
+        validate(
+            {
+                "mechanism": {"name": "hung", "gravity": [0.0, -G]},
+                "bodies": {"bob": {"mass": 1.0, "inertia": 0.01, "position": [0.0, 0.0]}},
+                "forces": {"spring": {"type": "force", "body": "bob", "force": [0.0, f"-{G / 0.5}*bob.y"]}},
+                "joints": {
+                    "rail": {
+                        "type": "translational",
+                        "between": ["ground", "bob"],
+                        "at": [[0.0, 0.0], "centre"],
+                        "axis": [0.0, 1.0],
+                    }
+                },
+                "contacts": {"floor": {"between": between}},
+            },
+            "hung",
+        )
+    )
+    if at > 0.5 + 0.1:
+        assert model.equilibrium().q["bob.y"] == pytest.approx(-0.5, abs=1e-12)
+    else:
+        with pytest.raises(
+            AnalysisError, match=r"contact floor, open at the start, is passed there \(its gap is -0\.3 "
+        ):
+            model.equilibrium()

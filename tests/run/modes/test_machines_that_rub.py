@@ -53,7 +53,7 @@ def test_machines_move_as_their_simulation_says(name: str) -> None:
 @pytest.mark.by_turns(7)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", MACHINES)
-def test_rows_of_300_values_are_smooth_and_none_fails(name: str) -> None:
+def test_rows_of_300_values_end_as_their_simulation_says_and_none_fails(name: str) -> None:
     values = values_of(name, VALUES)
     statuses, last = swept(name, values)
     assert statuses == ["ok"] * VALUES
