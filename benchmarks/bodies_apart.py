@@ -21,7 +21,7 @@ from symgen.base.errors import SimulationError, SymgenError
 RECORD = Path(__file__).resolve().parent / "records" / "bodies_apart.json"
 Array = NDArray[np.float64]
 #: Largest difference of a place or an angle from what it is alone [m, rad].
-SAME = 8e-12
+SAME = 2e-11
 TIMES = np.linspace(0.0, 1.5, 31)
 HEAD = '[mechanism]\nname = "apart"\ngravity = [0.0, -9.81]\n[run]\nuntil = 1.5\n'
 

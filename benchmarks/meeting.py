@@ -422,10 +422,15 @@ def cell(feature: str, place: str) -> str:
     """Return ``+``, or the sentence that refuses a feature in a place."""
     with tempfile.TemporaryDirectory() as folder:
         (file := Path(folder) / "cart.toml").write_text(FEATURES[feature], encoding="utf-8")
-        for name in ("bar.npz", "strip.npz"):
-            if name in FEATURES[feature]:
-                _reduce_bar(Path(folder) / name)
+        write_modal_files(FEATURES[feature], Path(folder))
         return PLACES[place](file, Path(folder)).replace(f"{folder}/", "") or "+"
+
+
+def write_modal_files(text: str, folder: Path) -> None:
+    """Write the modal bodies that a file reads beside it."""
+    for name in ("bar.npz", "strip.npz"):
+        if name in text:
+            _reduce_bar(folder / name)
 
 
 def _reduce_bar(file: Path) -> None:

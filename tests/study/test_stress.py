@@ -133,7 +133,7 @@ def test_attempts_of_a_search_on_a_driven_cart_compile_nothing_anew(tmp_path):
 def search_on_a_cart(file):
     level = levels_of_family("stiffness", Base.of_mechanism(Path(file)), True)[1]
     known = compute_cell(CellReference(level))
-    assert compute_cell(RunTask(level, "lagrange", "rk4", known))["outcome"] in ("ok", "diverged")
+    assert compute_cell(RunTask(level, "lagrange", "rk4", known))["outcome"] in ("ok", "inaccurate", "diverged")
     print("the search begins", file=sys.stderr, flush=True)
     found = compute_cell(LimitTask(level, "lagrange", "rk4", known))
     assert 1e-4 < found["accurate_step"] <= found["stable_step"] < 0.01
@@ -301,11 +301,11 @@ def test_the_largest_step_of_rk4_is_where_its_region_of_stability_ends(damped):
 
 
 @pytest.mark.slow
-def test_the_length_of_a_point_on_a_link_is_the_diagonal_of_its_motion():
-    """Else nothing of a pendulum would be within a tenth of its length: the largest step would be that of an error."""
+def test_the_length_of_a_point_on_a_link_is_the_range_of_its_motion():
+    """It swings from one side to the other. In lengths of its link the largest step would be that of an error."""
     level = levels_of_family("duration", Base.of_mechanism("pendulum"), True)[0]
     known = compute_cell(CellReference(level))
-    assert known["length"] == pytest.approx(math.sqrt(5.0), rel=1e-2)
+    assert known["length"] == pytest.approx(2.0, rel=1e-2)
     found = compute_cell(LimitTask(level, "lagrange", "rk4", known))
     assert found["accurate_step"] < found["stable_step"] and found["stable_step"] > 0.02
 
@@ -348,10 +348,11 @@ def test_the_error_of_a_penalty_falls_with_its_factor():
     assert error[1e6] / error[1e4] == pytest.approx(1e-2, rel=0.5)
     assert 0.005 < error[1e8] / error[1e6] < 0.06  # the tolerance of the integrator shows already
     assert error[1e12] > 10.0 * error[1e8]  # rounding has taken over
-    for row in study.rows:  # of the longest link
-        assert row.error is None or row.relative_error == pytest.approx(row.error / 4.0)
+    lengths = {round(row.error / row.relative_error, 9) for row in study.rows if row.error}
+    assert len(lengths) == 1 and 1.0 < lengths.pop() < 4.0  # of the range of the motion, below the longest link
+    for row in study.rows:
         if row.status != "not run" and not row.note:
-            assert (row.outcome == "ok") == (row.error is not None and row.error <= 4e-3)
+            assert (row.outcome == "ok") == (row.error is not None and row.relative_error <= 1e-3)
 
 
 @pytest.mark.slow

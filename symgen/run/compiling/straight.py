@@ -21,7 +21,6 @@ from symgen.base.vocabulary.infos import LawInfo
 from symgen.base.vocabulary.quantities import Quantity
 from symgen.compile.store.entries import Modules
 from symgen.compile.store.loaded_modules import load_module
-from symgen.derive.methods._base import EXPLICIT_FORMS
 from symgen.describe.facts.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.folders import folder_of
@@ -35,6 +34,8 @@ if TYPE_CHECKING:
 
 #: Functions of a model that whoever has it calls: what follows from parameters, and bodies of joint coordinates.
 OF_READERS = frozenset(("prepare", "bodies"))
+#: Forms of laws whose right-hand side explicit schemes evaluate: a method with none has a scheme of its own.
+BY_RIGHT_SIDE = frozenset(("ode", "one-step"))
 #: Functions of a model that schemes of methods call, beside those that laws do.
 OF_OWN_SCHEMES = frozenset(("geometry", "measure", "spread", "turn"))
 
@@ -180,7 +181,7 @@ class StraightStages(PipelineStages[Derivation, Programs]):
         """Return the functions of the model that laws and the schemes of their methods call."""
         from symgen.derive.emit.whole import names_from_model
 
-        own = any(not EXPLICIT_FORMS & {*choice.method.forms} for choice in self.choices)
+        own = any(not BY_RIGHT_SIDE & {*choice.method.forms} for choice in self.choices)
         return OF_READERS | names_from_model(laws) | (OF_OWN_SCHEMES if own else frozenset())
 
     def _law(self, choice: MethodChoice, law: LawProgram, programs: Programs) -> Mapping[str, str]:

@@ -11,6 +11,7 @@ import numpy as np
 from symgen.base.errors import AssemblyError, InputError
 from symgen.base.settings import Settings
 from symgen.compile.store.loaded_modules import plain_function
+from symgen.run.compiling.straight import BY_RIGHT_SIDE
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import code_and_start, make_plan, prepared_run
 from symgen.run.printed.scheme_text import text_of_scheme
@@ -20,9 +21,6 @@ if TYPE_CHECKING:
 
     from symgen.compile.native.annotations import Record
     from symgen.run.planning.plan import Plan
-
-#: Problem forms that the loop of a package over the right-hand side solves.
-_BY_RIGHT_SIDE = frozenset(("ode", "one-step"))
 
 
 @dataclass(frozen=True)
@@ -53,7 +51,7 @@ def scheme_of_package(plan: Plan) -> PackageScheme | None:
         A run by the method.
     """
     method = plan.choice.method
-    if _BY_RIGHT_SIDE & set(method.forms):
+    if BY_RIGHT_SIDE & set(method.forms):
         return None
     integrator = plan.integrator
     own = {f"method.{name}": value for name, value in plan.choice.options.items()}

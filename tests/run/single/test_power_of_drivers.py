@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 
 import symgen
-from benchmarks.finite_elements import solid
-from benchmarks.meeting import FEATURES
+from benchmarks.meeting import FEATURES, write_modal_files
 from symgen.base.errors import InputError
 from symgen.result.judge import judge
 from symgen.result.points import Verification
@@ -44,8 +43,7 @@ def share_of_error(result: symgen.Result) -> float:
 def test_energy_balances_beside_a_driver_in_every_cell(feature, tmp_path):
     """Of all features of `docs/meeting.md`, by the driver of the cart or the pole, in both coordinates."""
     text, balanced = FEATURES[feature], 0
-    bar = solid((0.4, 0.02), (4, 1), young=1e8, thick=0.02)
-    symgen.reduced(bar.x, bar.mass, bar.stiffness, bar.ends).save(tmp_path / "bar.npz")
+    write_modal_files(text, tmp_path)
     drives = {"own": ""} if "euler_angles" in text or 'type = "driver"' in text else DRIVERS
     for name, drive in drives.items():
         (path := tmp_path / f"{name}.toml").write_text(f"{text}\n{drive}")
