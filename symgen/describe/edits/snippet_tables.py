@@ -66,7 +66,7 @@ class EditedFile:
         return f"{stem}{number}"
 
     def take_name(self, name: str) -> str:
-        """Return a name, with a number behind it where it is in use, which is taken then."""
+        """Return a name, followed by a number if it is in use, and note that it is taken."""
         if name in self._used:
             return self.take_free_name(name)
         self._used.add(name)

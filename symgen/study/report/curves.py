@@ -71,7 +71,7 @@ def curve_pictures(file: str, along: Labelled, table: Labelled, called: str = ""
     Parameters
     ----------
     file : str
-        Name of the first picture; further ones have a number behind it.
+        Name of the first picture; the names of others end with a number.
     along : Labelled, shape (k, 1) or (k, n)
         What curves are drawn over: one column for all, or one for each.
     table : Labelled, shape (k, n)
