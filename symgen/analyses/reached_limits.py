@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism, OperatingLimit
@@ -73,7 +73,7 @@ def _reached_values(mechanism: Mechanism, result: Result) -> Iterator[ReachedLim
 def _ends_of_limit(limit: OperatingLimit, parameters: Mapping[str, float]) -> Iterator[tuple[str, float]]:
     for side, end in (("smallest", limit.smallest), ("largest", limit.largest)):
         if end is not None:
-            yield side, evaluate(end, parameters, f"{limit.name}.{side}")
+            yield side, evaluate_formula(end, parameters, f"{limit.name}.{side}")
 
 
 def _index_of_extreme(values: NDArray[np.float64], side: str) -> int:

@@ -14,7 +14,7 @@ from symgen.base.escapes import printable
 from symgen.cli import BAD_INPUT, OK, write_json
 from symgen.cli._shared_options import examples_in_help, json_option, setting_options
 from symgen.describe.bounds.by_reaction import pressed_rows
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.modal_body import MANY_MODES
 
 if TYPE_CHECKING:
@@ -183,7 +183,7 @@ def _facts_of_modes(mechanism: Mechanism) -> dict[str, Any]:
             "interfaces": [x.name for x in mechanism.bodies if x.carried is not None and x.carried.host == body.name],
             "frequencies": [math.sqrt(k / body.modal.mass) / math.tau for k in body.modal.stiffness],
             "mass": body.modal.mass,
-            "centre_of_mass": [evaluate(e, {}) for e in body.centre_of_mass],
+            "centre_of_mass": [evaluate_formula(e, {}) for e in body.centre_of_mass],
         }
         for body in mechanism.bodies
         if body.modal is not None

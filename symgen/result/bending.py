@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from symgen.base.vocabulary.expressions import Expr
 from symgen.base.vocabulary.measures import GROUND, Component, Direction, Flexure, Marker, Sum
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.mechanism import Mechanism
 from symgen.result.part_limits import MotionOfBodies, PartLimit
 from symgen.result.points import rotation_matrices
@@ -58,7 +58,7 @@ class _Poses:
             first += len(body.coordinates)
 
     def numbers_of_vector(self, vector: tuple[Expr, ...]) -> Array:
-        return np.array([evaluate(e, self.parameters, "forces") for e in vector])
+        return np.array([evaluate_formula(e, self.parameters, "forces") for e in vector])
 
     def vector_in_ground(self, body: str, vector: Array) -> Array:
         """Return a vector of a body's frame in the ground frame at all times, shape (k, dimension)."""
@@ -84,7 +84,7 @@ class _Poses:
         cosine = np.sum([np.sum(u * v, axis=1) for u, v in frames], axis=0)
         bend = np.arccos(np.clip(0.5 * (cosine - (1.0 if self.spatial else 0.0)), -1.0, 1.0))
         chord = np.linalg.norm(self.places_of_marker(pairs[0][0].b) - self.places_of_marker(pairs[0][0].a), axis=1)
-        length = evaluate(flexure.length, self.parameters, "forces")
+        length = evaluate_formula(flexure.length, self.parameters, "forces")
         return bend, np.abs(chord / np.sinc(0.5 * bend / np.pi) / length - 1.0)
 
     def _direction_in_ground(self, direction: Direction) -> Array:

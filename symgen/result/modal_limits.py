@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.mechanism import AnyBody, Mechanism
 from symgen.describe.modal_body import CarriedInterface, HeldStretch, Modal, ModalOutline
 from symgen.result.part_limits import MotionOfBodies, PartLimit
@@ -102,7 +102,7 @@ def _limits_of_body(mechanism: Mechanism, body: AnyBody, modal: Modal) -> Iterat
             own: CarriedInterface = own,
             limit: float = limit,
         ) -> Array:
-            gravity = np.array([evaluate(e, parameters, "mechanism.gravity") for e in mechanism.gravity])
+            gravity = np.array([evaluate_formula(e, parameters, "mechanism.gravity") for e in mechanism.gravity])
             forces = np.linalg.norm(moving(motion).forces_on(own, gravity), axis=1)
             return forces / (limit * pushed_most) if limit > 0.0 else np.zeros_like(forces)
 
@@ -192,7 +192,7 @@ def _limits_inside(
         yield PartLimit(coupled, say_coupled)
 
     def weighed(parameters: Mapping[str, float], motion: MotionOfBodies) -> Array:
-        gravity = np.array([evaluate(e, parameters, "mechanism.gravity") for e in mechanism.gravity])
+        gravity = np.array([evaluate_formula(e, parameters, "mechanism.gravity") for e in mechanism.gravity])
         return np.asarray(np.abs(moving(motion).falling(gravity)) @ np.array(modal.softening) / most.weighed)
 
     def say_weighed(factor: float) -> str:

@@ -13,7 +13,7 @@ from symgen.base.errors import plural
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.facts.carriers import bodies_of_reactions
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.modal_body import COORDINATE, names_of_modes
 from symgen.result.interface_poses import interface_poses
 from symgen.result.labelled import Array, Labelled
@@ -230,9 +230,9 @@ def seats_of_reactions(mechanism: Mechanism, parameters: Mapping[str, float]) ->
     for name, body in bodies_of_reactions(mechanism).items():
         place, carried = nothing, None
         if name in markers:
-            place = tuple(evaluate(e, parameters, f"joints.{name}.at") for e in markers[name].point)
+            place = tuple(evaluate_formula(e, parameters, f"joints.{name}.at") for e in markers[name].point)
             if (on := markers[name].body) != GROUND:
-                centre = (evaluate(e, parameters, f"bodies.{on}") for e in bodies[on].centre_of_mass)
+                centre = (evaluate_formula(e, parameters, f"bodies.{on}") for e in bodies[on].centre_of_mass)
                 place, carried = tuple(x - c for x, c in zip(place, centre, strict=True)), bodies[on].carried
         by_joint[name] = Seat(body, place, carried)
     return by_joint

@@ -7,7 +7,7 @@ import numpy as np
 
 from symgen.base.vocabulary.expressions import Name, Number
 from symgen.base.vocabulary.measures import Angle, Component, Distance, Holonomic, LinkStretch
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.mechanism import Mechanism
 
 
@@ -20,7 +20,7 @@ class Posed:
         self.frames = dict(frames or self.start()) | {"ground": (0.0, 0.0, 0.0)}
 
     def number(self, expression, t: float = 0.0) -> float:
-        return evaluate(expression, self.values | {"t": t})
+        return evaluate_formula(expression, self.values | {"t": t})
 
     def start(self) -> dict[str, tuple]:
         return {b.name: (*map(self.number, b.position), self.number(b.angle)) for b in self.mechanism.bodies}

@@ -5,7 +5,7 @@ import pytest
 from support.spatial_runs import columns, point, run, start_of
 
 from symgen.describe.files.load import load_mechanism
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.result.points import Points
 from symgen.study.references.reference import reference_motion
 
@@ -14,8 +14,8 @@ def place(mechanism, result, body, name):
     """Path of a named point."""
     described = mechanism.body(body)
     values = {p.name: p.value for p in mechanism.parameters}
-    local = [evaluate(e, values) for e in dict(described.points)[name]]
-    return point(result, body, np.array(local) - [evaluate(e, values) for e in described.centre_of_mass])
+    local = [evaluate_formula(e, values) for e in dict(described.points)[name]]
+    return point(result, body, np.array(local) - [evaluate_formula(e, values) for e in described.centre_of_mass])
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ from support.emitted import Emitted, mechanism_of
 from support.random_space import make
 from support.rotation import of_turn
 
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.study.references.independent import IndependentEquations
 
 #: All kinds of joints and forces, a third of them in a turn.
@@ -100,7 +100,7 @@ def test_angles_begin_with_the_turns_that_drivers_ask_for():
     y = np.zeros(2 * equations.n)
     y[3:7] = np.cos(10.0), 0.0, 0.0, np.sin(10.0)
     assert len(row.measure.terms) == 2
-    factors = [evaluate(k, {}) for k, _ in row.measure.terms]
+    factors = [evaluate_formula(k, {}) for k, _ in row.measure.terms]
     # the follower turns by the ratio of the two factors, whichever way round the gear takes it
     turned = -factors[0] / factors[1] * 20.0
     y[10:14] = [np.cos(turned / 2), 0.0, 0.0, np.sin(turned / 2)]

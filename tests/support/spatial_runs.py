@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 import symgen
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 
 DATA = Path(__file__).parents[1] / "data"
 
@@ -54,10 +54,10 @@ def inertia(mechanism, name, parameters=None):
     """Mass and tensor of a body."""
     body = mechanism.body(name)
     values = {p.name: p.value for p in mechanism.parameters} | (parameters or {})
-    mass = evaluate(body.mass, values)
+    mass = evaluate_formula(body.mass, values)
     if body.inertia is None:
         return mass, np.zeros((3, 3))
-    xx, yy, zz, xy, xz, yz = (evaluate(e, values) for e in body.inertia)
+    xx, yy, zz, xy, xz, yz = (evaluate_formula(e, values) for e in body.inertia)
     return mass, np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 

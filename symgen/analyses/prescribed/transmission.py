@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError, quote, suggest
 from symgen.base.vocabulary.measures import GROUND, Component
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.result.labelled import Labelled
 
 if TYPE_CHECKING:
@@ -103,16 +103,18 @@ class _Angle:
         """Return the normal of a slide, shape (k, 2): its axis is fixed in the first body."""
         ((_, displacement),) = slider.coordinates
         assert isinstance(displacement, Component), "a displacement is a component"
-        x, y = (evaluate(e, self.parameters, slider.name) for e in displacement.along.vector)
+        x, y = (evaluate_formula(e, self.parameters, slider.name) for e in displacement.along.vector)
         return self._turn_to_ground(displacement.along.body, np.array([-y, x]))
 
     def _positions_of_pin(self, joint: Joint) -> Array:
         """Return the positions of a pin, shape (k, 2)."""
         marker = dict(self.mechanism.seats)[joint.name]
-        local = np.array([evaluate(e, self.parameters, joint.name) for e in marker.point])
+        local = np.array([evaluate_formula(e, self.parameters, joint.name) for e in marker.point])
         if marker.body == GROUND:
             return np.broadcast_to(local, (len(self.states), 2))
-        centre = [evaluate(e, self.parameters, joint.name) for e in self.mechanism.body(marker.body).centre_of_mass]
+        centre = [
+            evaluate_formula(e, self.parameters, joint.name) for e in self.mechanism.body(marker.body).centre_of_mass
+        ]
         origin = self.states[:, [self.places[f"{marker.body}.x"], self.places[f"{marker.body}.y"]]]
         return origin + self._turn_to_ground(marker.body, local - np.array(centre))
 

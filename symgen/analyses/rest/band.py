@@ -22,7 +22,7 @@ from symgen.analyses.state.one_sided import fault_of_mode
 from symgen.analyses.state.subject import Subject
 from symgen.base.errors import AnalysisError, plural
 from symgen.describe.bounds.bounded_modes import coordinate_of, two_sided_rows
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.mechanism import Mechanism
 
 Array = NDArray[np.float64]
@@ -80,7 +80,7 @@ def band_of_rests(mechanism: Mechanism, parameters: Mapping[str, float], rest: S
     if unequal := ", ".join(row.name for row in rows if row.unequal):
         return Band({}, f"{left_out}: no band of them, as bounds of {unequal} differ in the two directions")
     names = [coordinate_of(mechanism, row) for row in rows]
-    bounds = [evaluate(row.numbers[0][1], parameters, f"{row.family.one} of {row.name}") for row in rows]
+    bounds = [evaluate_formula(row.numbers[0][1], parameters, f"{row.family.one} of {row.name}") for row in rows]
     rates = np.abs(_rates_of_coordinates(subject, rest.y, names))
     rates /= [subject.length if row.unit == "m" else 1.0 for row in rows]
     if not rates.max() > 0.0:

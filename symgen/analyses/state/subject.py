@@ -20,7 +20,7 @@ from symgen.base.settings import Settings
 from symgen.derive.lower.windings import winding_order
 from symgen.describe.bounds.bounded_modes import one_sided_rows, without_bounds
 from symgen.describe.facts.digest import digest
-from symgen.describe.formulas.evaluate import evaluate, parameter_values
+from symgen.describe.formulas.evaluate import evaluate_formula, parameter_values
 from symgen.describe.parts.holding_joints import has_modes_of_joints, in_modes
 from symgen.run.compiling.linearised import DescriptorForm, LinearisedState, compile_linearised
 from symgen.run.compiling.pipeline import straight_alone
@@ -199,8 +199,8 @@ class Subject(Yardsticks):
         for (_, i), force in zip(self.form.elements, e.value("elements"), strict=True):
             sizes[i] += abs(force)
         values = {q.name: float(x) for q, x in zip(self.compiled.info.parameters, self.p, strict=False)}
-        pull = math.hypot(*(evaluate(g, values, "gravity") for g in self.mechanism.gravity))
-        whole = sum(abs(evaluate(body.mass, values, "mass")) for body in self.mechanism.bodies)
+        pull = math.hypot(*(evaluate_formula(g, values, "gravity") for g in self.mechanism.gravity))
+        whole = sum(abs(evaluate_formula(body.mass, values, "mass")) for body in self.mechanism.bodies)
         return np.asarray(sizes + pull * np.sqrt(whole * mass))
 
     def lost_rank(self, d: Array) -> int:

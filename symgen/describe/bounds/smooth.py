@@ -13,7 +13,7 @@ from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import two_sided_rows, unit_of_effort, without_bounds
 from symgen.describe.bounds.dry_friction import Friction
 from symgen.describe.bounds.elastic_stop import ElasticStop
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.mechanism import Force, Mechanism, Output
 
 #: Kind of such a force, and what may have a smooth law.
@@ -68,7 +68,7 @@ def smooth_rows(where: str, rows: Sequence[BoundedRow], speed: float, values: Ma
             raise InputError(where, expected, f"the {row.family.one} {row.name}")
         if row.changing and row.numbers[0][1] != row.numbers[1][1] and row.stribeck_speed is None:
             raise InputError(where, expected, f"that of {row.name}, two formulas")
-        bounds = () if row.changing else tuple(evaluate(bound, values, where) for _, bound in row.numbers)
+        bounds = () if row.changing else tuple(evaluate_formula(bound, values, where) for _, bound in row.numbers)
         low, high = min(bounds, default=0.0), max(bounds, default=0.0)
         if high != low and row.stribeck_speed is None:
             raise InputError(where, expected, f"that of {row.name}, {high:g} at rest and {low:g} in motion")

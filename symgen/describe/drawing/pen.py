@@ -31,7 +31,7 @@ from symgen.describe.drawing.scene import (
     Stretch,
     Tube,
 )
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.mechanism import AnyBody, Mechanism
 
 
@@ -110,12 +110,12 @@ class PlacedMechanism:
 
     def number(self, expression: Any) -> float:
         """Return a constant of the mechanism."""
-        return evaluate(expression, self.values)
+        return evaluate_formula(expression, self.values)
 
     def value_of_formula(self, expression: Any, further: Mapping[str, float]) -> float:
         """Return the value of a formula of the state in the first positions, at rest."""
         values = {**self.values, **self.state, **further}
-        return evaluate(expression, values, tables={table.name: table for table in self.mechanism.tables})
+        return evaluate_formula(expression, values, tables={table.name: table for table in self.mechanism.tables})
 
     def vector(self, expressions: Any) -> Array:
         """Return a vector of constants with three components."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from symgen.base.vocabulary.measures import markers_in
 from symgen.describe.drawing.scene import Point
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import AnyBody, Mechanism, Vec
@@ -48,7 +48,7 @@ def traced_points(mechanism: Mechanism, values: Mapping[str, float]) -> list[Tra
     """
 
     def point_as_numbers(point: Vec) -> Point:
-        x, y, *z = (evaluate(e, values) for e in point)
+        x, y, *z = (evaluate_formula(e, values) for e in point)
         return (x, y, z[0] if z else 0.0)
 
     def rounded_point(point: Vec) -> Point:

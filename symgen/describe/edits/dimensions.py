@@ -14,7 +14,7 @@ from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.edits.handles import PointsOfFile, Spans, WrittenPoint, span_of_number
 from symgen.describe.edits.snippet_tables import exact_number
 from symgen.describe.edits.text_changes import Change
-from symgen.describe.formulas.evaluate import evaluate, parameter_values
+from symgen.describe.formulas.evaluate import evaluate_formula, parameter_values
 from symgen.describe.mechanism import Body, Mechanism
 
 LENGTH, ANGLE = "length", "angle"
@@ -173,7 +173,7 @@ class _Line(NamedTuple):
         vectors = [points.vector_of_spot(p) for p in (self.first, self.second)]
 
         def measured(values: Mapping[str, float]) -> float:
-            a, b = ([evaluate(e, values) for e in vector] for vector in vectors)
+            a, b = ([evaluate_formula(e, values) for e in vector] for vector in vectors)
             return math.dist(a, b)
 
         return (_solved_parameter(points, self.name, measured, length),)
@@ -183,9 +183,9 @@ class _Line(NamedTuple):
         name = self.first.body
         raw, path = points.raw["bodies"][name]["angle"], ("bodies", name, "angle")
         angle = next(b.angle for b in points.mechanism.bodies if isinstance(b, Body) and b.name == name)
-        now = evaluate(angle, points.values)
+        now = evaluate_formula(angle, points.values)
         if any(names_in_expression(angle)):
-            change = _solved_parameter(points, self.name, lambda values: evaluate(angle, values), now + turn)
+            change = _solved_parameter(points, self.name, lambda values: evaluate_formula(angle, values), now + turn)
             return (change,)
         span = span_of_number(points.text, points.spans[path])
         if span is None:  # a formula of numbers alone, as "pi/3"
@@ -243,7 +243,7 @@ def _are_apart(points: PointsOfFile, a: WrittenPoint, b: WrittenPoint) -> bool:
 
 
 def _local(points: PointsOfFile, point: WrittenPoint) -> tuple[float, float]:
-    x, y = (evaluate(e, points.values) for e in points.vector_of_spot(point))
+    x, y = (evaluate_formula(e, points.values) for e in points.vector_of_spot(point))
     return x, y
 
 

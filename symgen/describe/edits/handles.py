@@ -13,7 +13,7 @@ from symgen.base.vocabulary.expressions import Expr, names_in_expression
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.edits.text_changes import is_decimal_number
 from symgen.describe.files.places import Path
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.context import Context
 from symgen.describe.parts.scope import CENTRE, Scope
@@ -220,7 +220,7 @@ class PointsOfFile:
         elif kind == "end" and spots[0].point:
             kind = "point"
         first = max(range(len(spots)), key=lambda i: spots[i].body != GROUND)
-        local = tuple(evaluate(e, self.values) for e in vectors[first])
+        local = tuple(evaluate_formula(e, self.values) for e in vectors[first])
         x, y = self.place_in_ground(spots[first].body, local)
         followers = self.numbers_that_follow(spots, vectors)
         if kind == "pivot":  # bodies keep their sizes, and the loop closes around the pivot's new place
@@ -242,7 +242,7 @@ class PointsOfFile:
     def place_in_ground(self, body: str, local: Sequence[float]) -> tuple[float, float]:
         """Return a point of a body in the ground frame."""
         x, y, angle = self.poses[body]
-        centre = [evaluate(e, self.values) for e in self.centres[body]] if body != GROUND else [0.0, 0.0]
+        centre = [evaluate_formula(e, self.values) for e in self.centres[body]] if body != GROUND else [0.0, 0.0]
         c, s = math.cos(angle), math.sin(angle)
         dx, dy = local[0] - centre[0], local[1] - centre[1]
         return x + c * dx - s * dy, y + s * dx + c * dy
@@ -310,7 +310,7 @@ class PointsOfFile:
         name = names[0]
         step = _STEP * max(1.0, abs(self.values[name]))
         try:
-            sides = [evaluate(expression, {**self.values, name: self.values[name] + d}) for d in (step, -step)]
+            sides = [evaluate_formula(expression, {**self.values, name: self.values[name] + d}) for d in (step, -step)]
         except InputError:
             return None
         return self.of_parameters[name], (sides[0] - sides[1]) / (2.0 * step) * self.units[name]

@@ -16,7 +16,7 @@ from symgen.base.vocabulary.measures import (
     Marker,
     nested_parts,
 )
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.formulas.start import Numbers
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 
@@ -30,16 +30,16 @@ def own_length(body: AnyBody, parameters: Mapping[str, float]) -> float:
     if body.inertia is None:
         return 0.0
     where = f"bodies.{body.name}"
-    centre = [evaluate(e, parameters, where) for e in body.centre_of_mass]
-    mass = evaluate(body.mass, parameters, where)
+    centre = [evaluate_formula(e, parameters, where) for e in body.centre_of_mass]
+    mass = evaluate_formula(body.mass, parameters, where)
     moments = body.inertia[:3] if isinstance(body, SpatialBody) else (body.inertia,)
-    inertia = max(evaluate(e, parameters, where) for e in moments)
+    inertia = max(evaluate_formula(e, parameters, where) for e in moments)
     longest = math.sqrt(abs(inertia / mass)) if mass else 0.0
     if body.modal is not None:
         reach = (math.dist(point, centre) for point in body.modal.outline.points)
         longest = max(longest, *reach, 0.0)
     for _, point in body.points:
-        away = [evaluate(e, parameters, where) - c for e, c in zip(point, centre, strict=True)]
+        away = [evaluate_formula(e, parameters, where) - c for e, c in zip(point, centre, strict=True)]
         longest = max(longest, math.hypot(*away))
     return longest
 

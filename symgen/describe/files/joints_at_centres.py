@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from symgen.base.vocabulary.measures import GROUND
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.scope import CENTRE
 
@@ -28,7 +28,7 @@ def warnings_on_centres(mechanism: Mechanism, raw: Mapping[str, Any]) -> Iterato
         for body, point in _ends_of_joint(joint):
             if point != CENTRE or body not in bodies:
                 continue
-            place = [evaluate(x, values, f"bodies.{body}.centre_of_mass") for x in bodies[body].centre_of_mass]
+            place = [evaluate_formula(x, values, f"bodies.{body}.centre_of_mass") for x in bodies[body].centre_of_mass]
             if any(place):
                 where = ", ".join(f"{x:.6g}" for x in place)
                 yield (

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from symgen.base.vocabulary.measures import Angle, Holonomic, Marker, Sum
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.joints._space import markers_of_joint
 from symgen.describe.mechanism import Mechanism
 
@@ -34,8 +34,10 @@ def warnings_on_gears(mechanism: Mechanism, raw: Mapping[str, Any]) -> Iterator[
         pins = [_pin_on_carrier(mechanism, angle) for _, angle in measure.terms if isinstance(angle, Angle)]
         if len(pins) != 2 or None in pins:
             continue
-        places = [[evaluate(x, values, f"joints.{gear.name}") for x in pin.point] for pin in pins if pin is not None]
-        radii = abs(sum(evaluate(weight, values, f"joints.{gear.name}.radii") for weight, _ in measure.terms))
+        places = [
+            [evaluate_formula(x, values, f"joints.{gear.name}") for x in pin.point] for pin in pins if pin is not None
+        ]
+        radii = abs(sum(evaluate_formula(weight, values, f"joints.{gear.name}.radii") for weight, _ in measure.terms))
         apart = math.dist(*places)
         if abs(apart - radii) > _ROUNDED * max(apart, radii):
             yield (

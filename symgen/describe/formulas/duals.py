@@ -14,7 +14,7 @@ from typing import Any
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.elementary_functions import ELEMENTARY
 from symgen.base.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading, table_of
-from symgen.describe.formulas.evaluate import dependent_parameters, evaluate
+from symgen.describe.formulas.evaluate import dependent_parameters, evaluate_formula
 from symgen.describe.mechanism import Mechanism
 
 #: Derivatives, one for each direction.
@@ -123,7 +123,7 @@ class Duals:
             If it has none.
         """
         own = {name: x.value for name, x in self.values.items()}
-        value = evaluate(expression, own, where)
+        value = evaluate_formula(expression, own, where)
         return Dual(value, self.derivatives(expression, where))
 
     def quick_value(self, expression: Expr, where: str) -> Dual:

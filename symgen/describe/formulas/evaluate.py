@@ -27,7 +27,7 @@ from symgen.describe.table_functions import Table
 _FAULTS: dict[type[Exception], str] = {ZeroDivisionError: "divides by zero", OverflowError: "is too large"}
 
 
-def evaluate(
+def evaluate_formula(
     expression: Expr, values: Mapping[str, float], where: str = "expression", tables: Mapping[str, Table] | None = None
 ) -> float:
     """Return the value of `expression`.
@@ -58,10 +58,12 @@ def evaluate(
     if expression.function == "where":
         # Only the chosen branch: the other one may be undefined here, which is why a choice was written.
         condition, yes, no = expression.arguments
-        return evaluate(yes if evaluate(condition, values, where, tables) else no, values, where, tables)
+        return evaluate_formula(
+            yes if evaluate_formula(condition, values, where, tables) else no, values, where, tables
+        )
     if expression.function in ("and", "or"):
         return _join_conditions(expression, values, where, tables)
-    operands = [evaluate(argument, values, where, tables) for argument in expression.arguments]
+    operands = [evaluate_formula(argument, values, where, tables) for argument in expression.arguments]
     try:
         if (table := table_of(expression.function)) is not None:
             value = (tables or {})[table].interpolated.value(operands[0])
@@ -76,7 +78,7 @@ def evaluate(
 
 def scalar_values(values: Mapping[str, float]) -> Scalars:
     """Return the numbers of one run with these values of the parameters."""
-    return Scalars(lambda expression, where: evaluate(expression, values, where))
+    return Scalars(lambda expression, where: evaluate_formula(expression, values, where))
 
 
 def hint_on_number(mechanism: Mechanism, name: str, known: Iterable[str]) -> str:
@@ -119,7 +121,7 @@ def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None =
         values[name] = arguments.number(f"parameter '{name}'", value)
     if changed:
         for name, formula in dependent_parameters(mechanism.parameters, changed):
-            values[name] = evaluate(formula, values, f"parameter '{name}'")
+            values[name] = evaluate_formula(formula, values, f"parameter '{name}'")
     return values
 
 
@@ -128,7 +130,7 @@ def independent_values(mechanism: Mechanism, values: Mapping[str, float]) -> dic
     following = {
         name
         for name, formula in dependent_parameters(mechanism.parameters)
-        if evaluate(formula, values) == values[name]
+        if evaluate_formula(formula, values) == values[name]
     }
     return {name: value for name, value in values.items() if name not in following}
 
@@ -140,7 +142,7 @@ def _join_conditions(
     deciding, undefined = expression.function == "or", None
     for argument in expression.arguments:
         try:
-            if bool(evaluate(argument, values, where, tables)) == deciding:
+            if bool(evaluate_formula(argument, values, where, tables)) == deciding:
                 return float(deciding)
         except InputError as error:
             undefined = undefined or error

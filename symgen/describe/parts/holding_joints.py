@@ -27,7 +27,7 @@ from symgen.base.vocabulary.expressions import (
 )
 from symgen.base.vocabulary.measures import GROUND, Angle, Holonomic
 from symgen.describe.coordinate_names import is_speed
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.formulas.formula_numbers import Symbols, formula_of
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import Hold, Holding, Joint, Mechanism, ModeEvent, Output, StateVariable
@@ -188,7 +188,7 @@ def in_modes(mechanism: Mechanism, values: Mapping[str, float], states: Mapping[
     off = {
         x.joint
         for x in mechanism.holding
-        if evaluate(mode_of(x), {**_at_start(x), **values, **(states or {})}, where) < 0.5
+        if evaluate_formula(mode_of(x), {**_at_start(x), **values, **(states or {})}, where) < 0.5
     }
     for x in mechanism.holding:
         own |= {f"{x.joint}.{CHANGED}", f"{x.joint}.{DISSIPATED}", f"{x.joint}.{MODE}", *places_of(mechanism, x)}

@@ -10,7 +10,7 @@ from symgen.base.errors import InputError, quote
 from symgen.base.units import Unit, known_unit, read_amount, read_unit, unit_of
 from symgen.base.vocabulary.expressions import Call, Expr, Name, Number, Reading, call, names_in_expression
 from symgen.base.vocabulary.quantities import Quantity
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.formulas.readings import OUTPUT, Readings
 from symgen.describe.mechanism import Mechanism
@@ -47,7 +47,7 @@ def parameter_value(
                 hint = f"make {literal!r} a parameter with its unit"
                 raise InputError(where, "a formula of values in SI units, as names stand for these", quote(value), hint)
             return 0.0, expression, unit
-        number = unit.to_si(evaluate(expression, {}, where))
+        number = unit.to_si(evaluate_formula(expression, {}, where))
     else:
         number = unit.to_si(float(value))
     if not math.isfinite(number):

@@ -8,7 +8,7 @@ from typing import Any
 import msgspec
 
 from symgen.base.vocabulary.expressions import names_in_expression
-from symgen.describe.formulas.evaluate import evaluate, evaluation_order
+from symgen.describe.formulas.evaluate import evaluate_formula, evaluation_order
 from symgen.describe.formulas.identifiers import one_line
 from symgen.describe.formulas.parser import FormulaNames
 from symgen.describe.mechanism import OperatingLimit, Parameter
@@ -70,7 +70,7 @@ class Parameters:
             with self.errors.part_of_description(name):
                 self.errors.leave_if_wrong(*names_in_expression(formula))
                 section = "inputs" if name in self.sections["inputs"] else "parameters"
-                values[name] = evaluate(formula, values, self.place_in_file(section, name))
+                values[name] = evaluate_formula(formula, values, self.place_in_file(section, name))
         return tuple(
             msgspec.structs.replace(parameter, value=values[name]) if parameter.formula is not None else parameter
             for name, parameter in parameters.items()

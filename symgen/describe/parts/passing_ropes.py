@@ -16,7 +16,7 @@ import msgspec
 
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import ON_SHEAVE, ONE, ZERO, Expr, Name, Number, call
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.mechanism import Mechanism, ModeEvent, StateVariable
 from symgen.describe.parts.driven_mechanism import put_formulas
 from symgen.describe.parts.event_sections import RESET
@@ -93,7 +93,7 @@ def without_rope_sheaves(
     if not own:
         return mechanism
     known = states or {}
-    on = {x.name: Number(known.get(x.name, evaluate(x.start, values, mechanism.name))) for x in own}
+    on = {x.name: Number(known.get(x.name, evaluate_formula(x.start, values, mechanism.name))) for x in own}
     changed: dict[str, Any] = {
         part: put_formulas(getattr(mechanism, part), on) for part in ("joints", "forces", "outputs")
     }

@@ -20,7 +20,7 @@ from symgen.base.vocabulary.expressions import (
 )
 from symgen.base.vocabulary.measures import GROUND, Direction, Marker, Measure
 from symgen.describe.coordinate_names import ACCELERATIONS
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.formulas.readings import OUTPUT, Readings
 from symgen.describe.mechanism import Joint, Vec
@@ -331,7 +331,7 @@ class Scope:
 
     def value(self, expression: Expr, key: str) -> float:
         """Return the number with the parameters' defaults."""
-        return evaluate(expression, self.context.values, self.where(key))
+        return evaluate_formula(expression, self.context.values, self.where(key))
 
     def _check_own_words(self, key: str, value: float | str, words: Mapping[str, str] | None) -> dict[str, str]:
         """Return the element's own words, refusing a formula in which one of them could also mean a parameter."""

@@ -16,7 +16,7 @@ from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, names_in_expression, table_of
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.native.annotations import Array, Integers, Record
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.table_functions import Table
 
 #: Functions by numbers: of a table, of conditions, and of one operand or two.
@@ -88,7 +88,7 @@ class CodedFormula:
 
     def _number(self, part: Expr, values: Mapping[str, float]) -> float:
         try:
-            return evaluate(part, values, tables=self.tables)
+            return evaluate_formula(part, values, tables=self.tables)
         except InputError:
             return math.nan
 
@@ -163,7 +163,7 @@ def apply_function(code: int, a: float, b: float) -> float:
 
 
 @called
-def table_at(points: Array, at: int, count: int, x: float) -> float:
+def value_of_points(points: Array, at: int, count: int, x: float) -> float:
     """Return the value of a table, as `symgen.base.ir.interpolation.Interpolation.value` has it."""
     if count < 0:
         n = -count
@@ -223,7 +223,7 @@ def coded_value_at(formula: Formula, t: float) -> float:
             x = math.nan
         elif code == _TABLE:
             head = 2 * codes[i + 2]
-            x = table_at(formula.points, formula.tables[head], formula.tables[head + 1], a)
+            x = value_of_points(formula.points, formula.tables[head], formula.tables[head + 1], a)
         else:
             x = apply_function(code, a, b)
         values[codes[i + 4]] = x if math.isfinite(x) else math.nan

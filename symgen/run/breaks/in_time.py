@@ -15,7 +15,7 @@ from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, call
 from symgen.compile.loopcode.loop_instances import Meanings, compiled_loop
 from symgen.compile.native.annotations import signature_from
 from symgen.compile.native.compiler import is_interpreted
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.driven_mechanism import Jump, compared_with_zero
 from symgen.describe.remembered import compute_once
@@ -216,7 +216,7 @@ class InTime:
         """Return the value of a formula at a time [s], or nan if it is undefined."""
         self.values["t"] = t
         try:
-            return evaluate(e, self.values, tables=self._tables)
+            return evaluate_formula(e, self.values, tables=self._tables)
         except InputError:  # no comparison with it holds
             return math.nan
 
@@ -248,7 +248,7 @@ def line_of_formula(jump: Jump, values: Mapping[str, float]) -> tuple[float, flo
 
 def _value_and_slope(parts: tuple[Expr, Expr] | None, values: Mapping[str, float]) -> tuple[float, float] | None:
     try:
-        return None if parts is None else (evaluate(parts[0], values), evaluate(parts[1], values))
+        return None if parts is None else (evaluate_formula(parts[0], values), evaluate_formula(parts[1], values))
     except InputError:
         return None
 

@@ -19,7 +19,7 @@ from symgen.derive.lower.looped.index_tables import IndexTables
 from symgen.derive.lower.looped.layout import GENERIC, HEAD
 from symgen.derive.lower.looped.shape import LoopedShape
 from symgen.describe.facts.repeats import without_repeats
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import state_quantities
 from symgen.run.layout.compiled import Array, CompiledModel, ModelInfo, RowInfo
@@ -157,7 +157,7 @@ class HoistedNumbers:
         values = {q.name: float(p[i]) for i, q in enumerate(mechanism.parameters)}
         tables_by_name = {t.name: t for t in mechanism.tables}
         for place, expression in self.constants:
-            p[place] = evaluate(expression, values, mechanism.name, tables_by_name)
+            p[place] = evaluate_formula(expression, values, mechanism.name, tables_by_name)
         for stem, at in self.groups:
             plain_function(self.kernels[stem].prepare)(0.0, p, p, p, numbers, at, p)
         places, *_, products, _ = self.sums

@@ -14,7 +14,7 @@ from symgen.base.vocabulary.expressions import ZERO
 from symgen.base.vocabulary.measures import GROUND
 from symgen.derive.methods import METHODS
 from symgen.describe.facts.kinks import discontinuities_of
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.run.compiling.choices import choose_shape
 from symgen.run.compiling.linearised import GROWTH, compile_growth
 from symgen.run.compiling.method_choice import choose_method
@@ -243,10 +243,10 @@ def _vibration(mechanism: Mechanism, p: Array) -> float:
                 return 0.0
             for body in (mechanism.body(name) for name in force.bodies if name not in light and name != GROUND):
                 turns = body.inertia if isinstance(body.inertia, tuple) else (body.inertia,)
-                sizes = [evaluate(e, values, body.name) for e in (body.mass, *turns[:3]) if e is not None]
+                sizes = [evaluate_formula(e, values, body.name) for e in (body.mass, *turns[:3]) if e is not None]
                 light[body.name] = 1.0 / max(sizes[0], 1e-300), 1.0 / max(min(sizes[1:]), 1e-300)
-            h = evaluate(flexure.length, values, force.name)
-            soft = [evaluate(e, values, force.name) for e in flexure.compliances]
+            h = evaluate_formula(flexure.length, values, force.name)
+            soft = [evaluate_formula(e, values, force.name) for e in flexure.compliances]
             by_mass, by_inertia = (sum(light[b][i] for b in force.bodies if b != GROUND) for i in range(2))
             across = soft[1 : 2 if len(soft) == 3 else 3]
             sheared = max(

@@ -13,7 +13,7 @@ from symgen.describe.bounds.by_reaction import pressed_rows
 from symgen.describe.facts.balance import balance_rows
 from symgen.describe.facts.lengths import origin_of_sizes
 from symgen.describe.facts.sides import sided_joints, wrong_sides
-from symgen.describe.formulas.evaluate import evaluate, parameter_values, scalar_values
+from symgen.describe.formulas.evaluate import evaluate_formula, parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start, displacements_of_bodies
 from symgen.describe.parts.holding_joints import refuse_other_start
 from symgen.describe.parts.holds import read_holds
@@ -339,7 +339,7 @@ def open_start(plan: Plan) -> tuple[CompiledModel, Start]:
     # the largest distance from the datum, or of a point in its body
     places = [x for body in mechanism.bodies for _, point in body.points for x in point]
     places += [x for _, marker in mechanism.seats for x in marker.point]
-    sizes, datum = [abs(evaluate(x, values, "points")) for x in places], origin_of_sizes(mechanism, numbers)
+    sizes, datum = [abs(evaluate_formula(x, values, "points")) for x in places], origin_of_sizes(mechanism, numbers)
     w[abi.LENGTH] = (
         max(float((np.abs(y[: info.nq] - datum) * marks_of_lengths(info)).max(initial=0.0)), *sizes, 0.0) or 1.0
     )

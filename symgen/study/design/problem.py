@@ -20,7 +20,7 @@ from symgen.describe.facts.lifted import is_path, lift_numbers
 from symgen.describe.facts.motion_quantities import MotionQuantity, QuantityNames
 from symgen.describe.facts.pins import AXES, PinPlaces, pin_of_place
 from symgen.describe.files.origins import origin_of
-from symgen.describe.formulas.evaluate import evaluate, parameter_values
+from symgen.describe.formulas.evaluate import evaluate_formula, parameter_values
 from symgen.study.design.varied_pins import check_pins, read_pins
 from symgen.study.design.wording import WrittenLimit, read_taken, read_written_limits, unknown_word
 
@@ -230,7 +230,7 @@ def limits_of_file(reader: QuantityReader, varied: Varied, parameters: Mapping[s
                 got = f"one that follows {enumeration(moving)}"
                 raise InputError(f"design: {limit.name}.{side}", "a limit that stays", got)
             place = reader.place(limit.name, limit.name) if limit.name in outputs else reader.parameter(limit.name)
-            bound, unit = evaluate(end, values, f"{limit.name}.{side}"), reader.quantities[place].unit
+            bound, unit = evaluate_formula(end, values, f"{limit.name}.{side}"), reader.quantities[place].unit
             sign = "<=" if side == "largest" else ">="
             text = f"{limit.name} {sign} {bound:g} {unit}".rstrip()
             yield Limit(Taken("", limit.name), place, unit, side, bound, abs(bound) or 1.0, text, of_file=True)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.describe.bounds.bounded_modes import rows_by_family
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.mechanism import Body, Mechanism
 from symgen.describe.parts.holding_joints import refuse_holding
@@ -93,13 +93,13 @@ class IndependentEquations:
         mass, tensors, self.regular = list[float](), list[Array](), True
         self._first_e = list[int]()  # where the Euler parameters of each body that turns in space begin
         for body in self.mechanism.bodies:
-            own = [evaluate(body.mass, self.parameters, body.name)]
+            own = [evaluate_formula(body.mass, self.parameters, body.name)]
             mass += own * len(body.position)
             if isinstance(body, Body):
-                own += [] if body.inertia is None else [evaluate(body.inertia, self.parameters, body.name)]
+                own += [] if body.inertia is None else [evaluate_formula(body.inertia, self.parameters, body.name)]
                 mass += own[1:]
             elif body.inertia is not None:
-                entries = np.array([evaluate(e, self.parameters, body.name) for e in body.inertia])
+                entries = np.array([evaluate_formula(e, self.parameters, body.name) for e in body.inertia])
                 tensors.append(entries[np.array(TENSOR)])
                 self._first_e.append(len(mass))
                 mass += [4.0 * float(entries[:3].max())] * 4
@@ -117,7 +117,7 @@ class IndependentEquations:
     def starts(self) -> Array:
         """Where the states of the file begin."""
         states = self.mechanism.states
-        return np.array([evaluate(x.start, self.parameters, x.name) for x in states], dtype=np.float64)
+        return np.array([evaluate_formula(x.start, self.parameters, x.name) for x in states], dtype=np.float64)
 
     def state(self, q: Array, v: Array, z: Array | None = None) -> Array:
         """Return a state for velocities as in results; states of the file are `z`, by default where they begin."""

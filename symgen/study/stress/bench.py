@@ -19,7 +19,7 @@ from symgen.base.settings import Settings
 from symgen.describe.files.load import read_raw
 from symgen.describe.files.validate import validate
 from symgen.describe.forces import FORCES
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.modal.modal_file import with_whole_paths
 
@@ -268,7 +268,7 @@ class Base:
         """Return about where a body starts [m]: its centre of mass if its frame were not turned."""
         b = self.mechanism.body(body)
         pairs = zip(b.position, b.centre_of_mass, strict=True)
-        return tuple(evaluate(x, self.values, body) + evaluate(c, self.values, body) for x, c in pairs)
+        return tuple(evaluate_formula(x, self.values, body) + evaluate_formula(c, self.values, body) for x, c in pairs)
 
     @cached_property
     def anchor(self) -> list[float]:
@@ -298,7 +298,7 @@ class Base:
     @cached_property
     def gravity(self) -> float:
         """Acceleration of gravity where its factor is 1 [m/s^2]."""
-        components = [evaluate(e, self.values, "gravity") for e in self.mechanism.gravity]
+        components = [evaluate_formula(e, self.values, "gravity") for e in self.mechanism.gravity]
         return math.hypot(*components) or STANDARD_GRAVITY
 
 

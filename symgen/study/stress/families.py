@@ -12,7 +12,7 @@ import numpy as np
 
 from symgen.base.vocabulary.expressions import ZERO
 from symgen.derive.methods import METHODS
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.joints import JOINTS
 from symgen.describe.parts.scope import CENTRE, ORIGIN
 from symgen.study.stress.bench import DAMPING, GRAVITY, INERTIA, MASS, STIFFNESS, Base, Level, NotApplicable
@@ -209,7 +209,7 @@ def _point_table(base: Base, body: str, at: Any) -> tuple[float, ...]:
     if isinstance(at, str):
         origin = {ORIGIN: (ZERO,) * len(described.centre_of_mass)}
         point = {**origin, **dict(described.points), CENTRE: described.centre_of_mass}[at]
-        return tuple(evaluate(x, base.values, body) for x in point)
+        return tuple(evaluate_formula(x, base.values, body) for x in point)
     return tuple(float(x) for x in at)
 
 

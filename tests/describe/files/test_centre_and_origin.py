@@ -6,7 +6,7 @@ import pytest
 from support.emitted import mechanism_of
 
 import symgen
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 
 BAR = {"mass": 2.0, "inertia": 0.5, "centre_of_mass": [0.45, -0.15], "position": [0.0, 0.0], "angle": 0.0}
 
@@ -36,7 +36,7 @@ def test_an_inertia_may_refer_to_the_origin():
     space = {"name": "bar", "space": "spatial", "gravity": [0.0, 0.0, -10.0]}
     body = {"mass": 2.0, "inertia": [0.1, 0.7, 0.7], "inertia_at": "origin", "centre_of_mass": [0.3, 0.0, 0.0]}
     mechanism = mechanism_of({"mechanism": space, "bodies": {"bar": body}})
-    entries = [evaluate(x, {}) for x in mechanism.bodies[0].inertia[:3]]
+    entries = [evaluate_formula(x, {}) for x in mechanism.bodies[0].inertia[:3]]
     assert entries == pytest.approx([0.1, 0.7 - 2.0 * 0.09, 0.7 - 2.0 * 0.09])
 
 

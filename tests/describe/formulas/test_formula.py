@@ -9,7 +9,7 @@ from support.texts import texts
 
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import FUNCTIONS, Call, Name, Number
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.formulas.identifiers import CALLABLE
 from symgen.describe.formulas.parser import FormulaNames, parse
@@ -30,7 +30,7 @@ def read(text):
 
 
 def value(text):
-    return evaluate(read(text), VALUES, tables={"profile": Table("profile", (0.0, 1.0, 3.0), (1.0, 2.0, 0.0))})
+    return evaluate_formula(read(text), VALUES, tables={"profile": Table("profile", (0.0, 1.0, 3.0), (1.0, 2.0, 0.0))})
 
 
 @pytest.mark.parametrize(
@@ -264,7 +264,7 @@ def test_any_unicode_is_read_or_refused(text):
 )
 def test_undefined_values_are_explained(text, sentence):
     with pytest.raises(InputError, match=r"^where: ") as error:
-        evaluate(read(text), VALUES, "where")
+        evaluate_formula(read(text), VALUES, "where")
     assert sentence in str(error.value)
 
 

@@ -13,7 +13,7 @@ from symgen.base.ir.program import table_of_payload
 from symgen.describe.facts.digest import digest
 from symgen.describe.files.builder import MechanismBuilder, to_toml
 from symgen.describe.files.validate import validate
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.table_functions import Table
 
@@ -65,7 +65,9 @@ def test_in_formulas_and_on_the_graph():
     table = Table("f", *points(3, 6, False), "cubic")
     names = FormulaNames("a formula", {"a": "a"}, tables={"f": table.function})
     tree = parse("2*f(a)", names, "test")
-    assert evaluate(tree, {"a": 0.4}, tables={"f": table}) == pytest.approx(2.0 * curve(table.x, table.y, "cubic")(0.4))
+    assert evaluate_formula(tree, {"a": 0.4}, tables={"f": table}) == pytest.approx(
+        2.0 * curve(table.x, table.y, "cubic")(0.4)
+    )
     g = Graph()
     a = g.input("q", 0)
     slope = jacobian(g, [g.call(table.function, a)], [("q", 0)])[0]["q", 0]

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from symgen.compile.native.formula_lines import FormulaLines, NotInLines
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.formulas.parser import FormulaNames, parse
 
 
@@ -27,7 +27,7 @@ def test_lines_say_what_the_formula_says(text: str) -> None:
             yes, _, no = rest.partition(" : ")
             value = f"({yes}) if ({test}) else ({no})"
         known[name] = eval(value.replace("&&", "and").replace("||", "or"), {}, known)
-    assert eval(result, {}, known) == pytest.approx(evaluate(expression, {"a": 0.7, "b": 1.9}), rel=1e-15)
+    assert eval(result, {}, known) == pytest.approx(evaluate_formula(expression, {"a": 0.7, "b": 1.9}), rel=1e-15)
 
 
 def math_of_pages() -> object:

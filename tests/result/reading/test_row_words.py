@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 import symgen
 from symgen.describe.catalogue import all_names
-from symgen.describe.formulas.evaluate import evaluate, parameter_values
+from symgen.describe.formulas.evaluate import evaluate_formula, parameter_values
 from symgen.describe.mechanism import Mechanism
 from symgen.result.reading.row_words import row_words
 
@@ -42,7 +42,7 @@ class Place:
                 self.points[f"{body.name}.{point}"] = self._of(body.name, self._number(place))
 
     def _number(self, entries: tuple) -> np.ndarray:
-        numbers = [evaluate(e, self.values) for e in entries]
+        numbers = [evaluate_formula(e, self.values) for e in entries]
         return np.array([*numbers, *[0.0] * (3 - len(numbers))])
 
     def _of(self, body: str, point: np.ndarray) -> np.ndarray:

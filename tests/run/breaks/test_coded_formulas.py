@@ -12,7 +12,7 @@ from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number
 from symgen.compile.loopcode.loop_instances import compiled_loop
 from symgen.compile.native.annotations import Array, signature_from
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.table_functions import Table
 from symgen.run.breaks.coded_formulas import Formula, code_formula, coded_value_at
@@ -42,7 +42,7 @@ def assert_same_bits(e: Expr) -> None:
 
     def at(t: float) -> float:
         try:
-            return evaluate(e, {**VALUES, "t": t}, tables=TABLES)
+            return evaluate_formula(e, {**VALUES, "t": t}, tables=TABLES)
         except InputError:
             return math.nan
 

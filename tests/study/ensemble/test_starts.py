@@ -8,7 +8,7 @@ from support.emitted import mechanism_of
 import symgen
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import FUNCTIONS, Call, Name
-from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.study.ensemble.chunks import Columns, make_rows
 
@@ -24,7 +24,7 @@ def test_functions_are_those_of_single_runs(function):
     found = np.broadcast_to(Columns({"a": A, "b": B, "c": C}).value(formula), A.shape)
     for i in range(len(A)):
         try:
-            expected = evaluate(formula, {"a": A[i], "b": B[i], "c": C[i]})
+            expected = evaluate_formula(formula, {"a": A[i], "b": B[i], "c": C[i]})
         except InputError:
             expected = np.nan
         np.testing.assert_array_equal(found[i], expected, err_msg=f"{function} of {A[i]}, {B[i]}, {C[i]}")
@@ -61,10 +61,10 @@ def test_an_undefined_condition_counts_for_nothing_where_the_other_one_decides(t
     for a, x in zip(values, expected, strict=True):
         np.testing.assert_array_equal(Columns({"a": float(a)}).value(formula), x)
         if np.isfinite(x):
-            assert evaluate(formula, {"a": a}) == x
+            assert evaluate_formula(formula, {"a": a}) == x
         else:
             with pytest.raises(InputError, match="which is not defined"):
-                evaluate(formula, {"a": a})
+                evaluate_formula(formula, {"a": a})
 
 
 ORIENTATIONS = {
