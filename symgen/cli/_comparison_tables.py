@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from symgen.study.comparison.across import Across
     from symgen.study.comparison.compare_models import Study
     from symgen.study.comparison.comparison_rows import Row
+    from symgen.study.comparison.published import Benchmark, PublishedRow
 
 
 def show_study(study: Study) -> None:
@@ -167,3 +168,26 @@ def show_across(lines: Sequence[Across]) -> None:
         for x in lines
     ]
     show_rows(make_console(), headings, cells, headings[:2], "medians over the mechanisms, with intervals", first=2)
+
+
+def show_published(benchmark: Benchmark, rows: Sequence[PublishedRow]) -> None:
+    """Print the problems of a library beside what was published of them."""
+    out = make_console()
+    out.print(benchmark.source)
+    cells = [
+        (
+            *(row.problem, row.model, row.method, row.integrator, f"{row.rtol:g}", row.status),
+            *(f"{row.error:.1e}", "-" if row.published_error is None else f"{row.published_error:.1e}"),
+            *(f"{row.seconds:.2g} s", "-" if row.published_seconds is None else f"{row.published_seconds:.3g} s"),
+        )
+        for row in rows
+    ]
+    words = ("problem", "model", "method", "integrator", "rtol", "status")
+    show_rows(out, (*words, "energy error [J]", "published", "run", "published"), cells, words, first=2)
+    out.print(f"published: {benchmark.published}")
+    out.print(
+        "run: processor time of the loop on this machine; the published ones are of theirs, so their ratio is no speed"
+    )
+    for row in rows:
+        for sentence in row.warnings:
+            out.print(f"{row.problem}: {sentence}", style="dim")

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from click.core import ParameterSource
 
 from symgen.base.errors import InputError
 from symgen.base.settings import Settings
@@ -36,9 +37,15 @@ if TYPE_CHECKING:
     epilog=examples_in_help(
         "symgen compare four-bar",
         "symgen compare four-bar --methods lagrange,baumgarte --steps 1e-3,1e-4 -o report.html",
+        "symgen compare --benchmark iftomm",
     ),
 )
-@click.argument("models", metavar="MODEL...", nargs=-1, required=True)
+@click.argument("models", metavar="[MODEL...]", nargs=-1)
+@click.option(
+    "--benchmark",
+    metavar="NAME",
+    help="In place of MODEL: the problems of a library beside errors and run times that were published: iftomm.",
+)
 @click.option(
     "--methods",
     metavar="A,B",
@@ -96,6 +103,7 @@ if TYPE_CHECKING:
 @json_option
 def command(
     models: tuple[str, ...],
+    benchmark: str | None,
     methods: str | None,
     integrators: str | None,
     steps: str | None,
@@ -121,6 +129,10 @@ def command(
     lagrange is taken within rounds. Integrators with an error estimate run at --rtols, the others at --steps. Ctrl-C
     shows the finished rows; with --resume the same command continues after them.
     """
+    if benchmark is not None:
+        return _compare_with_published(benchmark, values["repeat"], as_json)
+    if not models:
+        raise InputError("MODEL", "the mechanisms to compare, or --benchmark NAME", "neither")
     step_list, rtol_list = read_number_list("--steps", steps), read_number_list("--rtols", rtols)
     errors = read_number_list("--at", error_at)
     method_list, integrator_list = read_comma_list("--methods", methods), read_comma_list("--integrators", integrators)
@@ -195,6 +207,28 @@ def command(
         report: write_report,
     }
     return write_files(_exit_code_of_studies(studies, files.journal is not None), written)
+
+
+def _compare_with_published(name: str, repeat: int, as_json: bool) -> int:
+    """Run the problems of a library, and show them beside what was published."""
+    context = click.get_current_context()
+    own = {"benchmark", "repeat", "as_json"}
+    for parameter in context.command.params:
+        source = context.get_parameter_source(str(parameter.name))
+        if source is ParameterSource.COMMANDLINE and parameter.name not in own:
+            got = "MODEL" if parameter.param_type_name == "argument" else parameter.opts[0]
+            raise InputError("--benchmark", "only --repeat and --json beside it: its settings are its own", got)
+
+    from symgen.study.comparison.published import benchmark_json, run_benchmark
+
+    benchmark, rows = run_benchmark(name, repeat)
+    if as_json:
+        write_json(benchmark_json(benchmark, rows))
+    else:
+        from symgen.cli._comparison_tables import show_published
+
+        show_published(benchmark, rows)
+    return OK if all(row.status == "ok" for row in rows) else FAILURE
 
 
 def _note_left_out(unused: Sequence[str], runs: Combinations, models: Sequence[Model]) -> None:

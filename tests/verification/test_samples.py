@@ -109,7 +109,7 @@ def test_mechanisms_in_other_units_compiled(tmp_path: Path) -> None:
 
 def test_commands_of_the_page_are_there() -> None:
     """Options that the page names are options of its commands."""
-    page = (ROOT / "docs" / "verification.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "development" / "verification.md").read_text(encoding="utf-8")
     commands = re.findall(r"^python -m (benchmarks\.[\w.]+)(.*?)(?:  #.*)?$", page, re.MULTILINE)
     bounded = ("bounded", "bounded.machines", "bounded.methods", "bounded.margins")
     assert {name for name, _ in commands} == {f"benchmarks.{n}" for n in ("verify", "fuzz", "flips", "units", *bounded)}
