@@ -99,7 +99,7 @@ def samples() -> list[list[Line]]:
 def measures(integrator: str, key: str) -> list[dict[str, str]]:
     """Return the quantiles, shares and medians of a method, for both seeds."""
     pairs = (statistics.pairs_of(own, integrator, METHODS[key]) for own in samples())
-    return [dict(zip(statistics.HEADINGS[1:], statistics.line(each), strict=True)) for each in pairs]
+    return [dict(zip(statistics.HEADINGS[1:], statistics.cells_of_ratios(each), strict=True)) for each in pairs]
 
 
 def improvements(integrator: str, key: str) -> list[float]:

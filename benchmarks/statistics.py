@@ -196,7 +196,7 @@ def quantiles(values: Sequence[float]) -> tuple[str, ...]:
     return ("", "", "") if not len(values) else tuple(f"{x:.3g}" for x in np.percentile(values, [10, 50, 90]))
 
 
-def line(pairs: Sequence[tuple[Measured, Measured]]) -> tuple[str, ...]:
+def cells_of_ratios(pairs: Sequence[tuple[Measured, Measured]]) -> tuple[str, ...]:
     """Return the cells of a method from pairs of `lagrange` and the method on the same mechanisms."""
     ratios = [base.error / own.error for base, own in pairs if own.error > 0.0]
     forces = [b.reactions / o.reactions for b, o in pairs if b.reactions and o.reactions]
@@ -221,7 +221,7 @@ def tables(lines: Sequence[Line], integrators: Sequence[str], methods: Sequence[
                 table.add_column(heading)
             for method in methods:
                 if pairs := pairs_of(own, integrator, method):
-                    table.add_row(method, *line(pairs))
+                    table.add_row(method, *cells_of_ratios(pairs))
             yield table
 
 
@@ -253,7 +253,7 @@ def page_table() -> PageTable:
     first, second = ([line for line in lines if line["seed"] == seed] for seed in SEEDS)
 
     def cells(method: str) -> Iterator[str]:
-        both = [line(pairs_of(own, "rk4", method)) for own in (first, second)]
+        both = [cells_of_ratios(pairs_of(own, "rk4", method)) for own in (first, second)]
         a, b = (dict(zip(HEADINGS[1:], one, strict=True)) for one in both)
         yield ", ".join(digits(a[name]) for name in ("10 %", "50 %", "90 %"))
         yield f"{a['better']}, {a['worse']} ({b['better']}, {b['worse']})".replace(" %,", ",")
@@ -311,7 +311,8 @@ def claims() -> Iterator[str]:
     resolved = [len(pairs_of(own, "rk4", METHODS[0])) for own in samples]
     yield f"With `rk4` the error of `lagrange` is resolved on {resolved[0]} and {resolved[1]}."
     cells = {
-        m: [dict(zip(HEADINGS[1:], line(pairs_of(own, "rk4", m)), strict=True)) for own in samples] for m in METHODS
+        m: [dict(zip(HEADINGS[1:], cells_of_ratios(pairs_of(own, "rk4", m)), strict=True)) for own in samples]
+        for m in METHODS
     }
 
     def both_of(method: str, name: str) -> str:

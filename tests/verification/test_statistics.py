@@ -9,13 +9,24 @@ import pytest
 
 from benchmarks import statistics
 from benchmarks.records import measure
-from benchmarks.statistics import COUNT, SEEDS, Job, Measured, again, case_of, examine, line, pairs_of, predictable
+from benchmarks.statistics import (
+    COUNT,
+    SEEDS,
+    Job,
+    Measured,
+    again,
+    case_of,
+    cells_of_ratios,
+    examine,
+    pairs_of,
+    predictable,
+)
 
 
 def test_cells_are_quantiles_of_ratios_to_lagrange():
     base = Measured(1e-4, 1e-3, 1e-6, 1.0)
     others = [Measured(1e-4 / r, 1e-3 / r, 1e-8, 1.5) for r in (0.5, 1.0, 2.0, 4.0, 8.0)]
-    count, low, middle, high, better, worse, mean, reactions, violations, seconds = line(
+    count, low, middle, high, better, worse, mean, reactions, violations, seconds = cells_of_ratios(
         [(base, other) for other in others]
     )
     assert (count, middle, better, worse, mean) == ("5", "2", "60 %", "20 %", "2")
