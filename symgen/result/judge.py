@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 #: Energy jump over a passage, as a fraction of the energy in motion: beyond the first a run is in doubt, beyond the
 #: second it has failed.
 JUMP_DOUBT, JUMP_FAILURE = 1e-5, 1e-3
+#: Energy error of a run that passed near a singular position, as a fraction of the energy in motion, beyond which it is
+#: in doubt: steps do not control the error there, and a finer run may err alike.
+DRIFT_DOUBT = 1e-4
 #: Forces that accelerations leave over, as a fraction of all forces: beyond the first a run is in doubt, beyond the
 #: second it has failed. A finer run has the same error, so it settles nothing.
 LEFT_DOUBT, LEFT_FAILURE = 1e-5, 1e-2
@@ -113,7 +116,7 @@ def _judge_motion(run: Prepared, outcome: Outcome, second: Verification | None =
         return verdict
     if second.doubt is not None:
         return replace(verdict, status=UNVERIFIED, reason=second.doubt)
-    if relative_jump(outcome) > JUMP_DOUBT:  # what joints give is in both runs
+    if relative_jump(outcome) > JUMP_DOUBT or _drifted_where_singular(outcome):  # what joints give is in both runs
         return verdict
     reports = run.plan.verify or run.plan.notes  # else the status alone has the estimate
     notes = (second.note,) if reports and second.note is not None else ()
@@ -154,6 +157,13 @@ def judge_alone(outcome: Ended, law: LawInfo) -> Verdict:
         return Verdict(UNVERIFIED, HELD, warnings)
     if jump > JUMP_DOUBT:
         return Verdict(UNVERIFIED, _sentence_on_jump(outcome), warnings)
+    if _drifted_where_singular(outcome):
+        reason = (
+            f"the energy leaves its balance by {outcome.energy_drift_max:.3g} J, "
+            f"{outcome.energy_drift_max / outcome.energy_scale:.2g} of the energy in motion, in a run that passed near "
+            f"a singular position{_time_of_passage(outcome)}"
+        )
+        return Verdict(UNVERIFIED, reason, warnings)
     if not passed or law.position_correction:
         return Verdict(OK, None, warnings)
     reason = (
@@ -165,6 +175,10 @@ def judge_alone(outcome: Ended, law: LawInfo) -> Verdict:
 
 def _passed_singularity(outcome: Ended) -> bool:
     return outcome.rank_event_count > 0 or outcome.smallest_pivot < WARN
+
+
+def _drifted_where_singular(outcome: Ended) -> bool:
+    return _passed_singularity(outcome) and outcome.energy_drift_max > DRIFT_DOUBT * outcome.energy_scale > 0.0
 
 
 def relative_jump(outcome: Ended) -> float:

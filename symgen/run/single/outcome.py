@@ -209,8 +209,8 @@ class Ended:
         Of D D^T with scaled rows, over the run.
     rank_events, rank_event_count : tuple of RankEvent, int
         Recorded passages near singular positions, and the number of all passages.
-    energy_jump, energy_scale : float
-        Largest change of the energy error over a passage, and the energy in motion [J].
+    energy_drift_max, energy_jump, energy_scale : float
+        Largest error of the energy balance, its largest change over a passage, and the energy in motion [J].
     counters : dict of str to int
         Counts of the emitted code by name.
     """
@@ -220,6 +220,7 @@ class Ended:
     smallest_pivot: float
     rank_events: tuple[RankEvent, ...]
     rank_event_count: int
+    energy_drift_max: float
     energy_jump: float
     energy_scale: float
     counters: dict[str, int]
@@ -239,7 +240,6 @@ class Outcome(Motion, Ended):
     position_violation_max: float
     velocity_violation_max: float
     energy_start: float
-    energy_drift_max: float
     interrupted: bool
     run_seconds: float
     simulation: Simulation = field(repr=False)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.ir.numerics import WARN
-from symgen.result.judge import JUMP_DOUBT, LEFT_DOUBT, judge_alone, judge_balance
+from symgen.result.judge import DRIFT_DOUBT, JUMP_DOUBT, LEFT_DOUBT, judge_alone, judge_balance
 from symgen.result.result import FAILED, OK
 from symgen.run.effects.applying import NO_VALUES
 from symgen.run.layout import abi
@@ -90,7 +90,8 @@ def judge_runs(
     status[~done] = NOT_RUN
     passed = (summary_column(summary, "rank_event_count") > 0.0) | (summary_column(summary, "smallest_pivot") < WARN)
     doubtful = (summary_column(summary, "start") != e.ASSEMBLED) | (summary_column(summary, "code") != abi.DONE)
-    doubtful |= law.energy_correction | _energy_jumped(summary) | (passed & (not law.position_correction))
+    uncorrected = np.bool_(not law.position_correction)
+    doubtful |= law.energy_correction | _energy_jumped(summary) | (passed & (uncorrected | _energy_drifted(summary)))
     doubtful |= ~(summary_column(summary, "imbalance") <= LEFT_DOUBT)
     for i in np.flatnonzero(done & doubtful):
         row = summary[i]
@@ -162,6 +163,12 @@ def _energy_jumped(summary: Array) -> NDArray[np.bool_]:
     )
 
 
+def _energy_drifted(summary: Array) -> NDArray[np.bool_]:
+    return np.asarray(
+        summary_column(summary, "energy_drift_max") > 0.5 * DRIFT_DOUBT * summary_column(summary, "energy_scale")
+    )
+
+
 def _reason_of_end(row: Array, spec: RunSpec) -> Ended:
     numbers = {name: float(row[k]) for k, name in enumerate(e.SUMMARY)}
     code, scale = int(numbers["code"]), numbers["energy_scale"]
@@ -176,6 +183,7 @@ def _reason_of_end(row: Array, spec: RunSpec) -> Ended:
         smallest_pivot=numbers["smallest_pivot"],
         rank_events=events,
         rank_event_count=int(numbers["rank_event_count"]),
+        energy_drift_max=numbers["energy_drift_max"],
         energy_jump=numbers["energy_jump"],
         energy_scale=scale,
         counters={"light": int(numbers["light_evaluations"])},
