@@ -13,18 +13,17 @@ from numpy.typing import NDArray
 
 from symgen.analyses.linear.eigenmodes import Modes, modes_about
 from symgen.analyses.linear.linear_system import LinearSystem, eigenvectors_of_states, linear_system
-from symgen.analyses.rest.band import band_of_rests
+from symgen.analyses.rest.band import Band, band_of_rests
 from symgen.analyses.rest.cyclic import steady_motion
 from symgen.analyses.rest.equilibria import (
     Equilibrium,
-    find_equilibrium,
     judge_equilibrium,
     scan_equilibria,
     stability_in_motion,
     value_of_coordinate,
 )
 from symgen.analyses.rest.held_rows import rest_within_bounds
-from symgen.analyses.rest.pushed import sink_on
+from symgen.analyses.rest.lawful import find_lawful_rest, multipliers_of_bodies, with_bodies
 from symgen.analyses.rest.settle import Settled, settle_position
 from symgen.analyses.rest.steady import at_rest, named_states
 from symgen.analyses.state.moving_drivers import note_on_moving_drivers, refuse_moving_drivers
@@ -143,6 +142,10 @@ def subject_at(place: NamedPlace, by: Sequence[str] = ()) -> tuple[Subject, Arra
     settings = replace(place.settings, coordinates="joint") if place.at == "steady" else place.settings
     if place.at == "start" and (held := rest_within_bounds(place.mechanism, settings, by)) is not None:
         return held, held.y
+    if place.at == "equilibrium":
+        rest = find_lawful_rest(place.mechanism, settings, by, sinking=False).settled
+        _refuse_moving_drivers(rest)
+        return rest.subject, rest.y
     subject = make_subject(place.mechanism, settings, by)
     if place.at == "start":
         if not subject.closed:
@@ -150,13 +153,11 @@ def subject_at(place: NamedPlace, by: Sequence[str] = ()) -> tuple[Subject, Arra
             raise InputError("at start", expected, "one that does not", "ask for an equilibrium")
         _refuse_mode(subject, subject.y)
         return subject, subject.y
-    if isinstance(place.at, Mapping):
-        rest = rest_at(subject, place.at)
-    else:
-        rest = find_equilibrium(subject) if place.at == "equilibrium" else steady_motion(subject, place.cyclic)
-    if place.at == "steady":
+    if not isinstance(place.at, Mapping):
+        rest = steady_motion(subject, place.cyclic)
         _refuse_mode(rest.subject, rest.y)
     else:
+        rest = rest_at(subject, place.at)
         _refuse_moving_drivers(rest)
         if subject.mode:
             refuse_impossible_mode(rest.subject, rest.y, judge_equilibrium(rest).lam)
@@ -238,10 +239,9 @@ def rest_from(mechanism: Mechanism, settings: Settings) -> Equilibrium:
         subject = make_subject(mechanism, settings)
         if subject.closed:  # it is the tree that cannot start there, as in a run
             raise
-    settled = find_equilibrium(subject)
-    settled, rest = sink_on(subject, settled, judge_equilibrium(settled))
-    refuse_impossible_mode(settled.subject, rest.y, rest.lam)
-    return _add_notes(mechanism, settings, _rests_of_bodies(mechanism, settings, subject, (rest,)), (settled,))[0]
+    found = find_lawful_rest(mechanism, settings, subject=subject)
+    rests = _rests_of_bodies(mechanism, settings, found.start, (found.equilibrium,))
+    return _add_notes(mechanism, settings, rests, (found.settled,))[0]
 
 
 def _add_notes(
@@ -253,12 +253,12 @@ def _add_notes(
         replace(rest, notes=(*note_on_moving_drivers(x.mechanism, x.compiled, x.p, x.t), *rest.notes))
         for rest, x in zip(rests, (each.subject for each in settled), strict=True)
     )
-    if not two_sided_rows(mechanism):
+    if not any(not row.signed for row in two_sided_rows(mechanism)):
         return rests
     values = parameter_values(mechanism, settings.parameters)
-    bands = [band_of_rests(mechanism, values, each) for each in settled]
+    bands = [Band({}, "") if x.subject.held else band_of_rests(mechanism, values, x) for x in settled]
     return tuple(
-        replace(rest, band=dict(band.values), notes=(*rest.notes, band.note))
+        replace(rest, band=dict(band.values), notes=(*rest.notes, *filter(None, [band.note])))
         for rest, band in zip(rests, bands, strict=True)
     )
 
@@ -269,12 +269,14 @@ def _rests_of_bodies(
     """Return equilibria with coordinates of bodies and multipliers of all joints, also where a tree carries them."""
     if subject.coordinates == "absolute":
         return rests
-    bodies, whole = make_subject(mechanism, replace(settings, coordinates="absolute")), list[Equilibrium]()
+    bodies, whole = with_bodies(mechanism, settings, subject), list[Equilibrium]()
     for rest in rests:
         y = np.zeros_like(bodies.y)
         y[: bodies.nq] = [rest.q[name] for name in bodies.state_names[: bodies.nq]]
-        own = judge_equilibrium(Settled(bodies.turn_to_joint_angles(rest.q), y, rest.lam, rest.iterations))
-        whole.append(replace(own, y=rest.y, lam=rest.lam))
+        there = bodies.turn_to_joint_angles(rest.q)
+        known = multipliers_of_bodies(there, y, rest.multipliers)
+        own = judge_equilibrium(Settled(there, y, rest.lam, rest.iterations), known)
+        whole.append(replace(own, y=rest.y, lam=rest.lam, notes=tuple(dict.fromkeys((*own.notes, *rest.notes)))))
     return tuple(whole)
 
 

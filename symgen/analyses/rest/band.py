@@ -63,7 +63,7 @@ def band_of_rests(mechanism: Mechanism, parameters: Mapping[str, float], rest: S
     rest : Settled
         An equilibrium without rows with two bounds.
     """
-    rows = two_sided_rows(mechanism)
+    rows = [row for row in two_sided_rows(mechanism) if not row.signed]
     if not rows:
         return Band({}, "")
     words = rows[0].family

@@ -115,13 +115,21 @@ class Equilibrium:
         return notebook_html("equilibrium", self, self.notes)
 
 
-def judge_equilibrium(rest: Settled) -> Equilibrium:
-    """Return an equilibrium with its smallest multipliers, its stiffness, and the reactions that are not unique."""
+def judge_equilibrium(rest: Settled, multipliers: Array | None = None) -> Equilibrium:
+    """Return an equilibrium with its multipliers, its stiffness, and the reactions that are not unique.
+
+    Parameters
+    ----------
+    rest : Settled
+        The position.
+    multipliers : Array, shape (m,), optional
+        Those that obey the laws of rows with bounds; the smallest ones by default.
+    """
     subject, y = rest.subject, rest.y
     info, e = subject.compiled.info, subject.evaluate(y)
     d = subject.rows(e)
     inverse, dependent = null_space_split(d, subject.loads)[1:]
-    lam = -inverse.T @ e.value("balance")
+    lam = -inverse.T @ e.value("balance") if multipliers is None else multipliers
     e, by_position = evaluate_at_balance(subject, y, lam)
     stiffness = by_position @ e.by("motion", "v")
     squares = reduced_squares(e.by("balance", "a"), stiffness, subject.split_freedom(d)[0])

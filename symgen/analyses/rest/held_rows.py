@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from msgspec.structs import replace as replaced
+from numpy.typing import NDArray
 
 from symgen.analyses.rest.steady import at_rest
 from symgen.analyses.state.algebra import DEPENDENT
-from symgen.analyses.state.laws_at_rest import Holding, forces_at_rest
+from symgen.analyses.state.laws_at_rest import Holding, contacts_holding, forces_at_rest, multipliers_with
 from symgen.analyses.state.one_sided import NO_FORCE, fault_of_mode
 from symgen.analyses.state.reduced import tangent_system
 from symgen.analyses.state.subject import Subject, make_subject
@@ -27,12 +28,20 @@ if TYPE_CHECKING:
     from symgen.describe.bounded import BoundedRow
     from symgen.describe.mechanism import Mechanism
 
+Array = NDArray[np.float64]
+
 #: End of the names of joints that hold, which no file has.
 _MARK = "~held"
 
 
 def rest_within_bounds(mechanism: Mechanism, settings: Settings, by: Sequence[str]) -> Subject | None:
-    """Return a mechanism at a start that rows with bounds hold, these among the constraints.
+    """Return a mechanism at a start that rows with bounds hold, these among the constraints; see `held_start`."""
+    held = held_start(mechanism, settings, by)
+    return None if held is None else held[0]
+
+
+def held_start(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ()) -> tuple[Subject, Array] | None:
+    """Return a mechanism at a start that rows with bounds hold, these among the constraints, and all multipliers.
 
     None where the start moves, rests without them, or is not held by all rows together: beside closed stops and
     contacts, by reactions of pins and teeth, by bounds of two directions, and where several rows hold one motion.
@@ -56,17 +65,18 @@ def rest_within_bounds(mechanism: Mechanism, settings: Settings, by: Sequence[st
     joints = (_holding_joint(row, place) for row, place in zip(rows, places, strict=True))
     base = without_bounds(mechanism, rows)
     held = make_subject(replaced(base, joints=(*base.joints, *joints)), settings, by)
-    pushing = [Holding(row.row, pushes=True) for row in held.shut]
-    along = [Holding(each.row.row, each.coefficient, pressed=each.row.pressed) for each in held.stuck]
-    forces = forces_at_rest(held, [*own, *pushing, *along])
-    if forces is None or not at_rest(held, tangent_system(held, held.y)):
+    holding = (*own, *contacts_holding(held))
+    begun = forces_at_rest(held, held.y, holding)
+    if begun is None or begun.moving or not at_rest(held, tangent_system(held, held.y)):
         return None
+    forces = begun.forces
     least = NO_FORCE * float(np.abs(forces).max(initial=0.0))
-    loose = [row.row for row, force in zip(pushing, forces[len(own) :], strict=False) if force > -least]
+    loose = [row.row for row, force in zip(holding, forces, strict=True) if row.pushes and force > -least]
     if not all(_is_held_without(held, name) for name in loose):
         return None  # what only just touches may open as well
     names = ", ".join(dict.fromkeys(row.name for row in rows))
-    return replace(held, held=(f"{rows[0].family.noun} at rest, held as rows: {names}",))
+    told = replace(held, held=(f"{rows[0].family.noun} at rest, held as rows: {names}",))
+    return told, multipliers_with(held, held.y, holding, forces)
 
 
 def _is_held_without(held: Subject, name: str) -> bool:
@@ -105,6 +115,11 @@ def _holding_joint(row: BoundedRow, place: float) -> Joint:
     """Return the joint that holds the coordinate of a row."""
     own = Holonomic("held", row.measure, Number(place), row.unit)
     return Joint(_name_of_holding(row), "rows", tied_bodies(own), (own,))
+
+
+def is_held_row(row: str) -> bool:
+    """Return whether a row of this name holds a start."""
+    return row.endswith(f"{_MARK}.held")
 
 
 def _name_of_holding(row: BoundedRow) -> str:

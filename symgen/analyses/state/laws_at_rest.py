@@ -53,22 +53,66 @@ class Holding(msgspec.Struct, frozen=True):
     pushes: bool = False
 
 
-def forces_at_rest(subject: Subject, holding: Sequence[Holding]) -> Array | None:
-    """Return the forces of rows with bounds that hold a state at rest; None where the laws let something move.
+class Begun(msgspec.Struct, frozen=True):
+    """What the laws have rows with bounds do at a state without velocities.
+
+    Parameters
+    ----------
+    forces : Array, shape (rows,)
+        Multipliers; of forces that are many the least sum of squares over bounds.
+    moving : tuple of str
+        Rows that begin to move; none at rest.
+    """
+
+    forces: Array
+    moving: tuple[str, ...]
+
+
+def contacts_holding(subject: Subject) -> tuple[Holding, ...]:
+    """Return the one-sided rows in force and the rows along them."""
+    pushing = (Holding(row.row, pushes=True) for row in subject.shut)
+    along = (Holding(each.row.row, each.coefficient, pressed=each.row.pressed) for each in subject.stuck)
+    return (*pushing, *along)
+
+
+def multipliers_with(subject: Subject, y: Array, holding: Sequence[Holding], forces: Array) -> Array:
+    """Return the multipliers of all rows where some rows have known forces: the smallest of the others.
+
+    Parameters
+    ----------
+    subject, y, holding
+        As for `forces_at_rest`.
+    forces : Array, shape (rows,)
+        Multipliers of the rows in `holding`.
+    """
+    e, names = subject.evaluate(y), [row.name for row in subject.compiled.info.rows]
+    own = [names.index(each.row) for each in holding]
+    joints = [i for i in range(len(names)) if i not in own]
+    d, lam = subject.rows(e), np.zeros(len(names))
+    lam[own] = forces
+    inverse = subject.split_freedom(d[joints], np.asarray(subject.loads)[joints])[1]
+    lam[joints] = -inverse.T @ (e.value("balance") + d[own].T @ forces)
+    return lam
+
+
+def forces_at_rest(subject: Subject, y: Array, holding: Sequence[Holding]) -> Begun | None:
+    """Return the forces of rows with bounds at a state without velocities; None where the solver finds none.
 
     Parameters
     ----------
     subject : Subject
-        The mechanism with all of them in force, at a start without velocities.
+        The mechanism with all of them in force.
+    y : Array
+        The state, without velocities.
     holding : sequence of Holding
         The rows.
 
     Returns
     -------
-    Array or None, shape (rows,)
-        Multipliers; of forces that are many the least sum of squares over bounds.
+    Begun or None
+        The forces, and the rows that begin to move.
     """
-    e, names = subject.evaluate(subject.y), [row.name for row in subject.compiled.info.rows]
+    e, names = subject.evaluate(y), [row.name for row in subject.compiled.info.rows]
     own = [names.index(each.row) for each in holding]
     joints = [i for i in range(len(names)) if i not in own]
     d, gained, mass, balance = subject.rows(e), e.value("accelerations"), e.by("balance", "a"), e.value("balance")
@@ -103,6 +147,6 @@ def forces_at_rest(subject: Subject, holding: Sequence[Holding]) -> Array | None
     if not plain_form(find_forces)(k, laws, 1):
         return None
     plain_form(share_forces)(k, laws)
-    sizes = [plain_form(size_of_terms)(k, i, laws) for i in range(k)]
-    left = laws.offset - laws.matrix.reshape(k, k) @ laws.forces
-    return None if np.any(np.abs(left) > _STILL * np.array(sizes)) else np.array(laws.forces)
+    sizes = np.array([plain_form(size_of_terms)(k, i, laws) for i in range(k)])
+    moving = np.abs(laws.offset - laws.matrix.reshape(k, k) @ laws.forces) > _STILL * sizes
+    return Begun(np.array(laws.forces), tuple(each.row for each, m in zip(holding, moving, strict=True) if m))

@@ -8,11 +8,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+import msgspec
 import numpy as np
 from msgspec.structs import replace as replaced
 from numpy.typing import NDArray
 
-from symgen.analyses.state.sticking import fault_along
+from symgen.analyses.state.sticking import Fault, fault_along
 from symgen.base.errors import AnalysisError, InputError
 from symgen.base.vocabulary.measures import FormulaMeasure, Holonomic
 from symgen.describe.bounded import BoundedRow
@@ -35,6 +36,21 @@ Array = NDArray[np.float64]
 
 #: A force below this part of the largest multiplier is none.
 NO_FORCE = 1e-9
+
+
+class RowModes(msgspec.Struct, frozen=True):
+    """Rows that a search has in force, in place of those that the start closes.
+
+    Parameters
+    ----------
+    shut : frozenset of str
+        One-sided rows in force.
+    loose : frozenset of str
+        Rows along contacts that hold nothing.
+    """
+
+    shut: frozenset[str]
+    loose: frozenset[str] = frozenset()
 
 
 def rows_in_force_at(
@@ -94,19 +110,19 @@ def rows_as_joints(mechanism: Mechanism, bounded: Sequence[BoundedRow]) -> Mecha
     )
 
 
-def mode_in_words(shut: Sequence[BoundedRow], opened: Sequence[BoundedRow]) -> tuple[str, ...]:
-    """Say which one-sided rows are in force in one sentence for each family of them."""
+def mode_in_words(shut: Sequence[BoundedRow], opened: Sequence[BoundedRow], whence: str) -> tuple[str, ...]:
+    """Say which one-sided rows are in force, as at the start or in the rest, in one sentence for each family."""
     sentences = list[str]()
     for family in dict.fromkeys(row.family for row in (*shut, *opened)):
         named = (shut, f"{family.in_force}, held as rows"), (opened, f"{family.off}, left out")
         own = [(", ".join(row.label for row in rows if row.family == family), words) for rows, words in named]
         parts = [f"{names} {words}" for names, words in own if names]
-        sentences.append(f"{family.noun} as at the start: {'; '.join(parts)}")
+        sentences.append(f"{family.noun} {whence}: {'; '.join(parts)}")
     return tuple(sentences)
 
 
-def fault_of_mode(subject: Subject, y: Array, lam: Array) -> str:
-    """Return the sentence on the first one-sided row that cannot be in its mode at a state; empty where all can.
+def fault_of_mode(subject: Subject, y: Array, lam: Array) -> Fault | None:
+    """Return why a row cannot be in its mode at a state: by its force, by its gap, or along it; None where all can.
 
     Parameters
     ----------
@@ -115,26 +131,39 @@ def fault_of_mode(subject: Subject, y: Array, lam: Array) -> str:
     y, lam : Array
         The state and the multipliers of rows.
     """
+    return fault_of_push(subject, lam) or fault_of_gaps(subject, y) or fault_along(subject, y, lam)
+
+
+def fault_of_push(subject: Subject, lam: Array) -> Fault | None:
+    """Return the first row in force that does not push, None without any."""
     rows = {row.name: i for i, row in enumerate(subject.compiled.info.rows)}
     least = NO_FORCE * np.abs(lam / subject.loads).max(initial=0.0)
     for row in subject.shut:
         at, words = rows[row.row], row.family
         if not -lam[at] / subject.loads[at] > least:
-            return (
+            return Fault(
+                row.row,
                 f"the {words.in_force} {words.one} {row.label} does not push there "
-                f"(force {-lam[at]:.6g} {unit_of_effort(row)}): start with it {words.off}"
+                f"(force {-lam[at]:.6g} {unit_of_effort(row)})",
+                f"start with it {words.off}",
             )
+    return None
+
+
+def fault_of_gaps(subject: Subject, y: Array) -> Fault | None:
+    """Return the first row left out whose gap is negative, None without any."""
     if subject.opened:
         side = compile_side(subject.mechanism, subject.compiled, "gaps", "Gaps", _gaps_by_name(subject.opened))
         gaps = side(subject.t, y, subject.p, subject.w.copy(), np.zeros_like(y))
         for row, gap in zip(subject.opened, gaps, strict=True):
             if not gap >= -TOUCHING * _scale_of_gap(row, subject.w, abi.LENGTH):
                 words, gap_there = row.family, f"its gap is {gap:.6g} {row.unit}"
-                return (
-                    f"the {words.one} {row.label}, {words.off} at the start, is passed there ({gap_there}): "
-                    f"start with it {words.in_force}"
+                return Fault(
+                    row.row,
+                    f"the {words.one} {row.label}, {words.off} at the start, is passed there ({gap_there})",
+                    f"start with it {words.in_force}",
                 )
-    return fault_along(subject, y, lam)
+    return None
 
 
 def refuse_impossible_mode(subject: Subject, y: Array, lam: Array) -> None:
@@ -145,5 +174,5 @@ def refuse_impossible_mode(subject: Subject, y: Array, lam: Array) -> None:
     AnalysisError
         With the first such row.
     """
-    if sentence := fault_of_mode(subject, y, lam):
-        raise AnalysisError(sentence)
+    if (fault := fault_of_mode(subject, y, lam)) is not None:
+        raise AnalysisError(fault.whole)

@@ -36,6 +36,29 @@ Array = NDArray[np.float64]
 _ROUNDING, _NOTHING = 1e-9, 1e-10
 
 
+class Fault(msgspec.Struct, frozen=True):
+    """Why a row with bounds cannot be in its mode at a state.
+
+    Parameters
+    ----------
+    row : str
+        The row.
+    sentence : str
+        What the mode would need.
+    hint : str
+        What may be done.
+    """
+
+    row: str
+    sentence: str
+    hint: str = ""
+
+    @property
+    def whole(self) -> str:
+        """The sentence with its hint."""
+        return f"{self.sentence}: {self.hint}" if self.hint else self.sentence
+
+
 class Stuck(msgspec.Struct, frozen=True):
     """A row along a closed contact that is at rest.
 
@@ -60,6 +83,7 @@ def rows_that_stick(
     start: Start,
     along: Sequence[BoundedRow],
     shut: Sequence[BoundedRow],
+    moving: bool = True,
 ) -> tuple[Stuck, ...]:
     """Return the rows along the closed contacts of a state that has no slip; none where a coefficient is 0.
 
@@ -71,6 +95,8 @@ def rows_that_stick(
         The state.
     along, shut : sequence of BoundedRow
         Rows along contacts, and the gaps in force.
+    moving : bool
+        Whether the velocities of the state count, which are 0 otherwise.
 
     Raises
     ------
@@ -90,7 +116,7 @@ def rows_that_stick(
     for i, row in enumerate(rows):
         coefficient = float(values[len(rows) + i])
         if coefficient > 0.0:
-            if abs(rates[i]) > still:
+            if moving and abs(rates[i]) > still:
                 got = f"{row.name}, which slides at {rates[i]:.6g} m/s"
                 raise InputError("analyses at a state", "closed contacts at rest", got, "a run has its motion")
             found.append(Stuck(row, float(values[i]), coefficient))
@@ -119,13 +145,13 @@ def _angles_of(row: BoundedRow) -> tuple[tuple[str, Measure], ...]:
     return tuple((f"angle{i}", angle) for i, angle in enumerate(counted_turns([row.measure])))
 
 
-def fault_along(subject: Subject, y: Array, lam: Array) -> str:
-    """Return the sentence on the first contact that would slide; empty where all stick.
+def fault_along(subject: Subject, y: Array, lam: Array) -> Fault | None:
+    """Return why the contact slides that is furthest from sticking; None where all stick.
 
     Contacts that share a direction have parts of its force in proportion to their bounds, as in runs.
     """
     if not subject.stuck:
-        return ""
+        return None
     places = {row.name: i for i, row in enumerate(subject.compiled.info.rows)}
     at = [places[each.row.row] for each in subject.stuck]
     pressed = [max(-float(lam[places[each.row.pressed[0]]]), 0.0) for each in subject.stuck]
@@ -134,10 +160,12 @@ def fault_along(subject: Subject, y: Array, lam: Array) -> str:
     over = np.abs(forces) - bounds * (1.0 + _ROUNDING) - _ROUNDING * np.abs(lam).max()
     worst = int(np.argmax(over))
     if not over[worst] > 0.0:
-        return ""
-    return (
-        f"the closed contact {subject.stuck[worst].row.name} slides there: it would take {abs(forces[worst]):.6g} N "
-        f"along it, of at most {bounds[worst]:.6g} N"
+        return None
+    row = subject.stuck[worst].row
+    return Fault(
+        row.row,
+        f"the closed contact {row.name} slides there: it would take {abs(forces[worst]):.6g} N "
+        f"along it, of at most {bounds[worst]:.6g} N",
     )
 
 

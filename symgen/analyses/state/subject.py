@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from symgen.analyses.state.algebra import null_space_split
 from symgen.analyses.state.moving_drivers import note_on_forces_of_time
-from symgen.analyses.state.one_sided import mode_in_words, rows_as_joints, rows_in_force_at
+from symgen.analyses.state.one_sided import RowModes, mode_in_words, rows_as_joints, rows_in_force_at
 from symgen.analyses.state.sticking import Stuck, rows_that_stick, with_rows_along, with_slips
 from symgen.base.errors import InputError, suggest
 from symgen.base.settings import Settings
@@ -82,6 +82,8 @@ class Subject(Yardsticks):
         Rows along those in force, of contacts that are at rest there.
     held : tuple of str
         A sentence on the rows with bounds that hold the state at rest, if any do.
+    whence : str
+        Where the modes of the one-sided rows are from.
     """
 
     mechanism: Mechanism
@@ -98,11 +100,12 @@ class Subject(Yardsticks):
     opened: tuple[BoundedRow, ...] = ()
     stuck: tuple[Stuck, ...] = ()
     held: tuple[str, ...] = ()
+    whence: str = "as at the start"
 
     @property
     def mode(self) -> tuple[str, ...]:
         """A sentence on the one-sided rows in force; none where there are no such rows."""
-        return mode_in_words((*self.shut, *(each.row for each in self.stuck)), self.opened)
+        return mode_in_words((*self.shut, *(each.row for each in self.stuck)), self.opened, self.whence)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -291,7 +294,9 @@ class Subject(Yardsticks):
         return own | {name: float(values[at]) for name, (at, _) in self.form.functions.items() if name in shown}
 
 
-def make_subject(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ()) -> Subject:
+def make_subject(
+    mechanism: Mechanism, settings: Settings, by: Sequence[str] = (), modes: RowModes | None = None
+) -> Subject:
     """Make a mechanism with its start ready to be analysed; of rows with bounds, one-sided ones are as at the start.
 
     Parameters
@@ -302,6 +307,8 @@ def make_subject(mechanism: Mechanism, settings: Settings, by: Sequence[str] = (
         ``parameters``, ``inputs``, ``start``, ``coordinates`` and ``shape`` count.
     by : sequence of str
         Parameters that the form is differentiated by besides the inputs.
+    modes : RowModes, optional
+        Rows in force at a start that is taken to be at rest; those of the start by default.
 
     Raises
     ------
@@ -319,8 +326,12 @@ def make_subject(mechanism: Mechanism, settings: Settings, by: Sequence[str] = (
         looped = large and settings.coordinates == "absolute"
         settings = replace(settings, shape="looped" if looped else "straight")
     run = prepare(with_slips(placed.mechanism, along), settings, Purpose.DESCRIBED)
-    shut = rows_in_force_at(run.mechanism, run.compiled, run.start, pushing)
-    stuck = rows_that_stick(run.mechanism, run.compiled, run.start, along, shut)
+    if modes is None:
+        shut = rows_in_force_at(run.mechanism, run.compiled, run.start, pushing)
+    else:
+        shut = tuple(row for row in pushing if row.row in modes.shut)
+        along = [row for row in along if row.row not in modes.loose]
+    stuck = rows_that_stick(run.mechanism, run.compiled, run.start, along, shut, moving=modes is None)
     if shut or along:
         placed = replace(placed, mechanism=with_rows_along(rows_as_joints(placed.mechanism, shut), stuck))
         run = prepare(placed.mechanism, settings, Purpose.DESCRIBED)
@@ -346,7 +357,8 @@ def make_subject(mechanism: Mechanism, settings: Settings, by: Sequence[str] = (
     p[[places[name] for name, _ in placed.mechanism.input_formulas]] = 0.0
     compiled.prepare(p)
     subject = Subject(mechanism, compiled, form, start.t, start.y.copy(), p, start.w.copy(), closed, by, inputs)
-    return replace(subject, shut=shut, opened=tuple(row for row in pushing if row not in shut), stuck=stuck)
+    subject = replace(subject, shut=shut, opened=tuple(row for row in pushing if row not in shut), stuck=stuck)
+    return subject if modes is None else replace(subject, whence="in the rest that was found")
 
 
 def _without_bounded_state(mechanism: Mechanism, settings: Settings) -> Settings:

@@ -93,24 +93,32 @@ def test_an_arm_on_a_stop_carries_a_pendulum(coordinates: str) -> None:
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
-@pytest.mark.parametrize("analysis", ["equilibrium", "linearise", "modes", "steady"])
-def test_a_closed_stop_that_would_pull_is_refused(analysis: str, coordinates: str) -> None:
+def test_a_closed_stop_that_would_pull_opens(coordinates: str) -> None:
+    """The arm hangs then; a steady motion keeps the rows of its start, and is refused."""
+    rest = arm({"upper": 0.0}).equilibrium(coordinates=coordinates)
+    assert rest.q["arm.theta"] == pytest.approx(-math.pi / 2, abs=1e-9) and len(rest.omega_squared) == 2
+    assert "stops in the rest that was found: A.upper open, left out" in rest.notes
+    told = "another rest than with rows as at the start, where the closed stop A.upper does not push there"
+    assert any(told in note for note in rest.notes)
+    for analysis in ("linearise", "modes"):
+        notes = getattr(arm({"upper": 0.0}), analysis)(coordinates=coordinates).notes
+        assert "stops in the rest that was found: A.upper open, left out" in notes
     with pytest.raises(AnalysisError, match=r"closed stop A\.upper does not push there \(force -19\.62 N m\)"):
-        getattr(arm({"upper": 0.0}), analysis)(coordinates=coordinates)
+        arm({"upper": 0.0}).steady(coordinates=coordinates)
 
 
-def test_an_open_stop_is_left_out_unless_the_rest_is_beyond_it() -> None:
+def test_an_open_stop_is_left_out_unless_the_rest_is_at_it() -> None:
     start = {"arm.theta": -1.0, "rod.theta": 0.0}
     free = arm({"lower": -2.0}).equilibrium(start=start)
     assert free.q["arm.theta"] == pytest.approx(-math.pi / 2, abs=1e-9)
     assert free.notes == (OPEN.format("A.lower"),)
     assert len(free.omega_squared) == 2
-    for analysis in ("equilibrium", "linearise", "modes"):
-        model = arm({"lower": -1.2})
-        with pytest.raises(
-            AnalysisError, match=r"stop A\.lower, open at the start, is passed there \(its gap is -0\.37"
-        ):
-            getattr(model, analysis)(start=start)
+    rest = arm({"lower": -1.2}).equilibrium(start=start)
+    assert rest.q["arm.theta"] == pytest.approx(-1.2, abs=1e-12)
+    assert rest.multipliers["A.lower.stop"] == pytest.approx(-2.0 * G * math.cos(1.2), rel=1e-10)
+    assert any("A.lower, open at the start, is passed there (its gap is -0.37" in note for note in rest.notes)
+    assert len(arm({"lower": -1.2}).linearise(start=start).eigenvalues()) == 2
+    assert len(arm({"lower": -1.2}).modes(start=start).eigenvalues) == 2
     with pytest.raises(AnalysisError, match=r"no equilibrium was found with arm\.theta"):
         arm({"lower": -1.2}).equilibria(("arm.theta", np.linspace(-2.0, -1.0, 6)), start=start)
 
@@ -209,7 +217,6 @@ def test_a_contact_is_judged_where_its_file_has_it(at: float) -> None:
     if at > 0.5 + 0.1:
         assert model.equilibrium().q["bob.y"] == pytest.approx(-0.5, abs=1e-12)
     else:
-        with pytest.raises(
-            AnalysisError, match=r"contact floor, open at the start, is passed there \(its gap is -0\.3 "
-        ):
-            model.equilibrium()
+        rest = model.equilibrium()
+        assert rest.q["bob.y"] == pytest.approx(0.1 - at, abs=1e-12)
+        assert any("contact floor, open at the start, is passed there (its gap is -0.3 " in x for x in rest.notes)
