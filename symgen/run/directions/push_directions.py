@@ -24,10 +24,10 @@ from symgen.run.directions.reset_directions import ResetDirections
 from symgen.run.effects.applying import EffectWork
 from symgen.run.effects.effects import Effects, Impact
 from symgen.run.effects.pushing import KeptTies, Ties, new_ties, push_contacts
+from symgen.run.laws.problem import ON, UPPER
 from symgen.run.layout.scales import fill_jacobian
 from symgen.run.layout.start_records import Instant
 from symgen.run.loops.run_spec import Watched
-from symgen.run.modes.contact_combinations import ON, UPPER
 from symgen.run.modes.pin_impulses import push_with_kicks
 
 Array = NDArray[np.float64]

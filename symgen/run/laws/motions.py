@@ -13,6 +13,7 @@ from symgen.run.laws.newton import follow_laws
 from symgen.run.laws.problem import (
     BALL,
     LOWER,
+    NOTHING,
     OFF,
     ON,
     PUSH,
@@ -23,9 +24,10 @@ from symgen.run.laws.problem import (
     load_of,
     middle_of,
     rows_of,
+    size_of,
 )
 from symgen.run.laws.sharing import share_forces, spread_forces
-from symgen.run.laws.verify import obeys
+from symgen.run.laws.verify import obeys, size_of_terms
 
 #: How many motions there are; one, and others were not sought.
 NO_MOTION, ONE_MOTION, SEVERAL_MOTIONS, NOT_SOUGHT = range(4)
@@ -36,6 +38,8 @@ _GIVEN, _AT_REST, _NONE, _SWEPT = range(4)
 _BEGINNINGS, _SOUGHT, _SWEEPS = 6, 5, 5
 #: Forces above are no beginning; accelerations of two motions differ by more than this part.
 _HUGE, _ONE = 1e100, 1e-7
+#: Accelerations of chosen states below this part of what they are differences of are rounding.
+_ROUNDING = 1e-10
 
 
 @exact()
@@ -76,19 +80,6 @@ def begin(n: int, beginning: int, laws: Laws) -> None:
             laws.forces[i] = 0.0
 
 
-@exact(entry=True)
-def find_forces(n: int, laws: Laws, first: int) -> bool:
-    """Find forces that obey all laws; return whether any are found.
-
-    `first` is 0 where those that are there may be near, else 1.
-    """
-    for beginning in range(first, _BEGINNINGS):
-        begin(n, beginning, laws)
-        if follow_laws(n, False, laws) and obeys(n, laws):
-            return True
-    return False
-
-
 @exact()
 def options_of(n: int, i: int, laws: Laws) -> int:
     """Return of how many things a row does one."""
@@ -98,11 +89,35 @@ def options_of(n: int, i: int, laws: Laws) -> int:
 
 
 @exact()
+def is_pressed(i: int, laws: Laws) -> bool:
+    """Whether a row at rest has friction as long as a gap is closed, and none without."""
+    return bool(laws.presser[i] >= 0 and laws.way[i] == 0.0 and laws.beta[i] == 0.0)
+
+
+@exact()
+def choose_states(n: int, laws: Laws) -> bool:
+    """Set the states of the present combination; return whether it is one: an open gap has no friction."""
+    for i in range(n):
+        laws.forces[i] = 0.0
+        if laws.law[i] == PUSH:
+            laws.state[i] = ON if laws.option[i] == 0 else OFF
+        elif laws.law[i] == NOTHING:
+            laws.state[i] = OFF
+        elif laws.way[i] == 0.0:
+            laws.state[i] = ON if laws.option[i] == 0 else UPPER if laws.option[i] == 1 else LOWER
+    for i in range(n):
+        if is_pressed(i, laws) and laws.state[laws.presser[i]] == OFF and laws.state[i] != UPPER:
+            return False
+    return True
+
+
+@exact()
 def count_combinations(n: int, laws: Laws) -> float:
     """Return the number of combinations of what rows may do, inf with balls of two rows: those have directions."""
     total = 1.0
     for i in range(n):
-        total *= float(options_of(n, i, laws)) if not (laws.law[i] == BALL and rows_of(n, i, laws) == 2) else math.inf
+        options = 2 if is_pressed(i, laws) else options_of(n, i, laws)  # an open gap has no friction
+        total *= float(options) if not (laws.law[i] == BALL and rows_of(n, i, laws) == 2) else math.inf
     return total
 
 
@@ -119,8 +134,11 @@ def next_combination(n: int, laws: Laws) -> bool:
 
 @exact()
 def moves_alike(n: int, laws: Laws) -> bool:
-    """Whether the first motion, which ``first`` has before its forces, has these accelerations."""
-    most = 0.0
+    """Whether the first motion, which ``first`` has before its forces, has these accelerations.
+
+    Differences count over what forces of all rows make, and those that are as large as what is there without forces.
+    """
+    most = size_of(n, laws)
     for i in range(n):
         most += math.sqrt(abs(laws.matrix[i * n + i])) * (abs(laws.forces[i]) + abs(laws.first[n + i]))
     for i in range(n):
@@ -128,6 +146,50 @@ def moves_alike(n: int, laws: Laws) -> bool:
         if abs(laws.left[i] - laws.first[i]) > _ONE * size:
             return False
     return True
+
+
+@exact()
+def moves_as_chosen(n: int, laws: Laws) -> bool:
+    """Whether accelerations have the signs of the chosen states: what little they may miss is rounding."""
+    for i in range(n):
+        side = -1.0 if laws.state[i] == LOWER else 1.0
+        opens = laws.law[i] == PUSH and laws.state[i] == OFF
+        moves = laws.law[i] == BALL and laws.state[i] >= UPPER and laws.way[i] == 0.0 and bound_of(n, i, laws) > 0.0
+        if (
+            (opens or moves)
+            and laws.matrix[i * n + i] > 0.0
+            and side * laws.left[i] < -_ROUNDING * size_of_terms(n, i, laws)
+        ):
+            return False
+    return True
+
+
+@exact()
+def try_combinations(n: int, differs: bool, laws: Laws) -> bool:
+    """Whether a combination has a motion, or one that `differs` from that kept."""
+    found, more = False, True
+    while more and not found:
+        found = choose_states(n, laws) and follow_laws(n, True, laws)
+        if found and not obeys(n, laws):
+            found = spread_forces(n, laws) and obeys(n, laws)
+        found = found and moves_as_chosen(n, laws) and not (differs and moves_alike(n, laws))
+        more = next_combination(n, laws)
+    return found
+
+
+@exact(entry=True)
+def find_forces(n: int, laws: Laws, first: int) -> bool:
+    """Find forces that obey all laws; return whether any are found.
+
+    `first` is 0 where those that are there may be near, else 1. Combinations follow where they are few.
+    """
+    for beginning in range(first, _BEGINNINGS):
+        begin(n, beginning, laws)
+        if follow_laws(n, False, laws) and obeys(n, laws):
+            return True
+    for i in range(n):
+        laws.option[i] = 0
+    return bool(count_combinations(n, laws) <= COUNTED and try_combinations(n, False, laws))
 
 
 @exact()
@@ -162,20 +224,8 @@ def seek_another(n: int, laws: Laws) -> bool:
 @exact(entry=True)
 def find_another(n: int, laws: Laws) -> bool:
     """Whether any combination has another motion than the present forces; its states go to ``other``."""
-    another, more = False, True
     keep_first(n, laws)
-    while more and not another:
-        for i in range(n):
-            laws.forces[i] = 0.0
-            if laws.law[i] == PUSH:
-                laws.state[i] = ON if laws.option[i] == 0 else OFF
-            elif laws.way[i] == 0.0:
-                laws.state[i] = ON if laws.option[i] == 0 else UPPER if laws.option[i] == 1 else LOWER
-        another = follow_laws(n, True, laws)
-        if another and not obeys(n, laws):
-            another = spread_forces(n, laws) and obeys(n, laws)
-        another = another and not moves_alike(n, laws)
-        more = next_combination(n, laws)
+    another = try_combinations(n, True, laws)
     recall_first(n, laws)
     return another
 

@@ -1,21 +1,19 @@
-"""Modes where bounds depend on reactions, compiled: both are found in turns, until they agree.
+"""Forces at rest with bounds that depend on reactions, compiled, and how efforts in force follow reactions.
 
-Reactions at rest depend on the forces at rest, and their bounds on the reactions. One function of the loop language for
-single runs and rows of sweeps, beside that of `symgen.run.modes.choice`.
+Reactions at rest depend on the forces at rest, and their bounds on the reactions: both are one problem of laws.
 """
 
 from __future__ import annotations
-
-import math
 
 from symgen.base.ir.numerics import SKIP
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.loopcode.loop_instances import Meanings, exact_instance
-from symgen.compile.native.annotations import Array, Integers
+from symgen.compile.native.annotations import Array
 from symgen.run.laws.motions import SEVERAL_MOTIONS, count_motions, find_forces
 from symgen.run.laws.problem import BALL, COMPONENTS, ON, begin_row, load_of
 from symgen.run.laws.problem import LOWER as DOWN
+from symgen.run.laws.sharing import share_forces
 from symgen.run.layout.redundancy import farthest_row, is_off
 from symgen.run.modes.bounded_rows import (
     AT_REST,
@@ -23,33 +21,17 @@ from symgen.run.modes.bounded_rows import (
     DISAGREED,
     EFFORT,
     HELD,
-    JAMMED,
     LIMIT,
     NO_FACTOR,
     NO_FORCES,
-    NOT_DETERMINED,
-    NOT_FINITE,
-    REDUNDANT,
     SAME,
     SEVERAL_BY_REACTION,
     SHARED,
     Choice,
 )
 from symgen.run.modes.box import INSIDE, LOWER, UPPER, solve_box
-from symgen.run.modes.choice import (
-    accelerate,
-    add_forces,
-    find_mobility,
-    find_rest,
-    size_forces,
-    symmetrise,
-    write_modes,
-)
-from symgen.run.modes.holding import find_carriers, hold_rows
+from symgen.run.modes.holding import find_carriers
 from symgen.run.modes.resting import set_bounds, solve_rest
-
-#: Bounds by reactions agree within this part of them, after so many solutions at most; then Newton's method follows.
-_AGREED, _AGREEMENTS = 1e-14, 60
 
 
 @exact()
@@ -86,186 +68,78 @@ def find_redundant(c: Choice, w: Array) -> int:
 
 
 @exact()
-def store_probe(t: float, c: Choice, p: Array, number: int, force: float) -> None:
-    """Store the accelerations and reactions of the last probe: without forces, or by a unit of force `number`."""
-    k = c.count
-    if number < 0:
-        for i in range(k):
-            c.offset[i] = c.out[i]
-    else:
-        for i in range(k):
-            c.matrix[i * k + number] = (c.offset[i] - c.out[i]) / force
-    c.reactions(t, c.y, p, c.w, c.rate, c.out)
-    place = 0
-    for i in range(k):
-        if c.pressed[i] != 0:
-            for part in range(2):
-                if number < 0:
-                    c.apart[2 * i + part] = c.out[place + part]
-                else:
-                    change = c.apart[2 * i + part] - c.out[place + part]
-                    c.parts[(2 * i + part) * k + number] = change / force
-            place += 2
+def reacts(c: Choice, part: int) -> bool:
+    """Return whether bounds of a part depend on reactions."""
+    for i in range(c.dry):
+        if c.pressed[i] != 0 and c.part[i] == part:
+            return True
+    return False
 
 
 @exact()
-def probe_row(t: float, c: Choice, j: int, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
-    """Set the column of a row in G, and what its force adds to the reactions."""
-    if c.sliding[j] > 0.0 or c.varying[j] != 0:
-        for i in range(c.count):
-            c.trial[i] = 0.0 if c.pressed[i] != 0 else c.signs[i]
-        force = 1.0
-        if c.pressed[j] != 0 or c.sliding[j] == 0.0 or c.middle[j] != 0.0:
-            c.trial[j], c.pushed[0] = 0.0, j
-        else:
-            c.trial[j], force = 1.0, c.sliding[j]
-        code = accelerate(t, c, y, p, w, iw, control)
-        c.pushed[0] = -1
-        if code != SAME:
-            return NOT_FINITE
-        store_probe(t, c, p, j, force)
-    return SAME
-
-
-@exact(entry=True)
-def probe_reactions(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
-    """Set G among all rows, and the reactions without efforts by reactions and by their forces.
-
-    Returns `SAME`, `NOT_FINITE`, or `JAMMED` where an effort alone would bring about all of its reaction.
-    """
-    k, n = c.count, c.at_rest[0]
-    for i in range(k * k):
-        c.matrix[i] = 0.0
-    for i in range(2 * k * k):
-        c.parts[i] = 0.0
-    for i in range(k):
-        c.forces[i] = 0.0
-        c.trial[i] = 0.0 if c.pressed[i] != 0 else c.signs[i]
-    if accelerate(t, c, y, p, w, iw, control) != SAME:
-        return NOT_FINITE
-    store_probe(t, c, p, -1, 1.0)
-    find_mobility(c)
+def list_part(c: Choice, n: int) -> int:
+    """List the rows at rest of a part, and those in motion by reactions, in ``order``; return their number."""
+    order, count = c.box.order, n
     for r in range(n):
-        if probe_row(t, c, c.rest[r], y, p, w, iw, control) != SAME:
-            return NOT_FINITE
-    for j in range(k):
-        if c.pressed[j] != 0 and c.signs[j] != 0.0 and probe_row(t, c, j, y, p, w, iw, control) != SAME:
-            return NOT_FINITE
-    for i in range(k):
-        if c.pressed[i] != 0:
-            bound = c.sliding[i] if c.signs[i] != 0.0 else c.static[i]
-            x, y_part = c.parts[2 * i * k + i], c.parts[(2 * i + 1) * k + i]
-            c.jam[0] = bound * math.sqrt(x * x + y_part * y_part)
-            if not c.jam[0] < 1.0:
-                c.named[0] = i
-                return JAMMED
-    return SAME
-
-
-@exact()
-def begin_sizes(c: Choice) -> None:
-    """Set the sizes of reactions without efforts by reactions; at rest, what holds all."""
-    for i in range(c.count):
-        c.sizes[i] = 1.0
-        if c.pressed[i] != 0:
-            x, y = c.apart[2 * i], c.apart[2 * i + 1]
-            c.sizes[i] = math.sqrt(x * x + y * y) if c.signs[i] != 0.0 else math.inf
-
-
-@exact()
-def follow_bounds(c: Choice, n: int) -> None:
-    """Have bounds and accelerations without forces at rest follow the present sizes of reactions."""
-    k, box = c.count, c.box
-    for i in range(k):
-        if c.pressed[i] != 0 and c.signs[i] != 0.0:
-            c.forces[i] = c.signs[i] * c.sliding[i] * c.sizes[i]
-    for r in range(n):
-        i, total = c.rest[r], 0.0
-        if box.bounds[r] > 0.0:
-            box.bounds[r] *= c.sizes[i]
-            box.lower[r] *= c.sizes[i]
-        for j in range(k):
-            if c.pressed[j] != 0 and c.signs[j] != 0.0:
-                total += c.matrix[i * k + j] * c.forces[j]
-        box.offset[r] = c.offset[i] - total
-
-
-@exact()
-def follow_sizes(c: Choice) -> bool:
-    """Set the sizes of reactions by the present forces; return whether they agree with the bounds."""
-    k, agree = c.count, True
-    for i in range(k):
-        if c.pressed[i] != 0:
-            x, y = c.apart[2 * i], c.apart[2 * i + 1]
-            for j in range(k):
-                x -= c.parts[2 * i * k + j] * c.forces[j]
-                y -= c.parts[(2 * i + 1) * k + j] * c.forces[j]
-            size = math.sqrt(x * x + y * y)
-            agree = agree and size < math.inf and abs(size - c.sizes[i]) <= _AGREED * size
-            c.sizes[i] = size
-    return agree
+        order[r] = c.rest[r]
+    for i in range(c.dry):
+        moves = c.pressed[i] != 0 and c.signs[i] != 0.0 and c.part[i] == c.part[c.rest[0]]
+        for r in range(n):  # one at rest may begin to move
+            moves = moves and c.rest[r] != i
+        if moves:
+            order[count] = i
+            count += 1
+    return count
 
 
 @exact()
 def fill_laws(c: Choice, n: int) -> int:
-    """Write the problem of the rows at rest, within bounds over reactions, and of those in motion by reactions.
-
-    Returns their number; ``order`` has them.
-    """
-    k, box, laws, count = c.count, c.box, c.laws, n
-    for r in range(n):
-        box.order[r] = c.rest[r]
-    for i in range(k):
-        moves = c.pressed[i] != 0 and c.signs[i] != 0.0
-        for r in range(n):  # one at rest may begin to move
-            moves = moves and c.rest[r] != i
-        if moves:
-            box.order[count] = i
-            count += 1
+    """Write the problem of a part, the rows at rest within the bounds of the box; return its number of rows."""
+    k, box, laws, count = c.count, c.box, c.laws, list_part(c, n)
     for r in range(count):
         i = box.order[r]
         begin_row(count, r, laws)
-        laws.offset[r], laws.law[r] = c.offset[i], BALL
+        laws.offset[r] = c.offset[i]
         for q in range(count):
             laws.matrix[r * count + q] = c.matrix[i * k + box.order[q]]
-        laws.beta[r] = c.sliding[i]
+        laws.law[r], laws.beta[r], laws.way[r] = BALL, c.sliding[i], c.signs[i] if r >= n else 0.0
         if r < n:
-            laws.beta[r], laws.middle[r] = (
-                0.5 * (box.bounds[r] - box.lower[r]),
-                0.5 * (box.bounds[r] + box.lower[r]),
-            )
-        else:
-            laws.way[r] = c.signs[i]
+            laws.beta[r] = 0.5 * (box.bounds[r] - box.lower[r])
+            laws.middle[r] = 0.5 * (box.bounds[r] + box.lower[r])
         if c.pressed[i] != 0:
             laws.kappa[r], laws.beta[r], laws.components[r] = laws.beta[r], 0.0, 2
-            for part in range(2):
-                at = COMPONENTS * r + part
-                laws.apart[at] = c.apart[2 * i + part]
+            for component in range(2):
+                at = COMPONENTS * r + component
+                laws.apart[at] = c.apart[2 * i + component]
                 for q in range(count):
-                    laws.parts[at * count + q] = c.parts[(2 * i + part) * k + box.order[q]]
+                    laws.parts[at * count + q] = c.parts[(2 * i + component) * k + box.order[q]]
     return count
 
 
-@exact(entry=True)
-def agree_by_newton(c: Choice, n: int, part: float) -> int:
-    """Find the forces at rest where bounds and forces in turns never agree; return `SAME` or `DISAGREED`."""
+@exact()
+def agree_within(c: Choice, n: int, part: float) -> int:
+    """Find the forces at rest of a part as `solve_within` does, with bounds that may depend on reactions.
+
+    Returns `SAME`, `NO_FORCES` or `DISAGREED`.
+    """
     box, laws = c.box, c.laws
     set_bounds(c, n, part)
+    if not reacts(c, c.part[c.rest[0]]):
+        return SAME if solve_box(n, box) == 0 else NO_FORCES
     count = fill_laws(c, n)
     if not find_forces(count, laws, 1):
         return DISAGREED
+    share_forces(count, laws)
     for r in range(count):
         i = box.order[r]
-        c.forces[i] = laws.forces[r]
-        if c.pressed[i] != 0:
-            c.sizes[i] = load_of(count, r, laws)
+        c.forces[i] = laws.forces[r] - (c.middle[i] if r < n else 0.0)
+        c.sizes[i] = load_of(count, r, laws) if c.pressed[i] != 0 else 1.0
     for r in range(n):
         i = c.rest[r]
         box.left[r], box.forces[r] = laws.left[r], laws.forces[r]
         box.bounds[r] *= c.sizes[i]
         box.lower[r] *= c.sizes[i]
         box.place[r] = INSIDE if laws.state[r] == ON else LOWER if laws.state[r] == DOWN else UPPER
-        c.forces[i] -= c.middle[i]
     return SAME
 
 
@@ -293,25 +167,6 @@ def moves_otherwise(c: Choice, n: int) -> int:
             differ += 1
     c.named[differ] = -1
     return 1
-
-
-@exact()
-def agree_within(c: Choice, n: int, part: float) -> int:
-    """Find the forces at rest as `solve_within` does, with bounds that agree with them.
-
-    Returns `SAME`, `NO_FORCES` or `DISAGREED`.
-    """
-    begin_sizes(c)
-    for _ in range(_AGREEMENTS):
-        set_bounds(c, n, part)
-        follow_bounds(c, n)
-        if solve_box(n, c.box) != 0:
-            return NO_FORCES
-        for r in range(n):
-            c.forces[c.rest[r]] = c.box.forces[r] - c.middle[c.rest[r]]
-        if follow_sizes(c):
-            return SAME
-    return int(agree_by_newton(c, n, part))
 
 
 #: What the forces at rest are found by where bounds depend on reactions.
@@ -443,26 +298,10 @@ def follow_reactions(c: Choice) -> int:
     return SAME
 
 
-@exact(entry=True)
-def choose_pressed(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
-    """Choose modes as `choose_modes` does, where bounds depend on reactions; no row is one-sided."""
-    c.named[0] = find_redundant(c, w)
-    if c.named[0] >= 0:
-        return REDUNDANT
-    n = find_rest(c, w)
-    for i in range(c.count):
-        c.bounds[i], c.bounds[c.count + i] = c.static[i], c.sliding[i]
-    code = probe_reactions(t, c, y, p, w, iw, control)
-    if code == SAME and n > 0:
-        symmetrise(c)
-        size_forces(c, n, w)
-        code = solve_pressed(c, n, w)
-        if code == SAME and moves_otherwise(c, n) != 0:
-            code = SEVERAL_BY_REACTION
-        apply_sizes(c)
-        add_forces(c)
-    if code == SAME:
-        code = NOT_DETERMINED if hold_rows(c, w) != SAME else follow_reactions(c)
-    for i in range(c.count):
-        c.static[i], c.sliding[i] = c.bounds[i], c.bounds[c.count + i]
-    return int(write_modes(c, w)) if code == SAME else int(code)
+@exact()
+def rest_of_part(c: Choice, n: int, w: Array) -> int:
+    """Find the forces of the rows at rest of a part without one-sided rows; return `SAME`, or why there are none."""
+    code = solve_pressed(c, n, w)
+    if code == SAME and reacts(c, c.part[c.rest[0]]) and moves_otherwise(c, n) != 0:
+        return SEVERAL_BY_REACTION
+    return int(code)

@@ -1,8 +1,8 @@
 """Impacts of contacts, compiled: Newton's law for gaps, Coulomb's for impulses along them, and rest.
 
 The rates after an impact have ``u_N+ + e min(u_N-, 0) >= 0`` beside an impulse that pushes, and friction whose impulse
-is at most mu times that. All combinations of modes are tried and verified as modes at rest are
-(`symgen.run.modes.contact_verification`); the velocities follow from a linear problem in the modes that are right.
+is at most mu times that. The laws are those at rest, on rates
+(`symgen.run.modes.contact_laws`); the velocities follow from a linear problem in the modes that are right.
 
 Where impacts of one contact accumulate, or of several in turn, impulses in the modes of the last impact take what
 is left of their rates: friction counts for the impacts that are left out, less what it does at rest in their place.
@@ -17,6 +17,7 @@ from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.effects.accumulation import OF_EVENT, accumulation, add_resets
 from symgen.run.effects.pushing import POISSON, REACTIONS
+from symgen.run.laws.problem import LOWER, OFF, ON, UPPER
 from symgen.run.layout import abi
 from symgen.run.layout.scales import larger_number
 from symgen.run.layout.start_records import Instant
@@ -36,10 +37,9 @@ from symgen.run.modes.bounded_rows import (
     switch_off,
 )
 from symgen.run.modes.choice import read_rows
-from symgen.run.modes.contact_combinations import LOWER, OFF, ON, UPPER
+from symgen.run.modes.contact_laws import solve_by_laws
 from symgen.run.modes.contact_parts import by_reaction, choose_part, find_parts, probe_contacts
 from symgen.run.modes.contact_series import ends_closed, find_leading, remember_impact, sum_series
-from symgen.run.modes.contact_verification import try_combinations
 from symgen.run.modes.pin_impulses import find_shortfall, probe_impact, push
 from symgen.run.modes.strikes import (
     OF_SERIES,
@@ -112,7 +112,7 @@ def find_impulses(c: Choice, s: Strikes) -> int:
     for first in range(c.count):
         count = choose_part(c, first, rows)
         if count > 0:
-            code = try_combinations(c, count)
+            code = solve_by_laws(c, count)
             if code != SAME:
                 return int(code)
             for a in range(count):

@@ -1,12 +1,13 @@
-"""Modes of parts with many contacts, bounds by reactions or of two directions, compiled: Newton's method on all laws.
+"""Modes of parts of rows that depend on each other, compiled: Newton's method on all laws.
 
-Combinations of a few rows are all tried (`symgen.run.modes.contact_verification`); those of many rows are too many,
-and bounds of two directions, or by reactions, have a middle or a load that they do not know.
-Rest is tried first, then other beginnings, and each motion is verified. Where they lead to different motions there are
-several, unless what was at rest goes on resting; others than those found are not sought.
+Rest is tried first, then other beginnings, then combinations where they are few; each motion is verified. Of few rows
+all motions are counted. Where other beginnings of many rows lead to different motions there are several, unless what
+was at rest goes on resting; others than those found are not sought.
 """
 
 from __future__ import annotations
+
+import math
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
@@ -29,8 +30,13 @@ from symgen.run.modes.bounded_rows import (
     SEVERAL_MODES,
     Choice,
 )
-from symgen.run.modes.contact_combinations import bound_of
 from symgen.run.modes.contact_parts import by_reaction, has_reaction
+
+
+@exact()
+def bound_of(c: Choice, i: int) -> float:
+    """Return the bound of a row in a combination, of a contact over the force that presses; sliding has its own."""
+    return float(c.sliding[i] if c.loose[i] != 0 or c.signs[i] != 0.0 else c.static[i])
 
 
 @exact()
@@ -100,20 +106,28 @@ def find_forces_of_part(c: Choice, count: int) -> bool:
             laws.law[a] = NOTHING
     found = find_forces(count, laws, 1)
     for a in range(count):
-        closes = closes or (laws.law[a] == NOTHING and laws.left[a] < -NO_ACCELERATION * size_of_terms(count, a, laws))
+        if laws.law[a] == NOTHING:
+            closes = closes or laws.left[a] < -NO_ACCELERATION * size_of_terms(count, a, laws)
+            laws.law[a] = PUSH
     if not found or closes:
-        for a in range(count):
-            laws.law[a] = PUSH if laws.law[a] == NOTHING else laws.law[a]
         found = find_forces(count, laws, 1)
     return bool(found)
 
 
 @exact()
-def move_at_bounds(c: Choice, count: int) -> None:
-    """Have rows move that have just broken loose, and whose forces are at their bounds."""
+def settle_at_bounds(c: Choice, count: int) -> None:
+    """Decide what forces leave open: gaps without a force stay closed, and rows at their bounds move if they are loose.
+
+    Only rounding would tell whether a gap that nothing presses opens where nothing accelerates it, or its friction.
+    """
     laws = c.laws
     for a in range(count):
-        if laws.law[a] == BALL and laws.state[a] == ON and c.loose[c.box.order[a]] != 0:
+        i, still = c.box.order[a], abs(laws.left[a]) <= NO_ACCELERATION * size_of_terms(count, a, laws)
+        if laws.law[a] == PUSH and laws.state[a] == OFF and c.loose[i] == 0 and still:
+            laws.state[a] = ON
+        if laws.law[a] == BALL and c.loose[i] == 0 and still and load_bound(count, a, laws) == 0.0:
+            laws.state[a] = ON if laws.way[a] == 0.0 else laws.state[a]
+        if laws.law[a] == BALL and laws.state[a] == ON and c.loose[i] != 0:
             bound = load_bound(count, a, laws)
             if bound > 0.0 and abs(laws.forces[a]) >= AT_BOUND * bound:
                 laws.state[a] = UPPER if laws.forces[a] > 0.0 else LOWER
@@ -130,18 +144,37 @@ def name_different(c: Choice, count: int) -> None:
     c.named[differ] = -1
 
 
+@exact()
+def name_fault(c: Choice, count: int) -> None:
+    """Name the contact of a part that comes nearest to jamming, with what is left of its mobility."""
+    k, least = c.count, math.inf
+    for a in range(count):
+        i = c.box.order[a]
+        j = c.partner[i]
+        if c.pushes[i] != 0:
+            if least == math.inf:
+                c.named[0], c.jam[0] = i, c.matrix[i * k + i]
+            if j >= 0 and c.matrix[i * k + i] > 0.0:
+                turned = c.sliding[j] * c.matrix[i * k + j]
+                turned = c.signs[j] * turned if c.signs[j] != 0.0 else abs(turned)
+                left = c.matrix[i * k + i] - turned
+                if left / c.matrix[i * k + i] < least:
+                    c.named[0], c.jam[0], least = i, left, left / c.matrix[i * k + i]
+
+
 @exact(entry=True)
 def solve_by_laws(c: Choice, count: int) -> int:
-    """Find the modes of a part as `try_combinations` does; return `SAME`, `NO_CONTACT_MODES` or `SEVERAL_MODES`.
+    """Find the modes of a part; return `SAME`, `NO_CONTACT_MODES` or `SEVERAL_MODES`.
 
     Where bounds depend on reactions, `DISAGREED` or `SEVERAL_BY_REACTION` with the rows that differ.
     """
     order, laws, reacts = c.box.order, c.laws, has_reaction(c, count)
     fill_part(c, count)
     if not find_forces_of_part(c, count):
+        name_fault(c, count)
         return DISAGREED if reacts else NO_CONTACT_MODES
     share_forces(count, laws)
-    move_at_bounds(c, count)
+    settle_at_bounds(c, count)
     motions = count_motions(count, laws)
     several = motions == SEVERAL_MOTIONS
     if motions == NOT_SOUGHT and not rested(c, count):
@@ -159,4 +192,6 @@ def solve_by_laws(c: Choice, count: int) -> int:
     if several and reacts:
         name_different(c, count)
         return SEVERAL_BY_REACTION
+    if several:
+        name_fault(c, count)
     return SEVERAL_MODES if several else SAME

@@ -14,7 +14,6 @@ from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.effects.pushing import REACTIONS
 from symgen.run.layout.scales import larger_number
-from symgen.run.modes.agreement import store_probe
 from symgen.run.modes.bounded_rows import (
     CONSTANT,
     EFFORT,
@@ -85,14 +84,23 @@ def by_reaction(c: Choice, i: int) -> bool:
 @exact()
 def store_columns(t: float, c: Choice, p: Array, number: int, force: float) -> None:
     """Store the accelerations of the last probe, and the reactions, without forces or by a unit of force `number`."""
+    k, place = c.count, 0
+    for i in range(k):
+        if number < 0:
+            c.offset[i] = c.out[i]
+        else:
+            c.matrix[i * k + number] = (c.offset[i] - c.out[i]) / force
     if REACTIONS:
-        store_probe(t, c, p, number, force)
-    else:
-        for i in range(c.count):
-            if number < 0:
-                c.offset[i] = c.out[i]
-            else:
-                c.matrix[i * c.count + number] = (c.offset[i] - c.out[i]) / force
+        c.reactions(t, c.y, p, c.w, c.rate, c.out)
+        for i in range(k):
+            if c.pressed[i] != 0:
+                for part in range(2):
+                    if number < 0:
+                        c.apart[2 * i + part] = c.out[place + part]
+                    else:
+                        change = c.apart[2 * i + part] - c.out[place + part]
+                        c.parts[(2 * i + part) * k + number] = change / force
+                place += 2
 
 
 @exact()
@@ -206,3 +214,12 @@ def has_reaction(c: Choice, count: int) -> bool:
         if by_reaction(c, c.box.order[a]):
             return True
     return False
+
+
+@exact()
+def has_both(c: Choice, count: int) -> bool:
+    """Return whether a part has one-sided rows beside bounds that depend on reactions."""
+    pushes = False
+    for a in range(count):
+        pushes = pushes or c.pushes[c.box.order[a]] != 0
+    return bool(REACTIONS and pushes and has_reaction(c, count))

@@ -2,10 +2,9 @@
 
 A contact is a one-sided row N and the friction T along it, ``|T| <= mu N``. Each closed contact opens, sticks, or
 slides one of two ways; in motion the way is known. Rows that depend on each other are a part
-(`symgen.run.modes.contact_parts`), all combinations of whose modes are solved
-(`symgen.run.modes.contact_combinations`) and verified (`symgen.run.modes.contact_verification`). Parts without
-contacts are left to `symgen.run.modes.choice`. The same combinations on rates are those of an impact
-(`symgen.run.modes.contact_impacts`).
+(`symgen.run.modes.contact_parts`), whose laws are solved together (`symgen.run.modes.contact_laws`). Parts without
+contacts are left to `symgen.run.modes.resting`, with bounds by reactions to `symgen.run.modes.agreement`. The same laws
+on rates are those of an impact (`symgen.run.modes.contact_impacts`).
 """
 
 from __future__ import annotations
@@ -16,9 +15,10 @@ from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.effects.pushing import REACTIONS
+from symgen.run.laws.problem import LOWER, ON, UPPER
 from symgen.run.layout import abi
 from symgen.run.loops.search_records import COUNT, MARGIN, MEASURE, N_HEAD, RATE, ROW
-from symgen.run.modes.agreement import find_redundant, follow_reactions
+from symgen.run.modes.agreement import apply_sizes, find_redundant, follow_reactions, rest_of_part
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
     AT_REST,
@@ -38,18 +38,17 @@ from symgen.run.modes.bounded_rows import (
 )
 from symgen.run.modes.choice import add_forces, find_rest, write_modes
 from symgen.run.modes.choice import measure_margins as measure_margins_of_rows
-from symgen.run.modes.contact_combinations import LOWER, ON, UPPER
+from symgen.run.modes.contact_laws import solve_by_laws
 from symgen.run.modes.contact_parts import (
     by_reaction,
     choose_part,
     find_parts,
+    has_both,
     has_contact,
-    has_reaction,
     keep_touching,
     probe_contacts,
     size_forces_of_parts,
 )
-from symgen.run.modes.contact_verification import try_combinations
 from symgen.run.modes.holding import hold_rows
 from symgen.run.modes.resting import solve_rest
 
@@ -66,7 +65,7 @@ def solve_part(c: Choice, count: int, first: int) -> int:
     """Find the modes of a part with the bounds of now; return `SAME` or a code."""
     for a in range(count):
         c.part[c.box.order[a]] = first
-    return int(try_combinations(c, count))
+    return int(solve_by_laws(c, count))
 
 
 @exact()
@@ -153,10 +152,10 @@ def write_part(c: Choice, count: int) -> None:
 
 @exact()
 def choose_parts(c: Choice, rows: int) -> int:
-    """Choose the modes of parts with contacts or reactions, and leave the rows of others; return `SAME` or a code."""
+    """Choose the modes of parts with contacts, and leave the rows of others; return `SAME` or a code."""
     for first in range(c.count):
         count = choose_part(c, first, rows)
-        if has_contact(c, count) or has_reaction(c, count):
+        if has_contact(c, count) or has_both(c, count):
             code = choose_modes_of_part(c, count, first)
             if code != SAME:
                 return int(code)
@@ -183,15 +182,41 @@ def find_jammed(c: Choice) -> bool:
 
 
 @exact()
-def watch_reactions(c: Choice) -> int:
-    """Have the bounds of rows at rest follow reactions; return `SAME`, or `SHARED` as `follow_reactions` does."""
-    for i in range(c.dry):
+def rest_of_parts(c: Choice, left: int, w: Array) -> int:
+    """Find the forces of `left` rows at rest, part after part; return `SAME`, or why there are none."""
+    for r in range(left):
+        c.best[r] = c.rest[r]
+    for first in range(c.count):
+        n = 0
+        for r in range(left):
+            if c.part[c.best[r]] == first:
+                c.rest[n] = c.best[r]
+                n += 1
+        if n > 0:
+            code = rest_of_part(c, n, w)
+            if code != SAME:
+                return int(code)
+    for r in range(left):
+        c.rest[r] = c.best[r]
+    return SAME
+
+
+@exact()
+def watch_reactions(c: Choice, w: Array) -> int:
+    """Hold rows whose largest efforts follow reactions; return as `hold_rows` and `follow_reactions` do."""
+    k = c.count
+    for i in range(k):
+        c.bounds[i], c.bounds[k + i] = c.static[i], c.sliding[i]
+    apply_sizes(c)
+    code = hold_rows(c, w)
+    add_forces(c)
+    for i in range(k):
         c.taken[i] = 1 if c.after[MODE_NUMBERS * i + HELD] != 0.0 else 0
-        if by_reaction(c, i):
-            c.scale[i] += c.static[i] * c.sizes[i]
-    for i in range(c.dry, c.count):
-        c.taken[i] = 1 if c.after[MODE_NUMBERS * i + HELD] != 0.0 else 0
-    return int(follow_reactions(c))
+    if code == SAME:
+        code = follow_reactions(c)
+    for i in range(k):
+        c.static[i], c.sliding[i] = c.bounds[i], c.bounds[k + i]
+    return int(code)
 
 
 @exact(entry=True)
@@ -215,25 +240,25 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
         code = choose_parts(c, rows)
         if code != SAME:
             return int(code)
-        for r in range(rows):
-            i = c.rest[r]
-            if c.taken[i] != 2:
-                c.rest[left] = i
+        for r in range(n):
+            if c.taken[c.rest[r]] != 2:
+                c.rest[left] = c.rest[r]
                 left += 1
     c.at_rest[0] = left
     for i in range(c.count):
         c.taken[i] = 0
     if left > 0:
-        code = solve_rest(c, left, w)
+        code = rest_of_parts(c, left, w) if REACTIONS else solve_rest(c, left, w)
         if code != SAME:
             return int(code)
-    code = hold_rows(c, w)
-    if REACTIONS and code == SAME:
-        code = watch_reactions(c)
+    if REACTIONS:
+        code = watch_reactions(c, w)
+    else:
+        code = hold_rows(c, w)
+        add_forces(c)
     for i in range(c.count):
         struck = struck or c.shut[i] != 0
         c.shut[i] = 0
-    add_forces(c)
     if code == SAME:
         code = write_modes(c, w)
     # an impact has taken all rows out of force, and where none comes back there are others all the same

@@ -34,7 +34,7 @@ from symgen.run.modes.bounded_rows import (
 from symgen.run.modes.box import INSIDE, is_contrary, solve_box
 
 #: Rows are at their bounds beyond this part; number of halvings in which the least part is found.
-_SPENT, _HALVINGS = 1.0 - 1e-11, 10
+_SPENT, _HALVINGS = 1.0 - 1e-11, 30
 
 
 @exact()
@@ -129,8 +129,10 @@ def share_anew(c: Choice, n: int) -> float:
             i = c.rest[r]
             c.loose[i] = 0 if c.taken[i] != 0 else c.loose[i]
         return high
-    for r in range(n):
-        i = c.rest[r]
+    for r in range(n):  # those that share it are at their bounds as well
+        i, bound = c.rest[r], 0.5 * (c.box.bounds[r] - c.box.lower[r])
+        spent = abs(c.box.forces[r] - 0.5 * (c.box.bounds[r] + c.box.lower[r])) >= AT_BOUND * bound
+        c.loose[i] = 1 if c.pushes[i] == 0 and spent and is_tied(c, n, i) else c.loose[i]
         c.taken[i] = 0 if c.loose[i] != 0 else c.taken[i]
     return 1.0
 

@@ -11,7 +11,6 @@ from typing import Any
 
 from symgen.compile.loopcode.loop_instances import Meanings, exact_instance
 from symgen.run.effects.resets import apply_resets
-from symgen.run.modes.agreement import choose_pressed
 from symgen.run.modes.catching import HOLDING
 from symgen.run.modes.contact_impacts import find_struck_contacts, gather_contacts, strike_contacts
 from symgen.run.modes.contacts import choose_contacts, measure_margins_of_contacts
@@ -27,7 +26,9 @@ STRIKING = Meanings(
     change_state=apply_resets,
 )
 CORNERED = Meanings("runs with corners of gaps", meet_impacts=strike_past_corners)
-PRESSED = Meanings("runs with bounds that depend on reactions", choose_modes=choose_pressed)
+PRESSED = Meanings(
+    "runs with bounds that depend on reactions", choose_modes=exact_instance(choose_contacts, BY_REACTIONS)
+)
 IN_PIECES = Meanings("runs with gaps of several pieces", PIECES=True)
 TOUCHED = Meanings(
     "runs with contacts",
@@ -44,7 +45,7 @@ TOUCHED = Meanings(
 REACTING = Meanings(
     "runs with one-sided rows beside bounds that depend on reactions",
     REACTIONS=True,
-    choose_modes=exact_instance(choose_contacts, BY_REACTIONS),
+    choose_modes=PRESSED["choose_modes"],
     find_struck=exact_instance(find_struck_contacts, BY_REACTIONS),
     strike=exact_instance(strike_contacts, BY_REACTIONS),
     gather=exact_instance(gather_contacts, BY_REACTIONS),

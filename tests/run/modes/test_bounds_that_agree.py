@@ -17,14 +17,14 @@ AGREE, MOVES_OTHERWISE = plain_form(agree_within), plain_form(moves_otherwise)
 def rows_at_rest(problem: Problem) -> SimpleNamespace:
     """Return what the choice of modes reads of a problem whose rows are all at rest."""
     k = len(problem.rows)
-    c = SimpleNamespace(count=k, box=new_box(k), laws=new_laws(k), shifted=0)
+    c = SimpleNamespace(count=k, box=new_box(k), laws=new_laws(k), dry=k, shifted=0)
     c.matrix, c.offset, c.rest, c.named = (
         problem.matrix.ravel(),
         problem.offset,
         np.arange(k),
         np.zeros(k + 1, dtype=int),
     )
-    c.pushes, c.loose, c.broken, c.pressed = (np.zeros(k, dtype=int) for _ in range(4))
+    c.pushes, c.loose, c.broken, c.pressed, c.part = (np.zeros(k, dtype=int) for _ in range(5))
     c.taken, c.signs, c.forces, c.middle, c.sizes = np.ones(k, dtype=int), *(np.zeros(k) for _ in range(4))
     c.static, c.apart, c.parts = np.zeros(k), np.zeros(2 * k), np.zeros(2 * k * k)
     for i, row in enumerate(problem.rows):
@@ -39,8 +39,8 @@ def rows_at_rest(problem: Problem) -> SimpleNamespace:
 
 
 def test_forces_are_found_wherever_there_are_any() -> None:
-    """Pins press each other strongly: bounds and forces in turns never agree in some of these, or grow without end."""
-    numbers, newton, several = np.random.default_rng(8), 0, 0
+    """Pins press each other strongly: bounds and forces in turns would never agree in some of these."""
+    numbers, several = np.random.default_rng(8), 0
     for number in range(120):
         problem = draw(numbers, ("jj", "jjj", "jjd")[number % 3])
         for row in problem.rows:
@@ -49,12 +49,10 @@ def test_forces_are_found_wherever_there_are_any() -> None:
         k = len(problem.rows)
         found = AGREE(c, k, 1.0) == SAME
         assert found or not there
-        newton += int(np.any(c.laws.state != 0))
         if found:
             assert problem.miss(c.forces) < 1e-8
             assert (MOVES_OTHERWISE(c, k) != 0) >= (len(there) > 1)
             several += len(there) > 1
-    assert newton > 0
     assert several > 0
 
 
