@@ -19,12 +19,6 @@ from symgen.describe.mechanism import Mechanism, Vec
 from symgen.describe.modal_body import COORDINATE, CarriedInterface, Numbers, names_of_modes
 
 
-def body_with_coordinates(mechanism: Mechanism, body: str) -> str:
-    """Return the body with the coordinates of a body: itself, unless it is an interface."""
-    carried = None if body == GROUND else mechanism.body(body).carried
-    return body if carried is None else carried.host
-
-
 def bodies_of_reactions(mechanism: Mechanism) -> dict[str, str]:
     """Return for each joint the body that its reaction is reported on: the first one, or what carries it.
 

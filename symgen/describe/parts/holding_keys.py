@@ -9,7 +9,6 @@ import msgspec
 from symgen.base.vocabulary.expressions import (
     Expr,
     call,
-    readings_in,
 )
 from symgen.base.vocabulary.measures import Holonomic
 from symgen.describe.formulas.results_read import reads_results
@@ -97,8 +96,3 @@ def _condition(scope: Scope, key: str, text: str, results: bool) -> Expr:
     if not is_condition:
         raise scope.error(key, "a condition such as 't < 0.3'", repr(text))
     return function
-
-
-def reads_forces(when: Expr) -> bool:
-    """Whether a switching function reads accelerations or forces."""
-    return any(True for _ in readings_in(when)) and reads_results(when)
