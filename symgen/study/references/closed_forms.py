@@ -52,6 +52,14 @@ def pendulum(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, ti
     return "Jacobi's elliptic functions", 1e-14 * max(100.0, float(times[-1])), motion, velocities
 
 
+def harmonic_motion(rate: float, q: Array, times: Array) -> Closed:
+    """X = x_0 cos(rate t), of a body that begins at rest; its other coordinates stay."""
+    motion, velocities = np.tile(q, (len(times), 1)), np.zeros((len(times), len(q)))
+    turned = rate * times
+    motion[:, 0], velocities[:, 0] = q[0] * np.cos(turned), -rate * q[0] * np.sin(turned)
+    return "closed form: a cosine", 1e-16 * max(1.0, float(turned[-1])) * abs(float(q[0])), motion, velocities
+
+
 def n_four_bar(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, times: Array) -> Closed:
     """All verticals turn alike, and couplers translate: see `parallel_cranks`."""
     return parallel_cranks([body.name for body in mechanism.bodies], times)

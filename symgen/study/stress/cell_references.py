@@ -30,11 +30,12 @@ from symgen.run.layout.probe import Ready
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare
 from symgen.run.starts.assembly import Start
-from symgen.study.references.closed_forms import Closed, closed_form, parallel_cranks
+from symgen.study.references.closed_forms import Closed, closed_form, harmonic_motion, parallel_cranks
 from symgen.study.references.reference import scaled_values
 from symgen.study.references.routes import derivable_part, fastest_decay, motion_by_two_routes, parts_without_derivation
 from symgen.study.stress.bench import FREE_LENGTH, Level
 from symgen.study.stress.cell_outcome import ACCURATE, TRUSTED
+from symgen.study.stress.own_mechanisms import OSCILLATOR_RATE
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]
@@ -157,6 +158,8 @@ def _closed_form_motion(level: Level, parameters: Mapping[str, float], q: Array,
         return None
     if level.closed == "parallelogram":
         return parallel_cranks(("vertical0", "coupler0", "vertical1"), times)
+    if level.closed == "oscillator":
+        return harmonic_motion(OSCILLATOR_RATE, q, times)
     base = load_mechanism(level.closed)
     formula = closed_form(base)
     assert formula is not None, "levels name only what has a closed form"

@@ -16,7 +16,15 @@ from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.joints import JOINTS
 from symgen.describe.parts.scope import CENTRE, ORIGIN
 from symgen.study.stress.bench import DAMPING, GRAVITY, INERTIA, MASS, STIFFNESS, Base, Level, NotApplicable
-from symgen.study.stress.own_mechanisms import bodies, driver_rate, length_ratio, near_singular, scale, singular_passage
+from symgen.study.stress.own_mechanisms import (
+    bodies,
+    driver_rate,
+    length_ratio,
+    near_singular,
+    scale,
+    singular_passage,
+    stiff_periods,
+)
 
 #: Unit in the last place of numbers from 1 to 2.
 EPSILON = 2.0**-52
@@ -300,5 +308,6 @@ FAMILIES: Mapping[str, Family] = {
         tuple(product(_SPRINGS, (0.03, 0.1, 0.3, 1.0, 3.0, 10.0))),
         tuple(product(_QUICK_SPRINGS, (0.1, 1.0, 10.0))),
     ),
+    "stiff-periods": Family(stiff_periods, (1e2, 1e3, 1e4), (1e2,), own=True),
     "stiffness": Family(stiffness, _SPRINGS, _QUICK_SPRINGS),
 }

@@ -11,6 +11,9 @@ from symgen.describe.files.load import load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.study.stress.bench import STANDARD_GRAVITY, Base, Level
 
+#: Angular frequency of the undamped spring [rad/s].
+OSCILLATOR_RATE = 1e3
+
 
 def length_ratio(base: Base, ratio: float) -> Level:
     """Return the case of a four-bar linkage with a crank of 1 m and other links that are longer by a ratio.
@@ -45,6 +48,17 @@ def bodies(base: Base, count: float) -> Level:
     """Return the case of a chain of four-bar linkages, Bayo's benchmark, with some number of loops."""
     mechanism = load_mechanism(f"n-four-bar:{int(count)}")
     return Level(f"{int(count)} loops", (count,), mechanism, until=1.0, step=mechanism.defaults.step)
+
+
+def stiff_periods(base: Base, count: float) -> Level:
+    """Return the case of an undamped spring of 1e6 N/m that moves 1 kg on a guide for some number of periods."""
+    builder = MechanismBuilder("oscillator").run(until=1.0, step=1e-4)
+    builder.body("slider", mass=1.0, inertia=0.1, position=(0.1, 0.0))
+    builder.joint("guide", "translational", between=("ground", "slider"), at=((0.0, 0.0), "centre"), axis=(1.0, 0.0))
+    builder.force("spring", "spring-damper", joint="guide", stiffness=OSCILLATOR_RATE**2)
+    period, mechanism = 2.0 * math.pi / OSCILLATOR_RATE, builder.build()
+    label, until = f"{count:g} periods", count * period
+    return Level(label, (count,), mechanism, until=until, step=period / 50.0, outputs=97, closed="oscillator")
 
 
 def near_singular(base: Base, gap: float) -> Level:
