@@ -108,6 +108,24 @@ between = ["cart", "bar.root"]
 at = ["centre", [0.0, 0.0]]
 """
 _BEAM = "start = [0.1, 0.3]\nend = [0.6, 0.3]\nelements = 2\naxial = 1e3\nbending = 1.0\nmass = 0.2\nrotary = 1e-3"
+_LINE = """[beams.line]
+start = [0.0, 0.4]
+end = [1.0, 0.4]
+elements = 4
+cable = true
+length = 0.98
+axial = 200.0
+mass = 0.1
+clamp = ["ground", "ground"]
+[bodies.bead]
+type = "point"
+mass = 0.1
+position = [0.3, 0.4]
+[joints.on]
+type = "slides-on"
+body = "bead"
+beam = "line"
+"""
 _WALL = """[contacts.wall]
 between = [
     { body = "pole", at = "tip" },
@@ -236,6 +254,7 @@ FEATURES: Mapping[str, str] = {
     "joint that lets go": cart(pin='holds = "t < 0.2503"'),
     "joint that catches": cart(more=_LATCH),
     "joint that catches, friction and stop": cart(pin=f"friction = {{ sliding = 0.3 }}\n{_STOP}", more=_LATCH),
+    "point that slides on a cable": cart(more=_LINE),
     "rope over a sheave": cart(
         more="[bodies.weight]\nmass = 0.5\ninertia = 0.01\nposition = [0.5, -0.6]\n"
         '[joints.rope]\ntype = "rope"\nbetween = ["pole", "weight"]\nat = ["tip", "centre"]\n'

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 
 import msgspec
@@ -14,7 +15,8 @@ class Table(msgspec.Struct, frozen=True, omit_defaults=True):
     """A function of one argument by interpolation; used as ``NAME(x)``.
 
     ``linear`` is constant beyond its ends. ``cubic`` (two continuous derivatives) and ``pchip`` (one, and no value
-    beyond those of the points) go on in straight lines there, unless they are `periodic`.
+    beyond those of the points) go on in straight lines there, unless they are `periodic`. ``hermite``, which no file
+    has, is cubic with given `slopes` at the points.
     """
 
     name: str
@@ -22,6 +24,7 @@ class Table(msgspec.Struct, frozen=True, omit_defaults=True):
     y: tuple[float, ...]
     interpolation: str = "linear"
     periodic: bool = False
+    slopes: tuple[float, ...] = ()
 
     @property
     def function(self) -> str:
@@ -39,8 +42,33 @@ def _interpolation_of(table: Table) -> Interpolation:
     x, y = table.x, table.y
     if table.interpolation == "linear":
         return Interpolation(table.name, x, y)
-    if table.interpolation == "pchip":
+    slopes: Sequence[float]
+    if table.slopes:
+        slopes = table.slopes
+    elif table.interpolation == "pchip":
         slopes = pchip_slopes(x, y, table.periodic)
     else:
         slopes = periodic_slopes(x, y) if table.periodic else cubic_slopes(x, y)
     return Interpolation(table.name, x, y, cubic_pieces(x, y, slopes), x[-1] - x[0] if table.periodic else 0.0)
+
+
+#: Shape functions of curves (`symgen.describe.joints.slides_on`) for the place and for the slope at their first, an
+#: inner and their last station, over the number of pieces from there; no file can use these names.
+PLACE_SHAPES, SLOPE_SHAPES = (
+    {
+        where: Table(
+            f"_{word}_at_{where}",
+            x,
+            tuple(float(at == 0.0 and word == "place") for at in x),
+            "hermite",
+            slopes=tuple(float(at == 0.0 and word == "slope") for at in x),
+        )
+        for where, x in (("first", (0.0, 1.0)), ("inner", (-1.0, 0.0, 1.0)), ("last", (-1.0, 0.0)))
+    }
+    for word in ("place", "slope")
+)
+
+
+def shapes_of_curves() -> tuple[Table, ...]:
+    """Return the tables of all shape functions."""
+    return (*PLACE_SHAPES.values(), *SLOPE_SHAPES.values())

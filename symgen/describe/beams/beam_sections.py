@@ -13,6 +13,7 @@ from symgen.describe.formulas.formula_text import file_value
 from symgen.describe.parts.fields import (
     Across,
     Counts,
+    Flag,
     Held,
     Scalar,
     Sides,
@@ -87,6 +88,11 @@ class BeamSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
         k G A [N], in space one value or two, along y and z; rigid by default. A beam with section and material has it.
     mass, rotary : scalar
         rho A [kg/m] and rho I [kg m], in space rho I about x, y and z.
+    cable : bool
+        Whether it neither bends nor pushes: nodes are point masses, and elements pull where they are longer than
+        unloaded. It has `axial` and `mass`, or section and material; false by default.
+    length : scalar
+        Of a cable, its length without load [m]; that of its line by default.
     damping : scalar, or table
         Time of a Kelvin-Voigt material [s], or times by strain, ``{ axial, shear, torsion, bending }``; 0 by default.
     load : vector of functions of state
@@ -114,6 +120,8 @@ class BeamSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     bending: Across | None = None
     mass: Scalar | None = None
     rotary: Across | None = None
+    cable: Flag = False
+    length: Scalar | None = None
     damping: Scalar | StrainTimes = 0.0
     load: StateVector | None = None
     clamp: str | tuple[str, ...] = ""
@@ -140,6 +148,7 @@ def section_properties(scope: Scope, beam: BeamSection) -> Properties:
         If a key is missing, duplicated or meaningless.
     """
     direct = ("axial", "shear", "torsion", "bending", "mass", "rotary")
+    _refuse_keys_of_others(scope, beam)
     named = [key for key in direct if getattr(beam, key) is not None]
     if (beam.section is None) != (beam.material is None):
         missing = "section" if beam.section is None else "material"
@@ -149,13 +158,34 @@ def section_properties(scope: Scope, beam: BeamSection) -> Properties:
             raise scope.error(
                 named[0], "no such key beside section and material", value_in_words(getattr(beam, named[0]))
             )
-        return _properties_of_material(scope, beam.section, beam.material)
-    for key in ("axial", "bending", "mass", *(("torsion",) if scope.spatial else ())):
+        whole = _properties_of_material(scope, beam.section, beam.material)
+        return _without_bending(whole, len(whole.rotary)) if beam.cable else whole
+    bends = () if beam.cable else ("bending", *(("torsion",) if scope.spatial else ()))
+    for key in ("axial", *bends[:1], "mass", *bends[1:]):
         if getattr(beam, key) is None:
             raise scope.error(key, "a value, or the tables section and material", "no such key")
     keys = {key: getattr(beam, key) for key in direct[:4] if getattr(beam, key) is not None}
     assert beam.mass is not None, "the loop above requires it"
-    return Properties(keys, scope.constant("mass", beam.mass, positive=True), _rotary_inertias(scope, beam))
+    mass = scope.constant("mass", beam.mass, positive=True)
+    if beam.cable:
+        return _without_bending(Properties(keys, mass, ()), 3 if scope.spatial else 1)
+    return Properties(keys, mass, _rotary_inertias(scope, beam))
+
+
+def _refuse_keys_of_others(scope: Scope, beam: BeamSection) -> None:
+    """Refuse what a cable has not, and what a cable alone has."""
+    keys = ("shear", "torsion", "bending", "rotary") if beam.cable else ("length",)
+    for key in keys:
+        if (value := getattr(beam, key)) is not None:
+            beside = "beside" if beam.cable else "without"
+            raise scope.error(key, f"no such key {beside} cable = true", value_in_words(value))
+    if beam.cable and isinstance(beam.damping, StrainTimes):
+        raise scope.error("damping", "one time, as a cable has one strain", "a table")
+
+
+def _without_bending(properties: Properties, axes: int) -> Properties:
+    """Return stiffness and mass of a cable."""
+    return Properties({"axial": properties.stiffness["axial"]}, properties.mass, (ZERO,) * axes)
 
 
 def _rotary_inertias(scope: Scope, beam: BeamSection) -> tuple[Expr, ...]:

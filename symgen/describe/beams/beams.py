@@ -20,11 +20,13 @@ from symgen.base.vocabulary.expressions import (
     ONE,
     ZERO,
     Expr,
+    call,
     difference,
+    product,
     sum_of_terms,
 )
 from symgen.base.vocabulary.measures import GROUND
-from symgen.describe.beams.beam_lines import CrossSection, beam_segments, cross_sections
+from symgen.describe.beams.beam_lines import CrossSection, Segment, beam_segments, cross_sections
 from symgen.describe.beams.beam_sections import BeamSection, Properties, section_properties
 from symgen.describe.beams.node_tables import (
     BodyMass,
@@ -101,6 +103,7 @@ class Beams:
         self.raw, self.scope_of, self.body_of, self.errors = raw, scope_of, body_of, errors
         self._nodes: dict[str, list[tuple[str, float]]] = {}  # of a beam, "" for a clamped end, and parts of its length
         self._counts: dict[str, list[int]] = {}  # elements of the segments of a beam
+        self._curves: dict[str, tuple[list[_Seat], float | str | None]] = {}  # with the length of elements
         self._further: dict[str, list[BodyMass]] = {}  # of bodies, besides those of their tables
         self._centres: dict[str, Any] = {}  # of bodies that ends are clamped to, in their frames
         self.bodies: dict[str, Any] = {}
@@ -151,6 +154,8 @@ class Beams:
         if beam.load is not None and any(x in scope.context.states for x in "xyz"):
             raise scope.error("load", "x, y and z to mean the place", "a parameter or an input of that name")
         line, properties = beam_segments(scope, beam), section_properties(scope, beam)
+        longer = _longer_than_line(scope, beam, line)
+        properties = replace(properties, mass=product(properties.mass, longer))
         clamps = (beam.clamp, "") if isinstance(beam.clamp, str) else beam.clamp
         if len(clamps) != 2:
             raise scope.error(
@@ -164,7 +169,7 @@ class Beams:
             host = {0: clamps[0], last: clamps[1]}.get(k, "")
             self._nodes[name].append(("" if host else node, sections[0].part))
             if host:
-                seats.append(self._clamped_seat(scope, host, sections[0], properties))
+                seats.append(self._clamped_seat(scope, host, sections[0], properties, beam.cable))
             else:
                 seats.append(self._node_seat(node, beam, sections, properties, motion))
             if beam.load is not None and host != GROUND:
@@ -172,23 +177,17 @@ class Beams:
                 size, place = sum_of_terms(*(section.share for section in sections)), f"{host}.{at}" if host else node
                 load = [_load_on_node(size, part, place) for part in beam.load]
                 self.forces[f"{name}.{LOAD}{k}"] = {"type": "force", "body": host or node, "at": at, "force": load}
+        self._curves[name] = seats, file_value(product(line[0].step, longer)) if len(line) == 1 else None
         k = 0
         for segment in line:
-            damping = msgspec.to_builtins(beam.damping)
-            element: dict[str, Any] = {"type": "beam", "length": file_value(segment.step), "damping": damping}
-            element |= properties.stiffness
-            if segment.bend != ZERO:
-                bend = file_value(segment.curvature)
-                element["curvature"] = [0.0, 0.0, bend] if scope.spatial else bend
+            element = _element_of_segment(beam, properties, segment, product(segment.step, longer), scope.spatial)
             for _ in range(segment.elements):
                 a, b, k = seats[k], seats[k + 1], k + 1
-                keys = {
-                    "between": [a.body, b.body],
-                    "at": [a.place, b.place],
-                    "axis": [a.written_axis(-1, 0), b.written_axis(0, 0)],
-                }
-                if scope.spatial:
-                    keys["reference"] = [a.written_axis(-1, 1), b.written_axis(0, 1)]
+                keys: dict[str, Any] = {"between": [a.body, b.body], "at": [a.place, b.place]}
+                if not beam.cable:
+                    keys["axis"] = [a.written_axis(-1, 0), b.written_axis(0, 0)]
+                    if scope.spatial:
+                        keys["reference"] = [a.written_axis(-1, 1), b.written_axis(0, 1)]
                 self.forces[f"{name}.{ELEMENT}{k}"] = element | keys
 
     def _node_seat(
@@ -204,6 +203,12 @@ class Beams:
         dimension = len(own.place)
         unturned = _UNTURNED[dimension]
         (mass, inertia), *others = (section_mass(properties, s, s.axes if vertex else None) for s in sections)
+        if beam.cable:
+            whole = sum_of_terms(mass, *(further for further, _ in others))
+            moving = {} if motion is None else {"velocity": node_velocities(own, motion)["velocity"]}
+            keys = {"type": "point", "mass": file_value(whole), "hold": beam.hold}
+            self.bodies[name] = keys | {"position": write_vector(own.place)} | moving
+            return _Seat(name, CENTRE, [unturned] * len(sections))
         if vertex:  # it has no direction of its own
             own = replace(own, axes=unturned, angle=ZERO)
             self._further[name] = [BodyMass((ZERO,) * dimension, *other) for other in others]
@@ -225,8 +230,8 @@ class Beams:
         self.bodies[body] = {**table, "points": {**points, name: place}}
         return name
 
-    def _clamped_seat(self, scope: Scope, name: str, end: CrossSection, properties: Properties) -> _Seat:
-        """Return the seat of a clamped end on its body, which takes the mass of the end."""
+    def _clamped_seat(self, scope: Scope, name: str, end: CrossSection, properties: Properties, hinged: bool) -> _Seat:
+        """Return the seat of a clamped end on its body, which takes its mass; of a cable a point mass may be."""
         if name == GROUND:
             return _Seat(name, write_vector(end.place), [end.sides])
         bodies = self.raw.get("bodies", {})
@@ -237,7 +242,7 @@ class Beams:
             hint = "a rigid joint holds the end of a beam on an interface"
             raise scope.error("clamp", "a rigid body or 'ground'", f"the modal body '{name}'", hint)
         body = self.body_of(self.scope_of("bodies", name), bodies[name])
-        if body.is_point:
+        if body.is_point and not hinged:
             raise scope.error("clamp", "a body with an angle", f"the point mass '{name}'")
         frame = body_axes(scope, body)
         (place,) = in_frame(frame, [tuple(map(difference, end.place, body.position))])
@@ -253,6 +258,8 @@ class Beams:
 
         Clamped beams do not move a body's centre of mass.
         """
+        if isinstance(table.get("beam"), str):
+            return self._curve_of_beam(scope, table)
         pair, at = isinstance(table.get("between"), list | tuple), table.get("at")
         bodies = list(table["between"]) if pair else [table.get("body")]
         places = [at] if not pair else list(at) if isinstance(at, list | tuple) else []
@@ -273,6 +280,21 @@ class Beams:
         if isinstance(kind, str) and kind in kinds and "at" not in kinds.get(kind).__struct_fields__:
             del table["at"]
         return table
+
+    def _curve_of_beam(self, scope: Scope, table: dict[str, Any]) -> dict[str, Any]:
+        """Return the table of a joint on a beam with the stations of the beam's curve in its place."""
+        beam = table.pop("beam")
+        if beam not in self._curves:
+            got = f"the unknown beam {quote(beam)}"
+            raise scope.error("beam", "the name of a beam", got, suggest(beam, self._curves))
+        seats, step = self._curves[beam]
+        if step is None:
+            got = f"'{beam}', a line of {len(self._counts[beam])} segments"
+            raise scope.error("beam", "a beam without corners, at which the velocity would jump", got)
+        along = [{"body": seat.body, "at": seat.place} for seat in seats]
+        if not self.raw["beams"][beam].get("cable", False):
+            along = [{**x, "axis": seat.written_axis(0, 0)} for x, seat in zip(along, seats, strict=True)]
+        return table | {"along": along, "step": step}
 
     def _node_at(self, scope: Scope, beam: str, at: object) -> str:
         """Return the node of a beam at one of its ends, by its number, or at a place."""
@@ -298,6 +320,35 @@ class Beams:
             got = f"the end of '{beam}' that is clamped to a body"
             raise scope.error("at", "a node that moves by itself", got, "name that body and a point of it")
         return nodes[k][0]
+
+
+def _longer_than_line(scope: Scope, beam: BeamSection, line: list[Segment]) -> Expr:
+    """Return the length of a cable without load over that of its line; 1 of all others."""
+    if beam.length is None:
+        return ONE
+    length = scope.constant("length", beam.length, positive=True)
+    return call("div", length, sum_of_terms(*(segment.length for segment in line)))
+
+
+def _element_of_segment(
+    beam: BeamSection, properties: Properties, segment: Segment, step: Expr, spatial: bool
+) -> dict[str, Any]:
+    """Return the table of the elements of a segment, of a length, but for their ends."""
+    if beam.cable:
+        stiffness, length = f"({properties.stiffness['axial']})/({to_text(step)})", to_text(step)
+        pull = f"{stiffness}*max(length - ({length}), 0.0)"
+        element = {"type": "spring-damper", "free_length": file_value(step)}
+        element["potential"] = f"0.5*{pull}*max(length - ({length}), 0.0)"
+        if beam.damping != 0.0:  # at most what the stiffness gives, so that no element pushes
+            damper = f"-({beam.damping})*{stiffness}*rate"
+            element["actuator"] = f"max(min({damper}, {pull}), -({pull}))"
+        return element
+    element = {"type": "beam", "length": file_value(step), "damping": msgspec.to_builtins(beam.damping)}
+    element |= properties.stiffness
+    if segment.bend != ZERO:
+        bend = file_value(segment.curvature)
+        element["curvature"] = [0.0, 0.0, bend] if spatial else bend
+    return element
 
 
 def _load_on_node(size: Expr, part: float | str, node: str) -> str:

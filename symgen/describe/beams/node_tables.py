@@ -109,11 +109,12 @@ def body_axes(scope: Scope, body: AnyBody) -> tuple[Vec, ...]:
 def add_mass(body: AnyBody, further: BodyMass) -> AnyBody:
     """Return a body with a further mass and tensor of inertia at a place of its frame (Huygens, Steiner)."""
     mass = sum_of_terms(body.mass, further.mass)
+    if body.inertia is None:
+        return msgspec.structs.replace(body, mass=mass)
     share = call("div", further.mass, mass)
     apart = tuple(map(difference, further.place, body.centre_of_mass))
     centre = tuple(sum_of_terms(c, product(share, d)) for c, d in zip(body.centre_of_mass, apart, strict=True))
     reduced, inertia = product(share, body.mass), body.inertia
-    assert inertia is not None, "a point mass clamps nothing"
     if isinstance(inertia, tuple):
         a, b, c, d, e, f = map(sum_of_terms, inertia, further.inertia)
         inertia = shift_tensor((a, b, c, d, e, f), call("neg", reduced), apart)

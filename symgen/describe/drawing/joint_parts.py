@@ -23,6 +23,8 @@ def joint_points(pen: Pen, joint: Joint) -> list[Mark]:
     places = pen.numbers.markers(joint)
     if joint.kind == "rows":  # formulas read points as they are seen from the origin
         places = [place for place in places if place.body != GROUNDED]
+    if joint.kind == "slides-on":  # what slides; the curve is drawn with its beam
+        places = [place for place in places if place.body == pen.numbers.index[joint.bodies[0]]][:1]
     return [pen.dot(place, 0.35, PLAIN) for place in places]
 
 

@@ -116,6 +116,7 @@ def mechanism_digest(mechanism: Mechanism) -> str:
 def _table_content(table: Table) -> list[str]:
     """Return the content of a table; a linear one has the content that it had when all tables were linear."""
     how = [] if table.interpolation == "linear" else [table.interpolation, str(table.periodic)]
+    how += [_canonical_value(table.slopes)] if table.slopes else []
     return [table.name, _canonical_value(table.x), _canonical_value(table.y), *how]
 
 

@@ -39,8 +39,9 @@ _COMPARED = (*JUMPING, *BENT)
 _INVERSE = {("acos", "cos"): "sin", ("asin", "sin"): "cos", ("atan", "tan"): "cos"}
 #: How these are written where a formula is encoded: with their lengths, as other words contain `le` too.
 _COMPARED_TEXTS = tuple(map(msgspec.msgpack.encode, _COMPARED))
-#: The derivative of a table that jumps at its points.
-KINKS = {"linear": 1, "pchip": 2, "cubic": 3}
+#: The derivative of a table that jumps at its points; of those with given slopes the second one, which rows have in
+#: their accelerations: halts are as near as at jumps of forces.
+KINKS = {"linear": 1, "pchip": 2, "cubic": 3, "hermite": 1}
 #: Encoded forms of formulas of the time.
 ENCODED_TIME = msgspec.msgpack.encode(Name("t"))
 

@@ -12,7 +12,7 @@ from symgen.base.errors import InputError, quote, suggest
 from symgen.base.vocabulary.expressions import ONE, call
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.keys import keys_of_any_joint, rows_of_joint
-from symgen.describe.mechanism import Force, Hold, Joint, Rotor
+from symgen.describe.mechanism import AnyBody, Force, Hold, Joint, Rotor
 from symgen.describe.parts.collected import Errors, Incomplete, further_errors
 from symgen.describe.parts.fields import Flag, JointStart, Scalar, read_table, read_value, value_in_words
 from symgen.describe.parts.held_places import at_present_place
@@ -54,6 +54,8 @@ class JointTables:
         Joint -> the force in place of its rows, of those that give way.
     holding : dict
         Joint -> when its rows are in force, of those that hold for a while.
+    sheaves, sliders : list
+        Sheaves that ropes may leave, and bodies without mass whose places are the ways of points along curves.
     """
 
     def __init__(
@@ -67,7 +69,9 @@ class JointTables:
         self.forces: dict[str, Force] = {}
         self.holding: dict[str, ReadHolding] = {}
         self.sheaves: list[RopeSheave] = []
+        self.sliders: list[AnyBody] = []
         self._joints: dict[str, Joint | None] = {}
+        self._implied: dict[str, Mapping[str, Any]] = {}  # keys that tables have without naming them
         self._open = 0  # joints being resolved, each because the one before refers to it
         self._scopes: dict[str, tuple[Scope, Joint]] = {}  # in the order in which joints are resolved
         self._keys = tuple(keys_of_any_joint())
@@ -104,8 +108,8 @@ class JointTables:
         joint = self._read_joint(name, table)
         self._rows_with_bounds(self._scopes.pop(name)[0], joint, table)
 
-    @staticmethod
-    def _rows_with_bounds(scope: Scope, joint: Joint, table: Mapping[str, Any]) -> tuple[BoundedRow, ...]:
+    def _rows_with_bounds(self, scope: Scope, joint: Joint, table: Mapping[str, Any]) -> tuple[BoundedRow, ...]:
+        table = {**self._implied.get(joint.name, {}), **table}
         taken = _taken_keys(JOINTS.get(joint.kind), table)
         return tuple(rows_of_joint(scope, joint, {k: x for k, x in table.items() if k not in taken}))
 
@@ -125,6 +129,9 @@ class JointTables:
             self.forces[name] = force
         if (sheaves := getattr(section, "sheaves", None)) is not None:
             self.sheaves += sheaves(scope)
+        if (slider := getattr(section, "slider", None)) is not None:
+            self.sliders.append(slider(scope))
+            self._implied[name] = section.implied()
         scope.coordinates = {label: joint.unit(label) for label, _ in joint.coordinates}
         at = getattr(section, "at", None)
         if at is not None:

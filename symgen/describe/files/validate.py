@@ -56,6 +56,7 @@ from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.sections import MechanismSection, OutputSection
 from symgen.describe.parts.states import read_state
 from symgen.describe.run_defaults import Defaults
+from symgen.describe.table_functions import shapes_of_curves
 
 if TYPE_CHECKING:
     from symgen.describe.beams.beams import Beams
@@ -207,8 +208,8 @@ class _Validator:
             space=head.space,
             gravity=gravity,
             parameters=parameters,
-            tables=tables,
-            bodies=bodies,  # type: ignore[arg-type]  # all of one space
+            tables=(*tables, *(shapes_of_curves() if self.joints.sliders else ())),
+            bodies=(*bodies, *self.joints.sliders),  # type: ignore[arg-type]  # all of one space
             joints=joints,
             forces=forces,
             defaults=defaults,
