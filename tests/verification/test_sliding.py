@@ -135,16 +135,17 @@ def test_a_bead_on_a_turning_rod_leaves_its_axis(space):
 def test_a_bead_falls_freely_along_a_hanging_cable_until_friction_brakes_it():
     """The cable hangs straight, so that the bead falls as if it were alone; the weight of the cable stretches it."""
     cable = {"start": [0.0, 0.0], "end": [0.0, -2.0], "elements": 5, "cable": True, "axial": 900.0, "mass": 0.4}
-    bead = {"type": "point", "mass": 0.3, "position": [0.0, -0.1]}
+    bead = {"type": "point", "mass": 0.3, "position": [0.0, -0.1], "velocity": [0.0, -1.0], "hold": "velocity"}
     on = {"type": "slides-on", "body": "bead", "beam": "rope"}
     for force in (0.0, 1.2):
         keys = {"friction": {"sliding": force}} if force else {}
         model = model_of(
             beams={"rope": cable | {"clamp": ["ground", ""]}}, bodies={"bead": bead}, joints={"on": on | keys}
         )
-        run = model.simulate(until=0.5, **TIGHT)
-        fall = -0.1 - 0.5 * (G - force / 0.3) * run.t**2
-        np.testing.assert_allclose(run["bead.y"], fall, atol=1e-9)
+        run = model.simulate(until=0.4, **TIGHT)
+        fall = -0.1 - run.t - 0.5 * (G - force / 0.3) * run.t**2
+        strain = 0.02 if force else 0.0  # friction counts by the unloaded length
+        np.testing.assert_array_less(abs(run["bead.y"] - fall), 1e-9 + strain * 0.5 * force / 0.3 * run.t**2)
         if force:  # what the bead loses pulls at the cable
             assert run["rope.e1.force"].min() < -0.4 * 2.0 * G
 

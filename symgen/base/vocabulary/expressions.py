@@ -95,8 +95,9 @@ FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
     "both": (2, min),
     "either": (2, max),
 }
-#: End of the name of a state that is 1 while a rope is on a sheave: its number in `over` follows.
-ON_SHEAVE = re.compile(r"\.on[1-9][0-9]*$")
+#: End of the name of a state that is 1 while a rope is on a sheave, whose number in `over` follows, or that counts the
+#: stations that a point has passed on a curve.
+ON_SHEAVE = re.compile(r"\.(?:on[1-9][0-9]*|passed)$")
 #: Functions with a kink where their argument is 0, or their two arguments are equal.
 BENT = ("abs", "min", "max", "both", "either")
 

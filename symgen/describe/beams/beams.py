@@ -334,16 +334,17 @@ def _element_of_segment(
     beam: BeamSection, properties: Properties, segment: Segment, step: Expr, spatial: bool
 ) -> dict[str, Any]:
     """Return the table of the elements of a segment, of a length, but for their ends."""
+    element: dict[str, Any] = {}
     if beam.cable:
         stiffness, length = f"({properties.stiffness['axial']})/({to_text(step)})", to_text(step)
         pull = f"{stiffness}*max(length - ({length}), 0.0)"
-        element = {"type": "spring-damper", "free_length": file_value(step)}
+        element |= {"type": "spring-damper", "free_length": file_value(step)}
         element["potential"] = f"0.5*{pull}*max(length - ({length}), 0.0)"
         if beam.damping != 0.0:  # at most what the stiffness gives, so that no element pushes
             damper = f"-({beam.damping})*{stiffness}*rate"
             element["actuator"] = f"max(min({damper}, {pull}), -({pull}))"
         return element
-    element = {"type": "beam", "length": file_value(step), "damping": msgspec.to_builtins(beam.damping)}
+    element |= {"type": "beam", "length": file_value(step), "damping": msgspec.to_builtins(beam.damping)}
     element |= properties.stiffness
     if segment.bend != ZERO:
         bend = file_value(segment.curvature)

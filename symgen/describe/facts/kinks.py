@@ -39,9 +39,8 @@ _COMPARED = (*JUMPING, *BENT)
 _INVERSE = {("acos", "cos"): "sin", ("asin", "sin"): "cos", ("atan", "tan"): "cos"}
 #: How these are written where a formula is encoded: with their lengths, as other words contain `le` too.
 _COMPARED_TEXTS = tuple(map(msgspec.msgpack.encode, _COMPARED))
-#: The derivative of a table that jumps at its points; of those with given slopes the second one, which rows have in
-#: their accelerations: halts are as near as at jumps of forces.
-KINKS = {"linear": 1, "pchip": 2, "cubic": 3, "hermite": 1}
+#: The derivative of a table that jumps at its points.
+KINKS = {"linear": 1, "pchip": 2, "cubic": 3}
 #: Encoded forms of formulas of the time.
 ENCODED_TIME = msgspec.msgpack.encode(Name("t"))
 
@@ -95,8 +94,8 @@ def changes_in_time(mechanism: Mechanism) -> bool:
 
 
 def tables_with_halts(mechanism: Mechanism) -> dict[str, Table]:
-    """Return the tables at whose points runs halt."""
-    return {table.name: table for table in mechanism.tables if len(table.x) <= MOST_KNOTS}
+    """Return the tables at whose points runs halt; shape functions of curves have events there."""
+    return {x.name: x for x in mechanism.tables if len(x.x) <= MOST_KNOTS and not x.slopes}
 
 
 def names_of_time(mechanism: Mechanism) -> set[str]:

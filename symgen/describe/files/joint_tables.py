@@ -12,14 +12,14 @@ from symgen.base.errors import InputError, quote, suggest
 from symgen.base.vocabulary.expressions import ONE, call
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.keys import keys_of_any_joint, rows_of_joint
-from symgen.describe.mechanism import AnyBody, Force, Hold, Joint, Rotor
+from symgen.describe.mechanism import Force, Hold, Joint, Rotor
 from symgen.describe.parts.collected import Errors, Incomplete, further_errors
 from symgen.describe.parts.fields import Flag, JointStart, Scalar, read_table, read_value, value_in_words
 from symgen.describe.parts.held_places import at_present_place
 from symgen.describe.parts.holding_keys import ReadHolding, read_holding
 from symgen.describe.parts.holds import joint_holds
 from symgen.describe.parts.kinds import JOINTS, check_points, kind_and_keys
-from symgen.describe.parts.passing_ropes import RopeSheave
+from symgen.describe.parts.passing_ropes import CurveSlider, RopeSheave
 from symgen.describe.parts.topology import articulation_of_joint
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ class JointTables:
     holding : dict
         Joint -> when its rows are in force, of those that hold for a while.
     sheaves, sliders : list
-        Sheaves that ropes may leave, and bodies without mass whose places are the ways of points along curves.
+        Sheaves that ropes may leave, and what points add that slide along curves.
     """
 
     def __init__(
@@ -69,7 +69,7 @@ class JointTables:
         self.forces: dict[str, Force] = {}
         self.holding: dict[str, ReadHolding] = {}
         self.sheaves: list[RopeSheave] = []
-        self.sliders: list[AnyBody] = []
+        self.sliders: list[CurveSlider] = []
         self._joints: dict[str, Joint | None] = {}
         self._implied: dict[str, Mapping[str, Any]] = {}  # keys that tables have without naming them
         self._open = 0  # joints being resolved, each because the one before refers to it
@@ -131,7 +131,7 @@ class JointTables:
             self.sheaves += sheaves(scope)
         if (slider := getattr(section, "slider", None)) is not None:
             self.sliders.append(slider(scope))
-            self._implied[name] = section.implied()
+            self._implied[name] = getattr(section, "implied", dict)()
         scope.coordinates = {label: joint.unit(label) for label, _ in joint.coordinates}
         at = getattr(section, "at", None)
         if at is not None:

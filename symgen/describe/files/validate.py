@@ -51,7 +51,7 @@ from symgen.describe.parts.meant_words import hint_on_section
 from symgen.describe.parts.numbers import read_run_defaults, read_table_function
 from symgen.describe.parts.own_units import in_own_unit
 from symgen.describe.parts.parameters import Parameters
-from symgen.describe.parts.passing_ropes import with_rope_sheaves
+from symgen.describe.parts.passing_ropes import with_rope_sheaves, with_sliders
 from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.sections import MechanismSection, OutputSection
 from symgen.describe.parts.states import read_state
@@ -209,7 +209,7 @@ class _Validator:
             gravity=gravity,
             parameters=parameters,
             tables=(*tables, *(shapes_of_curves() if self.joints.sliders else ())),
-            bodies=(*bodies, *self.joints.sliders),  # type: ignore[arg-type]  # all of one space
+            bodies=(*bodies, *(x.body for x in self.joints.sliders)),  # type: ignore[arg-type]  # all of one space
             joints=joints,
             forces=forces,
             defaults=defaults,
@@ -235,6 +235,7 @@ class _Validator:
         )
         with self.errors.part_of_description():
             mechanism = with_rope_sheaves(with_holding(mechanism, holding), self.joints.sheaves)
+            mechanism = with_sliders(mechanism, self.joints.sliders)
             mechanism = rows_as_forces(with_bounded_outputs(mechanism), [row for row in bounded if row.smooth])
             check_columns(mechanism, self.source)
             check_bounds(mechanism, self.source)

@@ -3,7 +3,7 @@
 Piece k leads from station k to station k + 1, with the shape functions of a beam (Hermite's): places and tangents of
 the stations determine it, so place and tangent go on from piece to piece. Each shape function is a table of the number
 of pieces passed, which is 0 beyond the two pieces beside its station; the first and the last ones go on in straight
-lines. Runs halt at points of tables, so steps end where the piece changes and the curvature jumps.
+lines. An event ends steps where the piece changes and the curvature jumps (`symgen.describe.parts.passing_ropes`).
 """
 
 from __future__ import annotations

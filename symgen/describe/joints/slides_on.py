@@ -27,6 +27,7 @@ from symgen.describe.joints._space import rows_of_point_on_axis
 from symgen.describe.joints._stops_of_rope import Stop, placed_stop
 from symgen.describe.mechanism import AnyBody, Body, Joint, SpatialBody
 from symgen.describe.parts.fields import Axis, BodyName, Point, Scalar, Text
+from symgen.describe.parts.passing_ropes import CurveSlider
 from symgen.describe.parts.scope import CENTRE, Scope
 from symgen.describe.parts.triads import make_triad
 
@@ -87,8 +88,8 @@ class SlidesOn(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         """Resolve to the distance of the point from the place on the curve, along the axes of the ground."""
         body, point = self._point(scope)
         stations, step = self._curve(scope)
-        slider, (start, along) = Marker(f"{scope.name}.{SLIDER}", (ZERO,) * scope.dimension), self._line(scope)
-        way = Component(Marker(GROUND, start), slider, along)
+        _, way = self._way(scope)
+        slider, start, along = way.b, way.a.point, way.along
         passed = call("div", Reading(f"{scope.name}.displacement", way), step)
         origin, rows = Marker(GROUND, (ZERO,) * scope.dimension), list[Holonomic]()
         for label, axis in zip("xyz", axes(GROUND, scope.dimension), strict=False):
@@ -106,6 +107,11 @@ class SlidesOn(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         bodies = (body, *(name for name in others if name != body), slider.body)
         return Joint(scope.name, scope.kind, bodies, tuple(rows), (("displacement", way),))
 
+    def _way(self, scope: Scope) -> tuple[Expr, Component]:
+        """Return the length of a piece, and the way along the curve."""
+        slider, (start, along) = Marker(f"{scope.name}.{SLIDER}", (ZERO,) * scope.dimension), self._line(scope)
+        return self._curve(scope)[1], Component(Marker(GROUND, start), slider, along)
+
     def implied(self) -> Mapping[str, Any]:
         """Return the keys that a table has without naming them: stops at the ends."""
         if self.along is None:
@@ -114,8 +120,15 @@ class SlidesOn(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         upper = count * self.step if isinstance(self.step, float | int) else f"{count}*({self.step})"
         return {"stop": {"lower": 0.0, "upper": upper}}
 
-    def slider(self, scope: Scope) -> AnyBody:
-        """Return the body without mass whose place is the way along the curve: nearest to the point at the start."""
+    def slider(self, scope: Scope) -> CurveSlider:
+        """Return what the joint adds: a body without mass whose place is the way along the curve, and passages."""
+        (step, way), stations = self._way(scope), len(self.along or ()) - 2
+        rate = Reading(f"{scope.name}.displacement.rate", way, 1)
+        passed = call("div", Reading(f"{scope.name}.displacement", way), step)
+        return CurveSlider(scope.name, self._slider(scope), stations, passed, rate)
+
+    def _slider(self, scope: Scope) -> AnyBody:
+        """Return the body without mass, nearest to the point at the start."""
         (start, along), (_, step) = self._line(scope), self._curve(scope)
         way = self._nearest_way(scope) * scope.value(step, "step")
         ends = zip(start, along.vector, strict=True)

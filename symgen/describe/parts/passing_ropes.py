@@ -1,9 +1,13 @@
-"""Ropes that leave their sheaves and come back: states and events of a mechanism.
+"""Ropes that leave their sheaves and come back, points that pass from piece to piece of a curve: states and events.
 
 A rope over sheaves has a state for each, ``NAME.onK``, 1 while the rope is on the sheave, else 0; K counts the entries
 of ``over``. An event takes the rope off where its arc has come to 0, ``NAME.leavesK``, another one puts it on where its
 straight part touches again, ``NAME.comesK``. Length and direction of the rope go on there, so nothing jumps but
 accelerations. All else that runs have for states and events they have for these.
+
+A point that slides along a curve of pieces has one state, ``NAME.passed``, the stations that it has passed since the
+start, forwards less backwards; no formula of the motion reads it. Its events ``NAME.passesK`` are at stations, where
+accelerations jump: steps end there, and derivatives go through them.
 """
 
 from __future__ import annotations
@@ -17,13 +21,14 @@ import msgspec
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import ON_SHEAVE, ONE, ZERO, Expr, Name, Number, call
 from symgen.describe.formulas.evaluate import evaluate_formula
-from symgen.describe.mechanism import Mechanism, ModeEvent, StateVariable
+from symgen.describe.mechanism import AnyBody, Mechanism, ModeEvent, StateVariable
 from symgen.describe.parts.driven_mechanism import put_formulas
 from symgen.describe.parts.event_sections import RESET
 
 #: Last words of the names of states and events, before the number of the sheave.
 ON, LEAVES, COMES = "on", "leaves", "comes"
-_OF_ROPES = re.compile(rf"\.(?:{LEAVES}|{COMES})[1-9][0-9]*$")
+PASSED, PASSES = "passed", "passes"
+_EVENTS = re.compile(rf"\.(?:{LEAVES}|{COMES}|{PASSES})[1-9][0-9]*$")
 
 
 class RopeSheave(msgspec.Struct, frozen=True):
@@ -45,6 +50,44 @@ class RopeSheave(msgspec.Struct, frozen=True):
     sheave: int
     first: Expr
     arc: Expr
+
+
+class CurveSlider(msgspec.Struct, frozen=True):
+    """What a point that slides along a curve adds to a mechanism.
+
+    Parameters
+    ----------
+    joint : str
+        The joint.
+    body : AnyBody
+        The body without mass whose place is the way along the curve.
+    stations : int
+        Stations between the ends.
+    passed, rate : Expr
+        The way in pieces, and its rate.
+    """
+
+    joint: str
+    body: AnyBody
+    stations: int
+    passed: Expr
+    rate: Expr
+
+
+def with_sliders(mechanism: Mechanism, sliders: Sequence[CurveSlider]) -> Mechanism:
+    """Return a mechanism with the states and events of points that slide along curves."""
+    states, events = list[StateVariable](), list[ModeEvent]()
+    for x in sliders:
+        state = Name(f"{x.joint}.{PASSED}")
+        states.append(StateVariable(state.name, ZERO, ZERO))
+        value = call("add", state, call("sign", x.rate))
+        for k in range(1, x.stations + 1):
+            name, when = f"{x.joint}.{PASSES}{k}", call("sub", x.passed, Number(float(k)))
+            events.append(ModeEvent(name, when, "any", RESET, ((state, value),), f"{x.joint} passes {k}", PASSES))
+    if not sliders:
+        return mechanism
+    together = {"states": (*mechanism.states, *states), "events": (*mechanism.events, *events)}
+    return msgspec.structs.replace(mechanism, **together)
 
 
 def name_of_state(rope: str, sheave: int) -> str:
@@ -71,7 +114,7 @@ def with_rope_sheaves(mechanism: Mechanism, sheaves: Sequence[RopeSheave]) -> Me
 
 
 def has_rope_sheaves(mechanism: Mechanism) -> bool:
-    """Whether ropes may leave sheaves."""
+    """Whether ropes may leave sheaves, or points slide along curves."""
     return any(ON_SHEAVE.search(x.name) for x in mechanism.states)
 
 
@@ -98,7 +141,7 @@ def without_rope_sheaves(
         part: put_formulas(getattr(mechanism, part), on) for part in ("joints", "forces", "outputs")
     }
     changed["states"] = tuple(x for x in mechanism.states if x.name not in on)
-    changed["events"] = tuple(x for x in mechanism.events if not _OF_ROPES.search(x.name))
+    changed["events"] = tuple(x for x in mechanism.events if not _EVENTS.search(x.name))
     return msgspec.structs.replace(mechanism, **changed)
 
 
@@ -111,5 +154,6 @@ def refuse_rope_sheaves(where: str, mechanism: Mechanism) -> None:
         If there are any.
     """
     if has_rope_sheaves(mechanism):
-        expected, got = "a mechanism that is derived a second time, for references", "one whose ropes may leave sheaves"
+        expected = "a mechanism that is derived a second time, for references"
+        got = "one whose ropes may leave sheaves, or whose points slide along beams"
         raise InputError(where, expected, got, "symgen run --verify estimates errors")

@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.describe.bounds.bounded_modes import HIT
-from symgen.run.directions.free_directions import TOGETHER, Free
+from symgen.describe.parts.passing_ropes import PASSES
+from symgen.run.directions.free_directions import TOGETHER, Free, constraint_directions
 from symgen.run.directions.mode_directions import ModeDirections, name_of_switch
 from symgen.run.directions.moments import Directions, Moment, Moments
 from symgen.run.directions.push_directions import PushDirections, push_state, rows_of_velocities, tied_impact
@@ -92,11 +93,43 @@ class Transfer:
         y, modes : Array, shapes (ny, k), (numbers of modes, k)
             Directions at the same time, without that of the motion.
         """
-        rate = self.moments.rates(self._plain(passage.before)) if passage.numbers else np.zeros(len(y))
+        rate = self._rate_before(passage) if passage.numbers else np.zeros(len(y))
         y, modes, later = self.transfer_at_event(passage, y, modes, rate)
         if passage.numbers:
             y = y - np.outer(self.moments.rates(self._plain(passage.after)), later)
-        return y, modes
+        return (self._corrected(passage, y, modes) if self._passes_station(passage) else y), modes
+
+    def _rate_before(self, passage: RunPassage) -> Array:
+        """Return the rates before events.
+
+        Formulas of curves change with the place, which is on the far side already: theirs are taken a little earlier.
+        """
+        before = self._plain(passage.before)
+        rate = self.moments.rates(before)
+        if not self._passes_station(passage):
+            return rate
+        earlier = _CROSSES * max(1.0, abs(before.t))
+        return self.moments.rates(before._replace(t=before.t - earlier, y=before.y - earlier * rate))
+
+    def _passes_station(self, passage: RunPassage) -> bool:
+        """Whether a point passes a station of its curve."""
+        watched = self.watched
+        return watched is not None and any(watched.words[number] == PASSES for number in passage.numbers)
+
+    def _corrected(self, passage: RunPassage, y: Array, modes: Array) -> Array:
+        """Return directions whose velocities satisfy the rows after a passage.
+
+        A correction of the state at the event, on the far side, has changed them as the jump of the rates does.
+        """
+        info, after = self.moments.compiled.info, self._plain(passage.after)
+        by = Directions(self._with(y), self._with(np.zeros(y.shape[1])), self._with(modes))
+        d, by_d, _, nu = constraint_directions(self.moments, after, by)
+        off = self.moments.compiled.off(after.w)
+        force, place = [i for i, row in enumerate(info.rows) if row.name not in off], slice(info.nq, info.work)
+        left = np.einsum("ijk,j->ik", by_d[force], after.y[place]) + d[force] @ y[place] - nu[force]
+        corrected = y.copy()
+        corrected[place] -= np.linalg.lstsq(d[force], left, rcond=1e-11)[0]
+        return corrected
 
     def transfer_impacts_alone(self, passage: RunPassage, y: Array, modes: Array) -> tuple[Array, Array]:
         """Return the directions after a passage whose state before has none, but earlier impacts; shapes are given."""
