@@ -323,7 +323,7 @@ class Beams:
 
 
 def _longer_than_line(scope: Scope, beam: BeamSection, line: list[Segment]) -> Expr:
-    """Return the length of a cable without load over that of its line; 1 of all others."""
+    """Return the unloaded length of a cable over the length of its line; 1 without such a key."""
     if beam.length is None:
         return ONE
     length = scope.constant("length", beam.length, positive=True)
