@@ -168,8 +168,72 @@ class FormulaMeasure(msgspec.Struct, frozen=True, tag="formula"):
     of: Expr
 
 
+class ChainPiece(msgspec.Struct, frozen=True):
+    """A segment or an arc of a chain: its start, its direction there, its curvature, its length, and the way before it.
+
+    The curvature [1/m] is above 0 where the piece turns to the right, 0 of a segment. Points and directions are in the
+    frame of the chain's body.
+    """
+
+    start: tuple[Expr, Expr]
+    along: tuple[Expr, Expr]
+    curvature: Expr
+    length: Expr
+    before: Expr
+
+
+class Chain(msgspec.Struct, frozen=True):
+    """A smooth curve of a body, of segments and arcs, and a marker on its left.
+
+    Parameters
+    ----------
+    origin, centre : Marker
+        The origin of the frame of the chain's body, and the marker.
+    pieces : tuple of ChainPiece
+        Each begins where the one before it ends, with its direction.
+    depth : Expr
+        How far the marker may be on the right of a piece to which it still belongs [m].
+    closed : bool
+        Whether the last piece ends where the first one begins; otherwise these two are half circles.
+    hollow : bool
+        Whether a piece turns to the left, so that a marker may be beside several, of which the nearest counts.
+    solid : bool
+        Whether a marker deeper on the right of an open chain belongs to a piece too, and not to an end.
+    """
+
+    origin: Marker
+    centre: Marker
+    pieces: tuple[ChainPiece, ...]
+    depth: Expr
+    closed: bool
+    hollow: bool
+    solid: bool
+
+
+class OnChain(msgspec.Struct, frozen=True, tag="on-chain"):
+    """A quantity of the marker of a chain: ``gap`` or ``way`` along it [m], ``junction``, 0 where pieces meet [m]."""
+
+    chain: Chain
+    quantity: str
+
+
+class Lap(msgspec.Struct, frozen=True, tag="lap"):
+    """The way of the marker of a closed chain along it [m], laps counted."""
+
+    chain: Chain
+
+
+class PieceNumber(msgspec.Struct, frozen=True, tag="piece-number"):
+    """s = a number of the piece of a chain that its marker belongs to: it jumps where the marker passes to another."""
+
+    chain: Chain
+    number: str
+
+
 #: Angles that are periodic, so that their turns must be counted.
 Turning = Turn | Bearing
+#: These, and ways round closed chains.
+Periodic = Turning | Lap
 #: All angles.
 AnyAngle = Angle | Turn | Bearing
 Measure = (
@@ -185,6 +249,9 @@ Measure = (
     | RimHeight
     | Sum
     | FormulaMeasure
+    | OnChain
+    | Lap
+    | PieceNumber
 )
 
 

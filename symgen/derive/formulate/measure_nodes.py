@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from symgen.base.ir.program import JAMMING
-from symgen.base.vocabulary.expressions import Reading
+from symgen.base.vocabulary.expressions import Reading, sum_of_terms
 from symgen.base.vocabulary.measures import (
     GROUND,
     Angle,
@@ -21,8 +21,11 @@ from symgen.base.vocabulary.measures import (
     FormulaMeasure,
     FormulaSpeed,
     Integral,
+    Lap,
     Marker,
     Measure,
+    OnChain,
+    PieceNumber,
     PointSpeed,
     Speed,
     Spin,
@@ -30,7 +33,9 @@ from symgen.base.vocabulary.measures import (
     Swing,
     Turn,
     Turning,
+    axes,
 )
+from symgen.derive.formulate.chain_nodes import numbers_of_piece
 from symgen.derive.formulate.derived_measure import DerivedMeasure
 from symgen.derive.formulate.euler_parameters import rate_of_parameters, rotation_matrix_rows
 from symgen.derive.formulate.formula_measures import formula_measure
@@ -42,6 +47,7 @@ from symgen.derive.formulate.tree_plane import PlanarTree
 from symgen.derive.formulate.tree_space import SpatialTree
 from symgen.describe.bounds.bounded_modes import mode_names
 from symgen.describe.bounds.by_reaction import jamming_names
+from symgen.describe.contacts.on_chain import QUANTITIES
 from symgen.describe.coordinate_names import ACCELERATIONS
 from symgen.describe.formulas.formula_nodes import Formulas
 
@@ -236,10 +242,20 @@ class ModelNodes(Formulas):
     def _derive_measure(self, m: Measure) -> DerivedMeasure:
         if isinstance(m, FormulaMeasure):
             return formula_measure(self, m)
+        if isinstance(m, OnChain):
+            return formula_measure(self, FormulaMeasure(QUANTITIES[m.quantity](m.chain)))
+        if isinstance(m, PieceNumber):
+            x, y = (
+                self.measure(Component(m.chain.origin, m.chain.centre, e)).value for e in axes(m.chain.origin.body, 2)
+            )
+            self._memo.update(numbers_of_piece(self, m.chain, (x, y)))
+            return self._memo[m]
         if isinstance(m, Sum):
             return self._sum_of_measures(m)
         if isinstance(m, Angle):
             return self._planar_angle(m)
+        if isinstance(m, Lap):
+            return self._lap_on_branch(m)
         if isinstance(m, Turning):
             return self._turn_on_branch(m)
         bodies, constants = self._bodies_and_constants(m)
@@ -319,12 +335,22 @@ class ModelNodes(Formulas):
         rate = g.sub(g.mul(across, rates[0]), g.mul(along, rates[1]))
         growth = g.mul(g.constant(2.0), g.add(g.mul(along, rates[0]), g.mul(across, rates[1])))
         bias = g.sub(g.sub(g.mul(across, y.bias), g.mul(along, x.bias)), g.mul(rate, growth))
-        angle = g.call("atan2", y.value, x.value)
-        before = g.input("winding", self.place_of_turn(m))
-        turns = g.call("floor", g.add(g.div(g.sub(before, angle), g.constant(math.tau)), g.constant(0.5)))
-        value = g.add(angle, g.mul(g.constant(math.tau), turns))
-        self.windings.append(value)
+        value = self._on_branch(m, g.call("atan2", y.value, x.value), g.constant(math.tau))
         return DerivedMeasure(value, {i: n for i, n in row.items() if n != g.zero}, bias)
+
+    def _lap_on_branch(self, m: Lap) -> DerivedMeasure:
+        """Return the way round a closed chain, on the branch nearest to its value in the section ``winding``."""
+        way = self.measure(OnChain(m.chain, "way"))
+        length = self.expression(sum_of_terms(*(piece.length for piece in m.chain.pieces)))
+        return DerivedMeasure(self._on_branch(m, way.value, length), way.row, way.bias, way.drift)
+
+    def _on_branch(self, m: Measure, value: int, period: int) -> int:
+        """Return a periodic value with as many periods as bring it next to that in the section ``winding``."""
+        g, before = self.graph, self.graph.input("winding", self.place_of_turn(m))
+        periods = g.call("floor", g.add(g.div(g.sub(before, value), period), g.constant(0.5)))
+        counted = g.add(value, g.mul(period, periods))
+        self.windings.append(counted)
+        return counted
 
     def place_of_turn(self, m: Measure) -> int:
         """Return the slot of an angle in the section ``winding``: after the angles derived before."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from symgen.base.vocabulary.expressions import Reading, moving_quantities, readings_in
-from symgen.base.vocabulary.measures import FormulaMeasure, FormulaSpeed, Holonomic, Measure, Sum, Turning
+from symgen.base.vocabulary.measures import FormulaMeasure, FormulaSpeed, Holonomic, Measure, Periodic, Sum, Turning
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.mechanism import Force, Joint, Mechanism
 from symgen.describe.parts.topology import state_measures
@@ -41,7 +41,7 @@ def counted_turns(measures: Iterable[Any]) -> tuple[Measure, ...]:
             waiting = [part for _, part in measure.terms] + waiting
         elif isinstance(measure, FormulaMeasure | FormulaSpeed):
             waiting = [r.source for r in moving_quantities(measure.of) if isinstance(r, Reading)] + waiting
-        elif isinstance(measure, Turning):
+        elif isinstance(measure, Periodic):
             angles[measure] = None
     return tuple(angles)
 

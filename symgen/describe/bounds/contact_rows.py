@@ -46,6 +46,7 @@ def _line_of_gap(facts: Mapping[str, Any]) -> str:
     line = (
         f"contact {x['name']}: row {x['row']} in force where it is closed, pushing [N]; restitution {x['restitution']}"
     )
+    line += f"; {x['outline']}" if x["outline"] else ""
     if not x.get("closed"):
         return f"{line}; open at the start"
     others = [name for name in x["part"] if name != x["name"]]
@@ -121,14 +122,19 @@ class Tangent(Bounds, frozen=True):
     alone: bool = False
 
     @property
+    def contact(self) -> str:
+        """The label of its gap."""
+        return self.name
+
+    @property
     def label(self) -> str:
-        """The name with the word for its coordinate, as the gap has the name alone."""
-        return f"{self.name}.slip"
+        """The label of the gap, with the word for the coordinate along it."""
+        return f"{self.contact}.slip"
 
     @property
     def row(self) -> str:
         """Name of the row that is in force at rest."""
-        return f"{self.name}.tangent"
+        return f"{self.contact}.tangent"
 
     @property
     def owner(self) -> str:
@@ -153,7 +159,7 @@ class Tangent(Bounds, frozen=True):
     @property
     def pressed(self) -> tuple[str, ...]:
         """The row of the gap."""
-        return () if self.alone else (f"{self.name}.normal",)
+        return () if self.alone else (f"{self.contact}.normal",)
 
     @property
     def coefficient(self) -> Expr:
@@ -239,7 +245,7 @@ class Tangent(Bounds, frozen=True):
         held, sign, limit = (name_of_number(self, number) for number in ("held", "sign", "limit"))
         bounds = call("mul", self.static, self.pressing), limit, *bounds_from_carried_force(self, beside)
         left = call("sub", sum_of_terms(*bounds), call("abs", effort_in_force(self)))
-        off, closed = call("sub", ONE, held), closed_by(f"{self.name}.normal")
+        off, closed = call("sub", ONE, held), closed_by(f"{self.contact}.normal")
         shares = equals_whole_number(name_of_number(self, "constant"), -1)
         own = call("sub", sum_of_terms(*bounds[:2]), call("abs", name_of_number(self, "effort")))
         apart = call("add", call("sub", ONE, shares), call("mul", shares, own))
@@ -293,7 +299,7 @@ class ContactGap(EndStop, frozen=True):
     @property
     def row(self) -> str:
         """Name of the row that is in force where the contact is closed."""
-        return f"{self.name}.normal"
+        return f"{self.label}.normal"
 
     @property
     def held(self) -> Holonomic:
@@ -317,13 +323,22 @@ class ContactGap(EndStop, frozen=True):
         lift = event_of_mode(self, LIFT, opens.when, "force of a closed contact 0")
         return (event_of_mode(self, HIT, hit.when, hit.text, reset), lift)
 
+    def facts(self) -> dict[str, Any]:
+        """Return what `symgen inspect` says of it."""
+        return {**super().facts(), "outline": "; ".join(outline.words for outline in self.outlines if outline.words)}
+
     def outputs(self, beside: Sequence[BoundedRow]) -> Iterator[Output]:
         """Yield mode (0 open, 1 closed, and of it with friction 1 at rest, 2 or -2 in motion), force and gap."""
-        closed: Expr = formula_of_closed(self)
-        if self.tangent is not None:
-            sign = name_of_number(self.tangent, "sign")
-            still = call("mul", closed, call("sub", ONE, call("mul", sign, sign)))
-            closed = call("add", still, call("mul", Number(2.0), sign))
-        yield Output(f"{self.name}.mode", closed, "")
+        yield Output(f"{self.name}.mode", self.mode, "")
         yield Output(f"{self.name}.force", effort_in_force(self), "N")
         yield Output(f"{self.name}.gap", self.place[1] if self.distance is None else self.distance, "m")
+
+    @property
+    def mode(self) -> Expr:
+        """The formula of its mode in outputs."""
+        closed: Expr = formula_of_closed(self)
+        if self.tangent is None:
+            return closed
+        sign = name_of_number(self.tangent, "sign")
+        still = call("mul", closed, call("sub", ONE, call("mul", sign, sign)))
+        return call("add", still, call("mul", Number(2.0), sign))

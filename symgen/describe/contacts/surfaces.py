@@ -70,6 +70,8 @@ class Touch(msgspec.Struct, frozen=True):
         The distance that is reported, where the gap is another function of it.
     outlines : tuple of Outline
         The surfaces, for pictures.
+    further : tuple of Touch
+        The same of other smooth parts of a surface, which are in touch apart from this one.
     """
 
     gap: Measure
@@ -77,6 +79,7 @@ class Touch(msgspec.Struct, frozen=True):
     slip: Measure
     distance: Expr | None = None
     outlines: tuple[Outline, ...] = ()
+    further: tuple[Touch, ...] = ()
 
 
 class Pair(msgspec.Struct, frozen=True):
@@ -90,14 +93,14 @@ class Pair(msgspec.Struct, frozen=True):
         The table of the other shape.
     read : callable
         Scope, key of the other shape, its table and the disc -> `Touch`.
-    body : callable
-        Table of the other shape -> its body.
+    body : callable or None
+        Table of the other shape -> its body; None where the table has it not, and reading asks for two bodies.
     """
 
     word: str
     table: type[msgspec.Struct]
     read: Callable[[Scope, str, Any, Disc], Touch]
-    body: Callable[[Any], str]
+    body: Callable[[Any], str] | None
 
 
 PAIRS: Registry[Pair] = Registry("symgen.describe.contacts.pairs", "pair of shapes")
@@ -131,10 +134,15 @@ def read_pair(scope: Scope, key: str, raw: object) -> Touch:
     disc = read_disc(scope, own, read_table(DiscTable, tables[first], scope.where(own)))
     pair = words[kinds[1 - first]]
     table = read_table(pair.table, tables[1 - first], scope.where(other))
-    body = scope.body(other, pair.body(table))
+    if pair.body is not None:
+        check_bodies(scope, key, scope.body(other, pair.body(table)), disc)
+    return pair.read(scope, other, table, disc)
+
+
+def check_bodies(scope: Scope, key: str, body: str, disc: Disc) -> None:
+    """Refuse a disc beside its own body."""
     if body == disc.body:
         raise scope.error(key, "two different bodies", f"'{body}' twice")
-    return pair.read(scope, other, table, disc)
 
 
 def _word_of(scope: Scope, key: str, table: Mapping[str, Any], words: Mapping[str, Pair]) -> str:

@@ -152,6 +152,8 @@ def _changer_at_path(raw: Mapping[str, Any], where: Path, name: str) -> Callable
             return name + text[len(old) :] if own else text
         if where[0] == "joints" and key in _OF_JOINTS:
             return name + text[len(old) :] if text == old or text.startswith(f"{old}.") else text
+        if where[0] == "outlines" and key == "outline":
+            return name if text == old else text
         if key == "at" and isinstance(path[-1], int | str) and not _is_coordinate(path):
             return name if len(where) == 4 and text == old and _owner_of_point(raw, path) == where[1] else text
         if key in _WORDS or (key == "at" and not _is_coordinate(path)) or path[0] == "mechanism":

@@ -24,7 +24,7 @@ from symgen.base.vocabulary.expressions import (
     sum_of_terms,
     table_of,
 )
-from symgen.base.vocabulary.measures import Effort, FormulaMeasure, FormulaSpeed, Holonomic
+from symgen.base.vocabulary.measures import Chain, Effort, FormulaMeasure, FormulaSpeed, Holonomic, OnChain
 from symgen.describe.bounds.bounded_modes import one_sided_rows, two_sided_rows
 from symgen.describe.formulas.results_read import integrands_of_run
 from symgen.describe.mechanism import Event, Mechanism
@@ -38,7 +38,7 @@ _COMPARED = (*JUMPING, *BENT)
 #: Inverses of functions, and the function that is 0 where they have kinks or jump.
 _INVERSE = {("acos", "cos"): "sin", ("asin", "sin"): "cos", ("atan", "tan"): "cos"}
 #: How these are written where a formula is encoded: with their lengths, as other words contain `le` too.
-_COMPARED_TEXTS = tuple(map(msgspec.msgpack.encode, _COMPARED))
+_COMPARED_TEXTS = tuple(map(msgspec.msgpack.encode, (*_COMPARED, "on-chain")))
 #: The derivative of a table that jumps at its points.
 KINKS = {"linear": 1, "pchip": 2, "cubic": 3}
 #: Encoded forms of formulas of the time.
@@ -318,6 +318,8 @@ def calls_with_efforts(
             value = value.arguments if enters(value) else ()
         if isinstance(value, tuple):
             waiting += [(item, effort) for item in value]
+        elif isinstance(value, Chain):  # whose pieces are chosen by conditions of no formula
+            yield Call("abs", (Reading("junction", OnChain(value, "junction")),)), effort
         elif isinstance(value, msgspec.Struct):
             own = value if isinstance(value, Effort) else effort
             waiting += [(getattr(value, field), own) for field in value.__struct_fields__]

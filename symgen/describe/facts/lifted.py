@@ -22,7 +22,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.key_units import unit_of_key
 
 #: Sections whose numbers have paths; those of parameters, inputs and starts have names.
-SECTIONS = ("mechanism", "bodies", "beams", "joints", "forces", "states", *sections_of_files())
+SECTIONS = ("mechanism", "bodies", "beams", "joints", "forces", "states", "outlines", *sections_of_files())
 #: Keys and indices from the file to a number.
 Path = tuple[str | int, ...]
 

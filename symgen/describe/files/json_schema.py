@@ -10,6 +10,7 @@ import msgspec
 
 from symgen.describe.beams.beam_sections import BeamSection
 from symgen.describe.bounds.keys import keys_of_any_joint, sections_of_files
+from symgen.describe.contacts.outline_sections import OutlineSection
 from symgen.describe.modal.modal_bodies import ModalSection, SpatialModalSection
 from symgen.describe.parts.event_sections import EventSection
 from symgen.describe.parts.kinds import FORCES, JOINTS
@@ -64,6 +65,7 @@ def file_schema() -> dict[str, Any]:
                 {"anyOf": [{"type": ["number", "string"]}, _schema_of_table(OutputSection)]}
             ),
             "forces": _schema_of_named_entries({"oneOf": _schema_of_kinds(FORCES.items(), FORCES.aliases)}),
+            "outlines": _schema_of_named_entries(_schema_of_table(OutlineSection)),
             **{
                 section: _schema_of_named_entries(_schema_of_table(kind.table))
                 for section, kind in sections_of_files().items()

@@ -12,6 +12,7 @@ NAMED = {
     "joints": "joint",
     "forces": "force",
     "states": "state",
+    "outlines": "outline",
     **{section: kind.family.one for section, kind in sections_of_files().items()},
     "outputs": "output",
     "events": "event",

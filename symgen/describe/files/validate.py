@@ -19,6 +19,7 @@ from symgen.describe.bounds.checks import check_bounds
 from symgen.describe.bounds.keys import SectionOfFiles, sections_of_files
 from symgen.describe.bounds.losses import losses_by_name
 from symgen.describe.bounds.smooth import rows_as_forces
+from symgen.describe.contacts.outline_tables import read_outline
 from symgen.describe.files.joint_tables import JointTables
 from symgen.describe.files.origins import errors_in, keep_origin
 from symgen.describe.files.remarks import with_remarks
@@ -190,6 +191,10 @@ class _Validator:
         holds, shapes = self.read_holds_and_shapes(bodies)
         holds += [] if modal is None else modal.holds(bodies)
         holds += [hold for joint in joints for hold in self.joints.starts.get(joint.name, ())]
+        outlines = self.read_each_entry(
+            "outlines", lambda name, raw: read_outline(self.scope_of_entry("outlines", name), raw)
+        )
+        self.context = msgspec.structs.replace(self.context, outlines={x.name: x for x in outlines})
         bounded = self.read_bounded_rows(joints)
         self.context = msgspec.structs.replace(self.context, losses=losses_by_name(bounded))
         defaults = self.read_run_defaults(one_line(head.source))

@@ -53,6 +53,10 @@ Vector = Annotated[
     Meta(description="two numbers or expressions of parameters [x, y], in space three [x, y, z]"),
 ]
 Vertices = Annotated[tuple[Vector, ...], Meta(description="a list of points, two or more", min_length=2)]
+OutlinePoints = Annotated[
+    tuple[_Components | dict[str, Any], ...],
+    Meta(description="a list of points [x, y] and tables such as { to = [x, y], radius = R }", min_length=2),
+]
 Sides = Annotated[
     tuple[float | str | _Components, ...],
     Meta(description="a direction [x, y, z] in the ground frame, or of a line one for each segment"),

@@ -37,6 +37,9 @@ _FURTHER = {
         **{"torsion": "N m^2", "shear": "N", "mass": "kg/m", "rotary": "kg m", "young": "Pa", "density": "kg/m^3"},
         **{"poisson": "1", "width": "m", "height": "m", "diameter": "m", "thickness": "m", "load": "N/m"},
     },
+    "outlines": {
+        **{"to": "m", "radius": "m", "bulge": "1", "fillet": "m", "points": "m", "box": "m", "at": "m", "angle": "rad"},
+    },
 }
 #: Units of what a joint has along a coordinate: of an angle, of a displacement.
 _ALONG = {
@@ -80,7 +83,7 @@ def unit_of_number(path: str, key: str, kind: str, coordinates: Mapping[str, str
     inner = len(parts) > 1 and parts[-1] in _ALONG  # of a row with bounds
     if section == "joints" and (parts[0] == "start" or inner) and coordinates:
         return _unit_along_coordinate(parts, coordinates)
-    if section in _FURTHER and parts[-1] in _FURTHER[section] and (section == "beams" or parts[0] not in _OF_BODIES):
+    if section in _FURTHER and parts[-1] in _FURTHER[section] and (section != "bodies" or parts[0] not in _OF_BODIES):
         return _FURTHER[section][parts[-1]]
     if section == "bodies" and parts[0] == "start":  # of modes
         return UNITS_OF_MODES.get(parts[-1].rstrip("0123456789"), "")

@@ -20,9 +20,12 @@ from symgen.base.vocabulary.measures import (
     FormulaSpeed,
     HalfSquare,
     Holonomic,
+    Lap,
     LinkStretch,
     Marker,
     Measure,
+    OnChain,
+    PieceNumber,
     PointSpeed,
     RimHeight,
     RollingSpeed,
@@ -142,6 +145,8 @@ class _Writer:
                 return f"the height of the rim of {measure.centre.body} over the plane"
             case FormulaMeasure():
                 return "a formula of the file"
+            case OnChain() | Lap() | PieceNumber():
+                return f"a quantity beside an outline of {measure.chain.origin.body}"
             case _:
                 terms = [
                     self.noun_of_measure(term)

@@ -39,6 +39,7 @@ def compile_events(
     compiled: CompiledModel,
     events: Sequence[Event],
     rtol: float | None = None,
+    directed: bool = False,
 ) -> Watched | None:
     """Return the switching functions of a run, or None.
 
@@ -53,10 +54,12 @@ def compile_events(
     rtol : float, optional
         Tolerance of adaptive steps, which end where formulas jump or have kinks over the state; constant steps do not.
         In either, rows that change are examined there.
+    directed : bool
+        Whether the run has derivatives.
     """
     passed = tuple(x for x in discontinuities_of(mechanism) if rtol is not None or x.holds)
     first = len(events) + len(mode_events(mechanism))
-    events = (*events, *mode_events(mechanism), *corner_events(mechanism))
+    events = (*events, *mode_events(mechanism), *corner_events(mechanism, directed))
     corners = tuple(range(first, len(events)))
     if not (events or passed):
         return None

@@ -41,7 +41,7 @@ def whole_run(
 ) -> PrintedRun:
     """Return a run for printers, with its events and seams; parameters as for `run_with_modes`."""
     rtol = run.spec.rtol if run.spec.adaptive else None
-    watched = compile_events(mechanism, compiled, run.plan.events, rtol)
+    watched = compile_events(mechanism, compiled, run.plan.events, rtol, run.plan.choice.directed)
     passages = _passages(run, compiled) if foresees else None
     return PrintedRun(compiled, run.plan.integrator, run.spec, watched, datum, run.plan.seams, passages)
 

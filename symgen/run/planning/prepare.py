@@ -335,7 +335,9 @@ def prepared_run(plan: Plan, assembled: Assembled) -> Prepared:
     from symgen.run.compiling.events import compile_events
 
     rtol = plan.spec.rtol if plan.spec.adaptive else None
-    return run.with_spec(seams=plan.seams, events=compile_events(run.mechanism, run.compiled, plan.events, rtol))
+    return run.with_spec(
+        seams=plan.seams, events=compile_events(run.mechanism, run.compiled, plan.events, rtol, plan.choice.directed)
+    )
 
 
 def add_notes(plan: Plan, assembled: Assembled) -> Assembled:

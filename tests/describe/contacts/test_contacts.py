@@ -62,8 +62,8 @@ BETWEEN = f"between = [{DISC}, {LINE}]\n"
         ),
         (
             f'between = [{DISC}, {{ lime = "ground" }}]',
-            "contacts.pair.between[1]: expected a shape: disc, line, segment, got the unknown key 'lime'; did you mean "
-            "'line'?",
+            "contacts.pair.between[1]: expected a shape: disc, line, outline, segment, got the unknown key 'lime'; "
+            "did you mean 'line'?",
         ),
         (
             f'between = [{LINE}, {{ line = "other" }}]',

@@ -127,5 +127,5 @@ def test_past_its_end_a_disc_rolls_about_the_corner(integrator: str, tmp_path: P
 def test_messages_know_the_shape(tmp_path: Path) -> None:
     from symgen.base.errors import InputError
 
-    with pytest.raises(InputError, match=r"expected a shape: disc, arc, line, segment|did you mean 'arc'"):
+    with pytest.raises(InputError, match=r"expected a shape: disc, arc, line, outline, segment|did you mean 'arc'"):
         loaded(dome("arcs = [0.4, 1.2]", 0.15, 0.35), tmp_path)

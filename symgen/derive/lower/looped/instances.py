@@ -159,7 +159,7 @@ class _Rewriting:
         self.begin_element()
         whole: Any = self.rewrite(row)
         named = {field: "e" for field in ("name", "joint", "owner") if field in whole.__struct_fields__}
-        content = msgspec.structs.replace(whole, **named)
+        content = msgspec.structs.replace(whole, **named, **_alone(whole))
         instance = self.massless_instance("bound", row.row, row.family.one, content)
         angles = counted_turns([row.measure])
         return replace(instance, angles=angles) if angles else instance
@@ -173,7 +173,7 @@ class _Rewriting:
             gap = next(each for each in self.mechanism.bounded if each.row in row.pressed)
             owner, rows = gap.row, (gap.held,)
             held = (msgspec.structs.replace(self.rewrite(gap.held), label=gap.held.label),)
-            content = msgspec.structs.replace(self.rewrite(whole), name="e")
+            content = msgspec.structs.replace(self.rewrite(whole), name="e", **_alone(whole))
         else:
             joint = self.mechanism.joint_named(row.owner)
             owner, rows = joint.name, joint.rows
@@ -330,3 +330,8 @@ class _Rewriting:
         if isinstance(e, Number):
             return True
         return all(name in self.parameters and name not in self.own for name in names_in_expression(e))
+
+
+def _alone(row: msgspec.Struct) -> dict[str, int]:
+    """Return what makes a row of a part of a contact one of a whole contact."""
+    return {"part": 0} if "part" in row.__struct_fields__ else {}

@@ -10,6 +10,7 @@ import msgspec
 from symgen.base.vocabulary.expressions import ZERO, Expr, Number, product
 from symgen.base.vocabulary.measures import FormulaMeasure
 from symgen.describe.bounded import BoundedRow
+from symgen.describe.bounds.contact_parts import part_of_contact
 from symgen.describe.bounds.contact_rows import CONTACTS, TANGENTS, ContactGap, Tangent
 from symgen.describe.bounds.keys import SectionOfFiles
 from symgen.describe.bounds.kinds.stop import read_restitution
@@ -44,8 +45,9 @@ class ContactSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
     ----------
     between : list of two tables
         Shapes, ``{ body = "wheel", at = [0.0, 0.0], disc = 0.3 }`` beside another disc,
-        ``{ line = "ground", on = [0.0, 0.0], normal = [0.0, 1.0] }`` or
-        ``{ body = "table", segment = [[0.0, 0.0], [1.0, 0.0]] }``. A disc of radius 0 is a point, one below 0 a hole.
+        ``{ line = "ground", on = [0.0, 0.0], normal = [0.0, 1.0] }``,
+        ``{ body = "table", segment = [[0.0, 0.0], [1.0, 0.0]] }`` or ``{ outline = "cam" }``, of the section of
+        outlines. A disc of radius 0 is a point, one below 0 a hole.
     gap : str
         In place of shapes, a formula as that of a stop [m].
     slip : str
@@ -82,6 +84,18 @@ def rows_of_contact(
     scope: Scope, key: str, name: str, touch: Touch, friction: object, restitution: float | str
 ) -> tuple[BoundedRow, ...]:
     """Return the rows of a contact with some name, whose keys are in a table at `key`."""
+    rows = _rows_of_touch(scope, key, name, touch, friction, restitution)
+    if not touch.further:
+        return rows
+    gaps = [_rows_of_touch(scope, key, name, part, friction, restitution)[-1] for part in (touch, *touch.further)]
+    parts = [part_of_contact(gap, number) for number, gap in enumerate(gaps, 1) if isinstance(gap, ContactGap)]
+    return tuple(row for part in parts for row in part)
+
+
+def _rows_of_touch(
+    scope: Scope, key: str, name: str, touch: Touch, friction: object, restitution: float | str
+) -> tuple[BoundedRow, ...]:
+    """Return the rows of a contact of one part, the gap last."""
     within = f"{key}." if key else ""
     law = read_restitution(scope, f"{within}restitution", restitution)
     tangent = None if friction is None else _read_friction(scope, f"{within}friction", name, touch, friction)

@@ -1,0 +1,297 @@
+"""Outlines of bodies: segments and arcs from the points of a table, and the chains that discs beside them have.
+
+A disc touches an outline where its centre is on the outline offset by its radius: a smooth chain, in which convex
+corners are arcs of that radius. At a concave corner the outline is cut into runs, each with a chain of its own.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
+
+import msgspec
+
+from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, call, difference, product, sum_of_terms
+from symgen.base.vocabulary.measures import ChainPiece
+
+#: Turn of the direction below which two pieces are tangent [rad].
+TANGENT = 1e-9
+#: Largest turn of a piece [rad]: a marker is between the normals at its ends only if these differ by less than pi.
+_LARGEST_TURN = 0.55 * math.pi
+
+#: A point or a direction in the frame of a body.
+Plane = tuple[Expr, Expr]
+#: The number that a formula is with the defaults of parameters.
+Value = Callable[[Expr], float]
+
+
+class Stretch(msgspec.Struct, frozen=True):
+    """A segment or an arc of an outline.
+
+    Parameters
+    ----------
+    start, end : Plane
+        Its ends [m].
+    first, last : Plane
+        Its directions there.
+    curvature : Expr
+        Above 0 where it turns to the right [1/m], 0 of a segment.
+    length : Expr
+        Its length [m].
+    """
+
+    start: Plane
+    end: Plane
+    first: Plane
+    last: Plane
+    curvature: Expr
+    length: Expr
+
+    @property
+    def back(self) -> Stretch:
+        """The same from its end to its start."""
+        first, last = (_scaled(Number(-1.0), e) for e in (self.last, self.first))
+        return Stretch(self.end, self.start, first, last, call("neg", self.curvature), self.length)
+
+
+class Outline(msgspec.Struct, frozen=True):
+    """An outline of a body: its pieces in order, the free side on their left."""
+
+    name: str
+    body: str
+    closed: bool
+    stretches: tuple[Stretch, ...]
+
+
+# -- pieces ------------------------------------------------------------------------------------------------------------
+
+
+def segment(start: Plane, end: Plane) -> Stretch:
+    """Return the segment between two points."""
+    length = _length(_less(end, start))
+    along = _over(_less(end, start), length)
+    return Stretch(start, end, along, along, ZERO, length)
+
+
+def arc(start: Plane, end: Plane, sine: Expr, cosine: Expr, side: float) -> Stretch:
+    """Return the arc between two points.
+
+    Parameters
+    ----------
+    start, end : Plane
+        Its ends [m].
+    sine, cosine : Expr
+        Of half of its angle.
+    side : float
+        1 where it turns to the right, -1 to the left.
+    """
+    chord = segment(start, end)
+    size = product(Number(2.0), call("div", sine, chord.length))
+    turned = product(Number(side), sine)
+    angle = product(Number(2.0), call("atan2", sine, cosine))
+    first, last = _turned(chord.first, cosine, turned), _turned(chord.first, cosine, call("neg", turned))
+    return Stretch(start, end, first, last, product(Number(side), size), call("div", angle, size))
+
+
+def filleted(one: Stretch, other: Stretch, radius: Expr, side: float) -> tuple[Stretch, Stretch, Stretch]:
+    """Return two segments, shortened, and the arc of a radius between them; `side` as of `arc`."""
+    cosine, sine = _dot(one.last, other.first), product(Number(-side), _cross(one.last, other.first))
+    cut = product(radius, call("div", sine, call("add", ONE, cosine)))
+    start = _plus(one.end, _scaled(call("neg", cut), one.last))
+    end = _plus(other.start, _scaled(cut, other.first))
+    length = product(radius, call("atan2", sine, cosine))
+    between = Stretch(start, end, one.last, other.first, call("div", Number(side), radius), length)
+    shorter = (
+        msgspec.structs.replace(one, end=start, length=difference(one.length, cut)),
+        msgspec.structs.replace(other, start=end, length=difference(other.length, cut)),
+    )
+    return shorter[0], between, shorter[1]
+
+
+def turn_between(one: Stretch, other: Stretch, value: Value) -> float:
+    """Return how far the direction turns to the right between two pieces, from -pi to pi [rad]."""
+    return math.atan2(-value(_cross(one.last, other.first)), value(_dot(one.last, other.first)))
+
+
+def signed_area(stretches: Sequence[Stretch], value: Value) -> float:
+    """Return the area within closed pieces with the defaults of parameters, below 0 where they go clockwise [m^2]."""
+    points = [point for stretch in stretches for point in points_on(stretch, value)]
+    pairs = zip(points, points[1:] + points[:1], strict=True)
+    return 0.5 * sum(x * far_y - y * far_x for (x, y), (far_x, far_y) in pairs)
+
+
+def points_on(stretch: Stretch, value: Value) -> list[tuple[float, float]]:
+    """Return points of a piece with the defaults of parameters, without its end: of an arc one every three degrees."""
+    (x, y), (tx, ty) = (tuple(map(value, pair)) for pair in (stretch.start, stretch.first))
+    k, length = value(stretch.curvature), value(stretch.length)
+    count = 1 if k == 0.0 else max(8, math.ceil(abs(k) * length * 60.0 / math.pi))
+    turns = [k * length * i / count for i in range(count)]
+    return [
+        (
+            x + (tx * math.sin(turn) + ty * (1.0 - math.cos(turn))) / k,
+            y + (ty * math.sin(turn) - tx * (1.0 - math.cos(turn))) / k,
+        )
+        if k
+        else (x, y)
+        for turn in turns
+    ]
+
+
+def crossing_of(outline: Outline, value: Value) -> tuple[int, int] | None:
+    """Return the numbers, counted from 1, of two pieces of an outline that cross; None where none do."""
+    sides = list[tuple[int, tuple[float, float], tuple[float, float]]]()
+    for number, stretch in enumerate(outline.stretches, 1):
+        end = value(stretch.end[0]), value(stretch.end[1])
+        points = [*points_on(stretch, value), end]
+        sides += [(number, a, b) for a, b in pairwise(points)]
+    for i, (one, a, b) in enumerate(sides):
+        for j in range(i + 2, len(sides)):
+            other, c, d = sides[j]
+            neighbours = outline.closed and (i, j) == (0, len(sides) - 1)
+            if not neighbours and _cross_each_other(a, b, c, d):
+                return one, other
+    return None
+
+
+def _cross_each_other(*ends: tuple[float, float]) -> bool:
+    """Return whether two segments have a point in common that is no end of theirs."""
+    a, b, c, d = ends
+
+    def side(p: tuple[float, float], q: tuple[float, float], r: tuple[float, float]) -> float:
+        return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+
+    return side(a, b, c) * side(a, b, d) < 0.0 and side(c, d, a) * side(c, d, b) < 0.0
+
+
+# -- chains ------------------------------------------------------------------------------------------------------------
+
+
+def hollow_corners(outline: Outline, value: Value) -> list[int]:
+    """Return the places of the pieces before which an outline has a hollow corner, counted from 0."""
+    pieces = outline.stretches
+    return [
+        i
+        for i in range(0 if outline.closed else 1, len(pieces))
+        if turn_between(pieces[i - 1], pieces[i], value) < -TANGENT
+    ]
+
+
+def runs_of(outline: Outline, value: Value) -> tuple[tuple[Stretch, ...], ...]:
+    """Return the pieces of an outline between its concave corners; all of them where it has none."""
+    pieces, closed, hollow = outline.stretches, outline.closed, hollow_corners(outline, value)
+    if not hollow:
+        return (pieces,)
+    if closed:
+        pieces = pieces[hollow[0] :] + pieces[: hollow[0]]
+        hollow = [i - hollow[0] for i in hollow[1:]]
+    starts = [0, *hollow, len(pieces)]
+    return tuple(pieces[a:b] for a, b in pairwise(starts))
+
+
+def offset_pieces(stretches: Sequence[Stretch], closed: bool, radius: Expr, value: Value) -> tuple[ChainPiece, ...]:
+    """Return the chain on which the centre of a disc lies that touches pieces without a concave corner.
+
+    An open chain begins and ends with a half circle about its end. A closed one has an even number of pieces, so that
+    what is 0 at their junctions changes its sign at each.
+    """
+    pieces = list[_Piece]()
+    if not closed:
+        first = stretches[0]
+        pieces.append(_about(first.start, _scaled(Number(-1.0), first.first), radius, Number(math.pi)))
+    for i, stretch in enumerate(stretches):
+        before = stretches[i - 1]
+        if (i or closed) and (turn := turn_between(before, stretch, value)) > TANGENT:
+            angle = call("atan2", call("neg", _cross(before.last, stretch.first)), _dot(before.last, stretch.first))
+            pieces += _about(stretch.start, before.last, radius, angle).split(math.ceil(turn / _LARGEST_TURN))
+        growth = call("add", ONE, product(stretch.curvature, radius))
+        start = _plus(stretch.start, _scaled(radius, _left(stretch.first)))
+        curvature, length = call("div", stretch.curvature, growth), product(stretch.length, growth)
+        whole = _Piece(start, stretch.first, ZERO if stretch.curvature == ZERO else curvature, length)
+        turn = abs(value(stretch.curvature) * value(stretch.length))
+        pieces += whole.split(max(1, math.ceil(turn / _LARGEST_TURN)))
+    if not closed:
+        last = stretches[-1]
+        pieces.append(_about(last.end, last.last, radius, Number(math.pi)))
+    elif len(pieces) % 2:
+        longest = max(range(len(pieces)), key=lambda i: value(pieces[i].length))
+        pieces[longest : longest + 1] = pieces[longest].split(2)
+    return tuple(_with_ways(pieces))
+
+
+class _Piece(msgspec.Struct, frozen=True):
+    """A piece of a chain, as a `ChainPiece` without the way before it."""
+
+    start: Plane
+    along: Plane
+    curvature: Expr
+    length: Expr
+
+    def split(self, count: int) -> list[_Piece]:
+        """Return equal parts of it."""
+        part = product(Number(1.0 / count), self.length)
+        return [_Piece(*self._at(product(Number(float(i)), part)), self.curvature, part) for i in range(count)]
+
+    def _at(self, way: Expr) -> tuple[Plane, Plane]:
+        """Return the point at a way from its start, and its direction there."""
+        if way == ZERO:
+            return self.start, self.along
+        if self.curvature == ZERO:
+            return _plus(self.start, _scaled(way, self.along)), self.along
+        turn = product(self.curvature, way)
+        sine, cosine = call("sin", turn), call("cos", turn)
+        ahead, left = call("div", sine, self.curvature), call("div", call("sub", cosine, ONE), self.curvature)
+        point = _plus(_plus(self.start, _scaled(ahead, self.along)), _scaled(left, _left(self.along)))
+        return point, _turned(self.along, cosine, call("neg", sine))
+
+
+def _about(corner: Plane, along: Plane, radius: Expr, angle: Expr) -> _Piece:
+    """Return the arc about a corner that begins in a direction and turns to the right by an angle."""
+    start = _plus(corner, _scaled(radius, _left(along)))
+    return _Piece(start, along, call("div", ONE, radius), product(radius, angle))
+
+
+def _with_ways(pieces: Sequence[_Piece]) -> Iterator[ChainPiece]:
+    before: Expr = ZERO
+    for piece in pieces:
+        yield ChainPiece(piece.start, piece.along, piece.curvature, piece.length, before)
+        before = sum_of_terms(before, piece.length)
+
+
+# -- the plane ---------------------------------------------------------------------------------------------------------
+
+
+def _plus(a: Plane, b: Plane) -> Plane:
+    return sum_of_terms(a[0], b[0]), sum_of_terms(a[1], b[1])
+
+
+def _less(a: Plane, b: Plane) -> Plane:
+    return difference(a[0], b[0]), difference(a[1], b[1])
+
+
+def _scaled(factor: Expr, a: Plane) -> Plane:
+    return product(factor, a[0]), product(factor, a[1])
+
+
+def _over(a: Plane, divisor: Expr) -> Plane:
+    return call("div", a[0], divisor), call("div", a[1], divisor)
+
+
+def _left(a: Plane) -> Plane:
+    return product(Number(-1.0), a[1]), a[0]
+
+
+def _turned(a: Plane, cosine: Expr, sine: Expr) -> Plane:
+    return _plus(_scaled(cosine, a), _scaled(sine, _left(a)))
+
+
+def _dot(a: Plane, b: Plane) -> Expr:
+    return sum_of_terms(product(a[0], b[0]), product(a[1], b[1]))
+
+
+def _cross(a: Plane, b: Plane) -> Expr:
+    return difference(product(a[0], b[1]), product(a[1], b[0]))
+
+
+def _length(a: Plane) -> Expr:
+    return call("sqrt", _dot(a, a))

@@ -1,0 +1,81 @@
+"""Formulas of a marker beside a chain: one for all pieces, of the numbers of the piece that it belongs to.
+
+With u from the start of a piece to the marker, the direction t and the curvature k, ``a = t . u``, ``b = n . u`` on
+the left, ``z = 2 b + k (a^2 + b^2)`` and ``w = sqrt(1 + k z)``, the gap is ``z / (1 + w)``, which is b of a segment,
+and the way along the piece ``atan2(k a, 1 + k b) / k``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, Reading, call, product
+from symgen.base.vocabulary.measures import Chain, ChainPiece, Component, PieceNumber, axes
+
+#: Curvature of a segment in the formula of the way, which divides by it [1/m].
+_FLAT = Number(1e-12)
+#: Numbers of a piece -> what they are, of its place among the pieces and of the piece.
+NUMBERS: Mapping[str, Callable[[int, ChainPiece], Expr]] = {
+    "x": lambda i, piece: piece.start[0],
+    "y": lambda i, piece: piece.start[1],
+    "tx": lambda i, piece: piece.along[0],
+    "ty": lambda i, piece: piece.along[1],
+    "curvature": lambda i, piece: piece.curvature,
+    "turn": lambda i, piece: _FLAT if piece.curvature == ZERO else piece.curvature,
+    "before": lambda i, piece: piece.before,
+    "half": lambda i, piece: product(Number(0.5), piece.length),
+    "side": lambda i, piece: Number(1.0 - 2.0 * (i % 2)),
+    "number": lambda i, piece: Number(float(i + 1)),
+}
+
+
+def number_of_piece(chain: Chain, name: str = "number") -> Reading:
+    """Return a number of the piece that the marker of a chain belongs to; by default its place, counted from 1."""
+    return Reading(f"piece.{name}", PieceNumber(chain, name))
+
+
+def _place(chain: Chain) -> tuple[Expr, Expr]:
+    """Return the place of the marker ahead of the start of its piece, and on its left."""
+    dx, dy = (
+        call("sub", Reading(f"centre.{name}", Component(chain.origin, chain.centre, e)), number_of_piece(chain, name))
+        for name, e in zip("xy", axes(chain.origin.body, 2), strict=True)
+    )
+    tx, ty = (number_of_piece(chain, name) for name in ("tx", "ty"))
+    return call("add", call("mul", tx, dx), call("mul", ty, dy)), call("sub", call("mul", tx, dy), call("mul", ty, dx))
+
+
+def gap_of_chain(chain: Chain) -> Expr:
+    """Return the distance of the marker from the chain [m]."""
+    (ahead, left), k = _place(chain), number_of_piece(chain, "curvature")
+    square = call("add", call("mul", ahead, ahead), call("mul", left, left))
+    height = call("add", call("mul", Number(2.0), left), call("mul", k, square))
+    return call("div", height, call("add", ONE, call("sqrt", call("add", ONE, call("mul", k, height)))))
+
+
+def way_in_piece(chain: Chain) -> Expr:
+    """Return the way along the piece from its start to the marker [m]."""
+    (ahead, left), k = _place(chain), number_of_piece(chain, "turn")
+    return call("div", call("atan2", call("mul", k, ahead), call("add", ONE, call("mul", k, left))), k)
+
+
+def way_on_chain(chain: Chain) -> Expr:
+    """Return the way along the chain from its first piece to the marker [m]."""
+    return call("add", number_of_piece(chain, "before"), way_in_piece(chain))
+
+
+def zero_at_junctions(chain: Chain) -> Expr:
+    """Return what changes its sign where the marker passes from a piece to the next one, and is smooth there.
+
+    It is the way to the nearer end of the piece, of every second piece with the other sign.
+    """
+    half = number_of_piece(chain, "half")
+    way = call("sub", half, call("abs", call("sub", way_in_piece(chain), half)))
+    return call("mul", number_of_piece(chain, "side"), way)
+
+
+#: Quantities of `OnChain` -> their formulas.
+QUANTITIES: Mapping[str, Callable[[Chain], Expr]] = {
+    "gap": gap_of_chain,
+    "way": way_on_chain,
+    "junction": zero_at_junctions,
+}

@@ -1,0 +1,81 @@
+"""Tables of outlines in files."""
+
+from __future__ import annotations
+
+import msgspec
+
+from symgen.describe.parts.fields import BodyName, Flag, OutlinePoints, Pair, Scalar, Vector
+
+
+class PolygonTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A regular polygon.
+
+    Parameters
+    ----------
+    sides : int
+        Number of its sides.
+    radius : scalar
+        Distance of its corners from the centre [m].
+    """
+
+    sides: int
+    radius: Scalar
+
+
+class PointTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A point of an outline, and the piece that leads to it: an arc by its radius or its bulge, otherwise a segment.
+
+    Parameters
+    ----------
+    to : vector
+        The point [m].
+    radius : scalar
+        Radius of the arc [m], above 0 where it bulges towards the free side.
+    large : bool
+        Whether the arc is the larger one of two with the radius.
+    bulge : scalar
+        Tangent of a quarter of the arc's angle, as in DXF files: above 0 where it turns to the left.
+    fillet : scalar
+        Radius of a fillet at the point [m].
+    """
+
+    to: Vector
+    radius: Scalar | None = None
+    large: Flag = False
+    bulge: Scalar | None = None
+    fillet: Scalar | None = None
+
+
+class OutlineSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """An outline of a body or of the ground, which discs of other bodies meet.
+
+    The free side of a closed one is outside, that of an open one on the left of the way along its points.
+
+    Parameters
+    ----------
+    body : str
+        Its body, or ``"ground"``.
+    points : list of points or tables
+        Corners ``[x, y]``, or ``{ to = [x, y], radius = R }`` and ``{ to = [x, y], bulge = B }`` at the end of an arc.
+    closed : bool
+        Whether the last point is joined to the first one.
+    polygon : table
+        In place of points, ``{ sides = N, radius = R }``.
+    box : two scalars
+        In place of points, width and height [m].
+    at : vector
+        Centre of a polygon or a box; the origin by default [m].
+    angle : scalar
+        How far a polygon or a box is turned [rad]; a corner of a polygon is on the first axis otherwise.
+    fillet : scalar
+        Radius of fillets at all corners [m].
+    """
+
+    body: BodyName
+    points: OutlinePoints | None = None
+    closed: Flag = False
+    polygon: PolygonTable | None = None
+    box: Pair | None = None
+    at: Vector | None = None
+    angle: Scalar | None = None
+    fillet: Scalar | None = None
