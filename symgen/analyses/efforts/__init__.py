@@ -2,5 +2,5 @@
 
 In: a mechanism and its motion.
 Out: forces and torques over time.
-Imports: msgspec, NumPy; `prescribed` and rooms below.
+Imports: msgspec, NumPy, SciPy; `prescribed` and rooms below.
 """

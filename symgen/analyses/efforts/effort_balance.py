@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.efforts.actuators import WHERE, Actuator
-from symgen.analyses.efforts.forces_at_bounds import CHEAP, Contacts, Flags
+from symgen.analyses.efforts.forces_at_bounds import Contacts
+from symgen.analyses.efforts.least_efforts import efforts_within_limits
 from symgen.base import arguments
 from symgen.base.errors import InputError, quote, suggest
 from symgen.derive.lower.windings import winding_order
@@ -64,6 +65,8 @@ class Balanced:
         Largest acceleration that no effort produces [m/s^2], angles by the bodies' lengths.
     notes : list of str
         Sentences on efforts that are not unique and accelerations that no effort produces.
+    lowest, highest : Array, shape (k, n)
+        Of each effort alone, where friction at rest and closed stops leave a range.
     """
 
     motion: PrescribedMotion
@@ -71,6 +74,8 @@ class Balanced:
     rates: Array
     missing: Array
     notes: list[str]
+    lowest: Array
+    highest: Array
 
 
 def balance_efforts(
@@ -113,14 +118,15 @@ def balance_efforts(
     still, *others = _motions_with_unit_efforts(mechanism, actuators, contacts.parameters, settings, record)
     length, count = float(still.start.w[abi.LENGTH]), len(actuators)
     weighed = np.array([float(weights.get(a.name, 1.0 / length if a.turning else 1.0)) for a in actuators])
-    efforts, missing, ranks, lam, found = _solve_with_contacts(mechanism, still, others, weighed, contacts)
-    motion = replace(still, prescribed_multipliers=lam)
+    found = _solve_with_contacts(mechanism, still, others, weighed, contacts)
+    efforts, missing, ranks = found.efforts, found.missing, found.ranks
+    motion = replace(still, prescribed_multipliers=found.multipliers)
     formulas = [(f"{a.name}.rate", a.rate) for a in actuators if a.rate is not None]
     rates = np.zeros((len(motion.times), 0))
     if formulas:
         side = compile_side(mechanism, motion.compiled, "rates", "rates of what actuators work along", formulas)
         rates = motion.observe_motion(side.function, len(formulas))
-    notes, rank = found, int(ranks.max(initial=0))
+    notes, rank = found.sentences, int(ranks.max(initial=0))
     if rank < count:
         how = "weighted as asked" if weights else "torques over the mechanism's length"
         several = "1 actuator moves" if count == 1 else f"{count} actuators move"
@@ -135,7 +141,20 @@ def balance_efforts(
         k = int(np.argmax(missing))
         what = f"at t = {motion.times[k]:.6g} s an acceleration of {missing[k]:.3g} m/s^2 is left"
         notes.append(f"these actuators alone do not give the motion: {what}")
-    return Balanced(motion, efforts, rates, missing, notes)
+    return Balanced(motion, efforts, rates, missing, notes, found.lowest, found.highest)
+
+
+@dataclass(frozen=True)
+class _Found:
+    """Efforts, accelerations left, degrees of freedom moved, multipliers, the range of efforts, and sentences."""
+
+    efforts: Array
+    missing: Array
+    ranks: NDArray[np.int64]
+    multipliers: Array
+    lowest: Array
+    highest: Array
+    sentences: list[str]
 
 
 def _solve_with_contacts(
@@ -144,8 +163,8 @@ def _solve_with_contacts(
     others: list[PrescribedMotion],
     weighed: Array,
     contacts: Contacts,
-) -> tuple[Array, Array, NDArray[np.int64], Array, list[str]]:
-    """Return what `_solve_efforts` does, multipliers, and sentences on `contacts`."""
+) -> _Found:
+    """Return the efforts beside the forces of `contacts`."""
     count, first = len(weighed), len(weighed) + len(contacts.sliding)
     base = still.responses
     ways = [other.responses.multipliers - base.multipliers for other in others]
@@ -154,28 +173,35 @@ def _solve_with_contacts(
         found: Array = base.multipliers + sum(ways[j] * efforts[:, [i]] for i, j in enumerate(columns))
         return found
 
+    efforts, missing, ranks = _solve_efforts(still, others[:count], weighed)
     if not contacts.rows:
-        efforts, missing, ranks = _solve_efforts(still, others, weighed)
-        return efforts, missing, ranks, multipliers_of_columns(efforts, range(count)), []
+        return _Found(efforts, missing, ranks, multipliers_of_columns(efforts, range(count)), efforts, efforts, [])
+    along = contacts.contacts_along_motion(mechanism, still, float(still.start.w[abi.LENGTH]) or 1.0)
     pushes = [other.responses.accelerations - base.accelerations for other in others[count:first]]
-    free, cheap = [*range(count), *range(first, len(others))], np.full(len(others) - first, CHEAP * weighed.min())
-    acting = np.ones((len(still.times), len(free)), dtype=np.bool_)
+    loads = others[first:]
+    scale = 1.0 / np.sqrt(still.compiled.section(still.start.w, "gauge"))
+    effects, by_forces = (
+        np.stack([x.responses.accelerations - base.accelerations for x in some], axis=-1) * scale[:, np.newaxis]
+        if some
+        else np.zeros((*base.accelerations.shape, 0))
+        for some in (others[:count], loads)
+    )
+    lowest = highest = efforts
 
-    def solve_pushing(forces: Array, pushing: Flags) -> tuple[Array, Array]:
-        nonlocal missing
-        acting[:, count:] = pushing
+    def solve(forces: Array) -> Array:
+        nonlocal efforts, missing, lowest, highest
         pushed = sum((a * forces[:, [i]] for i, a in enumerate(pushes)), np.zeros_like(base.accelerations))
-        efforts, missing, _ = _solve_efforts(
-            still, [others[j] for j in free], np.append(weighed, cheap), acting, pushed
-        )
-        return efforts, multipliers_of_columns(np.column_stack([forces, efforts]), [*range(count, first), *free])
+        efforts, missing, _ = _solve_efforts(still, others[:count], weighed, pushed)
+        lowest, highest, held = efforts.copy(), efforts.copy(), np.zeros((len(still.times), len(loads)))
+        goals = (still.prescribed_accelerations - base.accelerations - pushed) * scale
+        for k in np.flatnonzero(along.limited):
+            x = efforts_within_limits(effects[k], by_forces[k], goals[k], weighed, along.limits_at(int(k)))
+            efforts[k], held[k], lowest[k], highest[k], missing[k] = x.efforts, x.forces, x.lowest, x.highest, x.missing
+        return multipliers_of_columns(np.column_stack([efforts, forces, held]), range(len(others)))
 
-    missing = np.zeros(len(still.times))
-    forces, pushing, sentences = contacts.contacts_along_motion(
-        mechanism, still, float(still.start.w[abi.LENGTH])
-    ).solve_forces(solve_pushing)
-    efforts, lam = solve_pushing(forces, pushing)
-    return efforts[:, :count], missing, _solve_efforts(still, others[:count], weighed)[2], lam, sentences
+    forces, sentences = along.solve_forces(solve)
+    lam = solve(forces)
+    return _Found(efforts, missing, ranks, lam, lowest, highest, sentences)
 
 
 def _motions_with_unit_efforts(
@@ -244,19 +270,16 @@ def _solve_efforts(
     still: PrescribedMotion,
     others: list[PrescribedMotion],
     weighed: Array,
-    acting: Flags | None = None,
     pushed: Array | float = 0.0,
 ) -> tuple[Array, Array, NDArray[np.int64]]:
     """Return efforts, shape (k, n), the accelerations left, shape (k,), and degrees of freedom moved.
 
-    `acting` says when each effort can act, by default always; `pushed` are accelerations by other forces.
+    `pushed` are accelerations by other forces.
     """
     scale = 1.0 / np.sqrt(still.compiled.section(still.start.w, "gauge"))
     base = still.responses.accelerations
     effects = np.stack([other.responses.accelerations - base for other in others], axis=-1)
     effects = effects * scale[:, np.newaxis]
-    if acting is not None:
-        effects = np.where(acting[:, np.newaxis], effects, 0.0)
     goals = (still.prescribed_accelerations - base - pushed) * scale
     # a motor of a crane and one of a watch: whether efforts are told apart does not depend on what they move
     sizes = np.linalg.norm(effects, axis=1)

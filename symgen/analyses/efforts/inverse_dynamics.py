@@ -18,7 +18,6 @@ from symgen.analyses.prescribed.prescribed import driver_names
 from symgen.base import arguments
 from symgen.base.digits import clean
 from symgen.base.errors import InputError, plural
-from symgen.describe.bounds.bounded_modes import refuse_contacts
 from symgen.describe.bounds.smooth import sliding_rows_as_forces
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.holding_joints import refuse_holding
@@ -55,6 +54,8 @@ class Inverse(Tables):
         Times [s].
     efforts : Labelled
         By the names of actuators; along their coordinates, on the second body of a joint, forward.
+    lowest, highest : Labelled
+        The range of each effort alone where friction at rest and closed stops leave one, else the effort.
     rates, power : Labelled
         Rate of what each works along, and their product [W]; inputs have none.
     missing : Array, shape (k,)
@@ -74,6 +75,8 @@ class Inverse(Tables):
     mechanism: str
     t: Array
     efforts: Labelled
+    lowest: Labelled
+    highest: Labelled
     rates: Labelled
     power: Labelled
     missing: Array
@@ -86,7 +89,18 @@ class Inverse(Tables):
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the tables."""
-        return ("efforts", "power", "rates", "q", "lam", "reactions", "body_reactions", "magnitudes")
+        return (
+            "efforts",
+            "power",
+            "rates",
+            "lowest",
+            "highest",
+            "q",
+            "lam",
+            "reactions",
+            "body_reactions",
+            "magnitudes",
+        )
 
     @property
     def drawn(self) -> tuple[str, ...]:
@@ -151,6 +165,8 @@ class Inverse(Tables):
             "t": self.t.tolist(),
             "efforts": self.series("efforts"),
             "units": dict(zip(self.efforts.names, self.efforts.units, strict=True)),
+            "lowest": json_value(self.series("lowest")),
+            "highest": json_value(self.series("highest")),
             "power": self.series("power"),
             "reactions": self.series("reactions"),
             "summary": json_value(self.summary()),
@@ -176,10 +192,9 @@ def inverse_dynamics(
     weights: Mapping[str, float] | None = None,
 ) -> Inverse:
     """Return the efforts that a motion needs; see `symgen.api.Model.inverse`, which has these arguments and errors."""
-    refuse_contacts("inverse dynamics", mechanism)
     refuse_holding("inverse dynamics", mechanism)
     contacts = Contacts.of_mechanism(mechanism)
-    mechanism = sliding_rows_as_forces(WHERE, mechanism, contacts.rows)
+    mechanism = sliding_rows_as_forces(WHERE, mechanism, contacts.apart)
     names = arguments.words(WHERE, actuators)
     if len(set(names)) < len(names):
         raise InputError(WHERE, "each name once", ", ".join(names))
@@ -226,6 +241,8 @@ def _efforts_of_drivers(moved: Kinematics, names: Sequence[str]) -> Inverse:
         mechanism=moved.mechanism,
         t=moved.t,
         efforts=efforts,
+        lowest=efforts,
+        highest=efforts,
         rates=Labelled(rates, efforts.names, speeds),
         power=Labelled(values * rates, efforts.names, ("W",) * len(names)),
         missing=np.zeros(len(moved.t)),
@@ -273,10 +290,13 @@ def _efforts_of_record(
         balanced.notes.append("reactions are not unique at " + ", ".join(forces.non_unique))
     if (doubt := doubt_on_outputs(loose, values, motion)) is not None:
         balanced.notes.append(f"beyond the limits of its parts: {doubt}")
+    labels = tuple(a.name for a in actuators), tuple(a.unit for a in actuators)
     return Inverse(
         mechanism=mechanism.name,
         t=motion.times,
-        efforts=Labelled(balanced.efforts, tuple(a.name for a in actuators), tuple(a.unit for a in actuators)),
+        efforts=Labelled(balanced.efforts, *labels),
+        lowest=Labelled(balanced.lowest, *labels),
+        highest=Labelled(balanced.highest, *labels),
         rates=Labelled(balanced.rates, working, tuple("rad/s" if a.turning else "m/s" for _, a in works)),
         power=Labelled(power, working, ("W",) * len(works)),
         missing=balanced.missing,

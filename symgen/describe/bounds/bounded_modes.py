@@ -201,17 +201,3 @@ def refuse_bounds(where: str, mechanism: Mechanism) -> None:
     for family, rows in rows_by_family(mechanism).items():
         names = ", ".join(row.name for row in rows)
         raise InputError(where, f"a mechanism without {family.noun}", family.named.format(names), family.hint)
-
-
-def refuse_contacts(where: str, mechanism: Mechanism) -> None:
-    """Refuse a mechanism with contacts where nothing takes them.
-
-    Raises
-    ------
-    InputError
-        If it has any.
-    """
-    rows = [row for row in mechanism.bounded if row.in_contact]
-    if rows:
-        family, names = rows[0].family, ", ".join(dict.fromkeys(row.name for row in rows))
-        raise InputError(where, f"a mechanism without {family.noun}", family.named.format(names), family.hint)

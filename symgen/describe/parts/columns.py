@@ -26,6 +26,8 @@ FORMS: Mapping[str, str] = MappingProxyType(
         "violations": "violation.{key}",
         # of analyses along a motion
         "efforts": "{key}.effort",
+        "lowest": "{key}.lowest",
+        "highest": "{key}.highest",
         "power": "{key}.power",
         "rates": "{key}.rate",
         "transmission": "transmission.{key}",

@@ -97,8 +97,12 @@ class Motion:
         """The step for laws whose gains depend on it [s]; 1 where the motion was not integrated."""
         return 1.0
 
-    @cached_property
+    @property
     def _rates(self) -> Observed:
+        return self._rates_by_law
+
+    @cached_property
+    def _rates_by_law(self) -> Observed:
         from symgen.run.single.observe import observe_rates
 
         (sizes, outputs, observed), law = self._seen, self.compiled.law_module
@@ -172,14 +176,14 @@ class PrescribedMotion(Motion):
     def _rates(self) -> Observed:
         accelerations = np.ascontiguousarray(self.prescribed_accelerations)
         if self.prescribed_multipliers is None:
-            return super()._rates._replace(accelerations=accelerations)
+            return self._rates_by_law._replace(accelerations=accelerations)
         multipliers = np.ascontiguousarray(self.prescribed_multipliers)
         return self._seen[2]._replace(accelerations=accelerations, multipliers=multipliers)
 
     @cached_property
     def responses(self) -> Observed:
         """Accelerations and multipliers of the law in these states, even where they are prescribed."""
-        return super()._rates
+        return self._rates_by_law
 
     def measure_motion(self) -> Array:
         """Return the status of all states, shape of `status_columns`.
