@@ -23,7 +23,8 @@ from symgen.describe.mechanism import Joint
 from symgen.run.compiling.side import compile_side
 from symgen.run.layout import abi
 from symgen.run.layout.scales import LEAST_SPEED
-from symgen.run.modes.bounded_rows import STILL, TOUCHING
+from symgen.run.modes.bounded_rows import STILL
+from symgen.run.modes.row_records import TOUCHING
 
 if TYPE_CHECKING:
     from symgen.analyses.state.subject import Subject

@@ -19,8 +19,9 @@ from symgen.run.compiling.events import bounded_rows, effects_of_events
 from symgen.run.effects.applying import apply_effects
 from symgen.run.layout import abi
 from symgen.run.layout.start_records import Instant
-from symgen.run.modes.bounded_rows import DEPENDENT, TOUCHING
+from symgen.run.modes.bounded_rows import DEPENDENT
 from symgen.run.modes.contact_parts import COUPLED
+from symgen.run.modes.row_records import TOUCHING
 
 if TYPE_CHECKING:
     from symgen.run.planning.prepare import Prepared

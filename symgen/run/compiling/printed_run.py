@@ -63,9 +63,8 @@ _NOTES = 8
 #: Name of the search for events inside a step, the same for all models.
 FINDER = "find_events"
 #: Arrays that never change: of records with these names, and fields of others, by the name of the record.
-_TABLES = frozenset(("layout", "changes", "scheme"))
+_TABLES = frozenset(("layout", "rows", "changes", "scheme"))
 _CONSTANT = {
-    "choice": frozenset(("angular", "place_of", "pushes", "pressed", "varying")),
     "strikes": frozenset(("events", "losses")),
     "effects": frozenset(("resets", "stops")),
     "2": frozenset(("choosing", "breaks", "reverses", "jams", "leaves", "resets", "stops")),
@@ -368,4 +367,7 @@ def _name_of(path: str) -> str:
         return _OWN[path]
     if owner in ("seams", "foresight"):
         return f"seam_{rest}"
-    return rest.removeprefix("2.").replace(".", "_") if owner == "model" else f"{'run'}_{rest.replace('.', '_')}"
+    if owner != "model":
+        return f"run_{rest.replace('.', '_')}"
+    head, *fields = rest.removeprefix("2.").split(".")
+    return "_".join(fields if head == "choice" and len(fields) > 1 else (head, *fields))  # its records have own names

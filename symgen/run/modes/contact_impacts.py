@@ -30,17 +30,17 @@ from symgen.run.modes.bounded_rows import (
     SAME,
     SIGN,
     STILL,
-    TOUCHING,
-    Choice,
     row_scale,
     sign_of_number,
     switch_off,
 )
-from symgen.run.modes.choice import read_rows
 from symgen.run.modes.contact_laws import solve_by_laws
-from symgen.run.modes.contact_parts import by_reaction, choose_part, find_parts, probe_contacts
+from symgen.run.modes.contact_parts import choose_part, find_parts
 from symgen.run.modes.contact_series import ends_closed, find_leading, remember_impact, sum_series
 from symgen.run.modes.pin_impulses import find_shortfall, probe_impact, push
+from symgen.run.modes.probing import by_reaction, forget_kicks, pose_impact, probe_contacts
+from symgen.run.modes.reading import read_rows
+from symgen.run.modes.row_records import TOUCHING, Choice
 from symgen.run.modes.strikes import (
     OF_SERIES,
     Strikes,
@@ -64,11 +64,11 @@ def find_struck_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: 
     gaps = n = find_touching(c, w)
     if gaps == 0:
         return SAME
-    for i in range(c.count):
-        own = c.pushes[i] == 0 and c.partner[i] < 0 and not by_reaction(c, i)
-        c.signs[i] = w[c.first + MODE_NUMBERS * i + SIGN] if own else 0.0
-    for i in range(c.dry):
-        j = c.partner[i]
+    for i in range(c.rows.count):
+        own = c.rows.pushes[i] == 0 and c.rows.partner[i] < 0 and not by_reaction(c, i)
+        c.signs[i] = w[c.rows.first + MODE_NUMBERS * i + SIGN] if own else 0.0
+    for i in range(c.rows.dry):
+        j = c.rows.partner[i]
         if (j >= 0 and c.taken[j] != 0) or by_reaction(c, i):
             c.rest[n], c.taken[i] = i, 1
             n += 1
@@ -79,44 +79,27 @@ def find_struck_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: 
 
 
 @exact()
-def add_kicks(c: Choice, s: Strikes, i: int) -> None:
-    """Add what impulses that follow from compression make of the rate of a row, and of what its bound depends on."""
-    k = c.count
-    for gap in range(c.dry, k):
-        c.offset[i] += c.matrix[i * k + gap] * s.memory.kicked[gap]
-        if c.pressed[i] != 0:
-            for part in range(2):
-                c.apart[2 * i + part] += c.parts[(2 * i + part) * k + gap] * s.memory.kicked[gap]
-    if c.pushes[i] == 0 and c.partner[i] >= 0:
-        c.apart[2 * i] = s.memory.kicked[c.partner[i]]
-
-
-@exact()
 def find_impulses(c: Choice, s: Strikes) -> int:
     """Find the modes of an impact; return `SAME`, or why there are none."""
     rows = c.at_rest[0]
+    pose_impact(c, s.asked, s.memory.kicked)
     for r in range(rows):
         i = c.rest[r]
-        c.offset[i] = c.speed[i] - (s.asked[i] if c.pushes[i] != 0 else 0.0)
-        c.loose[i] = 0 if c.pushes[i] != 0 else 1  # impulses of friction have the bound of motion
+        c.loose[i] = 0 if c.rows.pushes[i] != 0 else 1  # impulses of friction have the bound of motion
         c.best[i], c.forces[i], c.signs[i] = OFF, 0.0, 0.0
-        if REACTIONS:  # without impulses joints have none
-            c.apart[2 * i] = c.apart[2 * i + 1] = 0.0
-        if POISSON:
-            add_kicks(c, s, i)
     find_parts(c)
-    for i in range(c.count):
+    for i in range(c.rows.count):
         s.memory.groups[i] = -1
     for r in range(rows):
         s.memory.groups[c.rest[r]] = c.part[c.rest[r]]
-    for first in range(c.count):
+    for first in range(c.rows.count):
         count = choose_part(c, first, rows)
         if count > 0:
             code = solve_by_laws(c, count)
             if code != SAME:
                 return int(code)
             for a in range(count):
-                c.part[c.box.order[a]] = c.count
+                c.part[c.box.order[a]] = c.rows.count
     return SAME
 
 
@@ -124,16 +107,16 @@ def find_impulses(c: Choice, s: Strikes) -> int:
 def find_pushing(c: Choice, s: Strikes) -> int:
     """Find the gaps that push at the impact; return their number."""
     most, count = 0.0, 0
-    for i in range(c.count):
+    for i in range(c.rows.count):
         s.active[i] = 0
     for r in range(c.at_rest[0]):
-        most = larger_number(most, abs(c.forces[c.rest[r]]) if c.pushes[c.rest[r]] != 0 else 0.0)
+        most = larger_number(most, abs(c.forces[c.rest[r]]) if c.rows.pushes[c.rest[r]] != 0 else 0.0)
         if POISSON:
             most = larger_number(most, s.memory.kicked[c.rest[r]])
     for r in range(c.at_rest[0]):
         i = c.rest[r]
         impulse = -c.forces[i] + (s.memory.kicked[i] if POISSON else 0.0)
-        if c.pushes[i] != 0 and impulse > _NOTHING * most:
+        if c.rows.pushes[i] != 0 and impulse > _NOTHING * most:
             s.active[i] = 1
             count += 1
     return count
@@ -147,16 +130,16 @@ def tie_velocities(c: Choice, s: Strikes, rests: bool, keeps: bool) -> None:
     for j in range(owners.shape[0]):
         ties.held[j], ties.ratio[j], ties.values[j], ties.ways[j] = 0, 0.0, 0.0, 0.0
         ties.leads[j], ties.parts[j] = -1, 0.0
-        for i in range(c.dry, c.count):
+        for i in range(c.rows.dry, c.rows.count):
             if owners[j] == s.events[i] and s.active[i] != 0:
-                friction = c.partner[i]
+                friction = c.rows.partner[i]
                 if j == 0 or owners[j - 1] != owners[j]:
                     ties.held[j], ties.values[j] = 1, 0.0 if rests else s.asked[i]
                     if POISSON and not rests and c.mode[i] != ON:  # its impulse is that of compression alone
                         ties.held[j] = 0
                 elif c.mode[friction] >= UPPER and (not POISSON or ties.held[j - 1] > 0):
                     sign = 1.0 if c.mode[friction] == UPPER else -1.0
-                    ties.held[j], ties.ways[j], ties.ratio[j] = -1, -sign, -sign * c.sliding[friction]
+                    ties.held[j], ties.ways[j], ties.ratio[j] = -1, -sign, -sign * c.read.sliding[friction]
                 elif c.mode[friction] == ON:
                     ties.held[j] = 1
         if keeps:
@@ -170,18 +153,18 @@ def lose_at_contacts(c: Choice, s: Strikes, y: Array) -> None:
     Each impulse does work by the sum of the rates before and after it.
     """
     _, _, _, _, changes = s.effects.model
-    owners, ties, n, spent = changes.owners, s.ties, c.layout.nv, s.memory.spent
+    owners, ties, n, spent = changes.owners, s.ties, c.rows.layout.nv, s.memory.spent
     for j in range(owners.shape[0]):
-        for i in range(c.dry, c.count):
+        for i in range(c.rows.dry, c.rows.count):
             if owners[j] == s.events[i] and s.active[i] != 0:
                 gap = j == 0 or owners[j - 1] != owners[j]
-                place = i if gap else c.partner[i]
-                rate, impulse = c.speed[place], ties.impulses[j]
+                place = i if gap else c.rows.partner[i]
+                rate, impulse = c.read.speed[place], ties.impulses[j]
                 if POISSON:
                     impulse += s.memory.kicked[place]
                 after = rate
                 for q in range(n):
-                    after += ties.push[j * n + q] * (y[c.layout.nq + q] - s.effects.work.still[q])
+                    after += ties.push[j * n + q] * (y[c.rows.layout.nq + q] - s.effects.work.still[q])
                 done = 0.5 * impulse * (rate + after)
                 spent[0] += done
                 spent[1] += 0.5 * abs(impulse) * (abs(rate) + abs(after))
@@ -196,7 +179,7 @@ def apply_impulses(t: float, c: Choice, s: Strikes, now: Instant, keeps: bool) -
     if code != SAME:
         return int(code)
     s.pushing[0] = find_pushing(c, s)
-    for i in range(c.count):
+    for i in range(c.rows.count):
         c.mode[i] = c.best[i]
         if REACTIONS:
             s.memory.pins[i] = c.best[i]
@@ -215,46 +198,45 @@ def expand(t: float, c: Choice, s: Strikes, now: Instant) -> int:
     What the impact keeps is the sum of both. Returns as `apply_impulses` does.
     """
     _, _, _, _, changes = s.effects.model
-    owners, memory, impulse, m = changes.owners, s.memory, s.effects.work.impulse, c.layout.m
+    owners, memory, impulse, m = changes.owners, s.memory, s.effects.work.impulse, c.rows.layout.m
     energy, count = s.effects.work.energy[0], owners.shape[0]
     for row in range(m):
         memory.compressed[row] = impulse.impulses[row]
     for j in range(count):
         memory.compressed[m + j] = s.ties.impulses[j]
-        for i in range(c.dry, c.count):
+        for i in range(c.rows.dry, c.rows.count):
             if owners[j] == s.events[i] and (j == 0 or owners[j - 1] != owners[j]):
-                memory.kicked[i] = c.restitution[i] * s.ties.impulses[j] if s.active[i] != 0 else 0.0
+                memory.kicked[i] = c.read.restitution[i] * s.ties.impulses[j] if s.active[i] != 0 else 0.0
                 memory.closes[i] = s.active[i]
     if read_rows(t, c, now.y, now.p, now.w) != SAME:
         return OUT_OF_RANGE
     code = apply_impulses(t, c, s, now, False)
-    for i in range(c.dry):
-        c.apart[2 * i] = 0.0 if c.partner[i] >= 0 else c.apart[2 * i]
+    forget_kicks(c)
     if code != SAME:
         return int(code)
-    for i in range(c.dry, c.count):
+    for i in range(c.rows.dry, c.rows.count):
         s.active[i] = 1 if memory.closes[i] != 0 else s.active[i]
     choose_events(c, s, False)
     s.effects.work.energy[0] += energy
     for row in range(m):
-        own = c.place_of[row] < 0 or c.pressed[c.place_of[row]] != 0
+        own = c.rows.place_of[row] < 0 or c.rows.pressed[c.rows.place_of[row]] != 0
         impulse.impulses[row] = memory.compressed[row] + impulse.impulses[row] if own else 0.0
     place = m
     for j in range(count):
         if s.chosen[owners[j]] != 0:
             total = memory.compressed[m + j] + s.ties.impulses[j]
-            for i in range(c.dry, c.count):
+            for i in range(c.rows.dry, c.rows.count):
                 if owners[j] == s.events[i]:
                     gap = j == 0 or owners[j - 1] != owners[j]
-                    total += memory.kicked[i if gap else c.partner[i]]
+                    total += memory.kicked[i if gap else c.rows.partner[i]]
             impulse.impulses[place] = total
             place += 1
-    for i in range(c.count):
+    for i in range(c.rows.count):
         memory.kicked[i] = 0.0
     if read_rows(t, c, now.y, now.p, now.w) != SAME:
         return OUT_OF_RANGE
-    for i in range(c.dry, c.count):
-        s.asked[i] = c.speed[i] if s.active[i] != 0 else s.asked[i]
+    for i in range(c.rows.dry, c.rows.count):
+        s.asked[i] = c.read.speed[i] if s.active[i] != 0 else s.asked[i]
     return SAME
 
 
@@ -266,15 +248,15 @@ def strike_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
     """
     now = Instant(y, p, w)
     for r in range(c.at_rest[0]):
-        c.shut[c.rest[r]] = 1 if c.pushes[c.rest[r]] != 0 else 0
+        c.shut[c.rest[r]] = 1 if c.rows.pushes[c.rest[r]] != 0 else 0
     switch_off(c, w)
-    for i in range(c.count):
-        s.left[i], s.before[i] = math.nan, c.speed[i]
+    for i in range(c.rows.count):
+        s.left[i], s.before[i] = math.nan, c.read.speed[i]
     s.memory.spent[0] = s.memory.spent[1] = 0.0
-    for i in range(c.count):
+    for i in range(c.rows.count):
         s.memory.kicked[i] = 0.0
     if POISSON:  # compression takes all rates of gaps that close
-        for i in range(c.count):
+        for i in range(c.rows.count):
             s.asked[i] = 0.0
     else:
         ask_rates(t, c, s, now)
@@ -284,7 +266,7 @@ def strike_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
     if code != SAME:
         return int(code)
     if s.memory.spent[0] > _GAIN * s.memory.spent[1]:
-        for i in range(c.count):
+        for i in range(c.rows.count):
             c.named[0] = i if s.active[i] != 0 else c.named[0]
         c.jam[0] = s.memory.spent[0]
         return GAINED
@@ -296,24 +278,24 @@ def strike_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
 @exact()
 def turns_back(c: Choice, s: Strikes, w: Array, i: int) -> bool:
     """Return whether a gap opens after the impact of another one, and has been struck before."""
-    touches = c.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH) and c.speed[i] > 0.0
+    touches = c.read.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH) and c.read.speed[i] > 0.0
     return bool(touches and s.active[i] == 0 and s.effects.past.counts[s.events[i]] > 0)
 
 
 @exact()
 def follow_past(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers, hunt: Array) -> float:
     """Return the time at which the resets of the chosen events accumulate; nan where they do not."""
-    functions = c.rates, c.confirm, s.effects.happens
-    return float(accumulation(functions, t, c.layout.nq, now, iw, hunt, s.chosen, s.effects.past))
+    functions = c.rows.rates, c.rows.confirm, s.effects.happens
+    return float(accumulation(functions, t, c.rows.layout.nq, now, iw, hunt, s.chosen, s.effects.past))
 
 
 @exact()
 def find_lost_beside(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers, hunt: Array) -> bool:
     """Find the gaps that open after the impact of another one, and whose own impacts accumulate, or are lost."""
     lost = False
-    for i in range(c.dry, c.count):
+    for i in range(c.rows.dry, c.rows.count):
         s.memory.closes[i] = 0
-        opens = c.speed[i] > STILL * row_scale(c, now.w, i, abi.SPEED)
+        opens = c.read.speed[i] > STILL * row_scale(c, now.w, i, abi.SPEED)
         if turns_back(c, s, now.w, i) or (opens and ends_closed(c, s, now.w, i)):
             for event in range(s.chosen.shape[0]):
                 s.chosen[event] = 0
@@ -331,8 +313,8 @@ def find_closing(t: float, c: Choice, s: Strikes, w: Array, left: float) -> bool
     Gaps whose own flight takes longer fly on, though it be low. Returns whether any gap closes in turn.
     """
     in_turn = False
-    for i in range(c.dry, c.count):
-        fall = c.value[i] + (c.speed[i] + 0.5 * c.out[i] * left) * left
+    for i in range(c.rows.dry, c.rows.count):
+        fall = c.read.value[i] + (c.read.speed[i] + 0.5 * c.out[i] * left) * left
         if turns_back(c, s, w, i) and fall <= 0.0:
             s.memory.closes[i] = 1
         in_turn = in_turn or s.memory.closes[i] != 0
@@ -345,11 +327,11 @@ def recall_modes(c: Choice, s: Strikes) -> None:
     _, _, _, _, changes = s.effects.model
     owners, ties = changes.owners, s.ties
     for j in range(1, owners.shape[0]):
-        for i in range(c.dry, c.count):
+        for i in range(c.rows.dry, c.rows.count):
             slides = owners[j] == owners[j - 1] and owners[j] == s.events[i]
-            if slides and ties.kept[j - 1] > 0 and c.partner[i] >= 0:
+            if slides and ties.kept[j - 1] > 0 and c.rows.partner[i] >= 0:
                 way = UPPER if ties.kept_ways[j] < 0.0 else LOWER
-                c.mode[c.partner[i]] = way if ties.kept[j] < 0 else (ON if ties.kept[j] > 0 else OFF)
+                c.mode[c.rows.partner[i]] = way if ties.kept[j] < 0 else (ON if ties.kept[j] > 0 else OFF)
 
 
 @exact()
@@ -359,15 +341,15 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, in_series: bool, 
     What contacts beside them have of the impacts that are left out is the sum of a series.
     """
     recall_modes(c, s)
-    for i in range(c.dry, c.count):
+    for i in range(c.rows.dry, c.rows.count):
         turns = s.memory.closes[i] != 0
         if turns or ends_closed(c, s, now.w, i):
-            opens = c.speed[i] > STILL * row_scale(c, now.w, i, abi.SPEED)
+            opens = c.read.speed[i] > STILL * row_scale(c, now.w, i, abi.SPEED)
             s.active[i] = 1
-            j = c.partner[i]
+            j = c.rows.partner[i]
             if j >= 0 and (turns or opens):
-                still = abs(c.speed[j]) <= STILL * row_scale(c, now.w, j, abi.SPEED)
-                c.mode[j] = ON if still else (UPPER if sign_of_number(c.speed[j]) > 0.0 else LOWER)
+                still = abs(c.read.speed[j]) <= STILL * row_scale(c, now.w, j, abi.SPEED)
+                c.mode[j] = ON if still else (UPPER if sign_of_number(c.read.speed[j]) > 0.0 else LOWER)
     choose_events(c, s, False)
     tie_velocities(c, s, True, False)
     if REACTIONS:
@@ -377,11 +359,11 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, in_series: bool, 
     if not push(t, c, s, now, True):
         return NOT_APPLIED
     lose_at_contacts(c, s, now.y)
-    for i in range(c.dry, c.count):
+    for i in range(c.rows.dry, c.rows.count):
         if s.active[i] != 0:
             s.left[i] = larger_number(end - t, 0.0)
             s.effects.past.counts[s.events[i]] = 0
-    for number in range(OF_SERIES * c.count):
+    for number in range(OF_SERIES * c.rows.count):
         s.series[number] = 0.0
     return SAME
 
@@ -390,7 +372,7 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, in_series: bool, 
 def end_in_turn(t: float, c: Choice, s: Strikes) -> float:
     """Return the end of impacts in turn, by the times between impacts of the gap that has just been struck."""
     past, end = s.effects.past, t
-    for i in range(c.dry, c.count):
+    for i in range(c.rows.dry, c.rows.count):
         k = s.events[i]
         if s.active[i] != 0 and past.counts[k] > 2:
             at = OF_EVENT * k + past.counts[k] - 1

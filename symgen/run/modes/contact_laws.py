@@ -28,43 +28,45 @@ from symgen.run.modes.bounded_rows import (
     SAME,
     SEVERAL_BY_REACTION,
     SEVERAL_MODES,
-    Choice,
 )
-from symgen.run.modes.contact_parts import by_reaction, has_reaction
+from symgen.run.modes.contact_parts import has_reaction
+from symgen.run.modes.probing import by_reaction
+from symgen.run.modes.row_records import Choice
 
 
 @exact()
 def bound_of(c: Choice, i: int) -> float:
     """Return the bound of a row in a combination, of a contact over the force that presses; sliding has its own."""
-    return float(c.sliding[i] if c.loose[i] != 0 or c.signs[i] != 0.0 else c.static[i])
+    return float(c.read.sliding[i] if c.loose[i] != 0 or c.signs[i] != 0.0 else c.read.static[i])
 
 
 @exact()
 def fill_part(c: Choice, count: int) -> None:
     """Write the problem of the rows of a part, in their order in ``order`` of the box."""
-    k, order, laws = c.count, c.box.order, c.laws
+    k, order, laws = c.rows.count, c.box.order, c.laws
     for a in range(count):
         i = order[a]
         begin_row(count, a, laws)
-        laws.offset[a] = c.offset[i]
+        laws.offset[a] = c.problem.offset[i]
         for b in range(count):
-            laws.matrix[a * count + b] = c.matrix[i * k + order[b]]
-            laws.offset[a] += c.matrix[i * k + order[b]] * c.middle[order[b]]  # forces count from that of motion
-        laws.law[a] = PUSH if c.pushes[i] != 0 else BALL
-        if c.pushes[i] == 0 and c.partner[i] < 0:
-            laws.beta[a], laws.middle[a] = bound_of(c, i), 0.0 if c.loose[i] != 0 else c.middle[i]
+            laws.matrix[a * count + b] = c.problem.matrix[i * k + order[b]]
+            # forces count from the middle of motion
+            laws.offset[a] += c.problem.matrix[i * k + order[b]] * c.read.middle[order[b]]
+        laws.law[a] = PUSH if c.rows.pushes[i] != 0 else BALL
+        if c.rows.pushes[i] == 0 and c.rows.partner[i] < 0:
+            laws.beta[a], laws.middle[a] = bound_of(c, i), 0.0 if c.loose[i] != 0 else c.read.middle[i]
             if by_reaction(c, i):
                 laws.kappa[a], laws.beta[a], laws.way[a], laws.components[a] = laws.beta[a], 0.0, c.signs[i], 2
                 for part in range(2):
                     at = COMPONENTS * a + part
-                    laws.apart[at] = c.apart[2 * i + part]
+                    laws.apart[at] = c.problem.apart[2 * i + part]
                     for b in range(count):
-                        laws.parts[at * count + b] = c.parts[(2 * i + part) * k + order[b]]
-        if c.pushes[i] == 0 and c.partner[i] >= 0:
+                        laws.parts[at * count + b] = c.problem.parts[(2 * i + part) * k + order[b]]
+        if c.rows.pushes[i] == 0 and c.rows.partner[i] >= 0:
             laws.kappa[a], laws.way[a] = bound_of(c, i), c.signs[i]
-            laws.beta[a] = bound_of(c, i) * c.apart[2 * i] if POISSON else 0.0
+            laws.beta[a] = bound_of(c, i) * c.problem.apart[2 * i] if POISSON else 0.0
             for b in range(count):
-                if order[b] == c.partner[i]:
+                if order[b] == c.rows.partner[i]:
                     laws.presser[a] = b
 
 
@@ -92,9 +94,9 @@ def find_carriers_of_part(c: Choice, count: int) -> None:
         if laws.depends[b] == 2:
             for a in range(count):
                 if laws.depends[a] == 1 and abs(laws.slopes[a * count + b]) > NO_FACTOR:
-                    owners += 1 if c.pushes[order[a]] == 0 else 2
+                    owners += 1 if c.rows.pushes[order[a]] == 0 else 2
                     owner, c.bounds[j] = order[a], laws.slopes[a * count + b]
-            c.part[j] = owner if owners == 1 else c.count
+            c.part[j] = owner if owners == 1 else c.rows.count
 
 
 @exact()
@@ -102,7 +104,7 @@ def find_forces_of_part(c: Choice, count: int) -> bool:
     """Find forces that obey all laws; gaps that have just opened stay open unless they would close."""
     laws, closes = c.laws, False
     for a in range(count):
-        if c.pushes[c.box.order[a]] != 0 and c.loose[c.box.order[a]] != 0:
+        if c.rows.pushes[c.box.order[a]] != 0 and c.loose[c.box.order[a]] != 0:
             laws.law[a] = NOTHING
     found = find_forces(count, laws, 1)
     for a in range(count):
@@ -147,19 +149,19 @@ def name_different(c: Choice, count: int) -> None:
 @exact()
 def name_fault(c: Choice, count: int) -> None:
     """Name the contact of a part that comes nearest to jamming, with what is left of its mobility."""
-    k, least = c.count, math.inf
+    k, least = c.rows.count, math.inf
     for a in range(count):
         i = c.box.order[a]
-        j = c.partner[i]
-        if c.pushes[i] != 0:
+        j = c.rows.partner[i]
+        if c.rows.pushes[i] != 0:
             if least == math.inf:
-                c.named[0], c.jam[0] = i, c.matrix[i * k + i]
-            if j >= 0 and c.matrix[i * k + i] > 0.0:
-                turned = c.sliding[j] * c.matrix[i * k + j]
+                c.named[0], c.jam[0] = i, c.problem.matrix[i * k + i]
+            if j >= 0 and c.problem.matrix[i * k + i] > 0.0:
+                turned = c.read.sliding[j] * c.problem.matrix[i * k + j]
                 turned = c.signs[j] * turned if c.signs[j] != 0.0 else abs(turned)
-                left = c.matrix[i * k + i] - turned
-                if left / c.matrix[i * k + i] < least:
-                    c.named[0], c.jam[0], least = i, left, left / c.matrix[i * k + i]
+                left = c.problem.matrix[i * k + i] - turned
+                if left / c.problem.matrix[i * k + i] < least:
+                    c.named[0], c.jam[0], least = i, left, left / c.problem.matrix[i * k + i]
 
 
 @exact(entry=True)
@@ -182,12 +184,12 @@ def solve_by_laws(c: Choice, count: int) -> int:
     for a in range(count):
         i = order[a]
         c.best[i], c.other[i], c.trial[i] = laws.state[a], laws.other[a], laws.left[a]
-        c.forces[i] = laws.forces[a] - c.middle[i]
+        c.forces[i] = laws.forces[a] - c.read.middle[i]
         c.sizes[i] = load_of(count, a, laws) if by_reaction(c, i) else 1.0
     for a in range(count):  # the friction of an open contact is off
         i = order[a]
-        if c.pushes[i] == 0 and c.partner[i] >= 0 and c.best[c.partner[i]] == OFF:
-            c.best[i] = c.best[i] if POISSON and c.apart[2 * i] > 0.0 else OFF
+        if c.rows.pushes[i] == 0 and c.rows.partner[i] >= 0 and c.best[c.rows.partner[i]] == OFF:
+            c.best[i] = c.best[i] if POISSON and c.problem.apart[2 * i] > 0.0 else OFF
     find_carriers_of_part(c, count)
     if several and reacts:
         name_different(c, count)

@@ -17,12 +17,15 @@ from symgen.run.effects.accumulation import OF_EVENT
 from symgen.run.effects.pushing import REACTIONS
 from symgen.run.layout import abi
 from symgen.run.layout.start_records import Instant
-from symgen.run.modes.bounded_rows import SAME, STILL, TOUCHING, Choice, row_scale, switch_off
-from symgen.run.modes.choice import find_starting, follow_modes, read_rows
-from symgen.run.modes.contact_parts import by_reaction
+from symgen.run.modes.bounded_rows import SAME, STILL, row_scale, switch_off
+from symgen.run.modes.choice import follow_modes
 from symgen.run.modes.contacts import choose_contacts
+from symgen.run.modes.found_rows import forget_found
 from symgen.run.modes.impact_memory import AT, HEAD, RATE, REMEMBERED
 from symgen.run.modes.pin_impulses import probe_impact, push
+from symgen.run.modes.probing import by_reaction
+from symgen.run.modes.reading import find_starting, read_rows, recall_rates
+from symgen.run.modes.row_records import TOUCHING, Choice
 from symgen.run.modes.strikes import Strikes, accelerate_in_force
 
 #: Rates below this part of what is left out of them end with the series.
@@ -36,21 +39,21 @@ _SAME_SUM = 5e-3
 @exact()
 def remember_impact(t: float, c: Choice, s: Strikes) -> None:
     """Remember the rates after the latest impact for the contacts that it has struck."""
-    impacts, size = s.memory.impacts, HEAD + c.count
-    for i in range(c.dry, c.count):
+    impacts, size = s.memory.impacts, HEAD + c.rows.count
+    for i in range(c.rows.dry, c.rows.count):
         if s.active[i] != 0 and s.before[i] < 0.0:
             at = REMEMBERED * size * i
             for place in range(size):
                 impacts[at + size + place] = impacts[at + place]
             impacts[at + AT], impacts[at + RATE] = t, s.asked[i]
-            for row in range(c.count):
-                impacts[at + HEAD + row] = c.speed[row]
+            for row in range(c.rows.count):
+                impacts[at + HEAD + row] = c.read.speed[row]
 
 
 @exact()
 def remembers(c: Choice, s: Strikes, i: int, past: int) -> bool:
     """Return whether an impact before the latest one of a gap is remembered: its rates are larger."""
-    at, event = (HEAD + c.count) * (REMEMBERED * i + past - 1), s.events[i]
+    at, event = (HEAD + c.rows.count) * (REMEMBERED * i + past - 1), s.events[i]
     count = s.effects.past.counts[event]
     if count <= past:
         return False
@@ -63,8 +66,8 @@ def is_geometric(t: float, c: Choice, s: Strikes, i: int) -> bool:
     """Return whether the last two flights of a gap are of one geometric series, and not of several."""
     if not (remembers(c, s, i, 1) and remembers(c, s, i, 2)):
         return False
-    impacts, at, u = s.memory.impacts, REMEMBERED * (HEAD + c.count) * i, s.asked[i]
-    before = at + HEAD + c.count
+    impacts, at, u = s.memory.impacts, REMEMBERED * (HEAD + c.rows.count) * i, s.asked[i]
+    before = at + HEAD + c.rows.count
     one = (t - impacts[at + AT]) / (impacts[at + RATE] - u)
     two = (t - impacts[before + AT]) / (impacts[before + RATE] - u)
     return bool(abs(two - one) <= SAME_MODES * one)
@@ -74,15 +77,15 @@ def is_geometric(t: float, c: Choice, s: Strikes, i: int) -> bool:
 def find_leading(t: float, c: Choice, s: Strikes) -> int:
     """Set ``leads`` where contacts touch beside one whose impacts accumulate; return the number of rows in series."""
     leads, groups, count = s.memory.leads, s.memory.groups, 0
-    for i in range(c.count):
+    for i in range(c.rows.count):
         leads[i] = -1
-    for i in range(c.dry, c.count):
+    for i in range(c.rows.dry, c.rows.count):
         if s.active[i] != 0 and s.before[i] < 0.0 and groups[i] >= 0 and leads[i] < 0 and is_geometric(t, c, s, i):
             beside = 0
-            for j in range(c.count):
-                own = j == i or c.partner[i] == j or by_reaction(c, j)
+            for j in range(c.rows.count):
+                own = j == i or c.rows.partner[i] == j or by_reaction(c, j)
                 beside += 1 if groups[j] == groups[i] and not own else 0
-            for j in range(c.count):
+            for j in range(c.rows.count):
                 if beside > 0 and groups[j] == groups[i]:
                     leads[j] = i
                     count += 1
@@ -95,7 +98,7 @@ def left_over(c: Choice, s: Strikes, i: int, place: int, now: float) -> float:
 
     It is the number of rows at `place` of an impact. The longer of two spans has less rounding.
     """
-    size = HEAD + c.count
+    size = HEAD + c.rows.count
     at, u = REMEMBERED * size * i, s.asked[i]
     one = (now - s.memory.impacts[at + place]) / (s.memory.impacts[at + RATE] - u)
     two = (now - s.memory.impacts[at + size + place]) / (s.memory.impacts[at + size + RATE] - u)
@@ -111,11 +114,11 @@ def ends_closed(c: Choice, s: Strikes, w: Array, i: int) -> bool:
     lead = s.memory.leads[i]
     if lead < 0 or s.active[i] != 0:
         return False
-    if abs(c.speed[i]) <= STILL * row_scale(c, w, i, abi.SPEED):
+    if abs(c.read.speed[i]) <= STILL * row_scale(c, w, i, abi.SPEED):
         return True
-    part = left_over(c, s, lead, HEAD + i, c.speed[i]) * s.asked[lead]
-    closed = c.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH) and c.speed[i] > 0.0
-    return bool(closed and abs(c.speed[i] + part) <= _ENDS * abs(part))
+    part = left_over(c, s, lead, HEAD + i, c.read.speed[i]) * s.asked[lead]
+    closed = c.read.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH) and c.read.speed[i] > 0.0
+    return bool(closed and abs(c.read.speed[i] + part) <= _ENDS * abs(part))
 
 
 @exact()
@@ -125,7 +128,7 @@ def set_target(t: float, c: Choice, s: Strikes, lead: int, row: int, j: int, sli
     A gap that opens at rest does so at the end of the series; what ends with it sticks, or `slides` up to its end.
     """
     ties, rate, part, u = s.ties, s.memory.rates[row], 0.0, s.asked[lead]
-    if c.pushes[row] != 0:
+    if c.rows.pushes[row] != 0:
         rate = 0.0
     else:
         part = left_over(c, s, lead, HEAD + row, rate)
@@ -145,11 +148,11 @@ def set_targets(t: float, c: Choice, s: Strikes, slides: bool) -> None:
     owners, ties, gap_of = changes.owners, s.ties, -1
     for j in range(owners.shape[0]):
         gap_of = j if j == 0 or owners[j - 1] != owners[j] else gap_of
-        for gap in range(c.dry, c.count):
+        for gap in range(c.rows.dry, c.rows.count):
             lead = s.memory.leads[gap]
             if owners[j] == s.events[gap] and lead >= 0 and s.active[gap] != 0:
                 ties.held[j], ties.ratio[j], ties.values[j], ties.ways[j] = 1, 0.0, 0.0, 0.0
-                row = gap if j == gap_of else c.partner[gap]
+                row = gap if j == gap_of else c.rows.partner[gap]
                 set_target(t, c, s, lead, row, j, slides)
 
 
@@ -173,18 +176,17 @@ def try_rest(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers) -> boo
         memory.y[i] = now.y[i]
     for i in range(now.w.shape[0]):
         memory.w[i] = now.w[i]
-    for i in range(c.count):
+    for i in range(c.rows.count):
         memory.rests[i] = 0.0
-        c.broken[i] = c.stopped[i] = c.left[i] = 0
-    c.begins[0] = 0
+    forget_found(c, False)
     if push(t, c, s, now, True):
         if read_rows(t, c, now.y, now.p, now.w) == SAME:
             find_starting(t, c, now.w)
             if choose_contacts(t, c, now.y, now.p, now.w, iw, memory.control) <= 1:
                 follow_modes(t, c, now.y, now.p, now.w)
                 accelerate_in_force(t, c, now, iw)
-                for i in range(c.count):
-                    memory.rests[i], memory.rested[i] = c.out[i], c.speed[i]
+                for i in range(c.rows.count):
+                    memory.rests[i], memory.rested[i] = c.out[i], c.read.speed[i]
                 found = True
     switch_off(c, now.w)
     for i in range(now.y.shape[0]):
@@ -193,16 +195,15 @@ def try_rest(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers) -> boo
         now.w[i] = memory.w[i]
     if REACTIONS:
         found = probe_impact(t, c, s, now.y, now.p, now.w, iw) == SAME and found
-    for i in range(c.count):
-        c.speed[i] = memory.rates[i]
+    recall_rates(c, memory.rates)
     return found
 
 
 @exact()
 def is_sum(t: float, c: Choice, s: Strikes) -> bool:
     """Return whether contacts beside have the sum of their series already: in modes that stay, without its rounding."""
-    for gap in range(c.dry, c.count):
-        lead, row = s.memory.leads[gap], c.partner[gap]
+    for gap in range(c.rows.dry, c.rows.count):
+        lead, row = s.memory.leads[gap], c.rows.partner[gap]
         if lead >= 0 and s.active[gap] != 0:
             lasts = left_over(c, s, lead, AT, t) * s.asked[lead]
             if abs(s.memory.rested[gap] + s.memory.rests[gap] * lasts) > _SAME_SUM * s.asked[lead]:
@@ -221,21 +222,21 @@ def sum_series(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers) -> b
 
     Returns whether there are such rates: those of more rows than velocities may contradict each other.
     """
-    for i in range(c.count):
-        s.memory.rates[i], s.memory.modes[i] = c.speed[i], c.mode[i]
+    for i in range(c.rows.count):
+        s.memory.rates[i], s.memory.modes[i] = c.read.speed[i], c.mode[i]
     found = try_rest(t, c, s, now, iw)
     if not (found and is_sum(t, c, s)):
-        for i in range(c.count):
+        for i in range(c.rows.count):
             s.memory.first[i], s.memory.rests[i] = s.memory.rests[i], 0.0
         set_targets(t, c, s, False)
         found = try_rest(t, c, s, now, iw)
         set_targets(t, c, s, False)
         found = found and try_rest(t, c, s, now, iw)
         if not found:
-            for i in range(c.count):
+            for i in range(c.rows.count):
                 s.memory.rests[i] = s.memory.first[i]
             set_targets(t, c, s, True)
             found = try_rest(t, c, s, now, iw) and is_sum(t, c, s)
-    for i in range(c.count):
+    for i in range(c.rows.count):
         c.mode[i] = s.memory.modes[i]
     return found

@@ -18,7 +18,7 @@ from symgen.run.effects.pushing import REACTIONS
 from symgen.run.laws.problem import LOWER, ON, UPPER
 from symgen.run.layout import abi
 from symgen.run.loops.search_records import COUNT, MARGIN, MEASURE, N_HEAD, RATE, ROW
-from symgen.run.modes.agreement import apply_sizes, find_redundant, follow_reactions, rest_of_part
+from symgen.run.modes.agreement import find_redundant, follow_reactions, rest_of_part
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
     AT_REST,
@@ -33,31 +33,26 @@ from symgen.run.modes.bounded_rows import (
     ROUNDED,
     SAME,
     SIGN,
-    Choice,
     row_scale,
 )
-from symgen.run.modes.choice import add_forces, find_rest, write_modes
+from symgen.run.modes.choice import find_rest, write_modes
 from symgen.run.modes.choice import measure_margins as measure_margins_of_rows
 from symgen.run.modes.contact_laws import solve_by_laws
-from symgen.run.modes.contact_parts import (
-    by_reaction,
-    choose_part,
-    find_parts,
-    has_both,
-    has_contact,
-    keep_touching,
-    probe_contacts,
-    size_forces_of_parts,
-)
+from symgen.run.modes.contact_parts import choose_part, find_parts, has_both, has_contact, keep_touching
 from symgen.run.modes.holding import hold_rows
+from symgen.run.modes.probing import add_forces, by_reaction, probe_contacts, size_forces_of_parts
 from symgen.run.modes.resting import solve_rest
+from symgen.run.modes.row_records import Choice
+
+#: Whether any row is one-sided.
+ONE_SIDED = True
 
 
 @exact()
 def breaks(c: Choice, i: int) -> bool:
     """Return whether the bound at rest of a row does not hold it, in the modes found, and that in motion is less."""
-    moves = c.pushes[i] == 0 and c.best[i] >= UPPER and c.signs[i] == 0.0
-    return bool(moves and c.loose[i] == 0 and c.static[i] > c.sliding[i])
+    moves = c.rows.pushes[i] == 0 and c.best[i] >= UPPER and c.signs[i] == 0.0
+    return bool(moves and c.loose[i] == 0 and c.read.static[i] > c.read.sliding[i])
 
 
 @exact()
@@ -72,11 +67,11 @@ def solve_part(c: Choice, count: int, first: int) -> int:
 def part_held(c: Choice, count: int, first: int, i: int) -> float:
     """Return the part of its bound at rest that friction let go needs if it holds again, inf where it does not hold."""
     c.loose[i] = 0
-    holds, most = solve_part(c, count, first) == SAME, c.static[i]
+    holds, most = solve_part(c, count, first) == SAME, c.read.static[i]
     for a in range(count):
         holds = holds and not breaks(c, c.box.order[a])
-    if c.partner[i] >= 0:
-        most *= abs(c.forces[c.partner[i]])
+    if c.rows.partner[i] >= 0:
+        most *= abs(c.forces[c.rows.partner[i]])
     if by_reaction(c, i):
         most *= c.sizes[i]
     needs = abs(c.forces[i]) / most if holds and c.best[i] == ON and most > 0.0 else math.inf
@@ -131,29 +126,29 @@ def write_part(c: Choice, count: int) -> None:
         at, carrier = MODE_NUMBERS * i, c.part[i]
         if c.best[i] == ON and carrier < 0:
             after[at + HELD] = 1.0
-            after[at + CONSTANT] = c.before[at + CONSTANT] if c.before[at + HELD] != 0.0 else c.value[i]
-            own = c.pushes[i] == 0 and c.partner[i] < 0 and not by_reaction(c, i)
-            after[at + LIMIT] += c.static[i] if own else 0.0
-        elif c.best[i] == ON and c.pushes[i] != 0:
+            after[at + CONSTANT] = c.before[at + CONSTANT] if c.before[at + HELD] != 0.0 else c.read.value[i]
+            own = c.rows.pushes[i] == 0 and c.rows.partner[i] < 0 and not by_reaction(c, i)
+            after[at + LIMIT] += c.read.static[i] if own else 0.0
+        elif c.best[i] == ON and c.rows.pushes[i] != 0:
             after[at + CONSTANT], after[at + LIMIT] = AT_REST, 1.0
-        elif c.best[i] == ON and carrier < c.count:
+        elif c.best[i] == ON and carrier < c.rows.count:
             after[at + CONSTANT] = float(carrier + 1)
-            if c.partner[i] >= 0:
+            if c.rows.partner[i] >= 0:
                 after[at + LIMIT] = c.bounds[i]
             else:
-                static = c.static[i] * (c.sizes[i] if by_reaction(c, i) else 1.0)
+                static = c.read.static[i] * (c.sizes[i] if by_reaction(c, i) else 1.0)
                 after[MODE_NUMBERS * carrier + LIMIT] += abs(c.bounds[i]) * static
         elif c.best[i] == ON:
-            slack = ROUNDED * (c.scale[i] + abs(c.forces[i]))
+            slack = ROUNDED * (c.problem.scale[i] + abs(c.forces[i]))
             after[at + CONSTANT], after[at + EFFORT], after[at + LIMIT] = AT_REST, c.forces[i], slack
         c.signs[i] = 1.0 if c.best[i] == UPPER else (-1.0 if c.best[i] == LOWER else 0.0)
-        after[at + SIGN] = 0.0 if c.pushes[i] != 0 else c.signs[i]
+        after[at + SIGN] = 0.0 if c.rows.pushes[i] != 0 else c.signs[i]
 
 
 @exact()
 def choose_parts(c: Choice, rows: int) -> int:
     """Choose the modes of parts with contacts, and leave the rows of others; return `SAME` or a code."""
-    for first in range(c.count):
+    for first in range(c.rows.count):
         count = choose_part(c, first, rows)
         if has_contact(c, count) or has_both(c, count):
             code = choose_modes_of_part(c, count, first)
@@ -163,17 +158,17 @@ def choose_parts(c: Choice, rows: int) -> int:
                 c.taken[c.box.order[a]] = 2
             write_part(c, count)
             for a in range(count):
-                c.part[c.box.order[a]] = c.count
+                c.part[c.box.order[a]] = c.rows.count
     return SAME
 
 
 @exact()
 def find_jammed(c: Choice) -> bool:
     """Return whether an effort by a reaction would bring about all of it, alone; name the row."""
-    for i in range(c.dry):
+    for i in range(c.rows.dry):
         if by_reaction(c, i):
-            bound, at = c.sliding[i] if c.signs[i] != 0.0 else c.static[i], 2 * i * c.count + i
-            x, y = c.parts[at], c.parts[at + c.count]
+            bound, at = c.read.sliding[i] if c.signs[i] != 0.0 else c.read.static[i], 2 * i * c.rows.count + i
+            x, y = c.problem.parts[at], c.problem.parts[at + c.rows.count]
             c.jam[0] = bound * math.sqrt(x * x + y * y)
             if not c.jam[0] < 1.0:
                 c.named[0] = i
@@ -186,7 +181,7 @@ def rest_of_parts(c: Choice, left: int, w: Array) -> int:
     """Find the forces of `left` rows at rest, part after part; return `SAME`, or why there are none."""
     for r in range(left):
         c.best[r] = c.rest[r]
-    for first in range(c.count):
+    for first in range(c.rows.count):
         n = 0
         for r in range(left):
             if c.part[c.best[r]] == first:
@@ -204,19 +199,11 @@ def rest_of_parts(c: Choice, left: int, w: Array) -> int:
 @exact()
 def watch_reactions(c: Choice, w: Array) -> int:
     """Hold rows whose largest efforts follow reactions; return as `hold_rows` and `follow_reactions` do."""
-    k = c.count
-    for i in range(k):
-        c.bounds[i], c.bounds[k + i] = c.static[i], c.sliding[i]
-    apply_sizes(c)
     code = hold_rows(c, w)
     add_forces(c)
-    for i in range(k):
+    for i in range(c.rows.count):
         c.taken[i] = 1 if c.after[MODE_NUMBERS * i + HELD] != 0.0 else 0
-    if code == SAME:
-        code = follow_reactions(c)
-    for i in range(k):
-        c.static[i], c.sliding[i] = c.bounds[i], c.bounds[k + i]
-    return int(code)
+    return int(follow_reactions(c)) if code == SAME else int(code)
 
 
 @exact(entry=True)
@@ -236,8 +223,9 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
         if REACTIONS and find_jammed(c):
             return JAMMED
         rows = find_parts(c)
-        size_forces_of_parts(c, rows)
-        code = choose_parts(c, rows)
+        if ONE_SIDED:
+            size_forces_of_parts(c, rows)
+            code = choose_parts(c, rows)
         if code != SAME:
             return int(code)
         for r in range(n):
@@ -245,7 +233,7 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
                 c.rest[left] = c.rest[r]
                 left += 1
     c.at_rest[0] = left
-    for i in range(c.count):
+    for i in range(c.rows.count):
         c.taken[i] = 0
     if left > 0:
         code = rest_of_parts(c, left, w) if REACTIONS else solve_rest(c, left, w)
@@ -256,7 +244,7 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
     else:
         code = hold_rows(c, w)
         add_forces(c)
-    for i in range(c.count):
+    for i in range(c.rows.count):
         struck = struck or c.shut[i] != 0
         c.shut[i] = 0
     if code == SAME:
@@ -274,8 +262,8 @@ def measure_margins_of_contacts(c: Choice, w: Array, hunt: Array) -> int:
     n, at, found = int(hunt[COUNT]), N_HEAD, measure_margins_of_rows(c, w, hunt)
     for k in range(n):
         i = int(hunt[at + ROW * n + k])
-        numbers = c.first + MODE_NUMBERS * i
+        numbers = c.rows.first + MODE_NUMBERS * i
         still = w[numbers + HELD] == 0.0 and w[numbers + SIGN] == 0.0
-        if hunt[at + MARGIN * n + k] == float(RATE) and c.pushes[i] == 0 and c.partner[i] >= 0 and still:
+        if hunt[at + MARGIN * n + k] == float(RATE) and c.rows.pushes[i] == 0 and c.rows.partner[i] >= 0 and still:
             hunt[at + MEASURE * n + k] = row_scale(c, w, i, abi.SPEED)
     return int(found)

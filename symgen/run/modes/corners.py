@@ -27,7 +27,6 @@ from symgen.run.loops.search_records import (
 from symgen.run.modes.bounded_rows import (
     HELD,
     STILL,
-    Choice,
     is_held,
     is_shut,
     open_rows,
@@ -35,7 +34,9 @@ from symgen.run.modes.bounded_rows import (
     sign_of_number,
     switch_off,
 )
-from symgen.run.modes.choice import copy_state, write_rates
+from symgen.run.modes.probing import copy_state, write_rates
+from symgen.run.modes.reading import take_for_still
+from symgen.run.modes.row_records import Choice
 from symgen.run.modes.strikes import Strikes, accelerate_in_force
 
 #: Largest number of doublings of the time in which a state passes a corner, and that time over the resolution of time.
@@ -72,7 +73,7 @@ def pass_corners(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, 
     for _ in range(_DOUBLINGS):
         if not ahead:
             for i in range(y.shape[0]):
-                c.y[i] = y[i] + (step * c.rate[i] if i < c.layout.nq else 0.0)
+                c.y[i] = y[i] + (step * c.rate[i] if i < c.rows.layout.nq else 0.0)
             s.effects.happens(t, c.y, p, w, c.rate, work)
             ahead = True
             for k in range(n):
@@ -80,7 +81,7 @@ def pass_corners(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, 
                 ahead = ahead and not (is_passed(hunt, n, k) and hunt[N_HEAD + SIDE * n + k] * work[k] <= far)
             step *= 2.0
     if ahead:
-        for i in range(c.layout.nq):
+        for i in range(c.rows.layout.nq):
             y[i] = c.y[i]
     for k in range(n):
         hunt[N_HEAD + D_START * n + k] = work[n + k]
@@ -95,8 +96,8 @@ def begin_at_corners(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arr
     Rows have been read. A start has no modes: gaps that touch count as closed.
     """
     n, at, work, found = int(hunt[COUNT]), N_HEAD, s.effects.past.out, 0
-    for i in range(c.dry, c.count):
-        w[c.first + MODE_NUMBERS * i + HELD] = 1.0 if is_shut(c, w, i) else 0.0
+    for i in range(c.rows.dry, c.rows.count):
+        w[c.rows.first + MODE_NUMBERS * i + HELD] = 1.0 if is_shut(c, w, i) else 0.0
     accelerate_in_force(t, c, Instant(y, p, w), iw)
     s.effects.happens(t, y, p, w, c.rate, work)
     for k in range(n):
@@ -119,10 +120,10 @@ def spare_touching(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Intege
     rounding finds it there long before. Rows have been read.
     """
     accelerate_in_force(t, c, Instant(y, p, w), iw)
-    for i in range(c.dry, c.count):
-        rate, deep = c.speed[i], 2.0 * UNCERTAIN * row_scale(c, w, i, abi.LENGTH) * c.out[i]
+    for i in range(c.rows.dry, c.rows.count):
+        rate, deep = c.read.speed[i], 2.0 * UNCERTAIN * row_scale(c, w, i, abi.LENGTH) * c.out[i]
         if rate < 0.0 and rate * rate < deep and is_shut(c, w, i) and not is_held(c, w, i):
-            c.speed[i] = 0.0
+            take_for_still(c, i)
 
 
 @exact(entry=True)
@@ -133,15 +134,15 @@ def find_both_pieces(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arr
     it was 0, so that rates before and after it tell that of this piece now.
     """
     n, at, work, found = int(hunt[COUNT]), N_HEAD, s.effects.past.out, 0
-    for i in range(c.dry, c.count):
-        w[c.first + MODE_NUMBERS * i + HELD] = 1.0 if s.active[i] != 0 else 0.0
+    for i in range(c.rows.dry, c.rows.count):
+        w[c.rows.first + MODE_NUMBERS * i + HELD] = 1.0 if s.active[i] != 0 else 0.0
     s.effects.happens(t, y, p, w, c.rate, work)
     open_rows(c, w)
     for k in range(n):
         i = int(hunt[at + ROW * n + k])
         if is_passed(hunt, n, k) and s.active[i] != 0 and s.before[i] < 0.0:
             before, after = hunt[at + D_START * n + k], work[n + k]
-            rate = c.speed[i] - s.before[i] * (after / before)
+            rate = c.read.speed[i] - s.before[i] * (after / before)
             if hunt[at + SIDE * n + k] * after < 0.0 and rate < -STILL * row_scale(c, w, i, abi.SPEED):
                 c.named[0], found = i, 1
     return found

@@ -8,8 +8,11 @@ from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout.scales import larger_number
-from symgen.run.modes.bounded_rows import NO_NUMBER, SAME, Choice
-from symgen.run.modes.choice import copy_state, find_fault, read_rows, write_rates
+from symgen.run.modes.bounded_rows import NO_NUMBER, SAME
+from symgen.run.modes.found_rows import allow_depth
+from symgen.run.modes.probing import copy_state, write_rates
+from symgen.run.modes.reading import find_fault, read_rows
+from symgen.run.modes.row_records import Choice
 
 #: How long after the end formulas are looked at, over what the time resolves.
 _AHEAD = 64.0
@@ -27,7 +30,7 @@ def find_undefined(t: float, step: float, c: Choice, y: Array, p: Array, w: Arra
     write_rates(t, c, p)
     for i in range(y.shape[0]):
         c.y[i] += h * c.rate[i]
-    c.depth[0] = math.inf
+    allow_depth(c, math.inf)
     if read_rows(t + h, c, c.y, p, c.w) == SAME:
         return SAME
     return NO_NUMBER if find_fault(c, c.w) == NO_NUMBER else SAME

@@ -7,7 +7,8 @@ from symgen.compile.native.annotations import Array, Integers
 from symgen.run.effects.accumulation import OF_EVENT
 from symgen.run.layout import abi
 from symgen.run.layout.start_records import Instant
-from symgen.run.modes.bounded_rows import NOT_APPLIED, OTHERS, SAME, Choice, is_held, row_scale, switch_off
+from symgen.run.modes.bounded_rows import NOT_APPLIED, OTHERS, SAME, is_held, row_scale, switch_off
+from symgen.run.modes.row_records import Choice
 from symgen.run.modes.strikes import BEST, COUNT, LAST, OF_SERIES, Strikes, accelerate_in_force, come_to_rest
 
 #: Flights up to this part of the mechanism's length are low; an importer loses those whose duration errs by this part.
@@ -26,19 +27,19 @@ def mark_flights(t: float, c: Choice, s: Strikes, w: Array) -> int:
     another contact meanwhile. Returns the number of gaps.
     """
     past = s.effects.past
-    for i in range(c.dry, c.count):
+    for i in range(c.rows.dry, c.rows.count):
         count = past.counts[s.events[i]]
         c.flying[i] = 0
         if count > 0 and not is_held(c, w, i):
             since = t - past.times[OF_EVENT * s.events[i] + count - 1]
-            c.flying[i] = 1 if c.value[i] > _ENDING * abs(c.speed[i]) * since else 0
-    return int(c.count - c.dry)
+            c.flying[i] = 1 if c.read.value[i] > _ENDING * abs(c.read.speed[i]) * since else 0
+    return int(c.rows.count - c.rows.dry)
 
 
 @exact()
 def end_of_flights(t: float, c: Choice, s: Strikes) -> float:
     """Return the end of the series of flights that `follow_series` has followed up to now; without any, the time."""
-    for i in range(c.count):
+    for i in range(c.rows.count):
         at = OF_SERIES * i
         if s.active[i] != 0 and s.series[at + COUNT] > 0.0:
             return float(s.series[at + BEST] if s.series[at + COUNT] > 2.0 else s.series[at + LAST])
@@ -54,7 +55,7 @@ def end_flights(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -
     have lasted follows from those before. `gather` has written the accelerations. Returns as `gather` does.
     """
     lost = False
-    for i in range(c.dry, c.count):
+    for i in range(c.rows.dry, c.rows.count):
         pull, rate, flight = -c.out[i], -s.before[i], 0.0
         if s.active[i] != 0 and pull > 0.0 and rate > 0.0:
             last = OF_EVENT * s.events[i] + s.effects.past.counts[s.events[i]] - 1
@@ -77,14 +78,14 @@ def find_lost(t: float, c: Choice, s: Strikes, w: Array) -> bool:
     half of that is left, the height of the flight is below the importer's tolerance.
     """
     lost = False
-    for i in range(c.dry, c.count):
-        pull, rate, k = -c.out[i], c.speed[i], s.events[i]
+    for i in range(c.rows.dry, c.rows.count):
+        pull, rate, k = -c.out[i], c.read.speed[i], s.events[i]
         s.active[i] = 0
         if s.effects.past.counts[k] > 0 and not is_held(c, w, i) and pull > 0.0 and rate > 0.0:
             length = row_scale(c, w, i, abi.LENGTH)
             risen = rate * (t - s.effects.past.times[OF_EVENT * k + s.effects.past.counts[k] - 1])
             low = 0.5 * rate * rate <= _LOW * length * pull
-            if low and risen > _RESOLVED * length and c.value[i] < 0.5 * risen:
+            if low and risen > _RESOLVED * length and c.read.value[i] < 0.5 * risen:
                 s.active[i], s.before[i], s.asked[i], lost = 1, -rate, rate, True
     return lost
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array
+from symgen.run.effects.pushing import REACTIONS
 from symgen.run.layout.scales import larger_number
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
@@ -20,10 +21,10 @@ from symgen.run.modes.bounded_rows import (
     ROUNDED,
     SAME,
     SIGN,
-    Choice,
     usual_of,
 )
 from symgen.run.modes.box import independent_set, solve_independent
+from symgen.run.modes.row_records import Choice
 
 #: Rows at rest that are put into force: see `take_rows`.
 PUSHING, WITHIN, ALL = range(3)
@@ -34,13 +35,13 @@ _LEVEL = 1e-6
 @exact()
 def undetermined_part(c: Choice, i: int) -> float:
     """Return the part of a row at rest that rows put into force do not determine."""
-    return float(c.rest_of[i * c.count + i] / c.alone[i]) if c.alone[i] > 0.0 else 0.0
+    return float(c.rest_of[i * c.rows.count + i] / c.problem.alone[i]) if c.problem.alone[i] > 0.0 else 0.0
 
 
 @exact()
 def is_followed(c: Choice, i: int) -> bool:
     """Return whether margins read the bound of a row, as it varies; that by a reaction has a limit besides."""
-    return bool(c.varying[i] != 0 and c.pressed[i] == 0)
+    return bool(c.rows.varying[i] != 0 and c.rows.pressed[i] == 0)
 
 
 @exact()
@@ -49,20 +50,20 @@ def take_rows(c: Choice, n: int, which: int, w: Array) -> None:
 
     `which` is `PUSHING` for one-sided rows that push, `WITHIN` for others whose force is within its bounds, else `ALL`.
     """
-    k, left = c.count, c.rest_of
+    k, left = c.rows.count, c.rest_of
     while True:
         best, most = -1, 0.0
         for r in range(n):
             i = c.rest[r]
-            free = c.taken[i] == 0 and c.signs[i] == 0.0 and not (c.pushes[i] != 0 and c.loose[i] != 0)
+            free = c.taken[i] == 0 and c.signs[i] == 0.0 and not (c.rows.pushes[i] != 0 and c.loose[i] != 0)
             if which == WITHIN:
-                free = free and (c.pushes[i] != 0 or abs(c.forces[i]) < AT_BOUND * c.static[i])
+                free = free and (c.rows.pushes[i] != 0 or abs(c.forces[i]) < AT_BOUND * c.holds[i])
             elif which == PUSHING:
-                free = free and c.pushes[i] != 0
-                free = free and -c.forces[i] * c.matrix[i * k + i] > NO_ACCELERATION * usual_of(c, w, i)
+                free = free and c.rows.pushes[i] != 0
+                free = free and -c.forces[i] * c.problem.matrix[i * k + i] > NO_ACCELERATION * usual_of(c, w, i)
             part = undetermined_part(c, i)
             # of rows with one and two bounds on one coordinate the former carries both: one force with all bounds
-            first = best < 0 or part > (1.0 + _LEVEL) * most or (c.pushes[i] != 0 and part > (1.0 - _LEVEL) * most)
+            first = best < 0 or part > (1.0 + _LEVEL) * most or (c.rows.pushes[i] != 0 and part > (1.0 - _LEVEL) * most)
             if free and part > DEPENDENT and first:
                 best, most = i, part
         if best < 0:
@@ -70,10 +71,10 @@ def take_rows(c: Choice, n: int, which: int, w: Array) -> None:
         c.taken[best] = 1
         pivot = left[best * k + best]
         for i in range(k):
-            c.trial[i], c.offset[i] = left[i * k + best], left[best * k + i]
+            c.trial[i], c.box.right[i] = left[i * k + best], left[best * k + i]
         for i in range(k):
             for j in range(k):
-                left[i * k + j] -= c.trial[i] * c.offset[j] / pivot
+                left[i * k + j] -= c.trial[i] * c.box.right[j] / pivot
 
 
 @exact(entry=True)
@@ -85,19 +86,21 @@ def hold_rows(c: Choice, w: Array) -> int:
     Rows that push come first: a coordinate that they keep at rest does not slide. One whose rate only passes zero, at
     a dead centre, does. Returns `SAME`, or `NOT_DETERMINED`.
     """
-    k, n, after = c.count, c.at_rest[0], c.after
+    k, n, after = c.rows.count, c.at_rest[0], c.after
     for i in range(k * k):
-        c.rest_of[i] = c.matrix[i]
+        c.rest_of[i] = c.problem.matrix[i]
+    for i in range(k):
+        c.holds[i] = c.read.static[i] * (c.sizes[i] if REACTIONS and c.rows.pressed[i] != 0 else 1.0)
     kept = 0
     for r in range(n):
         i = c.rest[r]
-        if c.matrix[i * k + i] > DEPENDENT * c.alone[i] or c.signs[i] == 0.0:
+        if c.problem.matrix[i * k + i] > DEPENDENT * c.problem.alone[i] or c.signs[i] == 0.0:
             c.rest[kept] = i
             kept += 1
     take_rows(c, kept, PUSHING, w)
     for r in range(kept):
         i = c.rest[r]
-        if c.pushes[i] == 0 and c.passing[i] == 0 and undetermined_part(c, i) <= DEPENDENT:
+        if c.rows.pushes[i] == 0 and c.passing[i] == 0 and undetermined_part(c, i) <= DEPENDENT:
             c.signs[i] = 0.0
     take_rows(c, kept, WITHIN, w)
     take_rows(c, kept, ALL, w)
@@ -108,16 +111,16 @@ def hold_rows(c: Choice, w: Array) -> int:
             c.box.order[count] = i
             count += 1
             after[at + HELD] = 1.0
-            after[at + CONSTANT] = c.before[at + CONSTANT] if c.before[at + HELD] != 0.0 else c.value[i]
-            after[at + LIMIT] = 0.0 if c.pushes[i] != 0 or is_followed(c, i) else c.static[i]
+            after[at + CONSTANT] = c.before[at + CONSTANT] if c.before[at + HELD] != 0.0 else c.read.value[i]
+            after[at + LIMIT] = 0.0 if c.rows.pushes[i] != 0 or is_followed(c, i) else c.holds[i]
     for r in range(kept):
         i = c.rest[r]
-        other = c.taken[i] == 0 and c.signs[i] == 0.0 and c.matrix[i * k + i] > DEPENDENT * c.alone[i]
-        if other and not (c.pushes[i] != 0 and undetermined_part(c, i) > DEPENDENT):
+        other = c.taken[i] == 0 and c.signs[i] == 0.0 and c.problem.matrix[i * k + i] > DEPENDENT * c.problem.alone[i]
+        if other and not (c.rows.pushes[i] != 0 and undetermined_part(c, i) > DEPENDENT):
             if share_force(c, i, count) != SAME:
                 return NOT_DETERMINED
     for i in range(k):
-        after[MODE_NUMBERS * i + SIGN] = 0.0 if c.pushes[i] != 0 else c.signs[i]
+        after[MODE_NUMBERS * i + SIGN] = 0.0 if c.rows.pushes[i] != 0 else c.signs[i]
     return SAME
 
 
@@ -127,15 +130,15 @@ def find_carriers(c: Choice, i: int, count: int) -> float:
 
     Returns the largest size; parts below `NO_FACTOR` of this are rounding.
     """
-    k, box = c.count, c.box
+    k, box = c.rows.count, c.box
     a = 0
     for j in range(k):
         if c.taken[j] != 0:
-            box.offset[a] = c.matrix[j * k + i]
+            box.offset[a] = c.problem.matrix[j * k + i]
             b = 0
             for other in range(k):
                 if c.taken[other] != 0:
-                    box.matrix[a * count + b] = c.matrix[j * k + other]
+                    box.matrix[a * count + b] = c.problem.matrix[j * k + other]
                     b += 1
             a += 1
     for j in range(count):
@@ -159,7 +162,7 @@ def share_force(c: Choice, i: int, count: int) -> int:
     Where several do, a row with two bounds keeps the effort that it has: as long as theirs are within their bounds all
     rest, and where one reaches its bound, efforts are shared out anew.
     """
-    k, box, after = c.count, c.box, c.after
+    k, box, after = c.rows.count, c.box, c.after
     most = find_carriers(c, i, count)
     owners, owner, a, factor = 0, -1, 0, 0.0
     c.named[0] = i
@@ -171,7 +174,7 @@ def share_force(c: Choice, i: int, count: int) -> int:
                 c.named[owners] = j
             a += 1
     at = MODE_NUMBERS * i
-    if c.pushes[i] != 0:
+    if c.rows.pushes[i] != 0:
         after[at + CONSTANT], after[at + LIMIT] = AT_REST, 1.0
         return SAME
     if owners == 1:
@@ -179,17 +182,17 @@ def share_force(c: Choice, i: int, count: int) -> int:
         if is_followed(c, i):
             after[at + LIMIT] = factor
         else:
-            after[MODE_NUMBERS * owner + LIMIT] += factor * c.static[i]
+            after[MODE_NUMBERS * owner + LIMIT] += factor * c.holds[i]
         return SAME
-    pressed = c.pressed[i] != 0
+    pressed = c.rows.pressed[i] != 0
     for j in range(1, owners + 1):
-        pressed = pressed or c.pressed[c.named[j]] != 0
+        pressed = pressed or c.rows.pressed[c.named[j]] != 0
     if pressed:
         for j in range(owners + 1, k + 1):
             c.named[j] = -1
         return NOT_DETERMINED
     after[at + CONSTANT], after[at + EFFORT] = AT_REST, c.forces[i]
     if is_followed(c, i):  # an effort at its bound is not watched at zero, and none is not watched
-        slack = ROUNDED * (c.scale[i] + abs(c.forces[i]) + c.static[i])
+        slack = ROUNDED * (c.problem.scale[i] + abs(c.forces[i]) + c.holds[i])
         after[at + LIMIT] = slack if abs(c.forces[i]) > slack else 1.0
     return SAME

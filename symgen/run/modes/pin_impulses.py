@@ -19,8 +19,8 @@ from symgen.run.effects.pushing import POISSON, REACTIONS, push_contacts
 from symgen.run.laws.newton import follow_laws
 from symgen.run.laws.problem import BALL, COMPONENTS, LOWER, OFF, ON, UPPER, acceleration_of, begin_row, load_of
 from symgen.run.layout.start_records import Instant
-from symgen.run.modes.bounded_rows import Choice
-from symgen.run.modes.contact_parts import by_reaction, probe_contacts
+from symgen.run.modes.probing import by_reaction, probe_contacts
+from symgen.run.modes.row_records import Choice
 from symgen.run.modes.strikes import Strikes
 
 #: Where bounds depend on reactions beside one-sided rows.
@@ -31,7 +31,7 @@ push_with_kicks = exact_instance(push_contacts, BY_REACTIONS)
 @exact()
 def kick_of(c: Choice, s: Strikes, i: int) -> float:
     """Return the impulse of a gap that follows from its compression, 0 for other rows."""
-    return float(s.memory.kicked[i]) if c.pushes[i] != 0 else 0.0
+    return float(s.memory.kicked[i]) if c.rows.pushes[i] != 0 else 0.0
 
 
 @exact()
@@ -43,17 +43,17 @@ def list_rows(c: Choice, s: Strikes) -> int:
     _, _, _, _, changes = s.effects.model
     owners, ties, order, laws, n = changes.owners, s.ties, c.box.order, c.laws, 0
     for j in range(owners.shape[0]):
-        for i in range(c.dry, c.count):
+        for i in range(c.rows.dry, c.rows.count):
             if owners[j] == s.events[i] and s.active[i] != 0:
                 gap = j == 0 or owners[j - 1] != owners[j]
-                order[n] = i if gap else c.partner[i]
+                order[n] = i if gap else c.rows.partner[i]
                 laws.kept[n], laws.state[n] = ties.values[j], ON if ties.held[j] > 0 else OFF
                 if ties.held[j] < 0:
                     laws.kept[n], laws.state[n] = 0.0, UPPER if ties.ways[j] < 0.0 else LOWER
                 elif POISSON and not gap and ties.held[j] == 0:  # it slides by the impulse of compression alone
                     laws.state[n] = c.mode[order[n]]
                 n += 1
-    for i in range(c.dry):
+    for i in range(c.rows.dry):
         if by_reaction(c, i):
             order[n], laws.kept[n], laws.state[n] = i, 0.0, s.memory.pins[i]
             n += 1
@@ -67,29 +67,29 @@ def fill_impact(c: Choice, s: Strikes, n: int, rests: bool) -> None:
     Where a series of impacts comes to rest, gaps have what is left of their impulses less what rest has in their place:
     they pull, and friction by reactions has the other sign.
     """
-    k, order, laws = c.count, c.box.order, c.laws
+    k, order, laws = c.rows.count, c.box.order, c.laws
     for a in range(n):
         i = order[a]
         begin_row(n, a, laws)
-        laws.offset[a], laws.forces[a] = c.speed[i] - laws.kept[a], 0.0
+        laws.offset[a], laws.forces[a] = c.read.speed[i] - laws.kept[a], 0.0
         for b in range(n):
-            laws.matrix[a * n + b] = c.matrix[i * k + order[b]]
+            laws.matrix[a * n + b] = c.problem.matrix[i * k + order[b]]
             if POISSON:
-                laws.offset[a] += c.matrix[i * k + order[b]] * kick_of(c, s, order[b])
-        if c.pushes[i] == 0:
-            laws.law[a], laws.kappa[a] = BALL, c.sliding[i]
+                laws.offset[a] += c.problem.matrix[i * k + order[b]] * kick_of(c, s, order[b])
+        if c.rows.pushes[i] == 0:
+            laws.law[a], laws.kappa[a] = BALL, c.read.sliding[i]
             if by_reaction(c, i):
                 laws.components[a], laws.beta[a] = 2, s.memory.kicked[i]
-                laws.kappa[a] = -c.sliding[i] if rests else c.sliding[i]
+                laws.kappa[a] = -c.read.sliding[i] if rests else c.read.sliding[i]
                 for part in range(2):
                     for b in range(n):
-                        by_unit = c.parts[(2 * i + part) * k + order[b]]
+                        by_unit = c.problem.parts[(2 * i + part) * k + order[b]]
                         laws.parts[(COMPONENTS * a + part) * n + b] = by_unit
                         if POISSON:
                             laws.apart[COMPONENTS * a + part] += by_unit * kick_of(c, s, order[b])
             else:
                 laws.presser[a] = a - 1
-                laws.beta[a] = c.sliding[i] * s.memory.kicked[order[a - 1]] if POISSON else 0.0
+                laws.beta[a] = c.read.sliding[i] * s.memory.kicked[order[a - 1]] if POISSON else 0.0
 
 
 @exact()
@@ -102,10 +102,10 @@ def solve_motion(c: Choice, s: Strikes, flies: bool) -> int:
     fill_impact(c, s, n, False)
     for a in range(n):
         i = c.box.order[a]
-        laws.offset[a], laws.beta[a] = c.offset[i], 0.0
+        laws.offset[a], laws.beta[a] = c.problem.offset[i], 0.0
         laws.state[a] = OFF if flies and not by_reaction(c, i) else laws.state[a]
         for part in range(laws.components[a]):
-            laws.apart[COMPONENTS * a + part] = c.apart[2 * i + part]
+            laws.apart[COMPONENTS * a + part] = c.problem.apart[2 * i + part]
     return n if follow_laws(n, True, laws) else 0
 
 
@@ -117,7 +117,7 @@ def find_shortfall(c: Choice, s: Strikes, left: float) -> None:
     ``|N + R|``. A unit of the gap's impulse says how large R is for the force that rest has.
     """
     laws, gap, gaps, pushed = c.laws, -1, 0, 0.0
-    for i in range(c.count):
+    for i in range(c.rows.count):
         s.memory.kicked[i] = c.sizes[i] = 0.0
     n = solve_motion(c, s, True)
     for a in range(n):
@@ -127,7 +127,7 @@ def find_shortfall(c: Choice, s: Strikes, left: float) -> None:
     for a in range(n):
         if by_reaction(c, c.box.order[a]):
             c.sizes[c.box.order[a]] -= load_of(n, a, laws)
-        elif c.pushes[c.box.order[a]] != 0:
+        elif c.rows.pushes[c.box.order[a]] != 0:
             gap, gaps, pushed = a, gaps + 1, -laws.forces[a]
     if gaps != 1 or not (pushed > 0.0 and left > 0.0):
         return
@@ -140,7 +140,7 @@ def find_shortfall(c: Choice, s: Strikes, left: float) -> None:
             i = c.box.order[a]
             if by_reaction(c, i) and s.memory.pins[i] >= UPPER:
                 lacks = c.sizes[i] - pushed * load_of(n, a, laws) / laws.forces[gap]
-                s.memory.kicked[i] = c.sliding[i] * left * lacks
+                s.memory.kicked[i] = c.read.sliding[i] * left * lacks
 
 
 @exact()
@@ -155,18 +155,18 @@ def find_kicks(c: Choice, s: Strikes, rests: bool, y: Array) -> bool:
     for a in range(n):
         i, kick = c.box.order[a], 0.0
         if by_reaction(c, i):
-            rate, kick = c.speed[i] + acceleration_of(n, a, laws), -laws.forces[a]
+            rate, kick = c.read.speed[i] + acceleration_of(n, a, laws), -laws.forces[a]
             s.memory.spent[0] += 0.5 * kick * rate
             s.memory.spent[1] += 0.5 * abs(kick) * abs(rate)
             if s.losses[i] >= 0:
                 y[s.losses[i]] -= 0.5 * kick * rate
-        elif POISSON and c.pushes[i] != 0:
+        elif POISSON and c.rows.pushes[i] != 0:
             kick = kicked[i]
         elif POISSON and laws.state[a] >= UPPER:
             kick = (-1.0 if laws.state[a] == UPPER else 1.0) * laws.beta[a]
             kicked[i] = kick
-        for row in range(c.layout.m):
-            if c.place_of[row] == i:
+        for row in range(c.rows.layout.m):
+            if c.rows.place_of[row] == i:
                 s.ties.kicks[row] = kick
     return True
 
@@ -186,9 +186,9 @@ def push(t: float, c: Choice, s: Strikes, now: Instant, rests: bool) -> bool:
 def probe_impact(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, iw: Integers) -> int:
     """Set G of all rows that an impact may have impulses along, at the present state with all rows off."""
     n = 0
-    for i in range(c.count):
+    for i in range(c.rows.count):
         c.taken[i], c.signs[i] = 0, 0.0
-        if c.pushes[i] != 0 or c.partner[i] >= 0 or by_reaction(c, i):
+        if c.rows.pushes[i] != 0 or c.rows.partner[i] >= 0 or by_reaction(c, i):
             c.rest[n] = i
             n += 1
     c.at_rest[0] = n
@@ -197,6 +197,6 @@ def probe_impact(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, 
 
 def kicks_along_rows(c: Choice, impulses: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the impulses of friction by reactions at an impact, along all rows of the model."""
-    places = np.asarray(c.place_of)
-    pressed = (places >= 0) & (np.asarray(c.pressed)[places] != 0)
+    places = np.asarray(c.rows.place_of)
+    pressed = (places >= 0) & (np.asarray(c.rows.pressed)[places] != 0)
     return np.where(pressed, impulses[: len(places)], 0.0)

@@ -8,8 +8,9 @@ from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import row_weight_in_force
 from symgen.run.layout.scales import entry_of, free_scale
-from symgen.run.modes.bounded_rows import CONSTANT, HELD, Choice, row_scale
-from symgen.run.modes.choice import copy_state, write_rates
+from symgen.run.modes.bounded_rows import CONSTANT, HELD, row_scale
+from symgen.run.modes.probing import copy_state, write_rates
+from symgen.run.modes.row_records import Choice
 from symgen.run.starts.start_solvers import least_norm
 
 #: Gaps below this part of the mechanism's length are rounding.
@@ -25,21 +26,21 @@ def put_gaps(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers) ->
     The modes of a start have been chosen: gaps that nothing presses are not in force, and stay as they are. `moved` has
     the gaps that were not 0.
     """
-    layout, found = c.layout, 0
-    m, n, matrix, right, x, at = layout.m, layout.nv, c.rows, c.right, c.shift, layout.nq
-    for i in range(c.count):
-        constant = w[c.first + MODE_NUMBERS * i + CONSTANT]
-        closed = c.pushes[i] != 0 and w[c.first + MODE_NUMBERS * i + HELD] != 0.0
-        c.moved[i] = constant if closed and abs(constant) > _RESOLVED * row_scale(c, w, i, abi.LENGTH) else 0.0
-        found += 1 if c.moved[i] != 0.0 else 0
+    layout, found = c.rows.layout, 0
+    m, n, matrix, right, x, at = layout.m, layout.nv, c.placing.matrix, c.placing.right, c.placing.change, layout.nq
+    for i in range(c.rows.count):
+        constant = w[c.rows.first + MODE_NUMBERS * i + CONSTANT]
+        closed = c.rows.pushes[i] != 0 and w[c.rows.first + MODE_NUMBERS * i + HELD] != 0.0
+        c.placing.moved[i] = constant if closed and abs(constant) > _RESOLVED * row_scale(c, w, i, abi.LENGTH) else 0.0
+        found += 1 if c.placing.moved[i] != 0.0 else 0
     if found == 0 or matrix.shape[0] == 0:
         return 0
-    for i in range(c.count):
-        if c.moved[i] != 0.0:
-            w[c.first + MODE_NUMBERS * i + CONSTANT] = 0.0
+    for i in range(c.rows.count):
+        if c.placing.moved[i] != 0.0:
+            w[c.rows.first + MODE_NUMBERS * i + CONSTANT] = 0.0
     for _ in range(_TIMES):
         copy_state(c, y, w, iw)
-        c.geometry(t, c.y, p, c.w)
+        c.rows.geometry(t, c.y, p, c.w)
         for i in range(m * n):
             matrix[i] = 0.0
         for e in range(layout.constants.shape[0]):
@@ -48,7 +49,7 @@ def put_gaps(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers) ->
             matrix[row * n + column] = weight * (entry_of(layout, c.w, e) * free_scale(layout, c.w, column))
         for i in range(m):
             right[i] = -row_weight_in_force(layout, c.w, i) * c.w[layout.residual + i]
-        least_norm(matrix, m, n, right, x, c.space, c.order)
+        least_norm(matrix, m, n, right, x, c.placing.space, c.placing.order)
         for j in range(n):
             c.y[at + j] = x[j] * free_scale(layout, c.w, j)
         write_rates(t, c, p)  # of which the first ones are those of coordinates at these velocities

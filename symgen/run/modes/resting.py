@@ -27,11 +27,11 @@ from symgen.run.modes.bounded_rows import (
     ROUNDED,
     SAME,
     SIGN,
-    Choice,
     sign_of_number,
     usual_of,
 )
 from symgen.run.modes.box import INSIDE, is_contrary, solve_box
+from symgen.run.modes.row_records import Choice
 
 #: Rows are at their bounds beyond this part; number of halvings in which the least part is found.
 _SPENT, _HALVINGS = 1.0 - 1e-11, 30
@@ -51,10 +51,10 @@ def is_shared(c: Choice, n: int, i: int) -> bool:
     """Whether a row at rest shares its effort with rows that keep one of their own."""
     for r in range(n):
         j = c.rest[r]
-        at, both = MODE_NUMBERS * j, c.matrix[i * c.count + i] * c.matrix[j * c.count + j]
-        keeps = c.pushes[j] == 0 and c.before[at + HELD] == 0.0 and c.before[at + SIGN] == 0.0
+        at, both = MODE_NUMBERS * j, c.problem.matrix[i * c.rows.count + i] * c.problem.matrix[j * c.rows.count + j]
+        keeps = c.rows.pushes[j] == 0 and c.before[at + HELD] == 0.0 and c.before[at + SIGN] == 0.0
         keeps = keeps and c.before[at + CONSTANT] == AT_REST
-        if keeps and c.matrix[i * c.count + j] * c.matrix[i * c.count + j] > NO_FACTOR * both:
+        if keeps and c.problem.matrix[i * c.rows.count + j] * c.problem.matrix[i * c.rows.count + j] > NO_FACTOR * both:
             return True
     return False
 
@@ -63,7 +63,7 @@ def is_shared(c: Choice, n: int, i: int) -> bool:
 def is_tied(c: Choice, n: int, i: int) -> bool:
     """Whether a force at rest accelerates a row at its bound."""
     for r in range(n):
-        if c.broken[c.rest[r]] != 0 and c.matrix[i * c.count + c.rest[r]] != 0.0:
+        if c.found.broken[c.rest[r]] != 0 and c.problem.matrix[i * c.rows.count + c.rest[r]] != 0.0:
             return True
     return False
 
@@ -77,12 +77,12 @@ def set_bounds(c: Choice, n: int, part: float) -> None:
     box = c.box
     for r in range(n):
         i = c.rest[r]
-        bound, shift = c.sliding[i], 0.0
+        bound, shift = c.read.sliding[i], 0.0
         if c.taken[i] != 0:
-            bound, shift = c.static[i], c.middle[i]
+            bound, shift = c.read.static[i], c.read.middle[i]
             if part < 1.0 and is_tied(c, n, i):
                 bound, shift = bound * part, shift * part
-        pushes = c.pushes[i] != 0
+        pushes = c.rows.pushes[i] != 0
         box.bounds[r] = 0.0 if pushes else bound + shift
         box.lower[r] = shift - bound if not pushes else (0.0 if c.loose[i] != 0 else -math.inf)
 
@@ -114,7 +114,7 @@ def share_anew(c: Choice, n: int) -> float:
     low, high, found = 0.0, _SPENT, False
     for r in range(n):
         i = c.rest[r]
-        if c.broken[i] != 0 and c.loose[i] != 0 and c.pushes[i] == 0 and is_shared(c, n, i):
+        if c.found.broken[i] != 0 and c.loose[i] != 0 and c.rows.pushes[i] == 0 and is_shared(c, n, i):
             c.taken[i], found = 1, True
     if not found:
         return 1.0
@@ -132,7 +132,7 @@ def share_anew(c: Choice, n: int) -> float:
     for r in range(n):  # those that share it are at their bounds as well
         i, bound = c.rest[r], 0.5 * (c.box.bounds[r] - c.box.lower[r])
         spent = abs(c.box.forces[r] - 0.5 * (c.box.bounds[r] + c.box.lower[r])) >= AT_BOUND * bound
-        c.loose[i] = 1 if c.pushes[i] == 0 and spent and is_tied(c, n, i) else c.loose[i]
+        c.loose[i] = 1 if c.rows.pushes[i] == 0 and spent and is_tied(c, n, i) else c.loose[i]
         c.taken[i] = 0 if c.loose[i] != 0 else c.taken[i]
     return 1.0
 
@@ -149,16 +149,16 @@ def let_rows_slide(c: Choice, n: int, w: Array, part: float) -> int:
         if code != SAME:
             return int(code)
         for r in range(n):
-            if c.pushes[c.rest[r]] != 0 and box.left[r] < -NO_ACCELERATION * usual_of(c, w, c.rest[r]):
+            if c.rows.pushes[c.rest[r]] != 0 and box.left[r] < -NO_ACCELERATION * usual_of(c, w, c.rest[r]):
                 if is_contrary(n, r, box):
                     return CONTRARY
         again = False
         for r in range(n):
             i = c.rest[r]
             if moves_at(c, n, r):
-                if c.pushes[i] == 0 and c.taken[i] != 0 and c.static[i] > c.sliding[i]:
+                if c.rows.pushes[i] == 0 and c.taken[i] != 0 and c.read.static[i] > c.read.sliding[i]:
                     c.taken[i], c.option[i], again = 0, 1, True
-                if c.pushes[i] != 0 and c.loose[i] != 0 and box.left[r] < -NO_ACCELERATION * usual_of(c, w, i):
+                if c.rows.pushes[i] != 0 and c.loose[i] != 0 and box.left[r] < -NO_ACCELERATION * usual_of(c, w, i):
                     c.loose[i], again = 0, True
         if not again:
             return SAME
@@ -173,9 +173,9 @@ def part_held(c: Choice, n: int, i: int, w: Array) -> float:
     holds = solve_within(c, n, 1.0) == SAME
     for r in range(n):
         j = c.rest[r]
-        if c.pushes[j] != 0:
+        if c.rows.pushes[j] != 0:
             holds = holds and not box.left[r] < -NO_ACCELERATION * usual_of(c, w, j)
-        elif c.taken[j] != 0 and c.static[j] > c.sliding[j]:
+        elif c.taken[j] != 0 and c.read.static[j] > c.read.sliding[j]:
             holds = holds and not moves_at(c, n, r)
         if j == i:
             bound = 0.5 * (box.bounds[r] - box.lower[r])
@@ -212,16 +212,16 @@ def hold_again(c: Choice, n: int, w: Array) -> int:
 @exact()
 def solve_rest(c: Choice, n: int, w: Array) -> int:
     """Find the forces at rest, and the signs of rows that they do not hold; return `SAME`, or why there are none."""
-    k, box = c.count, c.box
+    k, box = c.rows.count, c.box
     for r in range(n):
         i = c.rest[r]
+        box.offset[r] = c.problem.offset[i]
         for s in range(n):
-            c.offset[i] += c.matrix[i * k + c.rest[s]] * c.middle[c.rest[s]]
-        box.offset[r] = c.offset[i]
-        c.taken[i] = 1 if c.pushes[i] == 0 and c.loose[i] == 0 else 0  # its static bound holds
+            box.offset[r] += c.problem.matrix[i * k + c.rest[s]] * c.read.middle[c.rest[s]]
+        c.taken[i] = 1 if c.rows.pushes[i] == 0 and c.loose[i] == 0 else 0  # its static bound holds
         c.option[i] = 0
         for s in range(n):
-            box.matrix[r * n + s] = c.matrix[i * k + c.rest[s]]
+            box.matrix[r * n + s] = c.problem.matrix[i * k + c.rest[s]]
     code = let_rows_slide(c, n, w, share_anew(c, n))
     if code == SAME:
         code = hold_again(c, n, w)
@@ -231,13 +231,13 @@ def solve_rest(c: Choice, n: int, w: Array) -> int:
         i = c.rest[r]
         bound, force, moves = box.bounds[r], box.forces[r], moves_at(c, n, r)
         c.passing[i] = 1 if moves else 0
-        if c.pushes[i] != 0:
+        if c.rows.pushes[i] != 0:
             moves = moves and box.left[r] > 0.0
         elif c.loose[i] != 0 and abs(force) >= AT_BOUND * bound and bound > 0.0:
             moves = True
-        c.forces[i] = force - c.middle[i]
+        c.forces[i] = force - c.read.middle[i]
         c.signs[i] = 0.0
         if moves:
-            c.signs[i] = sign_of_number(box.left[r] if force == 0.0 or c.pushes[i] != 0 else force)
+            c.signs[i] = sign_of_number(box.left[r] if force == 0.0 or c.rows.pushes[i] != 0 else force)
         c.taken[i] = 0
     return SAME

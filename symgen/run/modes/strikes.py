@@ -33,15 +33,15 @@ from symgen.run.modes.bounded_rows import (
     SAME,
     SIGN,
     STILL,
-    Choice,
     is_held,
     is_shut,
     row_scale,
     switch_off,
 )
 from symgen.run.modes.box import is_contrary, solve_box
-from symgen.run.modes.choice import copy_state, probe, write_rates
 from symgen.run.modes.impact_memory import ImpactMemory, new_impact_memory
+from symgen.run.modes.probing import copy_state, probe, write_rates
+from symgen.run.modes.row_records import Choice
 
 #: Impulses below this part of the largest are rounding.
 _NOTHING = 1e-12
@@ -139,16 +139,16 @@ def is_closing(c: Choice, w: Array, i: int) -> bool:
 
     The rate of a gap that its mode has closed is what a method leaves of it.
     """
-    return bool(not is_held(c, w, i) and c.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED))
+    return bool(not is_held(c, w, i) and c.read.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED))
 
 
 @exact()
 def find_touching(c: Choice, w: Array) -> int:
     """Set the gaps that touch; return their number, 0 where none strikes."""
     n, strikes = 0, False
-    for i in range(c.count):
+    for i in range(c.rows.count):
         c.taken[i] = 0
-    for i in range(c.dry, c.count):
+    for i in range(c.rows.dry, c.rows.count):
         if is_shut(c, w, i) and c.flying[i] == 0:
             c.rest[n], c.taken[i] = i, 1
             n += 1
@@ -161,7 +161,7 @@ def find_immovable(c: Choice, w: Array, n: int) -> int:
     """Return `IMMOVABLE` and name a gap that strikes where nothing changes the rate of one, else `OTHERS`."""
     for r in range(n):
         i = c.rest[r]
-        if is_closing(c, w, i) and c.matrix[i * c.count + i] == 0.0:
+        if is_closing(c, w, i) and c.problem.matrix[i * c.rows.count + i] == 0.0:
             c.named[0] = i
             return IMMOVABLE
     return OTHERS
@@ -177,9 +177,8 @@ def find_struck(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers,
     if n == 0:
         return SAME
     c.at_rest[0] = n
-    for i in range(c.count):
-        c.signs[i] = w[c.first + MODE_NUMBERS * i + SIGN] if c.pushes[i] == 0 else 0.0
-        c.sliding[i] = 0.0
+    for i in range(c.rows.count):
+        c.signs[i] = w[c.rows.first + MODE_NUMBERS * i + SIGN] if c.rows.pushes[i] == 0 else 0.0
     if probe(t, c, y, p, w, iw, control) != SAME:
         return NOT_FINITE
     return int(find_immovable(c, w, n))
@@ -188,13 +187,13 @@ def find_struck(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers,
 @exact()
 def find_active(c: Choice, s: Strikes) -> int:
     """Find the rows that push at the impact; return their number, `_NONE` where none serve, -1 where none are found."""
-    k, n, box, most, count = c.count, c.at_rest[0], c.box, 0.0, 0
+    k, n, box, most, count = c.rows.count, c.at_rest[0], c.box, 0.0, 0
     for r in range(n):
         i = c.rest[r]
-        box.offset[r] = c.speed[i] - s.asked[i]
+        box.offset[r] = c.read.speed[i] - s.asked[i]
         box.bounds[r], box.lower[r] = 0.0, -math.inf
         for q in range(n):
-            box.matrix[r * n + q] = c.matrix[i * k + c.rest[q]]
+            box.matrix[r * n + q] = c.problem.matrix[i * k + c.rest[q]]
     if solve_box(n, box) != 0:
         return -1
     for r in range(n):
@@ -215,7 +214,7 @@ def choose_events(c: Choice, s: Strikes, only_struck: bool) -> None:
     """Choose the events of rows that push; `only_struck`: of those whose gap becomes smaller before."""
     for event in range(s.chosen.shape[0]):
         s.chosen[event] = 0
-    for i in range(c.dry, c.count):
+    for i in range(c.rows.dry, c.rows.count):
         if s.active[i] != 0 and not (only_struck and s.before[i] >= 0.0):
             s.chosen[s.events[i]] = 1
 
@@ -233,7 +232,7 @@ def ask_rates(t: float, c: Choice, s: Strikes, now: Instant) -> None:
     formulas(t, now.y, now.p, work.scratch, work.rate, work.out)
     for k in range(count):
         j = count - 1 - k
-        for i in range(c.dry, c.count):
+        for i in range(c.rows.dry, c.rows.count):
             if changes.owners[j] == s.events[i]:
                 s.asked[i] = work.out[count + j]
 
@@ -241,8 +240,8 @@ def ask_rates(t: float, c: Choice, s: Strikes, now: Instant) -> None:
 @exact()
 def lose(c: Choice, s: Strikes, first: bool, y: Array) -> None:
     """Add what an impact takes to the losses of its rows, by the sums of their rates before and after it."""
-    place = c.layout.m
-    for i in range(c.dry, c.count):
+    place = c.rows.layout.m
+    for i in range(c.rows.dry, c.rows.count):
         if s.active[i] != 0:
             rates = s.before[i] + s.asked[i] if first else s.asked[i]
             if s.losses[i] >= 0:
@@ -259,7 +258,7 @@ def follow_series(c: Choice, s: Strikes, t: float, count: int) -> float:
     become shorter. The time that changes least is taken.
     """
     end = math.nan
-    for i in range(c.count):
+    for i in range(c.rows.count):
         at, e = OF_SERIES * i, -s.asked[i] / s.before[i] if s.before[i] < 0.0 else 0.0
         if s.active[i] == 0 or count != 1:
             s.series[at + COUNT] = 0.0
@@ -282,19 +281,19 @@ def follow_series(c: Choice, s: Strikes, t: float, count: int) -> float:
 def come_to_rest(t: float, c: Choice, s: Strikes, end: float, now: Instant) -> int:
     """Bring the gaps that push to rest: another impact takes the rest of their rates."""
     choose_events(c, s, False)
-    for i in range(c.dry, c.count):
+    for i in range(c.rows.dry, c.rows.count):
         if s.active[i] != 0:
-            now.w[c.first + MODE_NUMBERS * i + SIGN] = 1.0
+            now.w[c.rows.first + MODE_NUMBERS * i + SIGN] = 1.0
     if apply_effects(s.effects.model, t, now, s.chosen, s.effects.work) != APPLIED:
         return NOT_APPLIED
     lose(c, s, False, now.y)
-    for i in range(c.dry, c.count):
+    for i in range(c.rows.dry, c.rows.count):
         if s.active[i] != 0:
-            now.w[c.first + MODE_NUMBERS * i + SIGN] = 0.0
+            now.w[c.rows.first + MODE_NUMBERS * i + SIGN] = 0.0
             s.left[i] = larger_number(end - t, 0.0)
             if s.before[i] < 0.0:
                 s.effects.past.counts[s.events[i]] = 0
-    for number in range(OF_SERIES * c.count):
+    for number in range(OF_SERIES * c.rows.count):
         s.series[number] = 0.0
     return SAME
 
@@ -310,8 +309,8 @@ def strike(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -> int
     for r in range(c.at_rest[0]):
         c.shut[c.rest[r]] = 1
     switch_off(c, w)
-    for i in range(c.count):
-        s.left[i], s.before[i] = math.nan, c.speed[i]
+    for i in range(c.rows.count):
+        s.left[i], s.before[i] = math.nan, c.read.speed[i]
     ask_rates(t, c, s, now)
     count = find_active(c, s)
     if count < 0:
@@ -337,8 +336,8 @@ def gather(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, iw: In
     if count == 0:
         return SAME
     choose_events(c, s, True)
-    functions = c.rates, c.confirm, s.effects.happens
-    end = accumulation(functions, t, c.layout.nq, now, iw, hunt, s.chosen, s.effects.past)
+    functions = c.rows.rates, c.rows.confirm, s.effects.happens
+    end = accumulation(functions, t, c.rows.layout.nq, now, iw, hunt, s.chosen, s.effects.past)
     accelerate_in_force(t, c, now, iw)
     series = follow_series(c, s, t, count)
     if not end == end:
@@ -352,13 +351,4 @@ def accelerate_in_force(t: float, c: Choice, now: Instant, iw: Integers) -> None
     """Write the accelerations of coordinates and gaps in the present modes to ``out``."""
     copy_state(c, now.y, now.w, iw)
     write_rates(t, c, now.p)
-    c.accelerations(t, c.y, now.p, c.w, c.rate, c.out)
-
-
-@exact(entry=True)
-def forget_passed(c: Choice, w: Array) -> int:
-    """Forget which coordinates an event has found at rest where the impact at its time has set them in motion."""
-    for i in range(c.dry):
-        if abs(c.speed[i]) > STILL * row_scale(c, w, i, abi.SPEED):
-            c.broken[i] = c.stopped[i] = 0
-    return int(c.dry)
+    c.rows.accelerations(t, c.y, now.p, c.w, c.rate, c.out)

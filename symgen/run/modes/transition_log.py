@@ -7,7 +7,8 @@ import numpy as np
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers, Record
-from symgen.run.modes.bounded_rows import FURTHER_PIECE, SIGN, Choice, is_held, is_kept_shut
+from symgen.run.modes.bounded_rows import SIGN, is_held, is_kept_shut
+from symgen.run.modes.row_records import FURTHER_PIECE, Choice
 
 #: What a row with bounds does at a transition: rest ends, rest begins, its rate changes sign, an impact, the row comes
 #: into force, it is off again.
@@ -67,20 +68,20 @@ def log_transition(t: float, log: Transitions, row: int, word: int) -> int:
 @exact(entry=True)
 def remember_modes(c: Choice, w: Array, log: Transitions) -> int:
     """Keep what rows do before a choice; return their number."""
-    for i in range(c.count):
-        log.signs[i] = w[c.first + MODE_NUMBERS * i + SIGN]
+    for i in range(c.rows.count):
+        log.signs[i] = w[c.rows.first + MODE_NUMBERS * i + SIGN]
         log.shut[i] = 1 if is_kept_shut(c, w, i) else 0
-    return int(c.count)
+    return int(c.rows.count)
 
 
 @exact(entry=True)
 def log_changes(t: float, c: Choice, w: Array, log: Transitions) -> int:
     """Log the rows that a choice has changed; return the number of transitions."""
-    for i in range(c.count):
-        sign, before = w[c.first + MODE_NUMBERS * i + SIGN], log.signs[i]
-        if c.pushes[i] == 0 and sign != before:
+    for i in range(c.rows.count):
+        sign, before = w[c.rows.first + MODE_NUMBERS * i + SIGN], log.signs[i]
+        if c.rows.pushes[i] == 0 and sign != before:
             log_transition(t, log, i, SLIP if before == 0.0 else STICK if sign == 0.0 else REVERSE)
-        if c.pushes[i] != 0 and (1 if is_held(c, w, i) else 0) != log.shut[i]:
+        if c.rows.pushes[i] != 0 and (1 if is_held(c, w, i) else 0) != log.shut[i]:
             log_transition(t, log, i, LEAVE if log.shut[i] != 0 else REST)
     return int(log.count[0])
 
@@ -91,7 +92,7 @@ def log_changes(t: float, c: Choice, w: Array, log: Transitions) -> int:
 @exact()
 def is_further_piece(c: Choice, i: int) -> bool:
     """Return whether a row is another piece of the gap of the row before it."""
-    return bool(c.pushes[i] == FURTHER_PIECE)
+    return bool(c.rows.pushes[i] == FURTHER_PIECE)
 
 
 @exact(entry=True)
@@ -108,14 +109,14 @@ def is_struck_before(c: Choice, active: Integers, i: int) -> bool:
 def log_changes_in_pieces(t: float, c: Choice, w: Array, log: Transitions) -> int:
     """Do what `log_changes` does, where pieces of one gap are one: closed where any of them is."""
     i = 0
-    while i < c.count:
+    while i < c.rows.count:
         closed, before, j = is_held(c, w, i), log.shut[i] != 0, i + 1
-        while j < c.count and is_further_piece(c, j):
+        while j < c.rows.count and is_further_piece(c, j):
             closed, before, j = closed or is_held(c, w, j), before or log.shut[j] != 0, j + 1
-        sign, past = w[c.first + MODE_NUMBERS * i + SIGN], log.signs[i]
-        if c.pushes[i] == 0 and sign != past:
+        sign, past = w[c.rows.first + MODE_NUMBERS * i + SIGN], log.signs[i]
+        if c.rows.pushes[i] == 0 and sign != past:
             log_transition(t, log, i, SLIP if past == 0.0 else STICK if sign == 0.0 else REVERSE)
-        if c.pushes[i] != 0 and closed != before:
+        if c.rows.pushes[i] != 0 and closed != before:
             log_transition(t, log, i, LEAVE if before else REST)
         i = j
     return int(log.count[0])
@@ -127,11 +128,11 @@ def log_changes_in_pieces(t: float, c: Choice, w: Array, log: Transitions) -> in
 @exact(entry=True)
 def log_changes_of_contacts(t: float, c: Choice, w: Array, log: Transitions) -> int:
     """Do what `log_changes` does, where the row along a gap has transitions as long as the gap is closed."""
-    for i in range(c.count):
-        sign, before, j = w[c.first + MODE_NUMBERS * i + SIGN], log.signs[i], c.partner[i]
-        if c.pushes[i] == 0 and sign != before and (j < 0 or (log.shut[j] != 0 and is_held(c, w, j))):
+    for i in range(c.rows.count):
+        sign, before, j = w[c.rows.first + MODE_NUMBERS * i + SIGN], log.signs[i], c.rows.partner[i]
+        if c.rows.pushes[i] == 0 and sign != before and (j < 0 or (log.shut[j] != 0 and is_held(c, w, j))):
             log_transition(t, log, i, SLIP if before == 0.0 else STICK if sign == 0.0 else REVERSE)
-        if c.pushes[i] != 0 and (1 if is_held(c, w, i) else 0) != log.shut[i]:
-            opens = LIFT if c.gaps[i] != 0 else LEAVE
+        if c.rows.pushes[i] != 0 and (1 if is_held(c, w, i) else 0) != log.shut[i]:
+            opens = LIFT if c.rows.gaps[i] != 0 else LEAVE
             log_transition(t, log, i, opens if log.shut[i] != 0 else REST)
     return int(log.count[0])

@@ -43,25 +43,25 @@ from symgen.run.modes.bounded_rows import (
     SEVERAL_MODES,
     SHARED,
     SIGN,
-    TOUCHING,
     TWO_PIECES,
-    Choice,
     switch_off,
 )
-from symgen.run.modes.choice import (
-    choose_modes,
-    find_fault,
-    find_starting,
-    follow_modes,
-    look_anew,
-    measure_margins,
-    read_rows,
-)
+from symgen.run.modes.choice import choose_modes, follow_modes, look_anew, measure_margins
 from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_corners, spare_touching
 from symgen.run.modes.ends import find_undefined
 from symgen.run.modes.flights import mark_flights
+from symgen.run.modes.found_rows import (
+    allow_depth,
+    find_rows,
+    forget_breaking,
+    forget_found,
+    forget_passed,
+    keep_breaking,
+)
 from symgen.run.modes.placing import put_gaps
-from symgen.run.modes.strikes import Strikes, find_struck, forget_passed, gather, strike
+from symgen.run.modes.reading import find_fault, find_starting, read_rows
+from symgen.run.modes.row_records import TOUCHING, Choice
+from symgen.run.modes.strikes import Strikes, find_struck, gather, strike
 from symgen.run.modes.transition_log import (
     HIT,
     Transitions,
@@ -128,8 +128,8 @@ def set_of(numbers: Integers, count: int) -> float:
 
 def modes_in_digits(c: Choice, of: Integers) -> float:
     """Return the modes of the rows of contacts as the digits of a number to the base of 4, nan for too many."""
-    total, power = 0.0 if c.count <= MOST_DIGITS else math.nan, 1.0
-    for i in range(c.count):
+    total, power = 0.0 if c.rows.count <= MOST_DIGITS else math.nan, 1.0
+    for i in range(c.rows.count):
         total += power * float(of[i])
         power *= 4.0
     return total
@@ -139,7 +139,7 @@ def dry_at_rest(c: Choice) -> int:
     """Return the number of rows with two bounds among those at rest, of which they come first."""
     count = 0
     for r in range(c.at_rest[0]):
-        count += 1 if c.pushes[c.rest[r]] == 0 else 0
+        count += 1 if c.rows.pushes[c.rest[r]] == 0 else 0
     return count
 
 
@@ -160,24 +160,24 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
     if code == JAMMED:
         first = c.jam[0]
     elif code == NOT_DETERMINED or code == SHARED or code == SEVERAL_BY_REACTION:
-        which = set_of(c.named, c.count + 1)
+        which = set_of(c.named, c.rows.count + 1)
     elif code == NO_IMPULSES:
         which = set_of(c.rest, c.at_rest[0])
     elif code == CONTRARY:
         which = set_of(c.rest, c.at_rest[0]) - set_of(c.rest, dry_at_rest(c))
     elif code == NOT_APPLIED:
         which, power = 0.0, 1.0
-        for i in range(c.count):
+        for i in range(c.rows.count):
             which += power if modes.strikes.active[i] != 0 else 0.0
             power *= 2.0
     elif code == NO_RESTITUTION:
-        first = c.restitution[row]
+        first = c.read.restitution[row]
     elif code == NO_BOUNDS:
-        first, second = c.static[row], c.sliding[row]
+        first, second = c.read.static[row], c.read.sliding[row]
     elif code == NEGATIVE_GAP:
-        first = c.value[row]
+        first = c.read.value[row]
     elif code == IMMOVABLE:
-        first = c.speed[row]
+        first = c.read.speed[row]
     elif (CONTACTS and code == NO_CONTACT_MODES) or ((CONTACTS or REACTIONS) and code == GAINED):
         first = c.jam[0]
     elif CONTACTS and code == SEVERAL_MODES:
@@ -202,7 +202,7 @@ def find_flying(t: float, modes: OfModes, state: EventState) -> None:
     first, size = first_note(state), 2 + state.y.shape[0]
     for note in range(int(state.hunt[records.NOTED])):
         at, k = state.hunt[first + note * size], int(state.hunt[first + note * size + 1])
-        for i in range(modes.choice.count):
+        for i in range(modes.choice.rows.count):
             if at == t and modes.strikes.events[i] == k:
                 modes.choice.flying[i] = 0
 
@@ -218,12 +218,12 @@ def strike_gaps(t: float, modes: OfModes, state: EventState) -> int:
     code = strike(t, c, s, state.y, state.p, state.w)
     if code != SAME:
         return int(code)
-    keep_after(s.struck, Instant(state.y, state.p, state.w), c.layout.nq, s.effects.work)
+    keep_after(s.struck, Instant(state.y, state.p, state.w), c.rows.layout.nq, s.effects.work)
     if control[abi.BEGUN] == 0:  # the balance of energies begins after an impact at the start
-        state.y[c.layout.nq + c.layout.nv] = 0.0
+        state.y[c.rows.layout.nq + c.rows.layout.nv] = 0.0
     else:
         begin_afresh(state)
-    for i in range(c.count):
+    for i in range(c.rows.count):
         if s.active[i] != 0 and not (PIECES and is_struck_before(c, s.active, i)):
             log_transition(t, modes.transitions, i, HIT)
     if read_rows(t, c, state.y, state.p, state.w) != SAME:
@@ -255,7 +255,7 @@ def rest_gaps(t: float, modes: OfModes, state: EventState) -> int:
     keep_before(s.rested, state.y)
     code = gather(t, c, s, state.y, state.p, state.w, state.iw, state.hunt)
     if code == OTHERS:
-        keep_after(s.rested, Instant(state.y, state.p, state.w), c.layout.nq, s.effects.work)
+        keep_after(s.rested, Instant(state.y, state.p, state.w), c.rows.layout.nq, s.effects.work)
         if read_rows(t, c, state.y, state.p, state.w) != SAME:
             code = OUT_OF_RANGE
     return int(code)
@@ -269,22 +269,16 @@ def put_gaps_to_zero(t: float, modes: OfModes, state: EventState) -> int:
 # -- modes -------------------------------------------------------------------------------------------------------------
 
 
-def clear_flags(c: Choice) -> None:
-    """Forget which rows an event has found."""
-    for i in range(c.count):
-        c.broken[i] = c.stopped[i] = c.left[i] = 0
-
-
 def take_chosen(modes: OfModes, state: EventState) -> int:
     """Choose modes at a state whose rows have been read, and have the run go on in them; return `SAME` or a code."""
     c, t = modes.choice, state.clock[abi.TIME]
     code = choose_modes(t, c, state.y, state.p, state.w, state.iw, state.control)
     if code > OTHERS:
         return int(code)
-    for i in range(c.count):
+    for i in range(c.rows.count):
         sign = c.after[MODE_NUMBERS * i + SIGN]
         if sign != 0.0 and sign != c.before[MODE_NUMBERS * i + SIGN]:
-            c.let_go[i], c.place[i] = t, c.value[i]
+            keep_breaking(c, i, t)
     measure_margins(c, state.w, state.hunt)
     if code == OTHERS:
         if follow_modes(t, c, state.y, state.p, state.w) != 0:
@@ -313,8 +307,7 @@ def choose_here(modes: OfModes, state: EventState) -> int:
     if code == SAME:
         code = gather_impacts(t, modes, state)
         if code == OTHERS:
-            clear_flags(c)
-            c.begins[0] = 0
+            forget_found(c, False)
             find_starting(t, c, state.w)
             code = take_chosen(modes, state)
     if code != SAME:
@@ -331,11 +324,10 @@ def choose_here(modes: OfModes, state: EventState) -> int:
 def begin_modes(modes: OfModes, state: EventState) -> int:
     """Choose modes where a run begins, or something has changed; return `DONE` or `NO_MODES`."""
     c = modes.choice
-    clear_flags(c)
-    c.begins[0] = 1
-    for i in range(c.count):
+    forget_found(c, True)
+    for i in range(c.rows.count):
         c.shut[i] = 0 if state.control[abi.BEGUN] == 0 else c.shut[i]
-    c.depth[0] = TOUCHING if state.control[abi.BEGUN] == 0 else DEEP
+    allow_depth(c, TOUCHING if state.control[abi.BEGUN] == 0 else DEEP)
     return int(choose_here(modes, state))
 
 
@@ -352,8 +344,7 @@ def forget_modes(modes: OfModes) -> None:
     for i in range(modes.strikes.series.shape[0]):
         modes.strikes.series[i] = 0.0
     modes.transitions.count[0] = modes.transitions.kept[0] = 0
-    for i in range(modes.choice.count):
-        modes.choice.let_go[i] = math.nan
+    forget_breaking(modes.choice)
 
 
 # -- the turn ----------------------------------------------------------------------------------------------------------
@@ -361,7 +352,7 @@ def forget_modes(modes: OfModes) -> None:
 
 def is_sliding(c: Choice, w: Array, i: int) -> bool:
     """Return whether a coordinate slides."""
-    return bool(w[c.first + MODE_NUMBERS * i + SIGN] != 0.0)
+    return bool(w[c.rows.first + MODE_NUMBERS * i + SIGN] != 0.0)
 
 
 @called
@@ -389,21 +380,16 @@ def take_turn(code: int, modes: OfModes, state: EventState) -> int:
         return code
     c, effects, hunt, t = modes.choice, modes.strikes.effects, state.hunt, state.clock[abi.TIME]
     first, size, chooses, jammed = first_note(state), 2 + state.y.shape[0], False, -1
-    clear_flags(c)
-    c.begins[0] = 0
-    c.depth[0] = math.inf  # positions inside a run are what its steps have made of them
+    forget_found(c, False)
+    allow_depth(c, math.inf)  # positions inside a run are what its steps have made of them
     for i in range(int(hunt[records.NOTED])):
         at, k = hunt[first + i * size], int(hunt[first + i * size + 1])
         if at == t and k < modes.breaks.shape[0]:
             chooses = chooses or modes.choosing[k] != 0
-            if modes.breaks[k] >= 0:
-                c.broken[modes.breaks[k]] = 1
-            if modes.reverses[k] >= 0 and is_sliding(c, state.w, modes.reverses[k]):  # others begin to move
-                c.stopped[modes.reverses[k]] = 1
-            if CONTACTS and modes.reverses[k] >= 0 and c.partner[modes.reverses[k]] >= 0:  # a drive moves what rests
-                c.stopped[modes.reverses[k]] = 1
-            if modes.leaves[k] >= 0:
-                c.left[modes.leaves[k]] = 1
+            stops = modes.reverses[k]
+            if stops >= 0 and not is_sliding(c, state.w, stops):  # others begin to move; a drive moves what rests
+                stops = stops if CONTACTS and c.rows.partner[stops] >= 0 else -1
+            find_rows(c, modes.breaks[k], stops, modes.leaves[k])
             jammed = modes.jams[k] if modes.jams[k] >= 0 and jammed < 0 else jammed
     last = choose_resets(effects, state)
     if last >= 0:  # rows with two bounds have no impulse, and gaps strike after the reset
@@ -411,7 +397,7 @@ def take_turn(code: int, modes: OfModes, state: EventState) -> int:
     ended = change_state(last, effects, state)
     if ended == e.IMPOSSIBLE:
         return int(ended)
-    if CONTACTS and jammed >= 0 and c.pressed[jammed] == 0:
+    if CONTACTS and jammed >= 0 and c.rows.pressed[jammed] == 0:
         return int(refuse_fault(NO_CONTACT_MODES, float(jammed), 0.0, math.nan, modes))
     if jammed >= 0:
         return int(refuse_fault(JAMMED, float(jammed), 1.0, math.nan, modes))

@@ -27,7 +27,8 @@ STRIKING = Meanings(
 )
 CORNERED = Meanings("runs with corners of gaps", meet_impacts=strike_past_corners)
 PRESSED = Meanings(
-    "runs with bounds that depend on reactions", choose_modes=exact_instance(choose_contacts, BY_REACTIONS)
+    "runs with bounds that depend on reactions",
+    choose_modes=exact_instance(choose_contacts, BY_REACTIONS | {"ONE_SIDED": False}),
 )
 IN_PIECES = Meanings("runs with gaps of several pieces", PIECES=True)
 TOUCHED = Meanings(
@@ -45,7 +46,7 @@ TOUCHED = Meanings(
 REACTING = Meanings(
     "runs with one-sided rows beside bounds that depend on reactions",
     REACTIONS=True,
-    choose_modes=PRESSED["choose_modes"],
+    choose_modes=exact_instance(choose_contacts, BY_REACTIONS),
     find_struck=exact_instance(find_struck_contacts, BY_REACTIONS),
     strike=exact_instance(strike_contacts, BY_REACTIONS),
     gather=exact_instance(gather_contacts, BY_REACTIONS),

@@ -41,8 +41,9 @@ from symgen.run.loops.unbound import (
     system_of_steps,
 )
 from symgen.run.modes.bounded_rows import OTHERS, OUT_OF_RANGE, SAME, switch_off
-from symgen.run.modes.choice import read_rows
 from symgen.run.modes.flights import end_flights, end_lost_flights
+from symgen.run.modes.found_rows import allow_depth
+from symgen.run.modes.reading import read_rows
 from symgen.run.modes.turn import OfModes, rest_gaps
 from symgen.run.printed.kept_loops import Traits, recipe_of
 from symgen.run.printed.kept_run import CHANGED, ENDING, VISIBLE, Visible, meet_event
@@ -118,7 +119,7 @@ def forget_rests_of_gaps(modes: OfModes, times: Array, is_begun: bool) -> None:
 def rest_gaps_in_flight(t: float, modes: OfModes, state: EventState) -> int:
     """Bring gaps to rest that an importer finds at 0 on the way up; return `OTHERS` where any are, or another code."""
     c = modes.choice
-    c.depth[0] = math.inf
+    allow_depth(c, math.inf)
     code = read_rows(t, c, state.y, state.p, state.w)
     if code == SAME:
         code = end_lost_flights(t, c, modes.strikes, state.y, state.p, state.w, state.iw)

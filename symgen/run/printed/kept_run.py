@@ -34,7 +34,7 @@ from symgen.run.loops.unbound import (
     take_change,
     take_notes,
 )
-from symgen.run.modes.bounded_rows import first_step
+from symgen.run.modes.row_records import first_step
 from symgen.run.modes.turn import open_rows_of
 from symgen.run.rows.row_results import follow_rows
 from symgen.run.rows.rows import begin_run

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
     from symgen.run.layout.records import Sizes, State
     from symgen.run.loops.run_spec import Watched
-    from symgen.run.modes.bounded_rows import Choice
+    from symgen.run.modes.row_records import Choice
     from symgen.run.single.outcome import Outcome
     from symgen.run.single.turn_of_run import TurnOfRun
 
@@ -209,7 +209,7 @@ class Events:
         y = hunt[int(hunt[searching.BEGINNING]) + 1 + width :][:width]
         with np.errstate(all="ignore"):
             values = rows.state(t, y.copy(), state.p, state.w.copy(), np.zeros(width))
-        held = state.w[choice.first :][: MODE_NUMBERS * len(rows.names) : MODE_NUMBERS] != 0.0
+        held = state.w[choice.rows.first :][: MODE_NUMBERS * len(rows.names) : MODE_NUMBERS] != 0.0
         rates = np.where(held, np.abs(values[len(rows.names) :][: len(rows.names)]), -1.0)
         rates[[i for i in range(len(rows.names)) if i not in watched.turns]] = -1.0
         i = int(np.argmax(rates))

@@ -14,7 +14,7 @@ from symgen.run.effects.accumulation import new_past
 from symgen.run.effects.effects import Effects
 from symgen.run.effects.resets import OfEffects, new_effects
 from symgen.run.layout.probe import rate_functions
-from symgen.run.modes.bounded_rows import first_step, new_choice
+from symgen.run.modes.row_records import first_step, new_choice
 from symgen.run.modes.strikes import new_strikes
 from symgen.run.modes.transition_log import LIFT as LIFT_NUMBER
 from symgen.run.modes.transition_log import OF_LOG, new_transitions

@@ -172,7 +172,7 @@ class TurnOfRun:
     def _keep_gaps_put(self) -> None:
         """Keep the gaps that the start has put to 0."""
         assert self.rows is not None, "gaps belong to rows"
-        moved = self.memory.choice.moved
+        moved = self.memory.choice.placing.moved
         self.gaps_put = {name: float(x) for name, x in zip(self.rows.names, moved, strict=True) if x != 0.0}
 
     def explain_end(self, code: int) -> None:
@@ -204,7 +204,9 @@ class TurnOfRun:
             raise self._refusal(code)
         if self.rows is not None and self.rows.contacts:
             choice = self.memory.choice
-            modes = state.w[choice.first : choice.first + MODE_NUMBERS * choice.count].reshape(-1, MODE_NUMBERS)
+            modes = state.w[choice.rows.first : choice.rows.first + MODE_NUMBERS * choice.rows.count].reshape(
+                -1, MODE_NUMBERS
+            )
             self.sharing |= sharing_contacts(self.rows, modes)
         if self.rows is not None and self.memory.renewed[0]:  # the matrices of a scheme depend on the rows
             self.memory.renewed[0] = 0
@@ -259,7 +261,7 @@ class TurnOfRun:
             choice, strikes = self.memory.choice, self.memory.strikes
             active, ties = np.flatnonzero(strikes.active), strikes.ties
             w = strikes.rested.w.copy()  # the formulas of rows that come to rest read their signs
-            w[choice.first + MODE_NUMBERS * active + SIGN] = 1.0
+            w[choice.rows.first + MODE_NUMBERS * active + SIGN] = 1.0
             none = np.full_like(ties.leads, -1), np.zeros_like(ties.parts)
             struck = KeptTies(ties.kept.copy(), ties.kept_ways.copy(), *none)
             rested = KeptTies(*(x.copy() for x in (ties.held, ties.ways, ties.leads, ties.parts)))

@@ -16,25 +16,23 @@ AGREE, MOVES_OTHERWISE = plain_form(agree_within), plain_form(moves_otherwise)
 
 def rows_at_rest(problem: Problem) -> SimpleNamespace:
     """Return what the choice of modes reads of a problem whose rows are all at rest."""
-    k = len(problem.rows)
-    c = SimpleNamespace(count=k, box=new_box(k), laws=new_laws(k), dry=k, shifted=0)
-    c.matrix, c.offset, c.rest, c.named = (
-        problem.matrix.ravel(),
-        problem.offset,
-        np.arange(k),
-        np.zeros(k + 1, dtype=int),
-    )
-    c.pushes, c.loose, c.broken, c.pressed, c.part = (np.zeros(k, dtype=int) for _ in range(5))
-    c.taken, c.signs, c.forces, c.middle, c.sizes = np.ones(k, dtype=int), *(np.zeros(k) for _ in range(4))
-    c.static, c.apart, c.parts = np.zeros(k), np.zeros(2 * k), np.zeros(2 * k * k)
+    k, flags, numbers = len(problem.rows), lambda: np.zeros(k, dtype=int), lambda: np.zeros(k)
+    rows = SimpleNamespace(count=k, dry=k, shifted=0, pushes=flags(), pressed=flags())
+    read = SimpleNamespace(static=numbers(), middle=numbers())
+    posed = SimpleNamespace(matrix=problem.matrix.ravel(), offset=problem.offset)
+    posed.apart, posed.parts = np.zeros(2 * k), np.zeros(2 * k * k)
+    c = SimpleNamespace(rows=rows, read=read, problem=posed, found=SimpleNamespace(broken=flags()))
+    c.box, c.laws, c.rest, c.named = new_box(k), new_laws(k), np.arange(k), np.zeros(k + 1, dtype=int)
+    c.loose, c.part, c.taken = flags(), flags(), np.ones(k, dtype=int)
+    c.signs, c.forces, c.sizes = numbers(), numbers(), numbers()
     for i, row in enumerate(problem.rows):
-        c.static[i] = row.kappa if row.apart.size else row.beta
-        c.pressed[i] = int(row.apart.size > 0)
+        read.static[i] = row.kappa if row.apart.size else row.beta
+        rows.pressed[i] = int(row.apart.size > 0)
         for part in range(row.apart.size):
-            c.apart[2 * i + part] = row.apart[part]
-            c.parts[(2 * i + part) * k : (2 * i + part + 1) * k] = row.parts[part]
-    c.sliding = c.static.copy()
-    c.box.matrix[:] = c.matrix
+            posed.apart[2 * i + part] = row.apart[part]
+            posed.parts[(2 * i + part) * k : (2 * i + part + 1) * k] = row.parts[part]
+    read.sliding = read.static.copy()
+    c.box.matrix[:], c.box.offset[:] = posed.matrix, posed.offset
     return c
 
 
