@@ -11,8 +11,35 @@ import numpy as np
 
 from benchmarks.bounded.laws.problems import Problem, draw, filled, motions
 from benchmarks.bounded.laws.second import find_another_way
-from symgen.compile.loopcode.exact import compiled_form
-from symgen.run.laws.motions import NO_MOTION, SEVERAL_MOTIONS, solve_laws
+from symgen.compile.loopcode.exact import compiled_form, exact
+from symgen.run.laws.motions import NO_MOTION, SEVERAL_MOTIONS, count_motions, find_forces
+from symgen.run.laws.problem import Laws
+from symgen.run.laws.sharing import share_forces
+
+
+@exact(entry=True)
+def solve_laws(n: int, given: int, laws: Laws) -> int:
+    """Find forces that obey all laws, and count motions.
+
+    Parameters
+    ----------
+    n : int
+        Number of rows.
+    given : int
+        1 where the present forces may be near, else 0.
+    laws : Laws
+        The problem; it keeps forces, states and accelerations.
+
+    Returns
+    -------
+    int
+        `NO_MOTION`, `ONE_MOTION`, `SEVERAL_MOTIONS`, or `NOT_SOUGHT` where others than the one found were not sought.
+    """
+    if not find_forces(n, laws, 0 if given != 0 else 1):
+        return NO_MOTION
+    share_forces(n, laws)
+    return int(count_motions(n, laws))
+
 
 SOLVE = compiled_form(solve_laws)
 #: Most rows of a problem; most combinations that are all tried; what may be missing where a motion is found.

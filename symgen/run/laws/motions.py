@@ -26,16 +26,16 @@ from symgen.run.laws.problem import (
     rows_of,
     size_of,
 )
-from symgen.run.laws.sharing import share_forces, spread_forces
+from symgen.run.laws.sharing import spread_forces
 from symgen.run.laws.verify import obeys, size_of_terms
 
 #: How many motions there are; one, and others were not sought.
 NO_MOTION, ONE_MOTION, SEVERAL_MOTIONS, NOT_SOUGHT = range(4)
 #: Most combinations that are counted.
 COUNTED = 256
-#: Beginnings: the forces that are there, rest, none, and sweeps of row after row.
+#: Beginnings: the forces that are there, rest, none, and sweeps of row after row; what holds all, by many sweeps.
 _GIVEN, _AT_REST, _NONE, _SWEPT = range(4)
-_BEGINNINGS, _SOUGHT, _SWEEPS = 6, 5, 5
+_BEGINNINGS, _SOUGHT, _SWEEPS, _HELD, _RELAXED = 6, 5, 5, 6, 300
 #: Forces above are no beginning; accelerations of two motions differ by more than this part.
 _HUGE, _ONE = 1e100, 1e-7
 #: Accelerations of chosen states below this part of what they are differences of are rounding.
@@ -62,6 +62,26 @@ def sweep_laws(n: int, times: int, laws: Laws) -> None:
 
 
 @exact()
+def relax_laws(n: int, times: int, laws: Laws) -> None:
+    """Let forces come near those that hold all rows, if any do: each contact takes the nearest force in its cone.
+
+    They minimise a convex function, which has no other minimum than rest where rest is possible.
+    """
+    for _ in range(times):
+        for i in range(n):
+            if laws.law[i] == BALL and laws.presser[i] >= 0 and rows_of(n, i, laws) == 1:
+                j, mu = laws.presser[i], laws.kappa[i]
+                own = laws.matrix[i * n + i] + laws.matrix[j * n + j]
+                if own > 0.0:
+                    along = laws.forces[i] + acceleration_of(n, i, laws) / own
+                    push = -laws.forces[j] - acceleration_of(n, j, laws) / own
+                    if abs(along) > mu * push:  # outside: to the edge of the cone, or to its tip
+                        push = max(push + mu * abs(along), 0.0) / (1.0 + mu * mu)
+                        along = mu * push if along > 0.0 else -mu * push
+                    laws.forces[i], laws.forces[j] = along, -push
+
+
+@exact()
 def begin(n: int, beginning: int, laws: Laws) -> None:
     """Set the forces, or the states, that Newton's method begins from."""
     for i in range(n):
@@ -72,6 +92,8 @@ def begin(n: int, beginning: int, laws: Laws) -> None:
             laws.state[i] = ON if laws.law[i] == PUSH or laws.way[i] == 0.0 else UPPER
         follow_laws(n, True, laws)
         spread_forces(n, laws)
+    elif beginning == _HELD:
+        relax_laws(n, _RELAXED, laws)
     elif beginning >= _SWEPT:
         times = beginning - _SWEPT + 1
         sweep_laws(n, _SWEEPS * times * times, laws)
@@ -211,11 +233,13 @@ def recall_first(n: int, laws: Laws) -> None:
 @exact(entry=True)
 def seek_another(n: int, laws: Laws) -> bool:
     """Whether another beginning leads to another motion than the present forces; its states go to ``other``."""
-    another = False
+    another, rests = False, True
     keep_first(n, laws)
-    for beginning in range(_NONE, _SOUGHT):
+    for i in range(n):
+        rests = rests and laws.does[i] == ON
+    for number in range(_NONE, _SOUGHT if rests else _SOUGHT + 1):
         if not another:
-            begin(n, beginning, laws)
+            begin(n, number if number < _SOUGHT else _HELD, laws)
             another = follow_laws(n, False, laws) and obeys(n, laws) and not moves_alike(n, laws)
     recall_first(n, laws)
     return another
@@ -244,27 +268,3 @@ def count_motions(n: int, laws: Laws) -> int:
     if count_combinations(n, laws) > COUNTED:
         return NOT_SOUGHT
     return SEVERAL_MOTIONS if find_another(n, laws) else ONE_MOTION
-
-
-@exact(entry=True)
-def solve_laws(n: int, given: int, laws: Laws) -> int:
-    """Find forces that obey all laws, and count motions.
-
-    Parameters
-    ----------
-    n : int
-        Number of rows.
-    given : int
-        1 where the present forces may be near, else 0.
-    laws : Laws
-        The problem; it keeps forces, states and accelerations.
-
-    Returns
-    -------
-    int
-        `NO_MOTION`, `ONE_MOTION`, `SEVERAL_MOTIONS`, or `NOT_SOUGHT` where others than the one found were not sought.
-    """
-    if not find_forces(n, laws, 0 if given != 0 else 1):
-        return NO_MOTION
-    share_forces(n, laws)
-    return int(count_motions(n, laws))

@@ -71,7 +71,9 @@ ACCUMULATION, GATHERING, IMPOSSIBLE_EVENT = range(3)
 #: Where modes are not determined: why (`symgen.run.modes.bounded_rows`), the row, or rows as a sum of powers of 2,
 #: and two numbers of the sentence (`symgen.run.modes.refusals`).
 FAILURE, WHICH, FIRST_NUMBER, SECOND_NUMBER = range(3, 7)
-HEAD_OF_EVENTS = 7
+#: Most rows that depend on each other, of which other motions than the one found were not sought.
+UNSOUGHT = 7
+HEAD_OF_EVENTS = 8
 #: Then for each event: its count, first and last time.
 EVENT_COLUMNS = (("count", "1"), ("first", "s"), ("last", "s"))
 OF_EVENT = len(EVENT_COLUMNS)

@@ -10,7 +10,7 @@ from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.loopcode.loop_instances import Meanings, exact_instance
 from symgen.compile.native.annotations import Array
-from symgen.run.laws.motions import SEVERAL_MOTIONS, count_motions, find_forces
+from symgen.run.laws.motions import NO_MOTION, NOT_SOUGHT, SEVERAL_MOTIONS, count_motions, find_forces
 from symgen.run.laws.problem import BALL, COMPONENTS, ON, begin_row, load_of
 from symgen.run.laws.problem import LOWER as DOWN
 from symgen.run.laws.sharing import share_forces
@@ -159,7 +159,9 @@ def moves_otherwise(c: Choice, n: int) -> int:
     for r in range(count):
         i = box.order[r]
         laws.forces[r] = c.forces[i] + (c.read.middle[i] if r < n else 0.0)
-    if not find_forces(count, laws, 0) or count_motions(count, laws) != SEVERAL_MOTIONS:
+    motions = count_motions(count, laws) if find_forces(count, laws, 0) else NO_MOTION
+    c.unsought[0] = max(c.unsought[0], count if motions == NOT_SOUGHT else 0)
+    if motions != SEVERAL_MOTIONS:
         return 0
     for r in range(count):
         if laws.state[r] != laws.other[r]:

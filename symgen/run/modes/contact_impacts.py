@@ -15,7 +15,7 @@ import math
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
-from symgen.run.effects.accumulation import OF_EVENT, accumulation, add_resets
+from symgen.run.effects.accumulation import accumulation, add_resets
 from symgen.run.effects.pushing import POISSON, REACTIONS
 from symgen.run.laws.problem import LOWER, OFF, ON, UPPER
 from symgen.run.layout import abi
@@ -36,11 +36,18 @@ from symgen.run.modes.bounded_rows import (
 )
 from symgen.run.modes.contact_laws import solve_by_laws
 from symgen.run.modes.contact_parts import choose_part, find_parts
-from symgen.run.modes.contact_series import ends_closed, find_leading, remember_impact, sum_series
+from symgen.run.modes.contact_series import (
+    end_in_turn,
+    ends_closed,
+    find_leading,
+    remember_impact,
+    sum_series,
+    turns_back,
+)
 from symgen.run.modes.pin_impulses import find_shortfall, probe_impact, push
 from symgen.run.modes.probing import by_reaction, forget_kicks, pose_impact, probe_contacts
 from symgen.run.modes.reading import read_rows
-from symgen.run.modes.row_records import TOUCHING, Choice
+from symgen.run.modes.row_records import Choice
 from symgen.run.modes.strikes import (
     OF_SERIES,
     Strikes,
@@ -276,13 +283,6 @@ def strike_contacts(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arra
 
 
 @exact()
-def turns_back(c: Choice, s: Strikes, w: Array, i: int) -> bool:
-    """Return whether a gap opens after the impact of another one, and has been struck before."""
-    touches = c.read.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH) and c.read.speed[i] > 0.0
-    return bool(touches and s.active[i] == 0 and s.effects.past.counts[s.events[i]] > 0)
-
-
-@exact()
 def follow_past(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers, hunt: Array) -> float:
     """Return the time at which the resets of the chosen events accumulate; nan where they do not."""
     functions = c.rows.rates, c.rows.confirm, s.effects.happens
@@ -344,10 +344,9 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, in_series: bool, 
     for i in range(c.rows.dry, c.rows.count):
         turns = s.memory.closes[i] != 0
         if turns or ends_closed(c, s, now.w, i):
-            opens = c.read.speed[i] > STILL * row_scale(c, now.w, i, abi.SPEED)
             s.active[i] = 1
             j = c.rows.partner[i]
-            if j >= 0 and (turns or opens):
+            if j >= 0 and (turns or c.read.speed[i] > STILL * row_scale(c, now.w, i, abi.SPEED)):
                 still = abs(c.read.speed[j]) <= STILL * row_scale(c, now.w, j, abi.SPEED)
                 c.mode[j] = ON if still else (UPPER if sign_of_number(c.read.speed[j]) > 0.0 else LOWER)
     choose_events(c, s, False)
@@ -366,20 +365,6 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, in_series: bool, 
     for number in range(OF_SERIES * c.rows.count):
         s.series[number] = 0.0
     return SAME
-
-
-@exact()
-def end_in_turn(t: float, c: Choice, s: Strikes) -> float:
-    """Return the end of impacts in turn, by the times between impacts of the gap that has just been struck."""
-    past, end = s.effects.past, t
-    for i in range(c.rows.dry, c.rows.count):
-        k = s.events[i]
-        if s.active[i] != 0 and past.counts[k] > 2:
-            at = OF_EVENT * k + past.counts[k] - 1
-            last, before = past.times[at] - past.times[at - 1], past.times[at - 1] - past.times[at - 2]
-            if past.times[at] == t and last < before:
-                end = larger_number(end, t + last * last / (before - last))
-    return end
 
 
 @exact(entry=True)

@@ -179,6 +179,7 @@ def solve_by_laws(c: Choice, count: int) -> int:
     settle_at_bounds(c, count)
     motions = count_motions(count, laws)
     several = motions == SEVERAL_MOTIONS
+    c.unsought[0] = max(c.unsought[0], count if motions == NOT_SOUGHT else 0)
     if motions == NOT_SOUGHT and not rested(c, count):
         several = seek_another(count, laws)
     for a in range(count):

@@ -16,6 +16,7 @@ from symgen.compile.native.annotations import Array, Integers
 from symgen.run.effects.accumulation import OF_EVENT
 from symgen.run.effects.pushing import REACTIONS
 from symgen.run.layout import abi
+from symgen.run.layout.scales import larger_number
 from symgen.run.layout.start_records import Instant
 from symgen.run.modes.bounded_rows import SAME, STILL, row_scale, switch_off
 from symgen.run.modes.choice import follow_modes
@@ -240,3 +241,24 @@ def sum_series(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers) -> b
     for i in range(c.rows.count):
         c.mode[i] = s.memory.modes[i]
     return found
+
+
+@exact()
+def turns_back(c: Choice, s: Strikes, w: Array, i: int) -> bool:
+    """Return whether a gap opens after the impact of another one, and has been struck before."""
+    touches = c.read.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH) and c.read.speed[i] > 0.0
+    return bool(touches and s.active[i] == 0 and s.effects.past.counts[s.events[i]] > 0)
+
+
+@exact()
+def end_in_turn(t: float, c: Choice, s: Strikes) -> float:
+    """Return the end of impacts in turn, by the times between impacts of the gap that has just been struck."""
+    past, end = s.effects.past, t
+    for i in range(c.rows.dry, c.rows.count):
+        k = s.events[i]
+        if s.active[i] != 0 and past.counts[k] > 2:
+            at = OF_EVENT * k + past.counts[k] - 1
+            last, before = past.times[at] - past.times[at - 1], past.times[at - 1] - past.times[at - 2]
+            if past.times[at] == t and last < before:
+                end = larger_number(end, t + last * last / (before - last))
+    return end

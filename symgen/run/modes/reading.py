@@ -106,7 +106,7 @@ def find_starting(t: float, c: Choice, w: Array) -> int:
 
 @exact()
 def recall_rates(c: Choice, rates: Array) -> None:
-    """Set rates that have been read before: the state is that of then."""
+    """Set rates that have been read before, at the same state."""
     for i in range(c.rows.count):
         c.read.speed[i] = rates[i]
 

@@ -180,6 +180,8 @@ class Choice(Record):
         What is constant, read, found by events and probed, and gaps put to 0.
     holds : Array, shape (k,)
         Bounds at rest as forces.
+    unsought : Array of int64, shape (1,)
+        Most rows that depend on each other, of which other motions than the one found were not sought in a run.
     box : Box
         The box problem of the rows at rest.
     laws : Laws
@@ -257,6 +259,7 @@ class Choice(Record):
     option: Integers
     flying: Integers
     holds: Array
+    unsought: Integers
 
 
 def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any], width: int, nw: int) -> Choice:
@@ -376,6 +379,7 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         option=flags(),
         flying=flags(),
         holds=numbers(k),
+        unsought=flags(1),
     )
 
 

@@ -11,17 +11,14 @@ import math
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.loop_instances import called
-from symgen.compile.native.annotations import Array, Integers, Record, record_type
+from symgen.compile.native.annotations import Array, Integers, record_type
 from symgen.run.effects.pushing import REACTIONS
 from symgen.run.effects.resets import OfEffects, apply_resets, change_nothing, choose_resets, first_note, forget_resets
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.records import Sizes
-from symgen.run.layout.start_records import Instant
 from symgen.run.loops import search_records as records
-from symgen.run.loops.afresh import begin_afresh
 from symgen.run.loops.event_loop import EventState
-from symgen.run.loops.unbound import gather_impacts, keep_after, keep_before, lay_gaps, meet_impacts
+from symgen.run.loops.unbound import gather_impacts, lay_gaps, meet_impacts
 from symgen.run.loops.watch import remember_rank
 from symgen.run.modes.bounded_rows import (
     CONTRARY,
@@ -43,71 +40,28 @@ from symgen.run.modes.bounded_rows import (
     SEVERAL_MODES,
     SHARED,
     SIGN,
-    TWO_PIECES,
     switch_off,
 )
 from symgen.run.modes.choice import choose_modes, follow_modes, look_anew, measure_margins
-from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_corners, spare_touching
 from symgen.run.modes.ends import find_undefined
-from symgen.run.modes.flights import mark_flights
 from symgen.run.modes.found_rows import (
     allow_depth,
     find_rows,
     forget_breaking,
     forget_found,
-    forget_passed,
     keep_breaking,
 )
-from symgen.run.modes.placing import put_gaps
 from symgen.run.modes.reading import find_fault, find_starting, read_rows
 from symgen.run.modes.row_records import TOUCHING, Choice
-from symgen.run.modes.strikes import Strikes, find_struck, gather, strike
 from symgen.run.modes.transition_log import (
-    HIT,
-    Transitions,
-    is_struck_before,
     log_changes,
     log_changes_in_pieces,
-    log_transition,
     remember_modes,
 )
+from symgen.run.modes.turn_records import CONTACTS, PIECES, SEEKS, OfModes
 
 #: Most digits to the base of 4 that a number has.
 MOST_DIGITS = 26
-#: Whether gaps have several pieces, which are one in the log; whether there are contacts.
-PIECES = CONTACTS = False
-
-
-class OfModes(Record):
-    """Rows with bounds of a run, what its events change, and working memory.
-
-    Attributes
-    ----------
-    sizes : Sizes
-        See `symgen.run.layout.records`.
-    choice, strikes : Choice, Strikes
-        Modes, and impacts with the effects of all events.
-    transitions : Transitions
-        The latest ones.
-    choosing : Array of int64, shape (events,)
-        1 for events at which modes are chosen.
-    breaks, reverses, jams, leaves : Array of int64, shapes (events,)
-        Row that breaks loose, whose rate becomes zero, whose effort jams, or whose force becomes zero, at each
-        event; else -1.
-    renewed : Array of int64, shape (1,)
-        1 where other redundant rows have been left out since somebody looked.
-    """
-
-    sizes: Sizes
-    choice: Choice
-    strikes: Strikes
-    transitions: Transitions
-    choosing: Integers
-    breaks: Integers
-    reverses: Integers
-    jams: Integers
-    leaves: Integers
-    renewed: Integers
 
 
 # -- why there are no modes --------------------------------------------------------------------------------------------
@@ -193,79 +147,6 @@ def look_ahead(code: int, modes: OfModes, state: EventState) -> int:
     return refuse_modes(OUT_OF_RANGE, modes, state)
 
 
-# -- impacts -----------------------------------------------------------------------------------------------------------
-
-
-def find_flying(t: float, modes: OfModes, state: EventState) -> None:
-    """Find the gaps that fly at the events noted, of which theirs is none."""
-    mark_flights(t, modes.choice, modes.strikes, state.w)
-    first, size = first_note(state), 2 + state.y.shape[0]
-    for note in range(int(state.hunt[records.NOTED])):
-        at, k = state.hunt[first + note * size], int(state.hunt[first + note * size + 1])
-        for i in range(modes.choice.rows.count):
-            if at == t and modes.strikes.events[i] == k:
-                modes.choice.flying[i] = 0
-
-
-def strike_gaps(t: float, modes: OfModes, state: EventState) -> int:
-    """Apply the impact of gaps that strike at the present state, and log them; return `SAME`, or why there is none."""
-    c, s, control = modes.choice, modes.strikes, state.control
-    find_flying(t, modes, state)
-    code = find_struck(t, c, state.y, state.p, state.w, state.iw, control)
-    if code != OTHERS:
-        return int(code)
-    keep_before(s.struck, state.y)
-    code = strike(t, c, s, state.y, state.p, state.w)
-    if code != SAME:
-        return int(code)
-    keep_after(s.struck, Instant(state.y, state.p, state.w), c.rows.layout.nq, s.effects.work)
-    if control[abi.BEGUN] == 0:  # the balance of energies begins after an impact at the start
-        state.y[c.rows.layout.nq + c.rows.layout.nv] = 0.0
-    else:
-        begin_afresh(state)
-    for i in range(c.rows.count):
-        if s.active[i] != 0 and not (PIECES and is_struck_before(c, s.active, i)):
-            log_transition(t, modes.transitions, i, HIT)
-    if read_rows(t, c, state.y, state.p, state.w) != SAME:
-        return OUT_OF_RANGE
-    forget_passed(c, state.w)
-    return SAME
-
-
-def strike_past_corners(t: float, modes: OfModes, state: EventState) -> int:
-    """Take the state past the corners of gaps before which a step has ended, and do what `strike_gaps` does."""
-    c, passed = modes.choice, 0
-    if state.control[abi.BEGUN] == 0:
-        passed = begin_at_corners(t, c, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt)
-    elif state.hunt[records.NOTED] > 0.0:  # other choices are at no event
-        passed = pass_corners(t, c, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt)
-    if passed > 0 and read_rows(t, c, state.y, state.p, state.w) != SAME:
-        return OUT_OF_RANGE
-    if passed == 0 and state.control[abi.BEGUN] != 0:
-        spare_touching(t, c, state.y, state.p, state.w, state.iw)
-    code = int(strike_gaps(t, modes, state))
-    if code == SAME and passed > 0 and find_both_pieces(t, c, modes.strikes, state.y, state.p, state.w, state.hunt) > 0:
-        code = TWO_PIECES
-    return code
-
-
-def rest_gaps(t: float, modes: OfModes, state: EventState) -> int:
-    """Bring gaps to rest whose impacts accumulate; return `OTHERS` where any are, else `SAME`, or another code."""
-    c, s = modes.choice, modes.strikes
-    keep_before(s.rested, state.y)
-    code = gather(t, c, s, state.y, state.p, state.w, state.iw, state.hunt)
-    if code == OTHERS:
-        keep_after(s.rested, Instant(state.y, state.p, state.w), c.rows.layout.nq, s.effects.work)
-        if read_rows(t, c, state.y, state.p, state.w) != SAME:
-            code = OUT_OF_RANGE
-    return int(code)
-
-
-def put_gaps_to_zero(t: float, modes: OfModes, state: EventState) -> int:
-    """Put the gaps that are closed at a start to 0; return their number."""
-    return int(put_gaps(t, modes.choice, state.y, state.p, state.w, state.iw))
-
-
 # -- modes -------------------------------------------------------------------------------------------------------------
 
 
@@ -273,6 +154,8 @@ def take_chosen(modes: OfModes, state: EventState) -> int:
     """Choose modes at a state whose rows have been read, and have the run go on in them; return `SAME` or a code."""
     c, t = modes.choice, state.clock[abi.TIME]
     code = choose_modes(t, c, state.y, state.p, state.w, state.iw, state.control)
+    if SEEKS and c.unsought[0] > 0:
+        modes.strikes.effects.ends[e.UNSOUGHT] = float(c.unsought[0])
     if code > OTHERS:
         return int(code)
     for i in range(c.rows.count):
@@ -341,6 +224,8 @@ def open_rows_of(modes: OfModes, state: EventState) -> None:
 def forget_modes(modes: OfModes) -> None:
     """Forget impacts, transitions and resets of the run before."""
     forget_resets(modes.strikes.effects)
+    if SEEKS:
+        modes.choice.unsought[0] = 0
     for i in range(modes.strikes.series.shape[0]):
         modes.strikes.series[i] = 0.0
     modes.transitions.count[0] = modes.transitions.kept[0] = 0

@@ -16,7 +16,7 @@ from symgen.run.modes.contact_impacts import find_struck_contacts, gather_contac
 from symgen.run.modes.contacts import choose_contacts, measure_margins_of_contacts
 from symgen.run.modes.pin_impulses import BY_REACTIONS
 from symgen.run.modes.transition_log import log_changes_of_contacts
-from symgen.run.modes.turn import put_gaps_to_zero, rest_gaps, strike_gaps, strike_past_corners
+from symgen.run.modes.turn_impacts import put_gaps_to_zero, rest_gaps, strike_gaps, strike_past_corners
 
 STRIKING = Meanings(
     "runs with bounded rows, of which gaps strike or events change the state",
@@ -28,12 +28,14 @@ STRIKING = Meanings(
 CORNERED = Meanings("runs with corners of gaps", meet_impacts=strike_past_corners)
 PRESSED = Meanings(
     "runs with bounds that depend on reactions",
+    SEEKS=True,
     choose_modes=exact_instance(choose_contacts, BY_REACTIONS | {"ONE_SIDED": False}),
 )
 IN_PIECES = Meanings("runs with gaps of several pieces", PIECES=True)
 TOUCHED = Meanings(
     "runs with contacts",
     CONTACTS=True,
+    SEEKS=True,
     choose_modes=choose_contacts,
     measure_margins=measure_margins_of_contacts,
     find_struck=find_struck_contacts,
@@ -46,6 +48,7 @@ TOUCHED = Meanings(
 REACTING = Meanings(
     "runs with one-sided rows beside bounds that depend on reactions",
     REACTIONS=True,
+    SEEKS=True,
     choose_modes=exact_instance(choose_contacts, BY_REACTIONS),
     find_struck=exact_instance(find_struck_contacts, BY_REACTIONS),
     strike=exact_instance(strike_contacts, BY_REACTIONS),

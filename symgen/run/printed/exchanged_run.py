@@ -44,7 +44,8 @@ from symgen.run.modes.bounded_rows import OTHERS, OUT_OF_RANGE, SAME, switch_off
 from symgen.run.modes.flights import end_flights, end_lost_flights
 from symgen.run.modes.found_rows import allow_depth
 from symgen.run.modes.reading import read_rows
-from symgen.run.modes.turn import OfModes, rest_gaps
+from symgen.run.modes.turn_impacts import rest_gaps
+from symgen.run.modes.turn_records import OfModes
 from symgen.run.printed.kept_loops import Traits, recipe_of
 from symgen.run.printed.kept_run import CHANGED, ENDING, VISIBLE, Visible, meet_event
 from symgen.run.rows.row_events import ModelWithModes, begin_row_in_modes

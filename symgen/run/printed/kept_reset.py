@@ -18,7 +18,7 @@ from symgen.run.layout.records import State
 from symgen.run.layout.start_records import Instant
 from symgen.run.loops.unbound import effects_alone, leave_alone
 from symgen.run.modes.bounded_rows import open_rows
-from symgen.run.modes.turn import OfModes
+from symgen.run.modes.turn_records import OfModes
 from symgen.run.printed.kept_loops import Traits, recipe_of
 from symgen.run.rows.row_events import ModelWithEffects
 

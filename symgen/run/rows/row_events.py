@@ -16,7 +16,8 @@ from symgen.run.loops.event_loop import EventState
 from symgen.run.loops.frame_parts import store_after_reset
 from symgen.run.loops.seams import due_time, has_gap, has_struck, is_defined, skip_to_seam, time_tolerance, write_seam
 from symgen.run.loops.unbound import keep_ends
-from symgen.run.modes.turn import OfModes, begin_modes, forget_modes, open_rows_of, take_resets, take_turn
+from symgen.run.modes.turn import begin_modes, forget_modes, open_rows_of, take_resets, take_turn
+from symgen.run.modes.turn_records import OfModes
 
 #: What a loop over rows takes first where events change runs, or rows have bounds: the first argument of the loop over
 #: one run, the observers, and the effects or the rows.

@@ -1,4 +1,4 @@
-"""Contacts whose forces are not unique: those that share a direction, of which only the sum is determined."""
+"""Contacts whose forces are not unique, as those that share a direction, and motions that were not sought."""
 
 from __future__ import annotations
 
@@ -27,6 +27,11 @@ def sharing_contacts(rows: BoundedNames, modes: NDArray[np.float64]) -> set[str]
             if numbers[CONSTANT] != AT_REST:
                 found.add(rows.names[int(numbers[CONSTANT]) - 1])
     return found
+
+
+def sentence_on_motions(unsought: int) -> list[str]:
+    """Return a note on motions that were not sought, among so many rows; none among 0."""
+    return [f"other motions were not sought among {unsought} rows of contacts and friction"] if unsought > 0 else []
 
 
 def sentence_on_sharing(names: set[str]) -> list[str]:

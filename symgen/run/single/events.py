@@ -19,7 +19,7 @@ from symgen.run.layout import abi
 from symgen.run.loops import event_loop
 from symgen.run.loops import search_records as searching
 from symgen.run.loops.afresh import begin_afresh
-from symgen.run.single.contact_notes import sentence_on_sharing
+from symgen.run.single.contact_notes import sentence_on_motions, sentence_on_sharing
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
@@ -303,9 +303,9 @@ def gap_notes(outcome: Outcome) -> list[str]:
 
 
 def sharing_notes(outcome: Outcome) -> list[str]:
-    """Return a note on contacts whose forces have not been unique."""
+    """Return notes on contacts whose forces have not been unique, and on motions that were not sought."""
     turn = outcome.simulation.turn
-    return [] if turn is None else sentence_on_sharing(turn.sharing)
+    return [] if turn is None else [*sentence_on_sharing(turn.sharing), *sentence_on_motions(turn.unsought)]
 
 
 def rest_notes(outcome: Outcome) -> list[str]:

@@ -18,7 +18,7 @@ from symgen.run.modes.row_records import first_step, new_choice
 from symgen.run.modes.strikes import new_strikes
 from symgen.run.modes.transition_log import LIFT as LIFT_NUMBER
 from symgen.run.modes.transition_log import OF_LOG, new_transitions
-from symgen.run.modes.turn import OfModes
+from symgen.run.modes.turn_records import OfModes
 from symgen.run.single.new_state import model_sizes
 from symgen.run.starts.starting import observe_nothing
 

@@ -30,15 +30,9 @@ from symgen.run.loops.event_loop import EVENT_STATE, EventState
 from symgen.run.modes.bounded_rows import NOT_APPLIED, SIGN
 from symgen.run.modes.pin_impulses import kicks_along_rows
 from symgen.run.modes.refusals import HOLDING_SENTENCES, names_in, refusal, refusal_of_catch
-from symgen.run.modes.turn import (
-    FURTHER,
-    OfModes,
-    begin_modes,
-    open_rows_of,
-    take_resets,
-    take_turn,
-)
+from symgen.run.modes.turn import FURTHER, begin_modes, open_rows_of, take_resets, take_turn
 from symgen.run.modes.turn_meanings import meanings_of_turn
+from symgen.run.modes.turn_records import OfModes
 from symgen.run.single.contact_notes import sharing_contacts
 from symgen.run.single.events import Happening
 from symgen.run.single.turn_memory import WORDS, effects_of_runs, modes_of_runs, what_changes
@@ -111,6 +105,8 @@ class TurnOfRun:
         What the gaps were that the start has put to 0, by the names of their rows.
     sharing : set of str
         Contacts that have had forces which are not unique.
+    unsought : int
+        Most rows that depend on each other, of which other motions than the one found were not sought.
     """
 
     def __init__(self, simulation: Simulation, watched: Watched) -> None:
@@ -118,6 +114,7 @@ class TurnOfRun:
         self.effects = what_changes(simulation.compiled, watched)
         self.gaps_put = dict[str, float]()
         self.sharing = set[str]()
+        self.unsought = 0
 
     # -- entries -------------------------------------------------------------------------------------------------------
 
@@ -202,6 +199,8 @@ class TurnOfRun:
             code, resets.ends[e.FAILURE] = e.IMPOSSIBLE, NO_VELOCITIES
         if code in (e.IMPOSSIBLE, e.NO_MODES):
             raise self._refusal(code)
+        if resets.ends[e.UNSOUGHT] > 0.0:
+            self.unsought = int(resets.ends[e.UNSOUGHT])
         if self.rows is not None and self.rows.contacts:
             choice = self.memory.choice
             modes = state.w[choice.rows.first : choice.rows.first + MODE_NUMBERS * choice.rows.count].reshape(

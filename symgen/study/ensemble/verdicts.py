@@ -15,6 +15,7 @@ from symgen.run.effects.applying import NO_VALUES
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.modes.refusals import HOLDING_SENTENCES, names_in, refusal, refusal_of_catch
+from symgen.run.single.contact_notes import sentence_on_motions
 from symgen.run.single.events import accumulation_sentence, undefined_sentence
 from symgen.run.single.outcome import Ended, RankEvent
 from symgen.run.single.run import end_reason
@@ -127,6 +128,9 @@ def warnings_of_runs(
     warnings: dict[int, tuple[str, ...]] = {int(i): (_PROJECTED,) for i in np.flatnonzero(ready & projected)}
     for i in np.flatnonzero(ready & odd).tolist():
         warnings[i] = (*warnings.get(i, ()), *judge_alone(_reason_of_end(summary[i], spec), law).warnings)
+    unsought = summary[:, e.N_SUMMARY + e.UNSOUGHT :][:, :1]  # nothing where no events are looked for
+    for i in np.flatnonzero(ready & (unsought > 0.0).any(axis=1)).tolist():
+        warnings[i] = (*warnings.get(i, ()), *sentence_on_motions(int(unsought[i, 0])))
     return warnings
 
 

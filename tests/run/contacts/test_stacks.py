@@ -46,6 +46,17 @@ def test_boxes_on_each_other_rest(count: int, tmp_path: Path) -> None:
     assert result.ok and not result.events
     np.testing.assert_allclose(forces(result, count), supports(places), rtol=1e-11)
     assert np.max(np.abs(result[f"b{count - 1}.x"] - places[-1])) < 1e-13
+    # a gap and its friction of each corner: too many for all combinations
+    note = f"other motions were not sought among {4 * count} rows of contacts and friction"
+    assert note in result.notes
+
+
+def test_rows_of_a_sweep_warn_of_motions_that_were_not_sought(tmp_path: Path) -> None:
+    text = stack(np.array([0.0, 0.01, 0.0])).replace("[bodies", "[parameters]\nm = 1.0\n[bodies", 1)
+    table = loaded(text.replace("mass = 1.0", 'mass = "m"', 1), tmp_path).sweep({"m": [1.0, 2.0]}, until=0.01)
+    assert list(table.status) == ["ok", "ok"]
+    for sentences in table.warnings:
+        assert "other motions were not sought among 12 rows of contacts and friction" in sentences
 
 
 @pytest.mark.by_turns(3)

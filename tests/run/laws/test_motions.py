@@ -7,12 +7,19 @@ import pytest
 from support.rotation import of_turn
 
 from benchmarks.bounded.laws import compare as against
+from benchmarks.bounded.laws.compare import SOLVE, solve_laws
 from benchmarks.bounded.laws.problems import Problem, Row, draw, filled, motions
 from symgen.compile.loopcode.exact import compiled_form, plain_form
-from symgen.run.laws.motions import NO_MOTION, NOT_SOUGHT, ONE_MOTION, SEVERAL_MOTIONS, solve_laws
-from symgen.run.laws.problem import BALL, SECOND, new_laws
+from symgen.run.laws.motions import (
+    NO_MOTION,
+    NOT_SOUGHT,
+    ONE_MOTION,
+    SEVERAL_MOTIONS,
+    find_forces,
+    seek_another,
+)
+from symgen.run.laws.problem import BALL, PUSH, SECOND, Laws, new_laws
 
-SOLVE = compiled_form(solve_laws)
 #: Mixes of rows that push, dry friction, contacts, and friction by reactions of one and two components.
 MANY = ("ccccc", "jjjjjj", "c" * 10, "cejdp" * 4, "cejdp" * 10)
 
@@ -131,3 +138,31 @@ def test_a_ball_of_two_rows_slides_along_its_acceleration_or_rests() -> None:
         force = np.array(pull) * min(1.0, most / size)
         np.testing.assert_allclose(laws.forces[1:3], force, rtol=1e-12)
         np.testing.assert_allclose(laws.left[1:3], (np.array(pull) - force) / 2.0, atol=1e-12)
+
+
+def full_bearing(balls: int, phase: float, friction: float, radii: tuple[float, float] = (1.0, 0.2)) -> Laws:
+    """Return the laws of a ring on balls in a fixed outer ring, all at rest: each ball touches both."""
+    (ring, ball), weight = radii, np.array([0.0, -9.81, 0.0])
+    masses = np.array([1.0, 1.0, 0.5] + [0.1, 0.1, 0.05 * ball**2] * balls)
+    rows = np.zeros((4 * balls, len(masses)))
+    for q in range(balls):
+        angle, own = 2.0 * np.pi * (q + phase) / balls, slice(3 * q + 3, 3 * q + 6)
+        out, along = np.array([np.cos(angle), np.sin(angle)]), np.array([np.sin(angle), -np.cos(angle)])
+        rows[4 * q, own], rows[4 * q, :3] = [*out, 0.0], [*-out, 0.0]
+        rows[4 * q + 1, own], rows[4 * q + 1, :3] = [*along, ball], [*-along, ring]
+        rows[4 * q + 2, own], rows[4 * q + 3, own] = [*-out, 0.0], [*-along, ball]
+    laws = new_laws(4 * balls)
+    laws.matrix[:], laws.offset[:] = (rows / masses @ rows.T).ravel(), rows @ np.tile(weight, balls + 1)
+    laws.law[::2], laws.law[1::2], laws.kappa[1::2] = PUSH, BALL, friction
+    laws.presser[::2], laws.presser[1::2] = -1, np.arange(0, 4 * balls, 2)
+    return laws
+
+
+@pytest.mark.parametrize("friction", [0.1, 0.3])
+def test_a_full_bearing_rests_or_has_several_motions(friction: float) -> None:
+    """Rest is a motion of 24 contacts; other beginnings find motions of the ring, and none is the only one."""
+    for phase in np.linspace(0.0, 1.0, 12, endpoint=False):
+        laws = full_bearing(12, float(phase), friction)
+        assert compiled_form(find_forces)(48, laws, 1)
+        rests = np.max(np.abs(laws.left)) < 1e-8
+        assert rests or compiled_form(seek_another)(48, laws), phase

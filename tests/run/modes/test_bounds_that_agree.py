@@ -23,7 +23,7 @@ def rows_at_rest(problem: Problem) -> SimpleNamespace:
     posed.apart, posed.parts = np.zeros(2 * k), np.zeros(2 * k * k)
     c = SimpleNamespace(rows=rows, read=read, problem=posed, found=SimpleNamespace(broken=flags()))
     c.box, c.laws, c.rest, c.named = new_box(k), new_laws(k), np.arange(k), np.zeros(k + 1, dtype=int)
-    c.loose, c.part, c.taken = flags(), flags(), np.ones(k, dtype=int)
+    c.loose, c.part, c.taken, c.unsought = flags(), flags(), np.ones(k, dtype=int), np.zeros(1, dtype=int)
     c.signs, c.forces, c.sizes = numbers(), numbers(), numbers()
     for i, row in enumerate(problem.rows):
         read.static[i] = row.kappa if row.apart.size else row.beta
