@@ -94,6 +94,7 @@ def choice_for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = T
     """
     if not mechanism.has_massless:
         return choice
+    # M is not inverted then, and multipliers are refined; loads of bounds are those of one solution
     if pressed := pressed_rows(mechanism):
         name = next(body.name for body in mechanism.bodies if body.massless)
         expected = (

@@ -100,8 +100,35 @@ def test_a_plank_on_five_feet_rests_and_slides(tmp_path: Path) -> None:
 
 @pytest.mark.by_turns(3)
 @pytest.mark.slow
-def test_a_stack_in_c_is_that_of_a_run(tmp_path: Path) -> None:
-    model = loaded(stack(np.array([0.0, 0.01, -0.01]), drop=0.001), tmp_path)
+@pytest.mark.parametrize("count", [5, 10])
+def test_taller_stacks_rest_in_joint_coordinates(count: int, tmp_path: Path) -> None:
+    places = 0.02 * np.cos(1.7 * np.arange(count))
+    result = loaded(stack(places), tmp_path).simulate(until=0.2, coordinates="joint", verify=False)
+    assert result.ok and not result.events
+    np.testing.assert_allclose(forces(result, count), supports(places), rtol=1e-10)
+
+
+@pytest.mark.by_turns(4)
+@pytest.mark.slow
+@pytest.mark.parametrize("count", [3, 5, 10])
+def test_rows_of_stacks_whose_upper_box_is_pushed(count: int, tmp_path: Path) -> None:
+    """300 slopes of the push F = k t: the box begins at mu m g/k, and is at k (t - begin)^3 / 6."""
+    mu, slopes = 0.2, np.linspace(1.0, 6.0, 300)
+    text = stack(np.zeros(count), push="k*t", friction=mu).replace("[bodies.b0]", "[parameters]\nk = 4.0\n[bodies.b0]")
+    rows = loaded(text, tmp_path).sweep(
+        vary={"k": slopes}, quantities=[f"b{count - 1}.x", "b0.x"], until=0.7, rtol=1e-10, atol=1e-12
+    )
+    assert set(rows.status) == {"ok"}
+    later = np.maximum(0.7 - mu * G / slopes, 0.0)
+    np.testing.assert_allclose(rows[f"b{count - 1}.x"][:, -1], slopes * later**3 / 6.0, rtol=0.0, atol=1e-9)
+    assert np.abs(rows["b0.x"][:, -1]).max() < 1e-12
+
+
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
+@pytest.mark.parametrize("places", [(0.0, 0.01, -0.01), (0.0, 0.01, -0.01, 0.005, -0.015)])
+def test_a_stack_in_c_is_that_of_a_run(places: tuple[float, ...], tmp_path: Path) -> None:
+    model = loaded(stack(np.array(places), drop=0.001), tmp_path)
     transitions = assert_same_run(model, program_of(model, tmp_path / "c"), 0.1, 0.0005)
     assert len({word for _, word in transitions}) > 6
 
