@@ -172,13 +172,14 @@ class ChainPiece(msgspec.Struct, frozen=True):
     """A segment or an arc of a chain: its start, its direction there, its curvature, its length, and the way before it.
 
     The curvature [1/m] is above 0 where the piece turns to the right, 0 of a segment. Points and directions are in the
-    frame of the chain's body.
+    frame of the chain's body. A marker on the right of the piece belongs to it down to `depth` [m].
     """
 
     start: tuple[Expr, Expr]
     along: tuple[Expr, Expr]
     curvature: Expr
     length: Expr
+    depth: Expr
     before: Expr
 
 
@@ -191,23 +192,17 @@ class Chain(msgspec.Struct, frozen=True):
         The origin of the frame of the chain's body, and the marker.
     pieces : tuple of ChainPiece
         Each begins where the one before it ends, with its direction.
-    depth : Expr
-        How far the marker may be on the right of a piece to which it still belongs [m].
     closed : bool
         Whether the last piece ends where the first one begins; otherwise these two are half circles.
     hollow : bool
         Whether a piece turns to the left, so that a marker may be beside several, of which the nearest counts.
-    solid : bool
-        Whether a marker deeper on the right of an open chain belongs to a piece too, and not to an end.
     """
 
     origin: Marker
     centre: Marker
     pieces: tuple[ChainPiece, ...]
-    depth: Expr
     closed: bool
     hollow: bool
-    solid: bool
 
 
 class OnChain(msgspec.Struct, frozen=True, tag="on-chain"):

@@ -18,7 +18,7 @@ def numbers_of_piece(nodes: Formulas, chain: Chain, place: tuple[int, int]) -> d
     """Return the numbers of the piece of a chain that its marker belongs to.
 
     It belongs to a piece if it is between the normals at both of its ends, and not farther on its right than the
-    chain's depth; of several such pieces to the nearest. Otherwise it belongs to the nearer end of an open chain.
+    piece's depth; of several such pieces to the nearest. Otherwise it belongs to the nearer end of an open chain.
 
     Parameters
     ----------
@@ -37,8 +37,6 @@ def numbers_of_piece(nodes: Formulas, chain: Chain, place: tuple[int, int]) -> d
         last = g.call("lt", choice.height(-1), choice.height(0))  # of circles with one radius
         chosen = choice.select(last, numbers[-1], chosen)
         best = g.call("where", last, choice.gap(-1), choice.gap(0)) if chain.hollow else best
-        for i in inner if chain.solid else ():
-            chosen = choice.select(choice.is_between_ends(i), numbers[i], chosen)
     for i in inner:
         belongs = g.call("and", choice.is_between_ends(i), choice.is_in_front(i))
         if chain.hollow:
@@ -55,7 +53,7 @@ class _Choice:
 
     def __init__(self, nodes: Formulas, chain: Chain, place: tuple[int, int]) -> None:
         self.graph, (self.x, self.y) = nodes.graph, place
-        self.depth = nodes.expression(chain.depth)
+        self.depths = [nodes.expression(piece.depth) for piece in chain.pieces]
         self.starts = [tuple(map(nodes.expression, piece.start)) for piece in chain.pieces]
         self.along = [tuple(map(nodes.expression, piece.along)) for piece in chain.pieces]
         self.curvatures = [nodes.expression(piece.curvature) for piece in chain.pieces]
@@ -89,6 +87,6 @@ class _Choice:
 
     def is_in_front(self, i: int) -> int:
         """Return the condition that the marker is on the left of a piece, or less than the depth on its right."""
-        g, depth = self.graph, self.depth
+        g, depth = self.graph, self.depths[i]
         least = g.mul(depth, g.sub(g.constant(2.0), g.mul(depth, self.curvatures[i])))
         return g.call("gt", g.add(self.height(i), least), g.zero)

@@ -7,7 +7,7 @@ corners are arcs of that radius. At a concave corner the outline is cut into run
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import pairwise
 
 import msgspec
@@ -19,6 +19,10 @@ from symgen.base.vocabulary.measures import ChainPiece
 TANGENT = 1e-9
 #: Largest turn of a piece [rad]: a marker is between the normals at its ends only if these differ by less than pi.
 _LARGEST_TURN = 0.55 * math.pi
+
+#: Parts of a side in which what is beyond a piece is looked for, what counts as on it over the size of all, and the
+#: depth over that size if nothing is beyond.
+_PARTS, _ON, _ANY = 16, 1e-9, 10.0
 
 #: A point or a direction in the frame of a body.
 Plane = tuple[Expr, Expr]
@@ -189,7 +193,40 @@ def runs_of(outline: Outline, value: Value) -> tuple[tuple[Stretch, ...], ...]:
     return tuple(pieces[a:b] for a, b in pairwise(starts))
 
 
-def offset_pieces(stretches: Sequence[Stretch], closed: bool, radius: Expr, value: Value) -> tuple[ChainPiece, ...]:
+def depths_of(outline: Outline, value: Value) -> dict[Stretch, float]:
+    """Return how deep places on the right of each piece are nearer to it than to what is beyond them [m].
+
+    A disc that a long step has taken into the body is still seen there.
+    """
+    points = list[complex]()
+    for stretch in outline.stretches:
+        ends = [complex(*point) for point in points_on(stretch, value)] + [_number(stretch.end, value)]
+        parts = _PARTS if len(ends) == 2 else 1
+        points += [a + (b - a) * i / parts for a, b in pairwise(ends) for i in range(parts + 1)]
+    far = _ANY * max(map(abs, points))
+    return {stretch: 0.5 * _nearest_behind(stretch, points, far, value) for stretch in outline.stretches}
+
+
+def _nearest_behind(stretch: Stretch, points: Sequence[complex], far: float, value: Value) -> float:
+    """Return the distance of the nearest of some points on the right of a piece; `far` without any."""
+    start, end, first, last = (_number(x, value) for x in (stretch.start, stretch.end, stretch.first, stretch.last))
+    k, near = value(stretch.curvature), far
+    for point in points:
+        u = (point - start) * first.conjugate()
+        height = 2.0 * u.imag + k * abs(u) ** 2
+        gap = height / (1.0 + math.sqrt(max(0.0, 1.0 + k * height)))
+        if u.real >= 0.0 and ((point - end) * last.conjugate()).real <= 0.0 and gap < -far * _ON / _ANY:
+            near = min(near, -gap)
+    return near if k <= 0.0 else min(near, 2.0 / k)
+
+
+def _number(a: Plane, value: Value) -> complex:
+    return complex(value(a[0]), value(a[1]))
+
+
+def offset_pieces(
+    stretches: Sequence[Stretch], closed: bool, radius: Expr, depths: Mapping[Stretch, float], value: Value
+) -> tuple[ChainPiece, ...]:
     """Return the chain on which the centre of a disc lies that touches pieces without a concave corner.
 
     An open chain begins and ends with a half circle about its end. A closed one has an even number of pieces, so that
@@ -207,7 +244,8 @@ def offset_pieces(stretches: Sequence[Stretch], closed: bool, radius: Expr, valu
         growth = call("add", ONE, product(stretch.curvature, radius))
         start = _plus(stretch.start, _scaled(radius, _left(stretch.first)))
         curvature, length = call("div", stretch.curvature, growth), product(stretch.length, growth)
-        whole = _Piece(start, stretch.first, ZERO if stretch.curvature == ZERO else curvature, length)
+        depth = sum_of_terms(radius, Number(depths[stretch]))
+        whole = _Piece(start, stretch.first, ZERO if stretch.curvature == ZERO else curvature, length, depth)
         turn = abs(value(stretch.curvature) * value(stretch.length))
         pieces += whole.split(max(1, math.ceil(turn / _LARGEST_TURN)))
     if not closed:
@@ -226,11 +264,14 @@ class _Piece(msgspec.Struct, frozen=True):
     along: Plane
     curvature: Expr
     length: Expr
+    depth: Expr
 
     def split(self, count: int) -> list[_Piece]:
         """Return equal parts of it."""
         part = product(Number(1.0 / count), self.length)
-        return [_Piece(*self._at(product(Number(float(i)), part)), self.curvature, part) for i in range(count)]
+        return [
+            _Piece(*self._at(product(Number(float(i)), part)), self.curvature, part, self.depth) for i in range(count)
+        ]
 
     def _at(self, way: Expr) -> tuple[Plane, Plane]:
         """Return the point at a way from its start, and its direction there."""
@@ -248,13 +289,13 @@ class _Piece(msgspec.Struct, frozen=True):
 def _about(corner: Plane, along: Plane, radius: Expr, angle: Expr) -> _Piece:
     """Return the arc about a corner that begins in a direction and turns to the right by an angle."""
     start = _plus(corner, _scaled(radius, _left(along)))
-    return _Piece(start, along, call("div", ONE, radius), product(radius, angle))
+    return _Piece(start, along, call("div", ONE, radius), product(radius, angle), radius)
 
 
 def _with_ways(pieces: Sequence[_Piece]) -> Iterator[ChainPiece]:
     before: Expr = ZERO
     for piece in pieces:
-        yield ChainPiece(piece.start, piece.along, piece.curvature, piece.length, before)
+        yield ChainPiece(piece.start, piece.along, piece.curvature, piece.length, piece.depth, before)
         before = sum_of_terms(before, piece.length)
 
 

@@ -104,7 +104,7 @@ def test_concave_corners_cut_a_chain() -> None:
     teeth = [[-1.0, 0.0], [0.0, 0.0], [0.2, 0.3], [0.4, 0.0], [0.6, 0.3], [0.8, 0.0]]
     chains = chains_of(described({"points": teeth}))
     assert [len(chain.pieces) for chain in chains] == [3, 6, 6]  # a turn of 113 degrees has two pieces
-    assert not any(chain.closed or chain.solid for chain in chains)
+    assert not any(chain.closed for chain in chains)
     star = [[math.cos(x) * r, math.sin(x) * r] for i in range(10) for x, r in [(i * math.pi / 5.0, 1.0 - i % 2 * 0.5)]]
     assert len(chains_of(described({"points": star, "closed": True}))) == 5
     rounded = chains_of(described({"points": star, "closed": True, "fillet": 0.05}))

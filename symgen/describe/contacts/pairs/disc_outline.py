@@ -5,13 +5,13 @@ from __future__ import annotations
 import msgspec
 
 from symgen.base.errors import quote, suggest
-from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, Reading, call, product, sum_of_terms
+from symgen.base.vocabulary.expressions import ZERO, Expr, Number, Reading, product, sum_of_terms
 from symgen.base.vocabulary.measures import GROUND, Angle, Chain, FormulaMeasure, Lap, Marker, OnChain
 from symgen.describe.contacts.chains import (
     TANGENT,
     Outline,
-    Stretch,
     Value,
+    depths_of,
     hollow_corners,
     offset_pieces,
     points_on,
@@ -59,15 +59,14 @@ def read_disc_beside_outline(scope: Scope, key: str, table: OutlineTable, disc: 
 
     _check_disc(scope, key, outline, disc)
     runs = runs_of(outline, value)
-    closed = outline.closed and len(runs) == 1
+    closed, solid = outline.closed and len(runs) == 1, depths_of(outline, value)
     frame = scope.marker(f"{key}.outline", outline.body, (0.0, 0.0))
     drawn = disc.outline, _drawn(outline, value)
     touches = list[Touch]()
     for run in runs:
-        pieces = offset_pieces(run, closed, disc.radius, value)
+        pieces = offset_pieces(run, closed, disc.radius, solid, value)
         hollow = any(value(stretch.curvature) < 0.0 for stretch in run)
-        depth = disc.radius if disc.size > 0.0 else _least_radius(run, value)
-        chain = Chain(frame, disc.centre, pieces, depth, closed, hollow, solid=len(runs) == 1)
+        chain = Chain(frame, disc.centre, pieces, closed, hollow)
         way: Expr = Reading(f"{scope.name}.way", Lap(chain) if closed else OnChain(chain, "way"))
         turns = tuple(
             product(Number(sign), disc.radius, Reading(f"{of}.theta", Angle(GROUND, of)))
@@ -106,12 +105,6 @@ def _check_disc(scope: Scope, key: str, outline: Outline, disc: Disc) -> None:
             f"{got} of '{outline.name}'",
             "fillet rounds corners",
         )
-
-
-def _least_radius(run: tuple[Stretch, ...], value: Value) -> Expr:
-    """Return the radius of the most curved arc of a run."""
-    curvatures = [stretch.curvature for stretch in run if value(stretch.curvature) > 0.0]
-    return call("div", ONE, max(curvatures, key=value))
 
 
 def _drawn(outline: Outline, value: Value) -> DrawnOutline:
