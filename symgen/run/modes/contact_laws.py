@@ -95,7 +95,7 @@ def find_carriers_of_part(c: Choice, count: int) -> None:
             for a in range(count):
                 if laws.depends[a] == 1 and abs(laws.slopes[a * count + b]) > NO_FACTOR:
                     owners += 1 if c.rows.pushes[order[a]] == 0 else 2
-                    owner, c.bounds[j] = order[a], laws.slopes[a * count + b]
+                    owner, c.factors[j] = order[a], laws.slopes[a * count + b]
             c.part[j] = owner if owners == 1 else c.rows.count
 
 

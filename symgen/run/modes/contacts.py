@@ -134,10 +134,10 @@ def write_part(c: Choice, count: int) -> None:
         elif c.best[i] == ON and carrier < c.rows.count:
             after[at + CONSTANT] = float(carrier + 1)
             if c.rows.partner[i] >= 0:
-                after[at + LIMIT] = c.bounds[i]
+                after[at + LIMIT] = c.factors[i]
             else:
                 static = c.read.static[i] * (c.sizes[i] if by_reaction(c, i) else 1.0)
-                after[MODE_NUMBERS * carrier + LIMIT] += abs(c.bounds[i]) * static
+                after[MODE_NUMBERS * carrier + LIMIT] += abs(c.factors[i]) * static
         elif c.best[i] == ON:
             slack = ROUNDED * (c.problem.scale[i] + abs(c.forces[i]))
             after[at + CONSTANT], after[at + EFFORT], after[at + LIMIT] = AT_REST, c.forces[i], slack

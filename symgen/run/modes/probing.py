@@ -266,13 +266,13 @@ def size_forces_of_parts(c: Choice, rows: int) -> None:
             j = c.rest[q]
             if c.part[j] == c.part[i]:
                 most = larger_number(most, c.problem.scale[j] * math.sqrt(c.problem.matrix[j * k + j]))
-        c.bounds[i] = most / math.sqrt(own) if own > 0.0 else 0.0
+        c.trial[i] = most / math.sqrt(own) if own > 0.0 else 0.0
     for r in range(rows):
         i = c.rest[r]
         if c.rows.pushes[i] != 0:
-            c.problem.scale[i] = c.bounds[i]
+            c.problem.scale[i] = c.trial[i]
         elif c.rows.partner[i] >= 0:  # the rounding of a bound is that of what presses
-            c.problem.scale[i] += c.read.static[i] * c.bounds[c.rows.partner[i]]
+            c.problem.scale[i] += c.read.static[i] * c.trial[c.rows.partner[i]]
 
 
 @exact()

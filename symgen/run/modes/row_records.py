@@ -201,15 +201,15 @@ class Choice(Record):
     before, after : Array, shapes (MODE_NUMBERS k,)
         Modes.
     signs, trial : Array, shapes (k,)
-        Signs of rates, and the signs that a probe assumes.
+        Signs of rates; the signs that a probe assumes, and other working memory.
     forces : Array, shape (k,)
         Forces at rest.
     rest_of : Array, shape (k k,)
         Remainder of G.
     jam : Array, shape (1,)
         Part of a reaction that its own effort brings about.
-    sizes, bounds : Array, shapes (k,), (2 k,)
-        Sizes of reactions; bounds at rest, then in motion, over these.
+    sizes, factors : Array, shapes (k,)
+        Sizes of reactions; what rows in force carry of a unit of force of each row that one of them carries.
     y, w, rate, out, iw : Array, Array of int64
         Arguments of emitted functions.
     room : Array
@@ -245,7 +245,7 @@ class Choice(Record):
     rest_of: Array
     jam: Array
     sizes: Array
-    bounds: Array
+    factors: Array
     y: Array
     w: Array
     rate: Array
@@ -365,7 +365,7 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         rest_of=numbers(k * k),
         jam=numbers(1),
         sizes=numbers(k),
-        bounds=numbers(2 * k),
+        factors=numbers(k),
         y=numbers(width),
         w=numbers(nw),
         rate=numbers(width),
