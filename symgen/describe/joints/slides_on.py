@@ -123,9 +123,8 @@ class SlidesOn(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     def slider(self, scope: Scope) -> CurveSlider:
         """Return what the joint adds: a body without mass whose place is the way along the curve, and passages."""
         (step, way), stations = self._way(scope), len(self.along or ()) - 2
-        rate = Reading(f"{scope.name}.displacement.rate", way, 1)
         passed = call("div", Reading(f"{scope.name}.displacement", way), step)
-        return CurveSlider(scope.name, self._slider(scope), stations, passed, rate)
+        return CurveSlider(scope.name, self._slider(scope), stations, passed)
 
     def _slider(self, scope: Scope) -> AnyBody:
         """Return the body without mass, nearest to the point at the start."""

@@ -6,8 +6,9 @@ straight part touches again, ``NAME.comesK``. Length and direction of the rope g
 accelerations. All else that runs have for states and events they have for these.
 
 A point that slides along a curve of pieces has one state, ``NAME.passed``, the stations that it has passed since the
-start, forwards less backwards; no formula of the motion reads it. Its events ``NAME.passesK`` are at stations, where
-accelerations jump: steps end there, and derivatives go through them.
+start, forwards less backwards; no formula of the motion reads it. Its events ``NAME.passesK`` and ``NAME.returnsK`` are
+just beyond stations, where accelerations jump: steps end there, and derivatives go through them. One that rests at a
+station, up to rounding, has none.
 """
 
 from __future__ import annotations
@@ -27,8 +28,10 @@ from symgen.describe.parts.event_sections import RESET
 
 #: Last words of the names of states and events, before the number of the sheave.
 ON, LEAVES, COMES = "on", "leaves", "comes"
-PASSED, PASSES = "passed", "passes"
-_EVENTS = re.compile(rf"\.(?:{LEAVES}|{COMES}|{PASSES})[1-9][0-9]*$")
+PASSED, PASSES, RETURNS = "passed", "passes", "returns"
+_EVENTS = re.compile(rf"\.(?:{LEAVES}|{COMES}|{PASSES}|{RETURNS})[1-9][0-9]*$")
+#: How far beyond a station its event is, in pieces.
+BEYOND = 1e-7
 
 
 class RopeSheave(msgspec.Struct, frozen=True):
@@ -63,15 +66,14 @@ class CurveSlider(msgspec.Struct, frozen=True):
         The body without mass whose place is the way along the curve.
     stations : int
         Stations between the ends.
-    passed, rate : Expr
-        The way in pieces, and its rate.
+    passed : Expr
+        The way in pieces.
     """
 
     joint: str
     body: AnyBody
     stations: int
     passed: Expr
-    rate: Expr
 
 
 def with_sliders(mechanism: Mechanism, sliders: Sequence[CurveSlider]) -> Mechanism:
@@ -80,10 +82,11 @@ def with_sliders(mechanism: Mechanism, sliders: Sequence[CurveSlider]) -> Mechan
     for x in sliders:
         state = Name(f"{x.joint}.{PASSED}")
         states.append(StateVariable(state.name, ZERO, ZERO))
-        value = call("add", state, call("sign", x.rate))
         for k in range(1, x.stations + 1):
-            name, when = f"{x.joint}.{PASSES}{k}", call("sub", x.passed, Number(float(k)))
-            events.append(ModeEvent(name, when, "any", RESET, ((state, value),), f"{x.joint} passes {k}", PASSES))
+            for word, way, step in ((PASSES, "rising", 1.0), (RETURNS, "falling", -1.0)):
+                when, value = call("sub", x.passed, Number(k + step * BEYOND)), call("add", state, Number(step))
+                reset = ((state, value),)
+                events.append(ModeEvent(f"{x.joint}.{word}{k}", when, way, RESET, reset, f"{x.joint} {word} {k}", word))
     if not sliders:
         return mechanism
     together = {"states": (*mechanism.states, *states), "events": (*mechanism.events, *events)}

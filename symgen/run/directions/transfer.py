@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.describe.bounds.bounded_modes import HIT
-from symgen.describe.parts.passing_ropes import PASSES
+from symgen.describe.parts.passing_ropes import BEYOND, PASSES, RETURNS
 from symgen.run.directions.free_directions import TOGETHER, Free, constraint_directions
 from symgen.run.directions.mode_directions import ModeDirections, name_of_switch
 from symgen.run.directions.moments import Directions, Moment, Moments
@@ -102,19 +102,28 @@ class Transfer:
     def _rate_before(self, passage: RunPassage) -> Array:
         """Return the rates before events.
 
-        Formulas of curves change with the place, which is on the far side already: theirs are taken a little earlier.
+        Formulas of curves change with the place, which is on the far side already: theirs go on from a little earlier.
         """
         before = self._plain(passage.before)
         rate = self.moments.rates(before)
         if not self._passes_station(passage):
             return rate
-        earlier = _CROSSES * max(1.0, abs(before.t))
-        return self.moments.rates(before._replace(t=before.t - earlier, y=before.y - earlier * rate))
+        width, watched = self.moments.count - 1, self.watched
+        assert watched is not None, "the run has events"
+        nothing = self._with(np.zeros((len(before.y), width)), rate), self._with(np.zeros((self._count, width)))
+        by = Directions(nothing[0], np.append(np.zeros(width), 1.0), nothing[1])
+        _, slopes = self.moments.observe(watched.function, 3 * (len(watched.names) + len(watched.switches)), before, by)
+        earlier = 2.0 * BEYOND / np.abs(slopes[list(passage.numbers), -1]).max()
+        near, far = (
+            self.moments.rates(before._replace(t=before.t - part * earlier, y=before.y - part * earlier * rate))
+            for part in (1.0, 2.0)
+        )
+        return np.asarray(2.0 * near - far)
 
     def _passes_station(self, passage: RunPassage) -> bool:
         """Whether a point passes a station of its curve."""
         watched = self.watched
-        return watched is not None and any(watched.words[number] == PASSES for number in passage.numbers)
+        return watched is not None and any(watched.words[number] in (PASSES, RETURNS) for number in passage.numbers)
 
     def _corrected(self, passage: RunPassage, y: Array, modes: Array) -> Array:
         """Return directions whose velocities satisfy the rows after a passage.
