@@ -156,3 +156,43 @@ def test_discs_fall_into_a_bin_in_the_shape_whose_compilation_is_short(count: in
     upwards = radius + 0.3 * G * lands * later - G * later**2 / 2.0
     assert result["d0.y"][-1] == pytest.approx(upwards, abs=1e-9)
     assert result[f"d{count - 1}.x"][-1] == pytest.approx(0.12 * ((count - 1) % 3), abs=1e-9)
+
+
+@pytest.mark.by_turns(3)
+@pytest.mark.slow
+def test_eight_discs_come_to_rest_in_a_bin(tmp_path: Path) -> None:
+    """What the contacts exert balances the weight of each, and is within their cones."""
+    count, radius, mu = 8, 0.05, 0.3
+    places = [(0.12 * (i % 3) + 0.006 * (i // 3), radius + 0.02 + 0.13 * (i // 3)) for i in range(count)]
+    text, pairs = head("bin"), dict[str, tuple[int, int | None, tuple[float, float]]]()
+    walls = {"f": ((0.0, 1.0), (0.0, 0.0)), "l": ((1.0, 0.0), (-0.06, 0.0)), "r": ((-1.0, 0.0), (0.3, 0.0))}
+    for i, place in enumerate(places):
+        text += body(f"d{i}", 1.0, 0.5 * radius**2, place)
+        others = {
+            name: f'{{ line = "ground", on = {list(on)}, normal = {list(normal)} }}'
+            for name, (normal, on) in walls.items()
+        }
+        pairs |= {f"d{i}{name}": (i, None, normal) for name, (normal, _) in walls.items()}
+        others |= {f"d{k}": f'{{ body = "d{k}", disc = {radius} }}' for k in range(i)}
+        pairs |= {f"d{i}d{k}": (i, k, (0.0, 0.0)) for k in range(i)}
+        for name, other in others.items():
+            text += f'[contacts.d{i}{name}]\nbetween = [{{ body = "d{i}", disc = {radius} }}, {other}]\n'
+            text += f"friction = {mu}\n"
+    result = loaded(text, tmp_path).simulate(until=3.0, verify=False)
+    assert result.ok, result.reason
+    assert max(abs(result[f"d{i}.{rate}"][-1]) for i in range(count) for rate in ("vx", "vy", "omega")) < 1e-9
+    ends = np.array([[result[f"d{i}.x"][-1], result[f"d{i}.y"][-1]] for i in range(count)])
+    loads, turns = np.tile([0.0, -G], (count, 1)), np.zeros(count)
+    for name, (i, k, wall) in pairs.items():
+        force, friction = result[f"{name}.force"][-1], result[f"{name}.friction"][-1]
+        normal = np.array(wall) if k is None else (ends[i] - ends[k]) / np.linalg.norm(ends[i] - ends[k])
+        assert force >= 0.0 and abs(friction) <= mu * force * (1.0 + 1e-8) + 1e-10
+        sense = 1.0 if k is None else -1.0  # the slip of a disc on a line is the other way round
+        whole = force * normal + sense * friction * np.array([normal[1], -normal[0]])
+        loads[i] += whole
+        turns[i] += sense * friction
+        if k is not None:
+            loads[k] -= whole
+            turns[k] += sense * friction
+    np.testing.assert_allclose(loads, 0.0, atol=1e-8)
+    np.testing.assert_allclose(turns, 0.0, atol=1e-8)
