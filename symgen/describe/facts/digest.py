@@ -16,7 +16,7 @@ from symgen.describe.table_functions import Table
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1
 #: Fields added after the form was fixed: empty ones are left out.
-_LATER = ("flexures", "pressed", "across", "speed", "backwards", "exponent", "changing", "resting", "alone")
+_LATER = ("flexures", "pressed", "across", "speed", "backwards", "exponent", "changing", "resting", "alone", "words")
 
 
 def canonical_text(mechanism: Mechanism) -> str:
@@ -105,6 +105,7 @@ def mechanism_digest(mechanism: Mechanism) -> str:
         ", changing=False",
         ", resting=()",
         ", alone=False",
+        ", words=''",
         ", shown=''",
         ", modal=None",
         ", carried=None",
