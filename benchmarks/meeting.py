@@ -133,6 +133,13 @@ between = [
 ]
 friction = 0.2
 restitution = 0.3"""
+_SLOPES = """[outlines.slopes]
+body = "ground"
+points = [["0.2 + 2*size", -1.5], ["size + 0.03", "-2*size*cos(0.4) - 0.05"], ["size + 0.03", 1.0]]
+[contacts.wall]
+between = [{ body = "pole", at = "tip", disc = 0.02 }, { outline = "slopes" }]
+friction = 0.2
+restitution = 0.3"""
 _SLED = """[bodies.sled]
 mass = 1.0
 inertia = 0.05
@@ -244,6 +251,7 @@ FEATURES: Mapping[str, str] = {
     ),
     "contact": thrown(cart(more=_WALL)),
     "contact, two feet": cart(more=_SLED),
+    "contact with an outline": thrown(cart(more=_SLOPES)),
     "contact by Poisson's law": thrown(cart(more=_WALL)).replace(
         "[mechanism]", '[mechanism]\nrestitution_law = "poisson"'
     ),
