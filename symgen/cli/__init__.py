@@ -42,7 +42,7 @@ FIRST = 100_000
 #: Commands in the order of the help; others come last.
 ORDER = (
     *("list", "new", "edit", "import", "check", "draw", "view", "inspect", "generate", "run"),
-    *("equilibrium", "modes", "linearise", "kinematics", "inverse", "identify", "design"),
+    *("equilibrium", "modes", "linearise", "kinematics", "inverse", "identify", "design", "synthesize"),
     *("report", "compare", "stress", "sweep", "schema", "cache", "completion"),
 )
 

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from symgen.base.errors import InputError
 from symgen.describe.edits.rereading import ReadText, read_text_after
-from symgen.describe.facts.lifted import Lifted, lift_numbers, lifted_with_numbers, numbers_of_file, path_in_words
-from symgen.describe.files.origins import Source, origin_of
+from symgen.describe.facts.lifted import (
+    Lifted,
+    lifted_with_numbers,
+    name_of_changeable,
+    numbers_as_parameters,
+    path_in_words,
+)
+from symgen.describe.files.origins import Source
 from symgen.describe.files.places import DocumentOutline
-from symgen.describe.files.places import Path as Place
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
 
@@ -63,7 +67,7 @@ class Texts:
         """Return the mechanism whose code stays what it is while a hand changes numbers of the file."""
         lifted = self._lifted_before(draft)
         if lifted is None:
-            lifted = _numbers_as_parameters(draft.mechanism)
+            lifted = numbers_as_parameters(draft.mechanism)
         self._lifted = draft.read, lifted
         return lifted.mechanism
 
@@ -80,33 +84,6 @@ class Texts:
         if read.kind is not draft.read.kind:
             return None
         changed = draft.read.changed_numbers(read)
-        named = {_name_of_changeable(path_in_words(path), path, value): value for path, value in changed.items()}
+        named = {name_of_changeable(path_in_words(path), path, value): value for path, value in changed.items()}
         was_zero = any(not value for value in read.changed_numbers(draft.read).values())
         return None if was_zero or "" in named else lifted_with_numbers(lifted, named)
-
-
-def _numbers_as_parameters(mechanism: Mechanism) -> Lifted:
-    """Return a mechanism whose code stays what it is while a hand changes numbers of the file.
-
-    Zeros stay: code is shorter with them.
-    """
-    origin = origin_of(mechanism)
-    if origin is None:
-        return Lifted(mechanism, {})
-    names = [name for name in (_name_of_changeable(*number) for number in numbers_of_file(origin.raw)) if name]
-    try:
-        return lift_numbers("edit", mechanism, names)
-    except InputError:  # a place that takes numbers alone
-        return Lifted(mechanism, {})
-
-
-def _name_of_changeable(name: str, path: Place, value: float) -> str:
-    """Return the name of a number that emitted code has and a hand changes; empty for others."""
-    if value == 0.0:
-        return ""
-    if path[0] == "mechanism":
-        return name if path[1] == "gravity" else ""
-    key = path[2] if len(path) > 2 else ""
-    keys = {"bodies": ("mass", "inertia", "points", "centre_of_mass"), "joints": ("at",)}
-    forces = ("at", "stiffness", "damping", "free_length", "free_angle")
-    return name if key in {**keys, "forces": forces}.get(str(path[0]), ()) else ""

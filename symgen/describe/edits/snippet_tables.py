@@ -211,6 +211,37 @@ def table_at(path: str, *lines: str) -> Table:
     return path, "\n".join((f"[{path}]", *lines))
 
 
+def uniform_body(name: str, points: Mapping[str, tuple[float, float]], angle: float = 0.0) -> Table:
+    """Return a body of 1 kg through points: a uniform rod or triangular plate, whose frame is at the first point.
+
+    Parameters
+    ----------
+    name : str
+        Of the body.
+    points : mapping of str to tuple of float
+        Two or three points in the frame of the ground [m].
+    angle : float
+        Of its frame [rad].
+    """
+    corners = [*points.values()]
+    sides = [math.dist(a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
+    c, s, (x, y) = math.cos(angle), math.sin(angle), corners[0]
+    own = [(c * (a - x) + s * (b - y), c * (b - y) - s * (a - x)) for a, b in corners]
+    centre = [math.fsum(each) / len(own) for each in zip(*own, strict=True)]
+    inertia = sides[0] ** 2 / 12.0 if len(corners) == 2 else math.fsum(side**2 for side in sides) / 36.0
+    written = ", ".join(f"{letter} = {vector_text(p)}" for letter, p in zip(points, own, strict=True))
+    lines = [
+        "mass = 1.0",
+        f"inertia = {short_number(inertia)}",
+        f"centre_of_mass = [{', '.join(short_number(x) for x in centre)}]",
+        f"points = {{ {written} }}",
+        f"position = {vector_text(corners[0])}",
+    ]
+    if angle:
+        lines.append(f"angle = {exact_number(angle)}")
+    return table_at(f"bodies.{name}", *lines)
+
+
 def ordered_pair(kind: str, spots: Sequence[Spot]) -> tuple[Spot, Spot]:
     """Return two points, the one of the ground first."""
     a, b = spots if not spots[0].body or spots[1].body else (spots[1], spots[0])

@@ -23,6 +23,7 @@ from symgen.describe.edits.snippet_tables import (
     pin_table,
     short_number,
     table_at,
+    uniform_body,
     vector_text,
 )
 from symgen.describe.edits.snippet_wheels import WHEELS
@@ -113,20 +114,8 @@ def _body_snippet(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
     sides = [math.dist(a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
     if min(sides) <= 0.0:
         raise InputError("body", "points in different places", "two in one place")
-    own = [(a - corners[0][0], b - corners[0][1]) for a, b in corners]
-    centre = [math.fsum(c) / len(own) for c in zip(*own, strict=True)]
-    # a uniform rod, a uniform triangular plate
-    inertia = sides[0] ** 2 / 12.0 if len(corners) == 2 else math.fsum(s * s for s in sides) / 36.0
-    points = ", ".join(f"{letter} = {vector_text(p)}" for letter, p in zip(_LETTERS, own, strict=False))
     name = file.take_free_name("bar" if len(corners) == 2 else "plate")
-    lines = (
-        "mass = 1.0",
-        f"inertia = {short_number(inertia)}",
-        f"centre_of_mass = [{', '.join(short_number(c) for c in centre)}]",
-        f"points = {{ {points} }}",
-        f"position = {vector_text(corners[0])}",
-    )
-    blocks = [table_at(f"bodies.{name}", *lines)]
+    blocks = [uniform_body(name, dict(zip(_LETTERS, corners, strict=False)))]
     for letter, spot in zip(_LETTERS, spots, strict=False):
         if spot.body:
             blocks.append(pin_table(file, spot, Spot(spot.x, spot.y, name, letter)))

@@ -91,6 +91,33 @@ def lift_numbers(where: str, mechanism: Mechanism, names: Sequence[str]) -> Lift
         raise
 
 
+def numbers_as_parameters(mechanism: Mechanism) -> Lifted:
+    """Return a mechanism whose code stays what it is while a hand changes numbers of the file.
+
+    Zeros stay: code is shorter with them.
+    """
+    origin = origin_of(mechanism)
+    if origin is None:
+        return Lifted(mechanism, {})
+    names = [name for name in (name_of_changeable(*number) for number in numbers_of_file(origin.raw)) if name]
+    try:
+        return lift_numbers("numbers", mechanism, names)
+    except InputError:  # a place that takes numbers alone
+        return Lifted(mechanism, {})
+
+
+def name_of_changeable(name: str, path: Path, value: float) -> str:
+    """Return the name of a number that emitted code has and a hand changes; empty for others."""
+    if value == 0.0:
+        return ""
+    if path[0] == "mechanism":
+        return name if path[1] == "gravity" else ""
+    key = path[2] if len(path) > 2 else ""
+    keys = {"bodies": ("mass", "inertia", "points", "centre_of_mass"), "joints": ("at",)}
+    forces = ("at", "stiffness", "damping", "free_length", "free_angle")
+    return name if key in {**keys, "forces": forces}.get(str(path[0]), ()) else ""
+
+
 def lifted_with_numbers(lifted: Lifted, values: Mapping[str, float]) -> Lifted | None:
     """Return a mechanism with other numbers of its file, which are parameters of it: nothing else is read again.
 
