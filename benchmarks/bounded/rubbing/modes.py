@@ -203,8 +203,11 @@ def choose(state: State, closed: list[int], forced: dict[int, int]) -> tuple[Ans
 def strike(state: State, closed: list[int], slow: float) -> Answer:
     """Return the velocities after an impact: Newton for gaps, and the laws of friction for impulses.
 
-    Gaps that close more slowly than `slow` do not spring back.
+    Gaps that close more slowly than `slow` do not spring back. A machine that is at rest but for rounding stops.
     """
+    if np.abs(state.v).max() < 1e-6 * STILL:
+        none = np.zeros(state.n), np.zeros(state.k), np.zeros(state.k)
+        return Answer(Mode(frozenset(closed), (0,) * state.k), 0.0 * state.v, np.zeros(state.m), *none)
     factors = factors_of(state.machine, set(range(state.k)))
     factors[:, 0] = 0.0
     own = np.array([gap.restitution for gap in state.machine.gaps])

@@ -23,7 +23,8 @@ from symgen.describe.parts.scope import Scope
 
 PACKAGE = Path(symgen.__file__).parent
 #: Who may name a kind: its own room, formats of other programs, whose keys these are, and rolling, by its forces; and
-#: the laws of contacts and of impacts, which are those of a gap and of the friction along it or by reactions.
+#: the laws of contacts and of impacts, which are those of a gap and of the friction along it or by reactions, with the
+#: analyses that solve them at rest and along a recorded motion.
 NAMING = (
     *(
         "describe/bounds/",
@@ -36,7 +37,8 @@ NAMING = (
         "describe/edits/snippet",
     ),
     *("run/modes/contact", "run/modes/impact_memory.py", "run/modes/pin_impulses.py", "run/modes/refusals.py"),
-    *("run/effects/pushing.py", "run/directions/push_directions.py"),
+    *("run/effects/pushing.py", "run/directions/push_directions.py", "run/laws/motions.py", "run/modes/probing.py"),
+    *("run/single/contact_notes.py", "analyses/efforts/", "analyses/rest/lawful.py"),
 )
 PENDULUM = """
 [mechanism]
