@@ -45,7 +45,7 @@ class Limits:
 
 
 @dataclass(frozen=True)
-class Held:
+class LeastEfforts:
     """Efforts at one time.
 
     Attributes
@@ -65,7 +65,9 @@ class Held:
     missing: float
 
 
-def efforts_within_limits(effects: Array, by_forces: Array, goal: Array, weights: Array, limits: Limits) -> Held:
+def efforts_within_limits(
+    effects: Array, by_forces: Array, goal: Array, weights: Array, limits: Limits
+) -> LeastEfforts:
     """Return the least efforts that give accelerations, and the range of each.
 
     Parameters
@@ -97,7 +99,7 @@ def efforts_within_limits(effects: Array, by_forces: Array, goal: Array, weights
     else:
         lowest, highest = _ranges(start, basis, lines, least, n, x)
     missing = float(np.abs(goal - columns @ x).max(initial=0.0))
-    return Held(x[:n], limits.turned @ x[n:] + limits.fixed, lowest, highest, missing)
+    return LeastEfforts(x[:n], limits.turned @ x[n:] + limits.fixed, lowest, highest, missing)
 
 
 def _solutions_of(columns: Array, goal: Array, sizes: Array) -> tuple[Array, Array]:

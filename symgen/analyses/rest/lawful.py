@@ -78,7 +78,7 @@ def find_lawful_rest(
         If no equilibrium is found, with what the first one lacks.
     """
     subject = subject or make_subject(mechanism, settings, by)
-    modes, seen = modes_of(mechanism, subject), set[RowModes]()
+    modes, seen = row_modes_at_start(mechanism, subject), set[RowModes]()
     first: Fault | None = None
     for _ in range(MOST_CHANGES):
         try:
@@ -104,7 +104,7 @@ def find_lawful_rest(
     raise AnalysisError(first.whole if first is not None else "")
 
 
-def modes_of(mechanism: Mechanism, subject: Subject) -> RowModes:
+def row_modes_at_start(mechanism: Mechanism, subject: Subject) -> RowModes:
     """Return the modes that the rows with bounds of a mechanism have in a subject."""
     stuck, along = {each.row.row for each in subject.stuck}, {row.row for row in mechanism.bounded if row.signed}
     return RowModes(frozenset(row.row for row in subject.shut), frozenset(along - stuck))
@@ -115,7 +115,7 @@ def with_bodies(mechanism: Mechanism, settings: Settings, subject: Subject) -> S
     settings = replace(settings, coordinates="absolute")
     if subject.held and (held := held_start(mechanism, settings)) is not None:
         return held[0]
-    own = make_subject(mechanism, settings, (), modes_of(mechanism, subject))
+    own = make_subject(mechanism, settings, (), row_modes_at_start(mechanism, subject))
     return replace(own, whence=subject.whence)
 
 

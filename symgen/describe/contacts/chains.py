@@ -30,7 +30,7 @@ Plane = tuple[Expr, Expr]
 Value = Callable[[Expr], float]
 
 
-class Stretch(msgspec.Struct, frozen=True):
+class OutlinePiece(msgspec.Struct, frozen=True):
     """A segment or an arc of an outline.
 
     Parameters
@@ -53,32 +53,32 @@ class Stretch(msgspec.Struct, frozen=True):
     length: Expr
 
     @property
-    def back(self) -> Stretch:
+    def back(self) -> OutlinePiece:
         """The same from its end to its start."""
         first, last = (_scaled(Number(-1.0), e) for e in (self.last, self.first))
-        return Stretch(self.end, self.start, first, last, call("neg", self.curvature), self.length)
+        return OutlinePiece(self.end, self.start, first, last, call("neg", self.curvature), self.length)
 
 
-class Outline(msgspec.Struct, frozen=True):
+class BodyOutline(msgspec.Struct, frozen=True):
     """An outline of a body: its pieces in order, the free side on their left."""
 
     name: str
     body: str
     closed: bool
-    stretches: tuple[Stretch, ...]
+    stretches: tuple[OutlinePiece, ...]
 
 
 # -- pieces ------------------------------------------------------------------------------------------------------------
 
 
-def segment(start: Plane, end: Plane) -> Stretch:
+def segment(start: Plane, end: Plane) -> OutlinePiece:
     """Return the segment between two points."""
     length = _length(_less(end, start))
     along = _over(_less(end, start), length)
-    return Stretch(start, end, along, along, ZERO, length)
+    return OutlinePiece(start, end, along, along, ZERO, length)
 
 
-def arc(start: Plane, end: Plane, sine: Expr, cosine: Expr, side: float) -> Stretch:
+def arc(start: Plane, end: Plane, sine: Expr, cosine: Expr, side: float) -> OutlinePiece:
     """Return the arc between two points.
 
     Parameters
@@ -95,17 +95,19 @@ def arc(start: Plane, end: Plane, sine: Expr, cosine: Expr, side: float) -> Stre
     turned = product(Number(side), sine)
     angle = product(Number(2.0), call("atan2", sine, cosine))
     first, last = _turned(chord.first, cosine, turned), _turned(chord.first, cosine, call("neg", turned))
-    return Stretch(start, end, first, last, product(Number(side), size), call("div", angle, size))
+    return OutlinePiece(start, end, first, last, product(Number(side), size), call("div", angle, size))
 
 
-def filleted(one: Stretch, other: Stretch, radius: Expr, side: float) -> tuple[Stretch, Stretch, Stretch]:
+def filleted(
+    one: OutlinePiece, other: OutlinePiece, radius: Expr, side: float
+) -> tuple[OutlinePiece, OutlinePiece, OutlinePiece]:
     """Return two segments, shortened, and the arc of a radius between them; `side` as of `arc`."""
     cosine, sine = _dot(one.last, other.first), product(Number(-side), _cross(one.last, other.first))
     cut = product(radius, call("div", sine, call("add", ONE, cosine)))
     start = _plus(one.end, _scaled(call("neg", cut), one.last))
     end = _plus(other.start, _scaled(cut, other.first))
     length = product(radius, call("atan2", sine, cosine))
-    between = Stretch(start, end, one.last, other.first, call("div", Number(side), radius), length)
+    between = OutlinePiece(start, end, one.last, other.first, call("div", Number(side), radius), length)
     shorter = (
         msgspec.structs.replace(one, end=start, length=difference(one.length, cut)),
         msgspec.structs.replace(other, start=end, length=difference(other.length, cut)),
@@ -113,19 +115,19 @@ def filleted(one: Stretch, other: Stretch, radius: Expr, side: float) -> tuple[S
     return shorter[0], between, shorter[1]
 
 
-def turn_between(one: Stretch, other: Stretch, value: Value) -> float:
+def turn_between(one: OutlinePiece, other: OutlinePiece, value: Value) -> float:
     """Return how far the direction turns to the right between two pieces, from -pi to pi [rad]."""
     return math.atan2(-value(_cross(one.last, other.first)), value(_dot(one.last, other.first)))
 
 
-def signed_area(stretches: Sequence[Stretch], value: Value) -> float:
+def signed_area(stretches: Sequence[OutlinePiece], value: Value) -> float:
     """Return the area within closed pieces with the defaults of parameters, below 0 where they go clockwise [m^2]."""
     points = [point for stretch in stretches for point in points_on(stretch, value)]
     pairs = zip(points, points[1:] + points[:1], strict=True)
     return 0.5 * sum(x * far_y - y * far_x for (x, y), (far_x, far_y) in pairs)
 
 
-def points_on(stretch: Stretch, value: Value) -> list[tuple[float, float]]:
+def points_on(stretch: OutlinePiece, value: Value) -> list[tuple[float, float]]:
     """Return points of a piece with the defaults of parameters, without its end: of an arc one every three degrees."""
     (x, y), (tx, ty) = (tuple(map(value, pair)) for pair in (stretch.start, stretch.first))
     k, length = value(stretch.curvature), value(stretch.length)
@@ -142,7 +144,7 @@ def points_on(stretch: Stretch, value: Value) -> list[tuple[float, float]]:
     ]
 
 
-def crossing_of(outline: Outline, value: Value) -> tuple[int, int] | None:
+def crossing_of(outline: BodyOutline, value: Value) -> tuple[int, int] | None:
     """Return the numbers, counted from 1, of two pieces of an outline that cross; None where none do."""
     sides = list[tuple[int, tuple[float, float], tuple[float, float]]]()
     for number, stretch in enumerate(outline.stretches, 1):
@@ -171,7 +173,7 @@ def _cross_each_other(*ends: tuple[float, float]) -> bool:
 # -- chains ------------------------------------------------------------------------------------------------------------
 
 
-def hollow_corners(outline: Outline, value: Value) -> list[int]:
+def hollow_corners(outline: BodyOutline, value: Value) -> list[int]:
     """Return the places of the pieces before which an outline has a hollow corner, counted from 0."""
     pieces = outline.stretches
     return [
@@ -181,7 +183,7 @@ def hollow_corners(outline: Outline, value: Value) -> list[int]:
     ]
 
 
-def runs_of(outline: Outline, value: Value) -> tuple[tuple[Stretch, ...], ...]:
+def runs_of(outline: BodyOutline, value: Value) -> tuple[tuple[OutlinePiece, ...], ...]:
     """Return the pieces of an outline between its concave corners; all of them where it has none."""
     pieces, closed, hollow = outline.stretches, outline.closed, hollow_corners(outline, value)
     if not hollow:
@@ -193,7 +195,7 @@ def runs_of(outline: Outline, value: Value) -> tuple[tuple[Stretch, ...], ...]:
     return tuple(pieces[a:b] for a, b in pairwise(starts))
 
 
-def depths_of(outline: Outline, value: Value) -> dict[Stretch, float]:
+def depths_of(outline: BodyOutline, value: Value) -> dict[OutlinePiece, float]:
     """Return how deep places on the right of each piece are nearer to it than to what is beyond them [m].
 
     A disc that a long step has taken into the body is still seen there.
@@ -207,7 +209,7 @@ def depths_of(outline: Outline, value: Value) -> dict[Stretch, float]:
     return {stretch: 0.5 * _nearest_behind(stretch, points, far, value) for stretch in outline.stretches}
 
 
-def _nearest_behind(stretch: Stretch, points: Sequence[complex], far: float, value: Value) -> float:
+def _nearest_behind(stretch: OutlinePiece, points: Sequence[complex], far: float, value: Value) -> float:
     """Return the distance of the nearest of some points on the right of a piece; `far` without any."""
     start, end, first, last = (_number(x, value) for x in (stretch.start, stretch.end, stretch.first, stretch.last))
     k, near = value(stretch.curvature), far
@@ -225,7 +227,7 @@ def _number(a: Plane, value: Value) -> complex:
 
 
 def offset_pieces(
-    stretches: Sequence[Stretch], closed: bool, radius: Expr, depths: Mapping[Stretch, float], value: Value
+    stretches: Sequence[OutlinePiece], closed: bool, radius: Expr, depths: Mapping[OutlinePiece, float], value: Value
 ) -> tuple[ChainPiece, ...]:
     """Return the chain on which the centre of a disc lies that touches pieces without a concave corner.
 

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, call, product, sum_of_terms
 from symgen.describe.contacts.chains import (
     TANGENT,
-    Outline,
+    BodyOutline,
+    OutlinePiece,
     Plane,
-    Stretch,
     arc,
     crossing_of,
     filleted,
@@ -26,7 +26,7 @@ from symgen.describe.parts.scope import Scope
 _NONE = 1e-12
 
 
-def read_outline(scope: Scope, raw: object) -> Outline:
+def read_outline(scope: Scope, raw: object) -> BodyOutline:
     """Return an outline from its table.
 
     Raises
@@ -51,7 +51,7 @@ def read_outline(scope: Scope, raw: object) -> Outline:
                 raise scope.error(key, "no such key beside points", value_in_words(getattr(section, key)))
         points, closed = [_read_point(scope, i, point) for i, point in enumerate(section.points)], section.closed
     reader = _Reader(scope, points, closed, section.fillet)
-    outline = Outline(scope.name, body, closed, tuple(reader.read()))
+    outline = BodyOutline(scope.name, body, closed, tuple(reader.read()))
     if (crossing := crossing_of(outline, reader.value)) is not None:
         got = "pieces {} and {} that cross".format(*crossing)
         raise scope.error(given[0], "a chain that does not cross itself", got)
@@ -118,7 +118,7 @@ class _Reader:
         """Return a number with the defaults of parameters."""
         return self.scope.value(e, "points")
 
-    def read(self) -> list[Stretch]:
+    def read(self) -> list[OutlinePiece]:
         """Return the pieces, the free side on their left."""
         for number in range(1, len(self.points)):
             a, b = (tuple(map(self.value, self.points[i])) for i in (number - 1, number))
@@ -134,11 +134,11 @@ class _Reader:
                 return [stretch.back for stretch in reversed(stretches)]
         return self._with_fillets(stretches)
 
-    def _stretches(self, side: float) -> list[Stretch]:
+    def _stretches(self, side: float) -> list[OutlinePiece]:
         """Return the pieces; `side` is 1 where the free side is on the left of the way along the points."""
         return [self._stretch(i, side) for i in range(1, len(self.points))]
 
-    def _stretch(self, i: int, side: float) -> Stretch:
+    def _stretch(self, i: int, side: float) -> OutlinePiece:
         start, end, table, scope = self.points[i - 1], self.points[i], self.tables[i], self.scope
         key = f"points[{i}]"
         if table is None or (table.radius is None and table.bulge is None):
@@ -163,9 +163,9 @@ class _Reader:
         cosine = call("sqrt", call("sub", ONE, product(sine, sine)))
         return arc(start, end, sine, call("neg", cosine) if table.large else cosine, side * sign)
 
-    def _with_fillets(self, pieces: list[Stretch]) -> list[Stretch]:
+    def _with_fillets(self, pieces: list[OutlinePiece]) -> list[OutlinePiece]:
         """Return pieces with fillets at corners."""
-        arcs, pieces = dict[int, Stretch](), list(pieces)
+        arcs, pieces = dict[int, OutlinePiece](), list(pieces)
         for i in range(0 if self.closed else 1, len(pieces)):
             table = self.tables[i] or (self.tables[-1] if i == 0 else None)
             own = None if table is None else table.fillet

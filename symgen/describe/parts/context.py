@@ -8,7 +8,7 @@ from functools import cached_property
 import msgspec
 
 from symgen.base.vocabulary.expressions import Expr
-from symgen.describe.contacts.chains import Outline
+from symgen.describe.contacts.chains import BodyOutline
 from symgen.describe.formulas.parser import FormulaNames
 from symgen.describe.mechanism import AnyBody, Force, Joint, Mechanism, Vec
 from symgen.describe.table_functions import Table
@@ -31,7 +31,7 @@ class Context(msgspec.Struct, frozen=True, dict=True):
     inputs: tuple[str, ...] = ()
     state_names: tuple[str, ...] = ()
     losses: Mapping[str, Expr] = {}  # energy lost at rows with bounds, which outputs may read
-    outlines: Mapping[str, Outline] = {}  # of bodies and the ground, which contacts name
+    outlines: Mapping[str, BodyOutline] = {}  # of bodies and the ground, which contacts name
 
     @classmethod
     def of_mechanism(cls, mechanism: Mechanism, source: str = "") -> Context:

@@ -20,7 +20,7 @@ from symgen.base.settings import Settings
 from symgen.study.design.motions import motions_of
 from symgen.study.design.problem import QuantityReader
 from symgen.study.synthesis.linkages import COSINE, PLACES, Linkage, pins_of_values, variable_linkage, verify_linkage
-from symgen.study.synthesis.tasks import Task
+from symgen.study.synthesis.tasks import SynthesisTask
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -66,7 +66,7 @@ class PathSearch:
 
     Parameters
     ----------
-    task : Task
+    task : SynthesisTask
         The path.
     room : float
         Pins are within so many sizes about the middle of the task.
@@ -79,7 +79,7 @@ class PathSearch:
         Motions that were made.
     """
 
-    def __init__(self, task: Task, room: float, transmission: float) -> None:
+    def __init__(self, task: SynthesisTask, room: float, transmission: float) -> None:
         self.task, self.transmission, self.runs = task, transmission, 0
         self.points = task.places[:-1] if task.is_closed else task.places
         self.low, self.high = task.room(room)

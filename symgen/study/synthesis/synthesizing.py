@@ -16,7 +16,7 @@ from symgen.base.errors import InputError, quote
 from symgen.base.files import write_whole
 from symgen.study.synthesis.coupler_paths import PathSearch
 from symgen.study.synthesis.linkages import Linkage
-from symgen.study.synthesis.tasks import Task, read_task
+from symgen.study.synthesis.tasks import SynthesisTask, read_task
 from symgen.study.synthesis.three_positions import PositionSearch
 
 #: Linkages are others where a pin is so far away, in parts of the size of the task.
@@ -132,7 +132,7 @@ def synthesize(
     return Synthesis(tuple(chosen), None if chosen else _reason(wide, least))
 
 
-def _rank(linkage: Linkage, task: Task) -> tuple[float, float]:
+def _rank(linkage: Linkage, task: SynthesisTask) -> tuple[float, float]:
     """Return what is less for a better linkage: how far it misses a path, then how badly forces pass."""
     missed = linkage.deviation / task.size
     return (missed if task.angles is None and missed > NONE else 0.0), -linkage.transmission

@@ -23,7 +23,7 @@ _UNITS = {"x": "m", "y": "m", "angle": "rad"}
 
 
 @dataclass(frozen=True)
-class Task:
+class SynthesisTask:
     """Positions of a body, or points of a path.
 
     Attributes
@@ -53,7 +53,7 @@ class Task:
         return middle - factor * self.size, middle + factor * self.size
 
 
-def read_task(source: object) -> Task:
+def read_task(source: object) -> SynthesisTask:
     """Return the task of a table with the columns x and y, and angle where they are positions.
 
     Parameters
@@ -78,12 +78,12 @@ def read_task(source: object) -> Task:
         raise InputError(where, "columns of one length", f"{min(sizes)} and {max(sizes)} numbers")
     if not all(np.isfinite(values).all() for values in columns.values()):
         raise InputError(where, "finite numbers", "others")
-    task = Task(np.column_stack([columns["x"], columns["y"]]), columns.get("angle"))
+    task = SynthesisTask(np.column_stack([columns["x"], columns["y"]]), columns.get("angle"))
     _check(where, task)
     return task
 
 
-def _check(where: str, task: Task) -> None:
+def _check(where: str, task: SynthesisTask) -> None:
     """Refuse places that no linkage can be found for."""
     count = len(task.places)
     if task.angles is not None and count != 3:

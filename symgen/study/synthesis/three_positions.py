@@ -21,7 +21,7 @@ from symgen.describe.formulas.evaluate import parameter_values
 from symgen.study.design.motions import motions_of
 from symgen.study.design.problem import QuantityReader
 from symgen.study.synthesis.linkages import COSINE, Linkage, pins_of_values, variable_linkage, verify_linkage
-from symgen.study.synthesis.tasks import Task
+from symgen.study.synthesis.tasks import SynthesisTask
 
 Array = NDArray[np.float64]
 
@@ -38,7 +38,7 @@ class PositionSearch:
 
     Parameters
     ----------
-    task : Task
+    task : SynthesisTask
         The positions.
     room : float
         Pins are within so many sizes about the middle of the task.
@@ -51,7 +51,7 @@ class PositionSearch:
         The search among them.
     """
 
-    def __init__(self, task: Task, room: float, transmission: float) -> None:
+    def __init__(self, task: SynthesisTask, room: float, transmission: float) -> None:
         self.task, self.size = task, task.size
         low, high = task.room(room)
         parameters = _parameters(task, 0.5 * (low + high))
@@ -129,7 +129,7 @@ class _PassingMotions:
         return found
 
 
-def _parameters(task: Task, middle: Array) -> dict[str, float | str]:
+def _parameters(task: SynthesisTask, middle: Array) -> dict[str, float | str]:
     """Return the parameters of a linkage through three positions."""
     angles = np.zeros(3) if task.angles is None else task.angles - task.angles[0]
     found: dict[str, float | str] = dict(zip(("tx", "ty"), task.places[0].tolist(), strict=True))

@@ -9,7 +9,7 @@ from symgen.base.vocabulary.expressions import ZERO, Expr, Number, Reading, prod
 from symgen.base.vocabulary.measures import GROUND, Angle, Chain, FormulaMeasure, Lap, Marker, OnChain
 from symgen.describe.contacts.chains import (
     TANGENT,
-    Outline,
+    BodyOutline,
     Value,
     depths_of,
     hollow_corners,
@@ -18,7 +18,7 @@ from symgen.describe.contacts.chains import (
     runs_of,
     turn_between,
 )
-from symgen.describe.contacts.outlines import Outline as DrawnOutline
+from symgen.describe.contacts.outlines import Outline
 from symgen.describe.contacts.surfaces import Disc, Pair, Touch, check_bodies
 from symgen.describe.parts.scope import Scope
 
@@ -35,7 +35,7 @@ class OutlineTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     outline: str
 
 
-def outline_named(scope: Scope, key: str, name: str) -> Outline:
+def outline_named(scope: Scope, key: str, name: str) -> BodyOutline:
     """Return an outline by its name."""
     outlines = scope.context.outlines
     if name not in outlines:
@@ -79,7 +79,7 @@ def read_disc_beside_outline(scope: Scope, key: str, table: OutlineTable, disc: 
     return msgspec.structs.replace(first, further=tuple(others))
 
 
-def _check_disc(scope: Scope, key: str, outline: Outline, disc: Disc) -> None:
+def _check_disc(scope: Scope, key: str, outline: BodyOutline, disc: Disc) -> None:
     """Refuse a disc that cannot touch all of an outline."""
     if disc.size < 0.0:
         raise scope.error(key, "a disc or a point beside an outline", f"a hole of {-disc.size!r} m")
@@ -107,16 +107,16 @@ def _check_disc(scope: Scope, key: str, outline: Outline, disc: Disc) -> None:
         )
 
 
-def _drawn(outline: Outline, value: Value) -> DrawnOutline:
+def _drawn(outline: BodyOutline, value: Value) -> Outline:
     """Return the line along an outline with the defaults of parameters."""
     points = [point for stretch in outline.stretches for point in points_on(stretch, value)]
     x, y = outline.stretches[-1].end
     points.append((value(x), value(y)))
     markers = tuple(Marker(outline.body, (Number(x), Number(y))) for x, y in points)
-    return DrawnOutline(markers, words=_words_on(outline, value))
+    return Outline(markers, words=_words_on(outline, value))
 
 
-def _words_on(outline: Outline, value: Value) -> str:
+def _words_on(outline: BodyOutline, value: Value) -> str:
     """Return what `symgen inspect` says of an outline."""
     pieces = outline.stretches
     length = sum(value(piece.length) for piece in pieces)
