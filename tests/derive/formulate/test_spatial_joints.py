@@ -13,8 +13,9 @@ from support.space import STEP, Space
 from symgen.derive.formulate.formulate import formulate
 from symgen.describe.joints import JOINTS
 
-#: Ropes follow from their starts, and have references in tests/run/single/test_ropes_in_space.py.
-KINDS = tuple(name for name, kind in JOINTS.items() if "spatial" in kind.SPACES and name != "rope")
+#: Ropes follow from their starts, and have references in tests/run/single/test_ropes_in_space.py; points on beams have
+#: theirs in tests/verification/test_sliding.py.
+KINDS = tuple(name for name, kind in JOINTS.items() if "spatial" in kind.SPACES and name not in ("rope", "slides-on"))
 
 #: Kinds whose other side is a plane of the ground, or whose formulas read coordinates in its frame.
 ON_THE_GROUND = ("rolling-disc", "rolling-sphere", "knife-edge", "rows")
