@@ -8,8 +8,8 @@ from symgen.compile.loopcode.exact import exact
 from symgen.run.laws.problem import BALL, PUSH, Laws, bound_of, load_of, middle_of, rows_of
 from symgen.run.layout.scales import larger_number
 
-#: What may be missing, over the sizes that it is a difference of.
-_TOLERANCE = 1e-8
+#: What may be missing, over the sizes that it is a difference of; what rounding leaves, over those of all rows.
+_TOLERANCE, _ROUNDED = 1e-8, 1e-13
 
 
 @exact()
@@ -58,6 +58,7 @@ def obeys(n: int, laws: Laws) -> bool:
         most = larger_number(most, abs(laws.offset[i]) / math.sqrt(own) if own > 0.0 else 0.0)
     for i in range(n):
         own, tiny = laws.matrix[i * n + i], _TOLERANCE * size_of_terms(n, i, laws)
+        tiny += _ROUNDED * most * math.sqrt(own) if own > 0.0 else 0.0
         little = _TOLERANCE * (most / math.sqrt(own) if own > 0.0 else abs(laws.forces[i]))
         if laws.law[i] == PUSH and own > 0.0:
             force, left = laws.forces[i], laws.left[i]

@@ -57,6 +57,7 @@ from symgen.run.modes.strikes import (
     find_immovable,
     find_touching,
     follow_series,
+    is_struck,
 )
 
 #: Impulses below this part of the largest are rounding.
@@ -86,7 +87,7 @@ def find_struck_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: 
 
 
 @exact()
-def find_impulses(c: Choice, s: Strikes) -> int:
+def find_impulses(c: Choice, s: Strikes, w: Array) -> int:
     """Find the modes of an impact; return `SAME`, or why there are none."""
     rows = c.at_rest[0]
     pose_impact(c, s.asked, s.memory.kicked)
@@ -102,7 +103,7 @@ def find_impulses(c: Choice, s: Strikes) -> int:
     for first in range(c.rows.count):
         count = choose_part(c, first, rows)
         if count > 0:
-            code = solve_by_laws(c, count)
+            code = solve_by_laws(c, count) if is_struck(c, s, w, count) else SAME
             if code != SAME:
                 return int(code)
             for a in range(count):
@@ -182,7 +183,7 @@ def lose_at_contacts(c: Choice, s: Strikes, y: Array) -> None:
 @exact()
 def apply_impulses(t: float, c: Choice, s: Strikes, now: Instant, keeps: bool) -> int:
     """Find the impulses of an impact, or of a part of it, and apply them; return `SAME`, or why there are none."""
-    code = find_impulses(c, s)
+    code = find_impulses(c, s, now.w)
     if code != SAME:
         return int(code)
     s.pushing[0] = find_pushing(c, s)

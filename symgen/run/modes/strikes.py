@@ -143,6 +143,20 @@ def is_closing(c: Choice, w: Array, i: int) -> bool:
 
 
 @exact()
+def is_struck(c: Choice, s: Strikes, w: Array, count: int) -> bool:
+    """Return whether a gap among the rows of a part strikes, or expands after compression.
+
+    Other parts have no impulses: beside rates along their gaps, rounding of rates of 0 would count as impacts.
+    """
+    for a in range(count):
+        i = c.box.order[a]
+        closes = c.read.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED)  # closed ones too, after a joint has caught
+        if c.rows.pushes[i] != 0 and (closes or s.memory.kicked[i] != 0.0):
+            return True
+    return False
+
+
+@exact()
 def find_touching(c: Choice, w: Array) -> int:
     """Set the gaps that touch; return their number, 0 where none strikes."""
     n, strikes = 0, False

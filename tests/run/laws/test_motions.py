@@ -166,3 +166,17 @@ def test_a_full_bearing_rests_or_has_several_motions(friction: float) -> None:
         assert compiled_form(find_forces)(48, laws, 1)
         rests = np.max(np.abs(laws.left)) < 1e-8
         assert rests or compiled_form(seek_another)(48, laws), phase
+
+
+@pytest.mark.parametrize("rounding", [0.0, -1e-18, 1e-18])
+def test_rates_of_closed_gaps_that_are_rounding_have_impulses_of_rounding(rounding: float) -> None:
+    """Discs slide on each other and no gap closes: nothing pushes, so that no friction changes their rates."""
+    for number in range(30):
+        problem = draw(np.random.default_rng(number), "cccc")
+        for row in problem.rows:
+            row.way = 0.0
+        problem.offset[::2] = rounding * np.array([1.0, 0.1, 3.0, 0.0])
+        problem.offset[1::2] *= 0.1
+        laws = filled(problem)
+        assert SOLVE(8, 0, laws) != NO_MOTION, number
+        np.testing.assert_allclose(laws.forces[:8], 0.0, atol=1e-14)
