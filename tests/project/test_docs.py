@@ -56,7 +56,9 @@ _PICTURE = re.compile(r"!\[[^\]]*\]\(([^)\s]+)\)")
 #: What may stand before a command: a variable of its environment.
 _SETTING = re.compile(r"([A-Z_]+)=(\S*)")
 #: A block that a page calls a file: "... as `press.toml`:" right above it.
-_FILE = re.compile(r"`([\w-]+\.(?:toml|py|urdf))`:\n\n```(?:toml|python|xml)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_FILE = re.compile(
+    r"`([\w-]+\.(?:toml|py|urdf|csv))`:\n\n```(?:toml|python|xml|none)\n(.*?)^```$", re.MULTILINE | re.DOTALL
+)
 
 
 @dataclass(frozen=True)

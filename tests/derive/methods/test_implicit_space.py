@@ -21,8 +21,11 @@ from symgen.run.compiling.method_choice import choose_method
 from symgen.run.compiling.pipeline import generate
 from symgen.run.layout.compiled import ModelInfo
 
-#: Ropes follow from their starts, and have references in tests/run/single/test_ropes_in_space.py.
-JOINT_KINDS = tuple(name for name, kind in JOINTS.items() if "spatial" in kind.SPACES and name != "rope")
+#: Ropes follow from their starts, and have references in tests/run/single/test_ropes_in_space.py; points on beams have
+#: theirs in tests/verification/test_sliding.py.
+JOINT_KINDS = tuple(
+    name for name, kind in JOINTS.items() if "spatial" in kind.SPACES and name not in ("rope", "slides-on")
+)
 FORCE_KINDS = tuple(name for name, kind in FORCES.items() if "spatial" in kind.SPACES and name != "beam")
 #: Method -> level of its descriptor.
 LEVELS = {
