@@ -144,6 +144,13 @@ def path_argument(where: str, value: object) -> Path:
     return Path(value)
 
 
+def toml_file(where: str, file: Path) -> Path:
+    """Return a file that ends in ``.toml``."""
+    if file.suffix.lower() != ".toml":
+        raise InputError(where, "a file ending in .toml", quote(str(file)))
+    return file
+
+
 def instance(where: str, value: object, kind: type[T], expected: str) -> T:
     """Return an object of a class."""
     if not isinstance(value, kind):

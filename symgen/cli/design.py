@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from symgen.base import arguments
 from symgen.base.errors import InputError, quote
 from symgen.base.settings import Settings
 from symgen.base.units import read_amount
@@ -87,8 +88,8 @@ def command(
     """
     bounds, settings = _bounds_by_name(varied, model), Settings(**values)
     path, report_path = check_output_file("--output", output), check_output_file("--report", report)
-    if path is not None and path.suffix.lower() != ".toml":
-        raise InputError("--output", "a file ending in .toml", quote(str(path)))
+    if path is not None:
+        arguments.toml_file("--output", path)
     refuse_same_file({"--output": path, "--report": report_path})
     if report_path is not None:
         from symgen.study.report.write import check_report

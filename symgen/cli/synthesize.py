@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from symgen.base.errors import InputError, quote
+from symgen.base import arguments
 from symgen.cli import FAILURE, OK, write_complaint, write_files, write_json
 from symgen.cli._shared_options import check_output_file, examples_in_help, json_option
 
@@ -39,8 +39,8 @@ def command(
     moved through TASK in a run of its own.
     """
     path = check_output_file("--output", output)
-    if path is not None and path.suffix.lower() != ".toml":
-        raise InputError("--output", "a file ending in .toml", quote(str(path)))
+    if path is not None:
+        arguments.toml_file("--output", path)
 
     from symgen.cli._progress import Bar
     from symgen.study.synthesis.synthesizing import synthesize

@@ -158,11 +158,8 @@ def judge_alone(outcome: Ended, law: LawInfo) -> Verdict:
     if jump > JUMP_DOUBT:
         return Verdict(UNVERIFIED, _sentence_on_jump(outcome), warnings)
     if _drifted_where_singular(outcome):
-        reason = (
-            f"the energy leaves its balance by {outcome.energy_drift_max:.3g} J, "
-            f"{outcome.energy_drift_max / outcome.energy_scale:.2g} of the energy in motion, in a run that passed near "
-            f"a singular position{_time_of_passage(outcome)}"
-        )
+        drift = _drift_in_words(outcome, outcome.energy_drift_max)
+        reason = f"{drift}, in a run that passed near a singular position{_time_of_passage(outcome)}"
         return Verdict(UNVERIFIED, reason, warnings)
     if not passed or law.position_correction:
         return Verdict(OK, None, warnings)
@@ -222,10 +219,12 @@ def _energy_warning(run: Prepared, outcome: Outcome, second: Verification | None
     else:
         rtol = run.spec.rtol if run.spec.adaptive else math.inf
         error, least, why = outcome.energy_drift_max, OVER_TOLERANCE * rtol, f"far more than rtol = {rtol:g} explains"
+    return [f"{_drift_in_words(outcome, error)}: {why}"] if error / outcome.energy_scale > least else []
+
+
+def _drift_in_words(outcome: Ended, error: float) -> str:
     share = error / outcome.energy_scale
-    if not share > least:
-        return []
-    return [f"the energy leaves its balance by {error:.3g} J, {share:.2g} of the energy in motion: {why}"]
+    return f"the energy leaves its balance by {error:.3g} J, {share:.2g} of the energy in motion"
 
 
 def _sentence_on_jump(outcome: Ended) -> str:

@@ -188,19 +188,19 @@ def _solve_with_contacts(
     )
     lowest = highest = efforts
 
-    def solve(forces: Array) -> Array:
+    def solve(forces: Array, ranged: bool = False) -> Array:
         nonlocal efforts, missing, lowest, highest
         pushed = sum((a * forces[:, [i]] for i, a in enumerate(pushes)), np.zeros_like(base.accelerations))
         efforts, missing, _ = _solve_efforts(still, others[:count], weighed, pushed)
         lowest, highest, held = efforts.copy(), efforts.copy(), np.zeros((len(still.times), len(loads)))
         goals = (still.prescribed_accelerations - base.accelerations - pushed) * scale
         for k in np.flatnonzero(along.limited):
-            x = efforts_within_limits(effects[k], by_forces[k], goals[k], weighed, along.limits_at(int(k)))
+            x = efforts_within_limits(effects[k], by_forces[k], goals[k], weighed, along.limits_at(int(k)), ranged)
             efforts[k], held[k], lowest[k], highest[k], missing[k] = x.efforts, x.forces, x.lowest, x.highest, x.missing
         return multipliers_of_columns(np.column_stack([efforts, forces, held]), range(len(others)))
 
     forces, sentences = along.solve_forces(solve)
-    lam = solve(forces)
+    lam = solve(forces, ranged=True)
     return _Found(efforts, missing, ranks, lam, lowest, highest, sentences)
 
 

@@ -118,7 +118,7 @@ class Contacts:
         for row in self.resting:
             formulas += [
                 (f"middle of {row.name} at rest", _middle_at_rest(row)),
-                (f"middle of {row.name}", _middle(row)),
+                (f"middle of {row.name}", row.middle_of_bounds()),
             ]
         side = compile_side(mechanism, motion.compiled, "bounds", "places of rows with bounds", formulas)
         columns = iter(motion.observe_motion(side.function, len(formulas)).T)
@@ -159,11 +159,6 @@ class Contacts:
 def _middle_at_rest(row: BoundedRow) -> Expr:
     """Return the middle of the bounds at rest."""
     return row.middle_of_bounds() if row.shift is None else call("add", row.middle_of_bounds(), row.shift)
-
-
-def _middle(row: BoundedRow) -> Expr:
-    """Return the middle of the bounds as a motion begins."""
-    return row.middle_of_bounds()
 
 
 @dataclass(frozen=True)

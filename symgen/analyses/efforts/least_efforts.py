@@ -66,9 +66,9 @@ class LeastEfforts:
 
 
 def efforts_within_limits(
-    effects: Array, by_forces: Array, goal: Array, weights: Array, limits: Limits
+    effects: Array, by_forces: Array, goal: Array, weights: Array, limits: Limits, ranged: bool = True
 ) -> LeastEfforts:
-    """Return the least efforts that give accelerations, and the range of each.
+    """Return the least efforts that give accelerations.
 
     Parameters
     ----------
@@ -80,6 +80,8 @@ def efforts_within_limits(
         Of efforts: the sum of (weight effort)^2 is least.
     limits : Limits
         Of the forces.
+    ranged : bool
+        Whether the range of each effort is found too, by two linear programmes; otherwise it is the effort.
     """
     n, free = effects.shape[1], limits.turned.shape[1]
     goal = goal - by_forces @ limits.fixed
@@ -93,11 +95,10 @@ def efforts_within_limits(
     lines, least = np.vstack([unit, -unit[bound]]), np.concatenate([np.zeros(free), -limits.width[bound]])
     costs = np.concatenate([weights, np.full(free, CHEAP * weights.min(initial=1.0))])
     x = _least_within(start, basis, lines, least, costs)
+    within = x is not None
     if x is None:
         x = _nearest_within(columns, goal, limits.width, n)
-        lowest = highest = x[:n]
-    else:
-        lowest, highest = _ranges(start, basis, lines, least, n, x)
+    lowest, highest = _ranges(start, basis, lines, least, n, x) if within and ranged else (x[:n], x[:n])
     missing = float(np.abs(goal - columns @ x).max(initial=0.0))
     return LeastEfforts(x[:n], limits.turned @ x[n:] + limits.fixed, lowest, highest, missing)
 

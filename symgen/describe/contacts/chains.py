@@ -65,7 +65,7 @@ class BodyOutline(msgspec.Struct, frozen=True):
     name: str
     body: str
     closed: bool
-    stretches: tuple[OutlinePiece, ...]
+    pieces: tuple[OutlinePiece, ...]
 
 
 # -- pieces ------------------------------------------------------------------------------------------------------------
@@ -147,7 +147,7 @@ def points_on(stretch: OutlinePiece, value: Value) -> list[tuple[float, float]]:
 def crossing_of(outline: BodyOutline, value: Value) -> tuple[int, int] | None:
     """Return the numbers, counted from 1, of two pieces of an outline that cross; None where none do."""
     sides = list[tuple[int, tuple[float, float], tuple[float, float]]]()
-    for number, stretch in enumerate(outline.stretches, 1):
+    for number, stretch in enumerate(outline.pieces, 1):
         end = value(stretch.end[0]), value(stretch.end[1])
         points = [*points_on(stretch, value), end]
         sides += [(number, a, b) for a, b in pairwise(points)]
@@ -175,7 +175,7 @@ def _cross_each_other(*ends: tuple[float, float]) -> bool:
 
 def hollow_corners(outline: BodyOutline, value: Value) -> list[int]:
     """Return the places of the pieces before which an outline has a hollow corner, counted from 0."""
-    pieces = outline.stretches
+    pieces = outline.pieces
     return [
         i
         for i in range(0 if outline.closed else 1, len(pieces))
@@ -185,7 +185,7 @@ def hollow_corners(outline: BodyOutline, value: Value) -> list[int]:
 
 def runs_of(outline: BodyOutline, value: Value) -> tuple[tuple[OutlinePiece, ...], ...]:
     """Return the pieces of an outline between its concave corners; all of them where it has none."""
-    pieces, closed, hollow = outline.stretches, outline.closed, hollow_corners(outline, value)
+    pieces, closed, hollow = outline.pieces, outline.closed, hollow_corners(outline, value)
     if not hollow:
         return (pieces,)
     if closed:
@@ -201,12 +201,12 @@ def depths_of(outline: BodyOutline, value: Value) -> dict[OutlinePiece, float]:
     A disc that a long step has taken into the body is still seen there.
     """
     points = list[complex]()
-    for stretch in outline.stretches:
+    for stretch in outline.pieces:
         ends = [complex(*point) for point in points_on(stretch, value)] + [_number(stretch.end, value)]
         parts = _PARTS if len(ends) == 2 else 1
         points += [a + (b - a) * i / parts for a, b in pairwise(ends) for i in range(parts + 1)]
     far = _ANY * max(map(abs, points))
-    return {stretch: 0.5 * _nearest_behind(stretch, points, far, value) for stretch in outline.stretches}
+    return {stretch: 0.5 * _nearest_behind(stretch, points, far, value) for stretch in outline.pieces}
 
 
 def _nearest_behind(stretch: OutlinePiece, points: Sequence[complex], far: float, value: Value) -> float:

@@ -134,12 +134,18 @@ def new_strikes(effects: OfEffects, hits: Sequence[int], losses: Sequence[int], 
 
 
 @exact()
+def approaches(c: Choice, w: Array, i: int) -> bool:
+    """Return whether the rate of a gap is below 0, by more than rounding."""
+    return bool(c.read.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED))
+
+
+@exact()
 def is_closing(c: Choice, w: Array, i: int) -> bool:
     """Return whether a gap that touches strikes: its rate is below 0, and no mode holds it.
 
     The rate of a gap that its mode has closed is what a method leaves of it.
     """
-    return bool(not is_held(c, w, i) and c.read.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED))
+    return bool(not is_held(c, w, i) and approaches(c, w, i))
 
 
 @exact()
@@ -150,8 +156,8 @@ def is_struck(c: Choice, s: Strikes, w: Array, count: int) -> bool:
     """
     for a in range(count):
         i = c.box.order[a]
-        closes = c.read.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED)  # closed ones too, after a joint has caught
-        if c.rows.pushes[i] != 0 and (closes or s.memory.kicked[i] != 0.0):
+        # closed ones too, after a joint has caught
+        if c.rows.pushes[i] != 0 and (approaches(c, w, i) or s.memory.kicked[i] != 0.0):
             return True
     return False
 

@@ -7,7 +7,6 @@ energy balance [J], and the seconds of a run.
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from statistics import median
 from typing import Any
 
 from symgen.api import load
@@ -63,7 +62,7 @@ class PublishedRow:
     error, published_error : float, float or None
         Largest error of the energy balance [J].
     seconds, published_seconds : float, float or None
-        Processor time of the loop [s], median of the rounds, on this machine; run time as published, on theirs.
+        Processor time of the loop [s], the best of the rounds, on this machine; run time as published, on theirs.
     warnings : tuple of str
         What the run has to say.
     """
@@ -120,7 +119,7 @@ def run_benchmark(name: str, repeat: int) -> tuple[Benchmark, list[PublishedRow]
     name : str
         Name of the library.
     repeat : int
-        Rounds; the time of a row is the median of its rounds.
+        Rounds after a warm-up; the time of a row is the best of them.
 
     Returns
     -------
@@ -144,9 +143,7 @@ def run_benchmark(name: str, repeat: int) -> tuple[Benchmark, list[PublishedRow]
 
 def _row_of_problem(problem: PublishedProblem, repeat: int) -> PublishedRow:
     model = load(problem.model)
-    settings = Settings(until=problem.until, **problem.settings)
-    results = [model.simulate(settings) for _ in range(repeat)]
-    result = results[-1]
+    result = model.simulate(Settings(until=problem.until, repeat=repeat, **problem.settings))
     return PublishedRow(
         problem=problem.problem,
         model=problem.model,
@@ -158,7 +155,7 @@ def _row_of_problem(problem: PublishedProblem, repeat: int) -> PublishedRow:
         status=result.status,
         error=result.energy_drift_max,
         published_error=problem.published_error,
-        seconds=median(x.seconds.run for x in results),
+        seconds=result.seconds.run,
         published_seconds=problem.published_seconds,
         warnings=result.warnings,
     )

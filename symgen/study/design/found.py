@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from symgen.analyses.search.sampled_motions import Limit
 from symgen.base import arguments
-from symgen.base.errors import InputError, quote
 from symgen.base.files import write_whole
 
 if TYPE_CHECKING:
@@ -194,9 +193,7 @@ class Design:
         InputError
             If it does not end in ``.toml``, or cannot be written.
         """
-        file = arguments.path_argument("save", path)
-        if file.suffix.lower() != ".toml":
-            raise InputError("save", "a file ending in .toml", quote(str(file)))
+        file = arguments.toml_file("save", arguments.path_argument("save", path))
         return write_whole(file, self.text)
 
     def report(self, path: str | PathLike[str]) -> Path:

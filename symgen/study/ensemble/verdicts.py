@@ -92,7 +92,11 @@ def judge_runs(
     passed = (summary_column(summary, "rank_event_count") > 0.0) | (summary_column(summary, "smallest_pivot") < WARN)
     doubtful = (summary_column(summary, "start") != e.ASSEMBLED) | (summary_column(summary, "code") != abi.DONE)
     uncorrected = np.bool_(not law.position_correction)
-    doubtful |= law.energy_correction | _energy_jumped(summary) | (passed & (uncorrected | _energy_drifted(summary)))
+    doubtful |= (
+        law.energy_correction
+        | _near(summary, "energy_jump", JUMP_DOUBT)
+        | (passed & (uncorrected | _near(summary, "energy_drift_max", DRIFT_DOUBT)))
+    )
     doubtful |= ~(summary_column(summary, "imbalance") <= LEFT_DOUBT)
     for i in np.flatnonzero(done & doubtful):
         row = summary[i]
@@ -161,16 +165,9 @@ def _reason_of_events(row: Array, looked: EventNames, info: ModelInfo) -> str | 
     return f"event '{name}': reset: expected {expected}, got others at t = {time:.6g} s"
 
 
-def _energy_jumped(summary: Array) -> NDArray[np.bool_]:
-    return np.asarray(
-        summary_column(summary, "energy_jump") > 0.5 * JUMP_DOUBT * summary_column(summary, "energy_scale")
-    )
-
-
-def _energy_drifted(summary: Array) -> NDArray[np.bool_]:
-    return np.asarray(
-        summary_column(summary, "energy_drift_max") > 0.5 * DRIFT_DOUBT * summary_column(summary, "energy_scale")
-    )
+def _near(summary: Array, error: str, doubt: float) -> NDArray[np.bool_]:
+    """Return which runs are to be judged one by one, as an error comes near a part of the energy in motion."""
+    return np.asarray(summary_column(summary, error) > 0.5 * doubt * summary_column(summary, "energy_scale"))
 
 
 def _reason_of_end(row: Array, spec: RunSpec) -> Ended:

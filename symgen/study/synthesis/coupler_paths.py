@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -72,15 +73,10 @@ class PathSearch:
         Pins are within so many sizes about the middle of the task.
     transmission : float
         The smallest transmission angle of a start [rad].
-
-    Attributes
-    ----------
-    runs : int
-        Motions that were made.
     """
 
     def __init__(self, task: SynthesisTask, room: float, transmission: float) -> None:
-        self.task, self.transmission, self.runs = task, transmission, 0
+        self.task, self.transmission = task, transmission
         self.points = task.places[:-1] if task.is_closed else task.places
         self.low, self.high = task.room(room)
         self.turns = [f"turn{k}" for k in range(1, len(self.points))]
@@ -129,7 +125,6 @@ class PathSearch:
             before, found = found, search.improve(found)
             if found.score > (1.0 - BETTER) * before.score:
                 break
-        self.runs += search.runs
         if found is None:
             return None
         values = dict(zip(self._names, ranges.values(found.u).tolist(), strict=True))
@@ -146,24 +141,19 @@ class PathSearch:
         z = self.points[:, 0] + 1j * self.points[:, 1]
         way = np.cumsum(np.append(0.0, np.abs(np.diff(z))))
         turned, found = 2.0 * math.pi / ANGLES, list[PathStart]()
+        spans = [span for span in SPANS if not self.task.is_closed or span >= ANGLES - 2]
+        parts = [*product(spans, range(0, ANGLES, EVERY), (1, -1))]
         for pins, fixed in _curves(SHAPES * starts, seed, math.cos(self.transmission)):
-            for span in SPANS:
-                if self.task.is_closed and span < ANGLES - 2:
+            for span, first, sign in parts:
+                curve = pins[2, (first + sign * np.arange(span + 1)) % ANGLES]
+                if not np.isfinite(curve).all():
                     continue
-                for first in range(0, ANGLES, EVERY):
-                    for sign in (1, -1):
-                        at = (first + sign * np.arange(span + 1)) % ANGLES
-                        curve = pins[2, at]
-                        if not np.isfinite(curve).all():
-                            continue
-                        own = np.cumsum(np.append(0.0, np.abs(np.diff(curve))))
-                        steps = np.interp(way / way[-1] * own[-1], own, np.arange(span + 1))
-                        passed = np.interp(steps, np.arange(span + 1), curve)
-                        start = self._put_on(
-                            z, passed, np.array([*fixed, *pins[:, first]]), sign * turned * np.diff(steps)
-                        )
-                        if start is not None:
-                            found.append(start)
+                own = np.cumsum(np.append(0.0, np.abs(np.diff(curve))))
+                steps = np.interp(way / way[-1] * own[-1], own, np.arange(span + 1))
+                passed = np.interp(steps, np.arange(span + 1), curve)
+                start = self._put_on(z, passed, np.array([*fixed, *pins[:, first]]), sign * turned * np.diff(steps))
+                if start is not None:
+                    found.append(start)
         return sorted(found, key=lambda start: start.miss)
 
     def _put_on(self, z: Complex, passed: Complex, pins: Complex, turns: Array) -> PathStart | None:

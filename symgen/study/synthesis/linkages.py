@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -106,18 +106,6 @@ class Linkage:
 
         return Model(validate(parse_toml(self.text, _SOURCE), _SOURCE))
 
-    def tables(self, take_name: Callable[[str], str], until: float) -> list[Table]:
-        """Return its tables for a file of which some names are taken.
-
-        Parameters
-        ----------
-        take_name : callable
-            Takes a name that is wanted, and returns one that is free.
-        until : float
-            Last time of that file [s], when the last place is reached.
-        """
-        return _tables(self.pins, self.angle, self.turn / until, take_name)
-
     def to_json(self) -> dict[str, Any]:
         """Return what is known of it, as ``symgen synthesize --json`` prints it."""
         own = ("kind", "turn", "transmission", "deviation", "turned_off", "text")
@@ -125,10 +113,9 @@ class Linkage:
         return {name: getattr(self, name) for name in own} | {"pins": pins}
 
 
-def _tables(pins: Pins, angle: float, rate: float, take_name: Callable[[str], str]) -> list[Table]:
-    crank, coupler, rocker = (take_name(name) for name in ("crank", "coupler", "rocker"))
-    joints = [take_name(name) for name in ("pivot", "crank_pin", "rocker_pin", "rocker_pivot", "motor")]
-    between = (("ground", crank), (crank, coupler), (coupler, rocker), ("ground", rocker))
+def _tables(pins: Pins, angle: float, rate: float) -> list[Table]:
+    joints = ("pivot", "crank_pin", "rocker_pin", "rocker_pivot")
+    between = (("ground", "crank"), ("crank", "coupler"), ("coupler", "rocker"), ("ground", "rocker"))
     at = (
         (vector_text(pins.crank_pivot), '"A"'),
         ('"B"', '"A"'),
@@ -137,16 +124,15 @@ def _tables(pins: Pins, angle: float, rate: float, take_name: Callable[[str], st
     )
     held = [
         table_at(f"joints.{name}", 'type = "revolute"', f'between = ["{a}", "{b}"]', f"at = [{p}, {q}]")
-        for name, (a, b), (p, q) in zip(joints, between, at, strict=False)
+        for name, (a, b), (p, q) in zip(joints, between, at, strict=True)
     ]
-    speed = take_name("crank_speed")
     return [
-        table_at(f"parameters.{speed}", f"value = {exact_number(rate)}", 'unit = "rad/s"'),
-        uniform_body(crank, {"A": pins.crank_pivot, "B": pins.crank_pin}),
-        uniform_body(coupler, {"P": pins.tip, "A": pins.crank_pin, "B": pins.rocker_pin}, angle),
-        uniform_body(rocker, {"A": pins.rocker_pivot, "B": pins.rocker_pin}),
+        table_at("parameters.crank_speed", f"value = {exact_number(rate)}", 'unit = "rad/s"'),
+        uniform_body("crank", {"A": pins.crank_pivot, "B": pins.crank_pin}),
+        uniform_body("coupler", {"P": pins.tip, "A": pins.crank_pin, "B": pins.rocker_pin}, angle),
+        uniform_body("rocker", {"A": pins.rocker_pivot, "B": pins.rocker_pin}),
         *held,
-        table_at(f"joints.{joints[4]}", 'type = "driver"', f'joint = "{joints[0]}"', f'value = "{speed}*t"'),
+        table_at("joints.motor", 'type = "driver"', 'joint = "pivot"', 'value = "crank_speed*t"'),
     ]
 
 
@@ -163,7 +149,7 @@ def verify_linkage(pins: Pins, turn: float, times: Array, places: Array, angles:
     from symgen import Model
 
     angle = 0.0 if angles is None else float(angles[0])
-    tables = _tables(pins, angle, turn, lambda name: name)
+    tables = _tables(pins, angle, turn)
     text = _HEADER + "\n\n".join(table for _, table in tables) + "\n"
     found = Linkage(pins, angle, turn, times, 0.0, 0.0, 0.0, text)
     looked_at = np.union1d(np.linspace(0.0, 1.0, LOOKED_AT), times)

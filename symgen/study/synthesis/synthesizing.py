@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from symgen.base import arguments
-from symgen.base.errors import InputError, quote
+from symgen.base.errors import InputError
 from symgen.base.files import write_whole
 from symgen.study.synthesis.coupler_paths import PathSearch
 from symgen.study.synthesis.linkages import Linkage
@@ -62,9 +62,7 @@ class Synthesis:
         InputError
             If there is no such linkage, the file does not end so, or cannot be written.
         """
-        file = arguments.path_argument("save", path)
-        if file.suffix.lower() != ".toml":
-            raise InputError("save", "a file ending in .toml", quote(str(file)))
+        file = arguments.toml_file("save", arguments.path_argument("save", path))
         if not 1 <= arguments.whole_number("save: place", place, 1, MOST_STARTS**2) <= len(self.linkages):
             raise InputError("save: place", f"one of {len(self.linkages)} linkages", str(place))
         return write_whole(file, self.linkages[place - 1].text)

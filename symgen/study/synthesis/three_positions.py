@@ -31,6 +31,7 @@ VARIED = ("ax", "ay", "bx", "by")
 SHORTEST = 0.05
 #: Positions are reached to this part of the size of the task; another branch is far away.
 REACHED = 1e-6
+_OTHER_BRANCH = "the third position is on another branch"
 
 
 class PositionSearch:
@@ -86,7 +87,6 @@ class PositionSearch:
         """Yield verified linkages: the ends of searches, and where these began, which are others."""
         search = self.search
         screened = screen(search, starts, seed)
-        search.failed.update(screened.failed)
         begun = [found for u in screened.starts if (found := search.check(u)) is not None]
         for each in [*(search.improve(first) for first in begun), *begun]:
             if each.is_within and (linkage := self._verify(each)) is not None:
@@ -110,23 +110,22 @@ class _PassingMotions:
     def at(self, x: Array, times: Array) -> tuple[Array, Array]:
         """Return quantities and derivatives; see `Motions`."""
         values, slopes = self._motions.at(x, times)
-        task = self._owner.task
-        angles = np.zeros(3) if task.angles is None else task.angles
-        x_end, y_end, turned = values[-1, self._pose]
-        off = np.hypot(x_end - task.places[2, 0], y_end - task.places[2, 1]) / self._owner.size
-        if max(off, abs(np.exp(1j * (turned - angles[2] + angles[0])) - 1.0)) > REACHED:
-            raise NoMotion("the third position is on another branch")
+        if not self._arrives(values):
+            raise NoMotion(_OTHER_BRANCH)
         return values, slopes
 
     def screen(self, xs: Array, times: Array) -> list[Array | str]:
         """Return the quantities for rows of values; see `Motions`."""
-        found = list[Array | str]()
-        for x in xs:
-            try:
-                found.append(self.at(x, times)[0])
-            except NoMotion as error:
-                found.append(str(error))
-        return found
+        found = self._motions.screen(xs, times)
+        return [x if isinstance(x, str) or self._arrives(x) else _OTHER_BRANCH for x in found]
+
+    def _arrives(self, values: Array) -> bool:
+        """Return whether a motion ends in the third position."""
+        task = self._owner.task
+        angles = np.zeros(3) if task.angles is None else task.angles
+        x, y, turned = values[-1, self._pose]
+        off = np.hypot(x - task.places[2, 0], y - task.places[2, 1]) / self._owner.size
+        return bool(max(off, abs(np.exp(1j * (turned - angles[2] + angles[0])) - 1.0)) <= REACHED)
 
 
 def _parameters(task: SynthesisTask, middle: Array) -> dict[str, float | str]:

@@ -83,7 +83,7 @@ def _check_disc(scope: Scope, key: str, outline: BodyOutline, disc: Disc) -> Non
     """Refuse a disc that cannot touch all of an outline."""
     if disc.size < 0.0:
         raise scope.error(key, "a disc or a point beside an outline", f"a hole of {-disc.size!r} m")
-    pieces = outline.stretches
+    pieces = outline.pieces
     for number, piece in enumerate(pieces, 1):
         k = scope.value(piece.curvature, key)
         if k < 0.0 and -k * disc.size >= 1.0:
@@ -109,8 +109,8 @@ def _check_disc(scope: Scope, key: str, outline: BodyOutline, disc: Disc) -> Non
 
 def _drawn(outline: BodyOutline, value: Value) -> Outline:
     """Return the line along an outline with the defaults of parameters."""
-    points = [point for stretch in outline.stretches for point in points_on(stretch, value)]
-    x, y = outline.stretches[-1].end
+    points = [point for stretch in outline.pieces for point in points_on(stretch, value)]
+    x, y = outline.pieces[-1].end
     points.append((value(x), value(y)))
     markers = tuple(Marker(outline.body, (Number(x), Number(y))) for x, y in points)
     return Outline(markers, words=_words_on(outline, value))
@@ -118,7 +118,7 @@ def _drawn(outline: BodyOutline, value: Value) -> Outline:
 
 def _words_on(outline: BodyOutline, value: Value) -> str:
     """Return what `symgen inspect` says of an outline."""
-    pieces = outline.stretches
+    pieces = outline.pieces
     length = sum(value(piece.length) for piece in pieces)
     hollow = [i + 1 for i in hollow_corners(outline, value)]
     corners = f"hollow corners before pieces {', '.join(map(str, hollow))}" if hollow else "no hollow corner"
