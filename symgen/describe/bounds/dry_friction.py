@@ -271,13 +271,12 @@ class Friction(Bounds, frozen=True):
         """
         held, sign, limit = (name_of_number(self, number) for number in ("held", "sign", "limit"))
         limit_at_rest, off = sum_of_terms(limit, *bounds_from_carried_force(self, beside)), call("sub", ONE, held)
-        if self.changing and not self.pressed:
-            limit_at_rest = call("add", self.static, limit_at_rest)
+        if self.changing or self.pressed:
+            bound = call("mul", self.static, size_of_reaction(self)) if self.pressed else self.static
+            limit_at_rest = call("add", bound, limit if self.pressed else limit_at_rest)
             shares = equals_whole_number(name_of_number(self, "constant"), -1)
-            own = call("sub", call("add", self.static, limit), call("abs", name_of_number(self, "effort")))
+            own = call("sub", call("add", bound, limit), call("abs", name_of_number(self, "effort")))
             off = call("mul", off, call("add", call("sub", ONE, shares), call("mul", shares, own)))
-        if self.pressed:
-            limit_at_rest = call("add", call("mul", self.static, size_of_reaction(self)), limit)
         effort = effort_in_force(self)
         left = call("sub", limit_at_rest, effort), call("add", limit_at_rest, effort)  # smooth, as their least is not
         locked = call("sub", held, call("mul", call("sub", ONE, held), call("abs", measure_derivative(self))))

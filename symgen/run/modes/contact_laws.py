@@ -96,7 +96,9 @@ def find_carriers_of_part(c: Choice, count: int) -> None:
                 if laws.depends[a] == 1 and abs(laws.slopes[a * count + b]) > NO_FACTOR:
                     owners += 1 if c.rows.pushes[order[a]] == 0 else 2
                     owner, c.factors[j] = order[a], laws.slopes[a * count + b]
-            c.part[j] = owner if owners == 1 else c.rows.count
+            # a reaction follows how rows share a force: where a bound depends on one, each row keeps its part
+            carried = owners == 1 and not by_reaction(c, j) and not by_reaction(c, owner)
+            c.part[j] = owner if carried else c.rows.count
 
 
 @exact()

@@ -1,9 +1,12 @@
 """Machines that rub by their reactions beside stops and contacts, beside an event-driven simulation of their own."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from support.rotation import of_turn
 
+import symgen
 from benchmarks.bounded.rubbing.beside import reference, simulated, swept, values_of
 from benchmarks.bounded.rubbing.bodies import Gap, Machine, pin_that_rubs
 from benchmarks.bounded.rubbing.machines import MACHINES
@@ -48,6 +51,20 @@ def test_machines_move_as_their_simulation_says(name: str) -> None:
     for value in of_turn(values_of(name, VALUES), 101, name):
         case = MACHINES[name][0](float(value))
         assert np.abs(simulated(case) - reference(case)).max() < OFF
+
+
+@pytest.mark.parametrize("rtol", [1e-9, 1e-11])
+def test_pins_that_stick_at_once_rest_each_within_its_own_bound(rtol: float, tmp_path: Path) -> None:
+    """Four pins hold one freedom of the gripper, near their bounds: reactions follow how they share what they hold."""
+    value, radius = 0.34046822742474914, 0.01
+    (path := tmp_path / "gripper.toml").write_text(MACHINES["gripper"][0](value).text, encoding="utf-8")
+    times, tight = [0.0, 0.16], {"integrator": "dop853", "rtol": rtol, "atol": 1e-12, "max_attempts": 20000}
+    result = symgen.simulate(path, until=0.16, times=times, verify=False, **tight)
+    assert result.ok, result.reason
+    assert abs(result["d.omega"][-1]) < 1e-12
+    for pin in ("pin2", "pin3", "pin4", "pin5"):
+        reaction = np.hypot(result[f"{pin}.Fx"][-1], result[f"{pin}.Fy"][-1])
+        assert abs(result[f"{pin}.force"][-1]) <= value * radius * reaction * (1.0 + 1e-8)
 
 
 @pytest.mark.by_turns(7)
