@@ -530,3 +530,17 @@ def test_killed_while_saving_leaves_one_text_or_the_other(tmp_path: Path) -> Non
             else:
                 raise AssertionError("it was not killed")
         assert file.read_text() in texts
+
+
+def test_drawn_tasks_that_are_none_are_refused(editor: Editor) -> None:
+    def refused(job: str, **given: Any) -> str:
+        return str(done(editor, job, tab="1", **given)["error"])
+
+    spots = [{"x": float(k), "y": 0.0} for k in range(6)]
+    assert "positions or path, got 'circle'" in refused("synthesize", part="circle", spots=spots)
+    assert "three points with a direction each, got 4 points" in refused(
+        "synthesize", part="positions", spots=spots[:4]
+    )
+    assert "a direction from each point" in refused("synthesize", part="positions", spots=[*spots[:5], spots[4]])
+    assert "3 to 20 points, got 2" in refused("synthesize", part="path", spots=spots[:2])
+    assert "draw its task once more" in refused("linkage", text=TEXT, asked=0)

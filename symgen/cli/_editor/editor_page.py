@@ -13,7 +13,7 @@ from symgen.result.player.motion_page import editing_page
 
 SCRIPTS = (
     *("text.js", "colours.js", "brackets.js", "completion.js", "grid.js", "handles.js", "photo.js", "inside.js"),
-    *("steering.js", "rates.js", "dimensions.js", "layout.js", "file.js", "edit.js"),
+    *("steering.js", "rates.js", "dimensions.js", "layout.js", "synthesis.js", "file.js", "edit.js"),
 )
 #: What the player draws before the first text is read: nothing.
 EMPTY: dict[str, Any] = {

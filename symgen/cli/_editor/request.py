@@ -43,7 +43,9 @@ class EditorRequest(msgspec.Struct, frozen=True):
     value : str
         What was typed for a dimension.
     kind, part, spots : str, str, list of RequestedPlace
-        Kind of the file that is made; what is added, and where.
+        Kind of the file that is made; what is added or searched for, and where.
+    starts : int
+        How many searches.
     """
 
     text: str | msgspec.UnsetType = msgspec.UNSET
@@ -57,6 +59,7 @@ class EditorRequest(msgspec.Struct, frozen=True):
     kind: str = ""
     part: str = ""
     spots: list[RequestedPlace] = []
+    starts: int = 1
 
     @property
     def draft(self) -> str:

@@ -23,6 +23,7 @@ from symgen.base.errors import InputError, SymgenError
 from symgen.cli._editor.drafts import Drafts
 from symgen.cli._editor.edited_file import Document
 from symgen.cli._editor.editor_page import editor_page
+from symgen.cli._editor.linkages import DrawnTasks
 from symgen.cli._editor.request import EditorRequest, read_request
 from symgen.cli._editor.unsaved import Unsaved
 from symgen.describe.files.load import LARGEST_FILE
@@ -62,6 +63,7 @@ class Editor(ThreadingHTTPServer):
         super().__init__((HOST, port), _Handler)
         self.secret = secrets.token_urlsafe(32)
         self.document, drafts, self._unsaved = document, Drafts(document.path), Unsaved(document.path)
+        tasks = DrawnTasks()
         self.origin = f"http://{HOST}:{self.server_port}"
         self.jobs: dict[str, Job] = {
             "load": lambda _: self._load_file(),
@@ -75,6 +77,10 @@ class Editor(ThreadingHTTPServer):
             "joint": lambda asked: drafts.equations_of_joint(asked.draft, asked.name),
             "make": lambda asked: drafts.make_file(asked.draft, asked.kind),
             "add": lambda asked: drafts.add_part(asked.draft, asked.part, [place.spot for place in asked.spots]),
+            "synthesize": lambda asked: tasks.find(
+                asked.part, [place.spot for place in asked.spots], asked.tab, asked.starts
+            ),
+            "linkage": lambda asked: tasks.add(asked.draft, asked.asked, asked.tab),
             "dimensions": lambda asked: drafts.dimensions(asked.draft, asked.path),
             "dimension": lambda asked: drafts.set_dimension(asked.draft, asked.name, asked.value),
             "rename": lambda asked: drafts.rename_part(asked.draft, asked.path, asked.name),

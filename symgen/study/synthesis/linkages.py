@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,9 +11,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import AssemblyError, InputError
-from symgen.describe.edits.snippet_tables import Table, exact_number, table_at, uniform_body, vector_text
+from symgen.describe.edits.snippet_tables import (
+    EditedFile,
+    Table,
+    exact_number,
+    insert_tables,
+    table_at,
+    uniform_body,
+    vector_text,
+)
+from symgen.describe.edits.text_changes import apply_changes
 from symgen.describe.facts.lifted import numbers_as_parameters
 from symgen.describe.files.load import parse_toml
+from symgen.describe.files.places import outline_of_document
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
 
@@ -28,6 +38,19 @@ LOOKED_AT = 181
 #: Gravity of a new file, and its last time [s].
 _HEADER = '[mechanism]\nname = "linkage"\ngravity = [0.0, -9.81]\n\n[run]\nuntil = 1.0\n\n'
 _SOURCE = "linkage"
+
+
+class _Motor(NamedTuple):
+    """A law of the crank: a parameter, its unit, and how far the crank has turned [rad]."""
+
+    parameter: str
+    unit: str
+    law: str
+
+
+#: A crank that turns round goes on; another one swings through the task and back, one second each way.
+_STEADY, _SWINGING = _Motor("crank_speed", "rad/s", "{}*t"), _Motor("swing", "rad", "{}*(1 - cos(pi*t))/2")
+_TURNS_ROUND = ("crank-rocker", "double-crank")
 
 
 class Pins(NamedTuple):
@@ -106,6 +129,20 @@ class Linkage:
 
         return Model(validate(parse_toml(self.text, _SOURCE), _SOURCE))
 
+    def add_to_text(self, text: str) -> str:
+        """Return the text of a file with the linkage added; names that the file has get numbers.
+
+        Raises
+        ------
+        InputError
+            If the text is no TOML.
+        """
+        parts = outline_of_document(text)
+        file = EditedFile(parse_toml(text, _SOURCE), parts, text, {})
+        motor = _STEADY if self.kind in _TURNS_ROUND else _SWINGING
+        tables = _tables(self.pins, self.angle, self.turn, motor, file.take_name)
+        return apply_changes(text, insert_tables(tables, parts, text))
+
     def to_json(self) -> dict[str, Any]:
         """Return what is known of it, as ``symgen synthesize --json`` prints it."""
         own = ("kind", "turn", "transmission", "deviation", "turned_off", "text")
@@ -113,26 +150,29 @@ class Linkage:
         return {name: getattr(self, name) for name in own} | {"pins": pins}
 
 
-def _tables(pins: Pins, angle: float, rate: float) -> list[Table]:
-    joints = ("pivot", "crank_pin", "rocker_pin", "rocker_pivot")
-    between = (("ground", "crank"), ("crank", "coupler"), ("coupler", "rocker"), ("ground", "rocker"))
-    at = (
-        (vector_text(pins.crank_pivot), '"A"'),
-        ('"B"', '"A"'),
-        ('"B"', '"B"'),
-        (vector_text(pins.rocker_pivot), '"A"'),
-    )
-    held = [
-        table_at(f"joints.{name}", 'type = "revolute"', f'between = ["{a}", "{b}"]', f"at = [{p}, {q}]")
-        for name, (a, b), (p, q) in zip(joints, between, at, strict=True)
-    ]
+def _tables(
+    pins: Pins, angle: float, turn: float, motor: _Motor = _STEADY, named: Callable[[str], str] = str
+) -> list[Table]:
+    crank, coupler, rocker = map(named, ("crank", "coupler", "rocker"))
+    pivot, crank_pin, rocker_pin, rocker_pivot = map(named, ("pivot", "crank_pin", "rocker_pin", "rocker_pivot"))
+    parameter = named(motor.parameter)
+
+    def pin(name: str, one: str, other: str, at: str) -> Table:
+        return table_at(f"joints.{name}", 'type = "revolute"', f'between = ["{one}", "{other}"]', f"at = [{at}]")
+
     return [
-        table_at("parameters.crank_speed", f"value = {exact_number(rate)}", 'unit = "rad/s"'),
-        uniform_body("crank", {"A": pins.crank_pivot, "B": pins.crank_pin}),
-        uniform_body("coupler", {"P": pins.tip, "A": pins.crank_pin, "B": pins.rocker_pin}, angle),
-        uniform_body("rocker", {"A": pins.rocker_pivot, "B": pins.rocker_pin}),
-        *held,
-        table_at("joints.motor", 'type = "driver"', 'joint = "pivot"', 'value = "crank_speed*t"'),
+        table_at(f"parameters.{parameter}", f"value = {exact_number(turn)}", f'unit = "{motor.unit}"'),
+        uniform_body(crank, {"A": pins.crank_pivot, "B": pins.crank_pin}),
+        uniform_body(coupler, {"P": pins.tip, "A": pins.crank_pin, "B": pins.rocker_pin}, angle),
+        uniform_body(rocker, {"A": pins.rocker_pivot, "B": pins.rocker_pin}),
+        pin(pivot, "ground", crank, f'{vector_text(pins.crank_pivot)}, "A"'),
+        pin(crank_pin, crank, coupler, '"B", "A"'),
+        pin(rocker_pin, coupler, rocker, '"B", "B"'),
+        pin(rocker_pivot, "ground", rocker, f'{vector_text(pins.rocker_pivot)}, "A"'),
+        table_at(
+            *(f"joints.{named('motor')}", 'type = "driver"', f'joint = "{pivot}"'),
+            f'value = "{motor.law.format(parameter)}"',
+        ),
     ]
 
 

@@ -4,6 +4,7 @@ import json
 import math
 import subprocess
 import sys
+import tomllib
 
 import numpy as np
 import pytest
@@ -113,3 +114,20 @@ def test_the_command_writes_the_linkage_that_is_taken(tmp_path):
 def test_tasks_that_are_refused(task, sentence):
     with pytest.raises(InputError, match=sentence.replace("(", r"\(")):
         read_task(task)
+
+
+def test_a_linkage_in_a_file_that_has_its_names_keeps_what_is_there(tmp_path):
+    task = {"x": [0.0, 0.4, 0.8], "y": [0.0, 0.2, 0.2], "angle": [0.0, 0.4, 0.8]}
+    first = synthesize(task, starts=1).linkages[0]
+    once = first.add_to_text('[mechanism]\nname = "two"\n\n[run]\nuntil = 2.0\n')
+    twice = first.add_to_text(once)
+    names = set(tomllib.loads(twice)["bodies"])
+    assert names == {"crank", "coupler", "rocker", "crank1", "coupler1", "rocker1"}
+    assert set(once.splitlines()) <= set(twice.splitlines())
+    file = tmp_path / "two.toml"
+    file.write_text(twice, encoding="utf-8")
+    assert first.kind not in ("crank-rocker", "double-crank")  # so that it swings: back after two seconds
+    motion = symgen.load(file).kinematics([0.0, 1.0, 2.0])
+    for name in ("coupler", "coupler1"):
+        tips = np.column_stack([motion[f"{name}.P.x"], motion[f"{name}.P.y"]])
+        assert tips == pytest.approx(np.array([[0.0, 0.0], [0.8, 0.2], [0.0, 0.0]]), abs=1e-8)

@@ -103,7 +103,9 @@ function offer(kind, text, acts) {
   showOffer();
 }
 function withdraw(kind) {
-  if (offers.delete(kind)) showOffer();
+  if (!offers.delete(kind)) return;
+  lookedAt = null;
+  showOffer();
 }
 function showOffer() {
   const [first] = offers;
@@ -112,8 +114,9 @@ function showOffer() {
   if (!first) return ($("offered").textContent = "");
   const [kind, [text, acts]] = first;
   $("offered").textContent = text;
-  for (const [word, act] of [["Cancel", () => {}], ...acts]) {
+  for (const [word, act, look] of [["Cancel", () => {}], ...acts]) {
     const button = element("button", word);
+    if (look) for (const name of ["pointerenter", "focus"]) button.addEventListener(name, look);
     button.addEventListener("click", () => {
       withdraw(kind);
       act();

@@ -44,7 +44,9 @@ function underlay() {
     bare();
     if (view.spatial) return;
     drawGrid($("view").getContext("2d"));
-    if (!motion.rows.length) drawHand(); // nothing else is drawn
+    if (motion.rows.length) return;
+    drawHand(); // nothing else is drawn
+    drawTask();
   };
 }
 

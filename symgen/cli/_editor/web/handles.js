@@ -24,6 +24,8 @@ const TOOLS = [
   ["rope", "Rope", 4, 4, "One end, the centre of a sheave, its rim, the other end."],
   ["cylinder", "Cylinder", 2, 2, "Two points that a cylinder pushes apart."],
   ["load", "Load", 1, 1, "A point of a body with a force on it."],
+  ["positions", "Positions", 6, 6, "Three positions of a body: drag from a point along the body, three times; linkages that pass them are offered."],
+  ["path", "Path", 3, 20, "Draw a path by hand, or click at its points and at the last one again; linkages that pass it are offered."],
 ];
 const ICONS = {
   move: "M12 3v18M3 12h18M12 3l-3 3M12 3l3 3M12 21l-3-3M12 21l3-3M3 12l3-3M3 12l3 3M21 12l-3-3M21 12l-3 3",
@@ -48,6 +50,8 @@ const ICONS = {
   spring: "M3 12h3l2-5l3 10l3-10l3 10l2-5h2",
   motor: "M19 12a7 7 0 1 1-3-5.7M16 2v5h-5M12 12h.01",
   load: "M12 3v16M12 19l-4-5M12 19l4-5",
+  positions: "M3 19l5-6M8 13h-3M8 13v3M9 10l7-2M16 8l-2-2M16 8l-1 3M16 15l5 3M21 18l-3 0M21 18v-3",
+  path: "M3 18c3-14 8-14 10-6s6 6 8-4",
 };
 let movable = [], held = null, tool = "move", spots = [], pressed = null, numbers = {}, numberUnits = {};
 let checkedText = null; // the text that `movable` belongs to
@@ -285,7 +289,8 @@ async function takePoints(...taken) {
   const [, , least] = TOOLS.find(([name]) => name === tool);
   for (const spot of taken) spots.push(["pin", "weld"].includes(tool) && spots.length ? otherThan(spots[0], spot) : spot);
   wanted = true;
-  if (spots.length < least) return layHandles();
+  if (isTask(tool) ? !isTaskWhole() : spots.length < least) return layHandles();
+  if (isTask(tool)) return search(spots.splice(0));
   const given = { text: T.value, part: ["bar", "plate"].includes(tool) ? "body" : tool, spots };
   spots = [];
   const answer = await post("add", given);
@@ -311,6 +316,7 @@ $("picture").addEventListener("pointerdown", (e) => {
   e.preventDefault();
   $("picture").setPointerCapture(e.pointerId);
   pressed = { ...spotAt(...inPicture(e)), from: inPicture(e) };
+  stroke = [onPlane(...pressed.from)];
   wanted = true;
 }, { capture: true });
 $("picture").addEventListener("pointermove", (e) => {
@@ -332,6 +338,7 @@ for (const name of ["pointerup", "pointercancel"]) $("picture").addEventListener
   wanted = true;
   if (name === "pointercancel") return;
   const dragged = Math.hypot(at[0] - from[0], at[1] - from[1]) > NEAR && spots.length + 2 <= most;
+  if (dragged && tool === "path" && !spots.length) return takeStroke();
   takeAsked(dragged ? [first, spotAt(...at)] : [first]);
 });
 async function takeAsked(hit) {
@@ -341,6 +348,7 @@ async function takeAsked(hit) {
 }
 where.addEventListener("keydown", (e) => {
   if (e.key !== "Enter" || tool === "move") return;
+  if (tool === "path" && spots.length && !where.value.trim()) return takePoints(spots.at(-1)); // which ends it
   const polar = where.value.includes("<"), [a, b] = where.value.split(polar ? "<" : ",").map((x) => (x.trim() ? Number(x) : NaN)), last = spots.at(-1);
   if (!Number.isFinite(a) || !Number.isFinite(b)) return say("expected x, y in metres, such as 0.5, 1.2, or length < degrees, such as 0.5 < 30", true);
   if (polar && !last) return say("a length and an angle count from a point: take the first one by its x, y or by a click", true);
