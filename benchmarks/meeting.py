@@ -255,6 +255,11 @@ FEATURES: Mapping[str, str] = {
     "contact by Poisson's law": thrown(cart(more=_WALL)).replace(
         "[mechanism]", '[mechanism]\nrestitution_law = "poisson"'
     ),
+    "contact in space": _HEAD
+    + """[contacts.ball]
+between = [{ body = "head", sphere = 0.1 }, { plane = "ground", on = [-0.01, 0.0, 0.0], normal = [1.0, 0.0, 0.2] }]
+restitution = 0.3
+""",
     "clearance": lowered(0.001, cart(pin=_PLAY)),
     "clearance of a slide": lowered(0.002, cart())
     .replace(_RAIL, f"{_RAIL}\n{_GUIDE}")

@@ -11,6 +11,8 @@ from symgen.base.vocabulary.measures import Direction, Marker
 class Outline(msgspec.Struct, frozen=True):
     """A surface: a disc about a point, a point, a hole, a line through a point, or a line along several.
 
+    In space discs without an axis are spheres, and lines are planes.
+
     Parameters
     ----------
     points : tuple of Marker
@@ -19,6 +21,10 @@ class Outline(msgspec.Struct, frozen=True):
         Of a disc, below 0 of a hole.
     normal : Direction or None
         Of a line.
+    axis : Direction or None
+        Of a rim or a capsule in space.
+    sizes : tuple of Expr
+        Of a capsule the length between the centres of its ends, of a box its edges [m].
     words : str
         What else is known of an outline of a file: name, pieces, length, corners.
     """
@@ -26,4 +32,6 @@ class Outline(msgspec.Struct, frozen=True):
     points: tuple[Marker, ...]
     radius: Expr = ZERO
     normal: Direction | None = None
+    axis: Direction | None = None
+    sizes: tuple[Expr, ...] = ()
     words: str = ""

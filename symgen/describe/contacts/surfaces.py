@@ -122,11 +122,9 @@ def read_pair(scope: Scope, key: str, raw: object) -> Touch:
     InputError
         With the shape that is wrong.
     """
-    if not isinstance(raw, list | tuple) or len(raw) != 2:
-        raise scope.error(key, "two shapes, [{ body = BODY, disc = RADIUS }, SHAPE]", value_in_words(raw))
-    tables = [table if isinstance(table, Mapping) else {} for table in raw]
+    tables = two_tables(scope, key, raw, "{ body = BODY, disc = RADIUS }")
     words = {pair.word: pair for _, pair in PAIRS.items()}
-    kinds = [_word_of(scope, f"{key}[{i}]", table, words) for i, table in enumerate(tables)]
+    kinds = [word_of_shape(scope, f"{key}[{i}]", table, words, DiscTable, DISC) for i, table in enumerate(tables)]
     if DISC not in kinds:
         raise scope.error(key, "a disc, or a point, beside another shape", f"a {kinds[0]} and a {kinds[1]}")
     first = 1 if kinds[0] != DISC else 0
@@ -145,17 +143,31 @@ def check_bodies(scope: Scope, key: str, body: str, disc: Disc) -> None:
         raise scope.error(key, "two different bodies", f"'{body}' twice")
 
 
-def _word_of(scope: Scope, key: str, table: Mapping[str, Any], words: Mapping[str, Pair]) -> str:
-    """Return the word for the shape that a table describes; a body with a point alone is a disc of radius 0."""
-    found = [word for word in words if word in table and word != DISC]
+def two_tables(scope: Scope, key: str, raw: object, usual: str) -> list[Mapping[str, Any]]:
+    """Return the tables of two shapes; `usual` shows one in an error."""
+    if not isinstance(raw, list | tuple) or len(raw) != 2:
+        raise scope.error(key, f"two shapes, [{usual}, SHAPE]", value_in_words(raw))
+    return [table if isinstance(table, Mapping) else {} for table in raw]
+
+
+def word_of_shape(
+    scope: Scope,
+    key: str,
+    table: Mapping[str, Any],
+    words: Mapping[str, object],
+    usual: type[msgspec.Struct],
+    usual_word: str,
+) -> str:
+    """Return the word for the shape that a table describes; a body with a point alone is the usual one of radius 0."""
+    found = [word for word in words if word in table and word != usual_word]
     if found:
         return found[0]
-    unknown = [word for word in table if word not in DiscTable.__struct_fields__]
+    unknown = [word for word in table if word not in usual.__struct_fields__]
     if unknown or "body" not in table:
         got = f"the unknown key {quote(unknown[0])}" if unknown else value_in_words(dict(table))
         hint = suggest(str(unknown[0]), list(words)) if unknown else ""
         raise scope.error(key, f"a shape: {', '.join(words)}", got, hint)
-    return DISC
+    return usual_word
 
 
 def slip_with_turns(

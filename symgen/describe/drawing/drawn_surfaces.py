@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from symgen.describe.contacts.outlines import Outline
-from symgen.describe.drawing.pen import EARTH, BodyPoint, Pen
+from symgen.describe.drawing.drawn_in_space import surface_marks
+from symgen.describe.drawing.pen import EARTH, BodyPoint, Pen, PlacedMechanism
 from symgen.describe.drawing.scene import GROUNDED, INK, Array, Item, Line, Look, Mark
 from symgen.describe.mechanism import Mechanism
 
@@ -17,11 +18,11 @@ def contact_items(pen: Pen) -> list[Item]:
     """Return the surfaces of all contacts; one that several share is drawn once."""
     items, seen = list[Item](), set[Outline]()
     for name, outlines in outlines_of_contacts(pen.numbers.mechanism):
-        marks = list[Mark]()
+        marks, sizes = list[Mark](), [size_of_outline(pen.numbers, outline) for outline in outlines]
         for outline in outlines:
             others = [point for other in outlines if other != outline for point in _places(pen, other)]
             if outline not in seen or outline.normal is not None:
-                marks += _marks(pen, outline, others)
+                marks += _marks(pen, outline, others, max(sizes) or 3.0 * pen.unit)
             seen.add(outline)
         items.append(Item("contact", name, "contact", tuple(marks)))
     return items
@@ -37,8 +38,18 @@ def _places(pen: Pen, outline: Outline) -> list[BodyPoint]:
     return [pen.numbers.place(marker) for marker in outline.points]
 
 
-def _marks(pen: Pen, outline: Outline, others: list[BodyPoint]) -> list[Mark]:
-    """Return the marks of a surface; `others` are points of what it meets, along which a line is long enough."""
+def size_of_outline(numbers: PlacedMechanism, outline: Outline) -> float:
+    """Return the largest of the sizes of a surface [m]."""
+    return max(abs(numbers.number(e)) for e in (outline.radius, *outline.sizes))
+
+
+def _marks(pen: Pen, outline: Outline, others: list[BodyPoint], reach: float) -> list[Mark]:
+    """Return the marks of a surface.
+
+    `others` are points of what it meets, along which a line is long enough, and a plane wide enough by `reach` beyond.
+    """
+    if pen.numbers.spatial:
+        return surface_marks(pen, outline, others, reach)
     places = _places(pen, outline)
     body, at = places[0].body, pen.numbers.in_ground_frame(places[0])
     look = EARTH if body == GROUNDED else Look(pen.colour(body), "", 1.6)

@@ -11,7 +11,7 @@ import numpy as np
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.measures import GROUND, Marker, markers_in
 from symgen.describe.contacts.outlines import Outline
-from symgen.describe.drawing.drawn_surfaces import contact_items, outlines_of_contacts
+from symgen.describe.drawing.drawn_surfaces import contact_items, outlines_of_contacts, size_of_outline
 from symgen.describe.drawing.force_parts import force_item
 from symgen.describe.drawing.joint_parts import sliding_direction
 from symgen.describe.drawing.meshes import mesh_faces
@@ -135,7 +135,7 @@ def _outlines_with_points(numbers: PlacedMechanism) -> list[Outline]:
 
 def _is_central(numbers: PlacedMechanism, outline: Outline) -> bool:
     """Return whether an outline is a disc about the centre of mass of its body, which shows the body."""
-    return numbers.number(outline.radius) != 0.0 and not any(numbers.place(outline.points[0]).at)
+    return size_of_outline(numbers, outline) != 0.0 and not any(numbers.place(outline.points[0]).at)
 
 
 def _round_point(point: Point) -> Point:
@@ -159,7 +159,7 @@ def _symbol_size(numbers: PlacedMechanism, points: Mapping[str, list[Point]]) ->
     whole = float(np.linalg.norm(np.ptp(everything, axis=0)))
     spans = [float(np.linalg.norm(np.ptp(np.array(own), axis=0))) for own in points.values() if len(own) > 1]
     sizes = [numbers.number(e) for _, shape in numbers.mechanism.shapes for e in shape.sizes]
-    sizes += [abs(numbers.number(e.radius)) for _, each in outlines_of_contacts(numbers.mechanism) for e in each]
+    sizes += [size_of_outline(numbers, e) for _, each in outlines_of_contacts(numbers.mechanism) for e in each]
     whole = max([whole, *sizes])
     spans = [s for s in spans if s > 0.0]
     usual = float(np.median(spans)) if spans else whole

@@ -22,6 +22,7 @@ from symgen.base.vocabulary.measures import (
     Turn,
     nested_parts,
 )
+from symgen.describe.drawing.drawn_in_space import ball_marks, floor_under_paths
 from symgen.describe.drawing.joint_parts import (
     DRIVE,
     GLASS,
@@ -36,7 +37,7 @@ from symgen.describe.drawing.joint_parts import (
     wheel_marks,
 )
 from symgen.describe.drawing.pen import RIGID, BodyPoint, Pen, PlacedMechanism, directions_across_axis
-from symgen.describe.drawing.scene import GREY, GROUNDED, PAPER, RED, Array, Item, Line, Look, Mark
+from symgen.describe.drawing.scene import GREY, GROUNDED, PAPER, RED, Array, Item, Look, Mark
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.topology import articulation_of_joint
 
@@ -300,31 +301,12 @@ def _rolling_body_symbol(pen: Pen, joint: Joint) -> list[Mark]:
     places, radius = numbers.markers(joint), numbers.number(_radius(joint))
     centre = next(p for p in places if p.body == numbers.index[joint.bodies[0]])
     normal = next(d for d in numbers.directions(joint) if d.body != joint.bodies[0])
-    plane = _floor_under_path(pen, normal, places, centre, radius)
+    base = numbers.index[normal.body]
+    origin = next((p for p in places if p.body == base), BodyPoint(base, (0.0, 0.0, 0.0)))
+    plane = floor_under_paths(pen, normal, origin, [centre], radius)
     if rims:
         return [plane, *wheel_marks(pen, centre, numbers.direction(rims[0]), radius, joint.bodies[0])]
-    colour = pen.colour(centre.body)
-    ball = replace(pen.dot(centre, 1.0, Look(colour, colour, 1.2, 0.2)), radius=radius)
-    rings = [
-        pen.ring(centre.body, numbers.in_ground_frame(centre), e, radius, Look(colour, "", 0.7)) for e in np.eye(3)
-    ]
-    return [plane, ball, *rings]
-
-
-def _floor_under_path(pen: Pen, normal: Direction, places: list[BodyPoint], centre: BodyPoint, radius: float) -> Line:
-    """Return a part of the plane that holds the whole path, as its body sees this."""
-    base = pen.numbers.index[normal.body]
-    origin = next((p for p in places if p.body == base), BodyPoint(base, (0.0, 0.0, 0.0)))
-    at = pen.numbers.in_ground_frame(origin)
-    seen = [poses.to_body(base, poses.to_ground(centre.body, [centre.at]))[0] for poses in pen.numbers.all]
-    way = pen.numbers.now.to_ground(base, seen)
-    first, second = directions_across_axis(pen.numbers.direction(normal))
-    sides = []
-    for e in (first, second):
-        along = (way - at) @ e
-        sides.append((float(along.min()) - 1.5 * radius, float(along.max()) + 1.5 * radius))
-    corners = [at + sides[0][i] * first + sides[1][j] * second for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))]
-    return pen.line(base, corners, GLASS, closed=True)
+    return [plane, *ball_marks(pen, centre, radius)]
 
 
 def _arm_symbol(pen: Pen, joint: Joint) -> list[Mark]:

@@ -92,13 +92,48 @@ def test_bad_contacts(text: str, sentence: str, tmp_path: Path) -> None:
     assert sentence in str(caught.value)
 
 
-def test_a_disc_in_space_is_refused(tmp_path: Path) -> None:
-    text = FILE.replace("{}", BETWEEN).replace('name = "touch"', 'name = "touch"\nspace = "spatial"')
-    text = text.replace("[0.0, -9.81]", "[0.0, 0.0, -9.81]").replace("inertia = 0.01", "inertia = [0.01, 0.01, 0.01]")
-    text = text.replace("[0.0, 0.2]", "[0.0, 0.2, 0.0]").replace("[1.0, 0.2]", "[1.0, 0.2, 0.0]")
-    with pytest.raises(InputError, match="expected a contact in a mechanism in the plane, got one in space"):
-        (tmp_path / "touch.toml").write_text(text)
+SPHERE = '{ body = "disc", sphere = 0.1 }'
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (
+            BETWEEN,
+            "contacts.pair.between[1]: expected a shape: sphere, plane, disc, capsule, box, got the unknown key 'line'",
+        ),
+        (
+            f'between = [{SPHERE}, {{ plane = "ground" }}]\nfriction = 0.3',
+            "contacts.pair.friction: expected no such key, as contacts in space have no friction, got 0.3",
+        ),
+        (
+            f'between = [{SPHERE}, {{ body = "other", disc = 0.1 }}]',
+            "contacts.pair.between: expected a pair of shapes that may touch (box and plane, box and sphere, "
+            "capsule and plane, capsule and sphere, disc and plane, sphere and plane, sphere and sphere), "
+            "got sphere and disc",
+        ),
+        (
+            f'between = [{SPHERE}, {{ body = "disc" }}]',
+            "contacts.pair.between: expected two different bodies, got 'disc' twice",
+        ),
+        (
+            'between = [{ body = "disc", sphere = -0.1 }, { plane = "ground" }]',
+            "contacts.pair.between: expected a sphere or a point over a plane, got a hollow sphere of 0.1 m",
+        ),
+        (
+            'between = [{ body = "disc", capsule = [0.1, 0.0] }, { plane = "ground" }]',
+            "contacts.pair.between[0].capsule: expected a value above 0, got 0.0",
+        ),
+        ('gap = "disc.z"\nfriction = 0.3', "contacts.pair.friction: expected no such key"),
+    ],
+)
+def test_bad_contacts_in_space(text: str, sentence: str, tmp_path: Path) -> None:
+    file = FILE.replace("{}", text).replace('name = "touch"', 'name = "touch"\nspace = "spatial"')
+    file = file.replace("[0.0, -9.81]", "[0.0, 0.0, -9.81]").replace("inertia = 0.01", "inertia = [0.01, 0.01, 0.01]")
+    (tmp_path / "touch.toml").write_text(file.replace("0.2]\n", "0.2, 0.0]\n"))
+    with pytest.raises(InputError) as caught:
         symgen.load(tmp_path / "touch.toml")
+    assert sentence in str(caught.value)
 
 
 @pytest.mark.slow

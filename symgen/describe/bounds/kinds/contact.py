@@ -16,6 +16,7 @@ from symgen.describe.bounds.keys import SectionOfFiles
 from symgen.describe.bounds.kinds.stop import read_restitution
 from symgen.describe.contacts.slopes import slopes_of_places
 from symgen.describe.contacts.surfaces import Touch, read_pair
+from symgen.describe.contacts.surfaces_in_space import read_pair_in_space
 from symgen.describe.parts.fields import Scalar, StateFunction, read_table, value_in_words
 from symgen.describe.parts.scope import Scope
 
@@ -39,7 +40,7 @@ class FrictionOfContact(msgspec.Struct, frozen=True, kw_only=True, forbid_unknow
 
 
 class ContactSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A contact of two bodies, or of a body and the ground, in the plane.
+    """A contact of two bodies, or of a body and the ground; in space without friction.
 
     Parameters
     ----------
@@ -47,7 +48,10 @@ class ContactSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
         Shapes, ``{ body = "wheel", at = [0.0, 0.0], disc = 0.3 }`` beside another disc,
         ``{ line = "ground", on = [0.0, 0.0], normal = [0.0, 1.0] }``,
         ``{ body = "table", segment = [[0.0, 0.0], [1.0, 0.0]] }`` or ``{ outline = "cam" }``, of the section of
-        outlines. A disc of radius 0 is a point, one below 0 a hole.
+        outlines. A disc of radius 0 is a point, one below 0 a hole. In space ``{ body = "ball", sphere = 0.1 }``,
+        ``{ plane = "ground", on = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }``,
+        ``{ body = "coin", axis = [0.0, 0.0, 1.0], disc = 0.1 }``, ``{ body = "pill", capsule = [0.1, 0.3] }`` of a
+        radius and a length, and ``{ body = "die", box = [0.1, 0.1, 0.1] }``.
     gap : str
         In place of shapes, a formula as that of a stop [m].
     slip : str
@@ -74,8 +78,10 @@ def read_contact(scope: Scope, raw: object) -> tuple[BoundedRow, ...]:
         With the key that is wrong.
     """
     section = read_table(ContactSection, raw, scope.where(""))
-    if scope.spatial:
-        raise scope.error("", "a contact in a mechanism in the plane", "one in space")
+    if scope.spatial and section.friction is not None:
+        raise scope.error(
+            "friction", "no such key, as contacts in space have no friction", value_in_words(section.friction)
+        )
     touch = read_touch(scope, section)
     return rows_of_contact(scope, "", scope.name, touch, section.friction, section.restitution)
 
@@ -133,7 +139,7 @@ def read_touch(scope: Scope, section: ContactSection) -> Touch:
     if section.between is not None:
         if section.slip is not None:
             raise scope.error("slip", "no such key beside between, whose shapes have one", value_in_words(section.slip))
-        return read_pair(scope, "between", section.between)
+        return (read_pair_in_space if scope.spatial else read_pair)(scope, "between", section.between)
     assert section.gap is not None, "one of both keys is there"
     of = scope.of_row("gap", section.gap, speeds=False, inputs=True)
     if section.friction is None:

@@ -17,8 +17,17 @@ def touch_of_discs(scope: Scope, key: str, one: Disc, other: Disc) -> Touch:
     """Return the distance of the centres less the sum of the radii, and what the second rolls on the first one.
 
     With the radii r and R, the direction of the centres phi relative to the body of the first one and the angle theta
-    of the other body relative to it, the slip is (r + R) phi - r theta. A gap is the stretch of a link of the length
-    r + R, which is smooth also where centres meet, as those of a pin and its hole do.
+    of the other body relative to it, the slip is (r + R) phi - r theta.
+    """
+    gap, distance, total = gap_of_round(scope, key, one, other)
+    return Touch(gap, ZERO, Sum(_terms_of_slip(scope, total, one, other)), distance, (one.outline, other.outline))
+
+
+def gap_of_round(scope: Scope, key: str, one: Disc, other: Disc) -> tuple[Measure, Expr, Expr]:
+    """Return the gap of two discs, or in space spheres, their distance and the sum of their radii.
+
+    The gap is the stretch of a link as long as the sum, which is smooth also where centres meet, as those of a pin and
+    its hole do.
 
     Raises
     ------
@@ -38,7 +47,7 @@ def touch_of_discs(scope: Scope, key: str, one: Disc, other: Disc) -> Touch:
     gap = Sum(((Number(-1.0), stretch),)) if inside else stretch
     apart_now = Reading(f"{scope.name}.distance", Distance(one.centre, other.centre))
     distance = call("sub", length, apart_now) if inside else call("sub", apart_now, length)
-    return Touch(gap, ZERO, Sum(_terms_of_slip(scope, total, one, other)), distance, (one.outline, other.outline))
+    return gap, distance, total
 
 
 def _terms_of_slip(scope: Scope, total: Expr, one: Disc, other: Disc) -> tuple[tuple[Expr, Measure], ...]:

@@ -1,0 +1,1 @@
+"""Pairs of surfaces in space, one file each: two shapes in, gaps out."""
