@@ -47,6 +47,7 @@ def test_all_shapes_are_drawn(tmp_path):
     assert len(wheel.marks) == 2 and not wheel.marks[0].look.dashed
     assert any(isinstance(mark, Line) and mark.closed and len(mark.points) == 3 for mark in arm.marks)
 
+
 SPACE = """
 [mechanism]
 name = "shown"

@@ -11,6 +11,7 @@ from benchmarks.mechanisms.toml import text as toml_text
 from symgen.describe.formulas.duals import Dual
 from symgen.run.directions.series_directions import ImpactDirections, ImpactsAhead, slopes_left_over
 from tests.run.contacts.scenes import DROP, LIGHT, body, floor, head, loaded, rods
+from tests.run.contacts.scenes_in_space import DIE
 
 #: A spinning disc that bounces, rests and rolls.
 DISC = (
@@ -156,3 +157,10 @@ def test_a_segment_far_away_casts_no_doubt(tmp_path: Path) -> None:
     text = text.replace("velocity = [0.3, 0.0]", 'velocity = ["v", 0.0]')
     result = loaded(text, tmp_path).simulate(until=0.5, sensitivities=["v"], integrator="dop853", verify=False)
     assert result.status == "ok" and len(result.events) > 0, result.reason
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["die.z", "ball.x"])
+def test_a_box_and_a_ball_in_space(name: str, tmp_path: Path) -> None:
+    """Past impacts of three corners and of the ball."""
+    slopes_of(DIE, 0.45, name, {"e": 0.4, "size": 0.4}, tmp_path)

@@ -14,9 +14,7 @@ from benchmarks.mechanisms.toml import text as toml
 from tests.result.targets.test_c_modes import program_of, rows_of
 from tests.result.targets.test_fmu import fmu_of, simulated
 from tests.run.contacts.scenes import DROP, loaded, rocking_block, woodpecker
-from tests.run.contacts.test_shapes_in_space import body as body_of_space
-from tests.run.contacts.test_shapes_in_space import contact as contact_of_space
-from tests.run.contacts.test_shapes_in_space import head as head_of_space
+from tests.run.contacts.scenes_in_space import DIE
 
 #: Steps of a module that Node reads: its last state, and what has happened.
 NODE = """
@@ -28,15 +26,6 @@ for (let k = 0; (k + 1)*step <= until*(1 + 1e-12); k++) {
 }
 console.log(JSON.stringify({ y: Array.from(y), happened }));
 """
-
-#: A box that falls on the floor of space, and a ball that falls on it, all on a plane that is tilted.
-DIE = (
-    head_of_space((1.0, 0.0, -9.81))
-    + body_of_space("die", (0.0, 0.0, 0.4), (0.3, 0.0, 0.0), 1.0, (0.03, 0.04, 0.05), turn=(0.2, 0.3, 0.1))
-    + body_of_space("ball", (0.0, 0.05, 0.9), (0.2, 0.0, 0.0))
-    + contact_of_space('body = "die", box = [0.2, 0.3, 0.4]', 'plane = "ground"', 0.4)
-    + contact_of_space('body = "die", sphere = 0.1', 'body = "ball", sphere = 0.1', 0.5, "on_it")
-)
 
 #: Files, their ends, steps, and how many transitions are compared: times of later ones are ill-conditioned, as
 #: joints are corrected where a last bit decides. The last number is the error: the sled's flights become so low that

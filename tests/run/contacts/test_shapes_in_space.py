@@ -13,31 +13,7 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 from tests.run.contacts.scenes import G, loaded
-
-
-def head(gravity: Any = (0.0, 0.0, -G)) -> str:
-    """Return the head of a file."""
-    return f'[mechanism]\nname = "touch"\nspace = "spatial"\ngravity = {listed(gravity)}\n'
-
-
-def listed(vector: Any) -> str:
-    """Return a vector as a file has it."""
-    return repr([float(x) for x in vector])
-
-
-def body(
-    name: str, place: Any, velocity: Any = (0.0, 0.0, 0.0), mass: float = 1.0, inertia: Any = (0.004,) * 3, **more: Any
-) -> str:
-    """Return the table of a body; `turn` and `omega` are a rotation vector and an angular velocity."""
-    text = f"[bodies.{name}]\nmass = {float(mass)!r}\ninertia = {listed(inertia)}\nposition = {listed(place)}\n"
-    text += f"velocity = {listed(velocity)}\nangular_velocity = {listed(more.get('omega', (0.0,) * 3))}\n"
-    return text + f"orientation = {{ rotation_vector = {listed(more.get('turn', (0.0,) * 3))} }}\n"
-
-
-def contact(one: str, other: str, restitution: object = 0.0, name: str = "touch") -> str:
-    """Return a contact of two shapes."""
-    return f"[contacts.{name}]\nbetween = [{{ {one} }}, {{ {other} }}]\nrestitution = {restitution}\n"
-
+from tests.run.contacts.scenes_in_space import body, contact, head, listed
 
 BALL, PLANE = 'body = "ball", sphere = 0.1', 'plane = "ground"'
 BOUNCE = (

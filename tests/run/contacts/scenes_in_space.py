@@ -1,0 +1,42 @@
+"""Files of scenes in space with contacts, for tests."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tests.run.contacts.scenes import G
+
+
+def head(gravity: Any = (0.0, 0.0, -G)) -> str:
+    """Return the head of a file."""
+    return f'[mechanism]\nname = "touch"\nspace = "spatial"\ngravity = {listed(gravity)}\n'
+
+
+def listed(vector: Any) -> str:
+    """Return a vector as a file has it."""
+    return repr([float(x) for x in vector])
+
+
+def body(
+    name: str, place: Any, velocity: Any = (0.0, 0.0, 0.0), mass: float = 1.0, inertia: Any = (0.004,) * 3, **more: Any
+) -> str:
+    """Return the table of a body; `turn` and `omega` are a rotation vector and an angular velocity."""
+    text = f"[bodies.{name}]\nmass = {float(mass)!r}\ninertia = {listed(inertia)}\nposition = {listed(place)}\n"
+    text += f"velocity = {listed(velocity)}\nangular_velocity = {listed(more.get('omega', (0.0,) * 3))}\n"
+    return text + f"orientation = {{ rotation_vector = {listed(more.get('turn', (0.0,) * 3))} }}\n"
+
+
+def contact(one: str, other: str, restitution: object = 0.0, name: str = "touch") -> str:
+    """Return a contact of two shapes."""
+    return f"[contacts.{name}]\nbetween = [{{ {one} }}, {{ {other} }}]\nrestitution = {restitution}\n"
+
+
+#: A box that falls on a floor that gravity is not across, with a ball on its body that another one falls on.
+DIE = (
+    head((1.0, 0.0, -G))
+    + "[parameters]\ne = 0.4\nsize = 0.4\n"
+    + body("die", (0.0, 0.0, 0.4), (0.3, 0.0, 0.0), 1.0, (0.03, 0.04, 0.05), turn=(0.2, 0.3, 0.1))
+    + body("ball", (0.0, 0.05, 0.9), (0.2, 0.0, 0.0))
+    + contact('body = "die", box = [0.2, 0.3, "size"]', 'plane = "ground"', '"e"')
+    + contact('body = "die", sphere = 0.1', 'body = "ball", sphere = 0.1', 0.5, "on_it")
+)
