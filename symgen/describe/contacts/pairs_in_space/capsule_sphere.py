@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from symgen.base.vocabulary.expressions import ZERO, Number, Reading, call, product, sum_of_terms
 from symgen.base.vocabulary.measures import Component, FormulaMeasure, HalfSquare
-from symgen.describe.contacts.pairs_in_space.box_sphere import read_ends_beside_sphere
+from symgen.describe.contacts.pairs_in_space.corners_sphere import read_ends_beside_sphere
 from symgen.describe.contacts.surfaces import Disc, Touch
 from symgen.describe.contacts.surfaces_in_space import PairInSpace, Solid
 from symgen.describe.parts.scope import Scope
