@@ -1,13 +1,15 @@
-"""Examples of other systems as files that run, each in its smallest form, by the lines of `benchmarks.sayable`.
+"""Examples of other systems as files that run, by the lines of `benchmarks.sayable`.
 
-A file is a description as a nested table, or a name of the catalogue. `tests/verification/test_said.py` runs them in
-turns; `python -m benchmarks.sayable` counts them.
+`benchmarks/examples` has a file of each, with the numbers of its source; the smallest of them are tables here, and some
+are in the catalogue. `tests/verification/test_said.py` runs them in turns; `python -m benchmarks.sayable` counts them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
+
+from benchmarks.said_in_files import FILES, SAME
 
 Table = dict[str, Any]
 DOWN, DOWN_IN_SPACE = [0.0, -9.81], [0.0, 0.0, -9.81]
@@ -166,8 +168,10 @@ _BALL = {"mass": 1.0, "inertia": [4e-3] * 3, "position": [0.0, 0.0, 0.1], "angul
 _SPHERE = {"type": "rolling-sphere", "body": "ball", "radius": 0.1, "normal": [0.0, 0.0, 1.0]}
 _GIVES = {"stiffness": 1e4, "damping": 50.0, "friction": {"coefficient": 0.4, "speed": 0.05}}
 
-#: Set and name of an example -> its file.
+#: Set and name of an example -> its description, a name of the catalogue, or a path.
 SAID: Mapping[str, Table | str] = {
+    **FILES,
+    **{name: FILES[same] for name, same in SAME.items()},
     # Exudyn's examples
     "exudyn/3SpringsDistance": plane(
         {"mass": point(0.5, 0.0)},
@@ -284,6 +288,8 @@ SAID: Mapping[str, Table | str] = {
         "events": {"snap": {"when": "mass.vx + 1", "direction": "falling", "reset": {"whole": 0.0}}},
     },
     "exudyn/stiffFlyballGovernor2": "flyball-governor",
+    "exudyn/stiffFlyballGovernorKT": "flyball-governor",
+    "exudyn/FurtherExamples/bicycleIftommBenchmarkMarkerBasedJoints": "bicycle",
     "exudyn/switchingConstraintsPendulum": chain(1)
     | {"joints": {"pin0": between("revolute", "ground", "bar0", [ORIGIN, "a"], holds="t < 0.3")}},
     "exudyn/tippeTop": space({"ball": _BALL | {"centre_of_mass": [0.0, 0.0, -0.01]}}, {"road": _SPHERE | _GIVES}),
@@ -318,7 +324,10 @@ SAID: Mapping[str, Table | str] = {
     "exudyn-tests/rigidBody2Dtest": chain(1),
     "exudyn-tests/rollingCoinTest": wheel(),
     "exudyn-tests/rollingCoinPenaltyTest": wheel(**_GIVES),
+    "exudyn-tests/explicitLieGroupIntegratorTest": "heavy-top",
+    "exudyn-tests/explicitLieGroupIntegratorPythonTest": "heavy-top",
     "exudyn-tests/sliderCrank3Dbenchmark": "spatial-slider-crank",
+    "exudyn-tests/sliderCrank3Dtest": "spatial-slider-crank",
     "exudyn-tests/sphericalJointTest": chain_in_space(2, "spherical"),
     "exudyn-tests/springDamperUserFunctionTest": _DUFFING,
     "exudyn-tests/stiffFlyballGovernor": "flyball-governor",

@@ -49,7 +49,7 @@ as [coming from Exudyn](../howto/from-exudyn.md) and [from Modelica](../howto/fr
 
 Without the examples whose reason lies outside the aim, {outside}: {aim_before} of {aim} before, and {aim_after}, \
 {share:.0f} %, after. {ran} of these {aim_after}, {ran_share:.0f} % of those within the aim, stand as files in \
-`benchmarks/said.py`, which slow tests run in turns. What each feature added:
+`benchmarks/examples`, which slow tests run in turns. What each feature added:
 
 {features}
 """

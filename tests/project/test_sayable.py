@@ -1,6 +1,8 @@
 """Examples of other systems: the page is what the record says, and what the record names is there."""
 
 from benchmarks import sayable
+from benchmarks.said import SAID
+from benchmarks.said_in_files import AT_REST, IN_JOINTS, SAME
 from symgen.describe.files.json_schema import file_schema
 
 
@@ -24,6 +26,12 @@ def test_each_line_has_a_verdict_with_its_reason() -> None:
 def test_most_of_what_lies_within_the_aim_can_be_said() -> None:
     aim = sayable.within_the_aim(sayable.examples())
     assert sayable.said(aim, *sayable.FEATURES) >= 0.8 * len(aim)
+
+
+def test_most_of_that_stands_as_files() -> None:
+    aim = sayable.within_the_aim(sayable.examples())
+    assert sum(f"{x.group}/{x.name}" in SAID for x in aim) >= 0.6 * len(aim)
+    assert AT_REST | IN_JOINTS | set(SAME) <= set(SAID)
 
 
 def test_the_features_are_there() -> None:
