@@ -17,7 +17,6 @@ from symgen.compile.native.directed_functions import directed_function
 from symgen.compile.native.formula_lines import C, NotInLines
 from symgen.compile.native.read import Foreign
 from symgen.derive.emit.module import render_template
-from symgen.describe.bounds.by_reaction import tied_impulses
 from symgen.result.part_limits import remarks_without_limits
 from symgen.result.targets._c_names import defined_names, prefix_of
 from symgen.result.targets._c_reasons import c_text
@@ -129,13 +128,9 @@ class CModel:
         """Remarks on the model, another name of it in C, and what an FMU is not for, in words."""
         name = self.mechanism.name.replace("-", "_")
         words = f"in C, names of '{self.mechanism.name}' begin with {self.prefix}: {name} has another meaning there"
-        tied = tied_impulses(self.mechanism)
-        alone = f"the FMU is for co-simulation alone: an importer that integrates does not find modes of {tied}"
-        holding = "the FMU is for co-simulation alone: an importer that integrates does not choose rows of joints anew"
+        alone = "the FMU is for co-simulation alone: an importer that integrates does not choose rows of joints anew"
         notes = [*remarks_without_limits(self.mechanism), *([words] if self.prefix != name else [])]
-        of_fmu = ((alone, bool(tied)), (holding, bool(self.mechanism.holding)))
-        notes += [sentence for sentence, said in of_fmu if said and self.target == "fmu"]
-        return tuple(notes)
+        return (*notes, alone) if self.mechanism.holding and self.target == "fmu" else tuple(notes)
 
     @cached_property
     def text(self) -> str:
@@ -304,9 +299,8 @@ class CModel:
 
     @property
     def exchanges(self) -> bool:
-        """Whether an importer may integrate: in FMUs without a named integrator, contacts and joints that let go."""
-        tied = tied_impulses(self.mechanism)
-        return self.target == "fmu" and not (self.named or tied or self.mechanism.holding)
+        """Whether an importer may integrate: in FMUs without a named integrator and joints that let go."""
+        return self.target == "fmu" and not (self.named or self.mechanism.holding)
 
     @cached_property
     def partition(self) -> PartitionTables:

@@ -22,7 +22,6 @@ from symgen.base.errors import InputError
 from symgen.base.files import check_path, write_all
 from symgen.base.version import __version__
 from symgen.derive.emit.module import render_template
-from symgen.describe.bounds.by_reaction import tied_impulses
 from symgen.result.targets._base_units import base_unit
 from symgen.result.targets._c_model import CModel, sources
 from symgen.result.targets._fmu_modes import indicator_names, values_of_exchange
@@ -68,8 +67,7 @@ def _write(request: Request) -> Package:
     mechanism = msgspec.structs.replace(request.mechanism, input_formulas=())
     model = CModel.of(replace(request, mechanism=mechanism), "fmu")
     if request.derivatives and not model.exchanges:
-        tied = tied_impulses(mechanism) or "joints that hold for a while"
-        found = f"{tied}, whose modes an importer cannot find"
+        found = "joints that hold for a while, whose modes an importer cannot find"
         reason = f"the steps of '{request.integrator}'" if model.named else found
         raise InputError("derivatives", "an FMU for model exchange, of whose states derivatives are", reason)
     files = fmu_files(model, request.fmi)

@@ -41,13 +41,20 @@ from symgen.run.loops.unbound import (
     system_of_steps,
 )
 from symgen.run.modes.bounded_rows import OTHERS, OUT_OF_RANGE, SAME, switch_off
-from symgen.run.modes.flights import end_flights, end_lost_flights
 from symgen.run.modes.found_rows import allow_depth
 from symgen.run.modes.reading import read_rows
 from symgen.run.modes.turn_impacts import rest_gaps
 from symgen.run.modes.turn_records import OfModes
 from symgen.run.printed.kept_loops import Traits, recipe_of
 from symgen.run.printed.kept_run import CHANGED, ENDING, VISIBLE, Visible, meet_event
+from symgen.run.printed.lost_flights import (
+    end_flights,
+    end_flights_by_reactions,
+    end_flights_that_rub,
+    end_lost_flights,
+    end_lost_flights_by_reactions,
+    end_lost_flights_that_rub,
+)
 from symgen.run.rows.row_events import ModelWithModes, begin_row_in_modes
 
 _F, _A, _K = types.float64, types.float64[::1], types.int64
@@ -315,7 +322,7 @@ def rest_low_gaps(t: float, modes: OfModes, state: EventState) -> int:
     code = rest_gaps(t, modes, state)
     if code == SAME:
         if count > 0:
-            code = end_flights(t, c, modes.strikes, state.y, state.p, state.w)
+            code = end_flights(t, c, modes.strikes, state.y, state.p, state.w, state.iw)
         else:
             code = end_lost_flights(t, c, modes.strikes, state.y, state.p, state.w, state.iw)
         if code == OTHERS and read_rows(t, c, state.y, state.p, state.w) != SAME:
@@ -334,6 +341,17 @@ _RESTING = Meanings(
 )
 _SEAMED = Meanings("FMUs for model exchange with seams", next_time=next_seam, pass_seams=pass_due_seams)
 _CORNERED = Meanings("FMUs for model exchange with corners of gaps", CORNERS=True)
+_TOUCHED = Meanings(
+    "FMUs for model exchange with contacts",
+    end_flights=end_flights_that_rub,
+    end_lost_flights=end_lost_flights_that_rub,
+)
+_REACTING = Meanings(
+    "FMUs for model exchange with gaps beside bounds that depend on reactions",
+    end_flights=end_flights_by_reactions,
+    end_lost_flights=end_lost_flights_by_reactions,
+)
+_TURNING = {"corners": _CORNERED, "contacts": _TOUCHED, "reactions": _REACTING}
 
 
 def exchanged_run(loop: RuntimeFunction, traits: Traits) -> tuple[Any, Any]:
@@ -342,7 +360,9 @@ def exchanged_run(loop: RuntimeFunction, traits: Traits) -> tuple[Any, Any]:
     if key not in _loops:
         name, meanings, _, model = recipe_of(loop, traits)
         meanings |= _RESTING if traits.effects else {}
-        meanings |= (_SEAMED if traits.seams else {}) | (_CORNERED if "corners" in traits.turning else {})
+        meanings |= _SEAMED if traits.seams else {}
+        for kind in traits.turning:
+            meanings |= _TURNING.get(kind, {})
         indicate = types.int64(_F, _A, model, EVENT_STATE, _A)
         exchange = types.int64(_K, _F, model, SPAN, CHUNK, EVENT_STATE, VISIBLE, EXCHANGE)
         _loops[key] = (
