@@ -16,9 +16,10 @@ VENV := .venv
 BIN := $(VENV)/bin
 INSTALLED := $(VENV)/.installed
 DOCS_INSTALLED := $(VENV)/.installed-docs
+CODEMIRROR := symgen/cli/_editor/web/codemirror
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test affected slow browser lint format generated docs gallery findings paper peers bench clean
+.PHONY: help demo test affected slow browser lint format generated codemirror docs gallery findings paper peers bench clean
 
 help:  ## say what the targets do
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' $(MAKEFILE_LIST) | awk -F'|' '{ printf "make %-10s %s\n", $$1, $$2 }'
@@ -80,6 +81,12 @@ format: $(INSTALLED)  ## put the sources into the project's format
 generated: $(INSTALLED)  ## write the checked-in modules under generated/ anew
 	@SYMGEN_UPDATE_GENERATED=1 "$(BIN)/python" -m pytest tests/project/test_generated.py
 	@git --no-pager diff --stat -- generated 2>/dev/null || true
+
+codemirror:  ## bundle the text pane of the editor anew, by npm, which users do not need
+	@mkdir -p out/codemirror && cp $(CODEMIRROR)/package.json $(CODEMIRROR)/parts.js out/codemirror
+	@cd out/codemirror && npm install --silent && npx esbuild parts.js --bundle --minify --format=iife \
+	  --global-name=CodeMirror --target=es2022 --legal-comments=none --outfile=codemirror.js
+	@cp out/codemirror/codemirror.js $(CODEMIRROR)/codemirror.js
 
 docs: $(DOCS_INSTALLED)  ## build the site into out/site; a warning is an error
 	@"$(BIN)/python" -m sphinx -q -W --keep-going -c docs -d out/site-doctrees . out/site

@@ -6,7 +6,8 @@ A scissor lift of so many bodies is checked and run as the page asks for it, fir
 three changes of a number, with what was loaded before out of the collector's sight, as in the server. Processor time is
 that of this process [s]. With `--browser` Chromium drags a pin until there are twelve pictures: how many come in a
 second, the server's processor time for each [s], and that of the page's thread for each of its frames [ms]. Before
-that the page works out motions itself: its processor time for a start [s] and for each second of motion [s].
+that keys are typed into the text: the page's processor time for each [ms]. Then the page works out motions itself: its
+processor time for a start [s] and for each second of motion [s].
 """
 
 from __future__ import annotations
@@ -191,6 +192,19 @@ def motion_in_page(bodies: int, length: float = 0.2) -> Worked:
     return Worked(spent[2], (spent[3] - spent[1]) / length)
 
 
+def key_in_page(bodies: int, keys: int = 20) -> float:
+    """Return the processor time of the page's thread for a key that is typed into the first line [ms]."""
+    with opened_editor(bodies) as (chromium, page):
+        page.until("window.symgen.editor.times().lived === window.symgen.editor.version()")
+        page.type(0, "# ")
+        chromium.call("Performance.enable", timeDomain="threadTicks")
+        began = _thread_time(chromium)
+        for _ in range(keys):
+            chromium.call("Input.insertText", text="a")
+            page.run("new Promise((shown) => requestAnimationFrame(() => setTimeout(shown)))")
+        return 1e3 * (_thread_time(chromium) - began) / keys
+
+
 def main() -> None:
     """Print a table for each number of bodies."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -203,6 +217,7 @@ def main() -> None:
                 f"{bodies:4d} bodies  {what:9s}", *(f"{name} {x:.3f} s" for name, x in zip(NAMES, spent, strict=True))
             )
         if given.browser:
+            print(f"{bodies:4d} bodies  a key in the text: {key_in_page(bodies):.1f} ms")
             worked = motion_in_page(bodies)
             print(
                 f"{bodies:4d} bodies  in the page: {worked.start:.3f} s for a start,"

@@ -69,10 +69,13 @@ class Page:
         """Type at a character of the text, after having erased some behind it."""
         selected = f"document.getElementById('text').setSelectionRange({at}, {at + erased})"
         self.run(f"document.getElementById('text').focus(); {selected}")
+        parts = f"v.slice(0, {at}) + {json.dumps(text)} + v.slice({at + (erased or not text)})"
+        self.run(f"((v) => (window.typed = {parts}))(document.getElementById('text').value); 0")
         if text:
             self.chromium.call("Input.insertText", text=text)
         else:
             self.key("Delete")
+        self.until("document.getElementById('text').value === window.typed")
 
     def key(self, key: str, modifiers: int = 0) -> None:
         """Press a key; modifiers are 2 for control and 8 for shift."""

@@ -51,7 +51,7 @@ def test_a_four_bar_from_a_typed_error_to_a_saved_change(page: Page, file: Path)
     (error,) = page.run("[...document.querySelectorAll('#errors button')].map((e) => e.textContent)")
     assert error.startswith(f"{line}: bodies.crank.mass: expected a number or an expression of parameters")
     assert "did you mean 'crank_mass'?" in error
-    assert page.run("[...document.querySelectorAll('#numbers .bad')].map((e) => e.textContent)") == [str(line)]
+    assert page.run("[...document.querySelectorAll('.cm-lineNumbers .bad')].map((e) => e.textContent)") == [str(line)]
     assert page.run("document.getElementById('picture').classList.contains('stale')")
     page.picture("error")
 
@@ -166,8 +166,10 @@ def test_keys_alone_move_a_point_complete_a_word_and_rename(page: Page) -> None:
     at = moved.index("angular_velocity")
     page.type(at, "\n")
     page.type(at, "cen")
-    page.until("!document.getElementById('choices').hidden")
-    assert page.run("document.querySelector('#choices [aria-selected=true]').textContent").startswith("centre_of_mass")
+    page.until("Boolean(document.querySelector('.cm-tooltip-autocomplete [aria-selected]'))")
+    assert page.run("document.querySelector('.cm-tooltip-autocomplete [aria-selected]').textContent").startswith(
+        "centre_of_mass"
+    )
     assert "In the body's frame" in page.text("about")
     page.picture("completion")
     page.key("Tab")
@@ -409,4 +411,44 @@ def test_a_mechanism_in_space_is_edited_by_its_text(page: Page, file: Path) -> N
     page.rested()
     assert page.run("!document.getElementById('solid').hidden && window.symgen.editor.handles().length === 0")
     page.picture("space")
+    assert page.said() == []
+
+
+@pytest.mark.parametrize("file", ["four-bar"], indirect=True)
+def test_words_are_replaced_and_one_undo_brings_them_back(page: Page) -> None:
+    page.open()
+    page.rested()
+    before = page.text("text")
+    assert before.count("crank_mass") > 1
+    page.run("document.getElementById('text').focus()")
+    page.key("f", 2)
+    for field, words in (("search", "crank_mass"), ("replace", "heavy")):
+        page.run(f"document.querySelector('.cm-search [name={field}]').select()")
+        page.chromium.call("Input.insertText", text=words)
+        page.key("Tab")
+    page.press(".cm-search [name=replaceAll]")
+    assert page.text("text") == before.replace("crank_mass", "heavy")
+    page.rested()
+    page.press("#undo")
+    page.rested()
+    assert page.text("text") == before
+    page.run("document.querySelector('.cm-search [name=search]').focus()")
+    page.key("Escape")
+    page.until("!document.querySelector('.cm-search')")
+    assert page.said() == []
+
+
+@pytest.mark.parametrize("file", ["four-bar"], indirect=True)
+def test_escape_closes_completions_and_letters_are_no_keys_of_the_player(page: Page) -> None:
+    page.open()
+    page.rested()
+    at = page.text("text").index("angular_velocity")
+    page.type(at, "\n")
+    page.type(at, "cen")
+    page.until("Boolean(document.querySelector('.cm-tooltip-autocomplete'))")
+    page.key("Escape")
+    page.until("!document.querySelector('.cm-tooltip-autocomplete')")
+    theme = page.run("document.documentElement.dataset.theme")
+    page.key("d")  # the player's key for another theme
+    assert page.run("document.documentElement.dataset.theme") == theme
     assert page.said() == []

@@ -253,7 +253,7 @@ def test_errors_stand_where_they_are(chromium: Chromium, tmp_path: Path) -> None
             '[bodies.rod]\nmas = 1.0\ninertia = true\npositoin = [0.0, 0.0]\n[bodies.b]\nmass = "x"\ninertia = "y"\n'
         )
         assert [each.split(":")[0] for each in errors(head + wrong)] == ["5", "6", "7", "9", "10"]
-        assert page.run("[...document.querySelectorAll('#numbers .bad')].map((e) => +e.textContent)") == [
+        assert page.run("[...document.querySelectorAll('.cm-lineNumbers .bad')].map((e) => +e.textContent)") == [
             5,
             6,
             7,
@@ -266,4 +266,4 @@ def test_errors_stand_where_they_are(chromium: Chromium, tmp_path: Path) -> None
         )
         (found,) = errors(head + undefined)
         assert not found[0].isdigit()  # of no line
-        assert page.run("document.querySelectorAll('#numbers .bad').length") == 0
+        assert page.run("document.querySelectorAll('.cm-lineNumbers .bad').length") == 0

@@ -76,23 +76,26 @@ def test_modes_in_force_are_those_of_the_time_that_is_shown(page: Page) -> None:
     assert page.said() == []
 
 
+BRACKETS = ".cm-matchingBracket, .cm-nonmatchingBracket"
+
+
 @pytest.mark.parametrize("file", ["four-bar"], indirect=True)
 def test_brackets_at_the_cursor_have_their_partners(page: Page) -> None:
     marks = (
-        "[...document.querySelectorAll('#area .bracket')]"
-        ".map((e) => [Math.round(parseFloat(e.style.top)), e.classList.contains('bad')])"
+        f"[...document.querySelectorAll('{BRACKETS}')]"
+        ".map((e) => [Math.round(e.getBoundingClientRect().top), e.classList.contains('cm-nonmatchingBracket')])"
     )
     put_cursor(page, "[bodies.crank]")
-    page.until("document.querySelectorAll('#area .bracket').length === 2")
+    page.until(f"document.querySelectorAll('{BRACKETS}').length === 2")
     (first, second) = page.run(marks)
     assert first == second and not first[1]
     text = page.text("text")
     page.type(text.index("[bodies.crank]"), "( # ) \n")
     put_cursor(page, "( # )")
-    page.until("document.querySelectorAll('#area .bracket').length === 1")
+    page.until(f"document.querySelectorAll('{BRACKETS}').length === 1")
     assert page.run(marks)[0][1]  # its partner is in a comment
     put_cursor(page, "name =")
-    page.until("document.querySelectorAll('#area .bracket').length === 0")
+    page.until(f"document.querySelectorAll('{BRACKETS}').length === 0")
     assert page.said() == []
 
 

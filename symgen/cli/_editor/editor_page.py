@@ -12,7 +12,7 @@ from symgen.describe.edits.section_words import words_of_sections
 from symgen.result.player.motion_page import editing_page
 
 SCRIPTS = (
-    *("text.js", "colours.js", "brackets.js", "completion.js", "grid.js", "handles.js", "photo.js", "inside.js"),
+    *("codemirror/codemirror.js", "text.js", "completion.js", "grid.js", "handles.js", "photo.js", "inside.js"),
     *("steering.js", "rates.js", "dimensions.js", "layout.js", "synthesis.js", "file.js", "edit.js"),
 )
 #: What the player draws before the first text is read: nothing.

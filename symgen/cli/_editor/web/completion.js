@@ -1,7 +1,6 @@
 // -- words from the schema ------------------------------------------------------------------------------------------------
 
 const { sections, units } = editor.words;
-let choices = [], chosen = 0, typedWord = "";
 
 const unquoted = (part) => part.trim().replace(/^["']|["']$/g, "");
 const entriesOf = (text, section) => [...text.matchAll(new RegExp(`^\\s*\\[${section}\\.([\\w-]+)\\]`, "gm"))].map((m) => m[1]);
@@ -57,63 +56,18 @@ function offered(c) {
   return named([...keysOf(c.text, "parameters"), ...keysOf(c.text, "inputs"), ...entriesOf(c.text, "bodies")]);
 }
 
-function complete(asked = false) {
-  const c = context();
-  typedWord = c.word;
-  choices = T.selectionStart !== T.selectionEnd || (!c.word && !asked && !(c.inText && ["type", "between", "body", "joint"].includes(c.key))) ? [] : offered(c);
-  choices = choices.filter(([name]) => name.startsWith(c.word) && (asked || name !== c.word)).slice(0, 60);
-  chosen = 0;
-  list();
-}
-
-function list() {
-  const box = $("choices");
-  box.textContent = "";
-  box.hidden = !choices.length;
-  T.removeAttribute("aria-activedescendant");
-  if (!choices.length) return;
-  choices.forEach(([name, text], i) => {
-    const item = element("li", name);
-    item.id = `choice${i}`;
-    item.setAttribute("role", "option");
-    item.setAttribute("aria-selected", i === chosen);
-    item.append(element("span", text));
-    item.addEventListener("pointerdown", (e) => {
-      e.preventDefault();
-      take(i);
-    });
-    box.append(item);
-  });
-  T.setAttribute("aria-activedescendant", `choice${chosen}`);
-  const line = lineAt(T.selectionStart), column = T.selectionStart - startOfLine(line) - typedWord.length;
-  box.style.left = `${8 + column * characterWidth()}px`;
-  box.style.top = `${TOP + line * LINE}px`;
-  box.children[chosen].scrollIntoView({ block: "nearest" });
-  about();
-}
-
-let wide = 0;
-function characterWidth() {
-  if (!wide) {
-    const probe = element("span", "0".repeat(100));
-    $("paint").append(probe);
-    wide = probe.getBoundingClientRect().width / 100;
-    probe.remove();
-  }
-  return wide;
-}
-
-function take(i) {
-  const [name] = choices[i], at = T.selectionStart, from = at - typedWord.length;
-  choices = [];
-  list();
-  setText(T.value.slice(0, from) + name + T.value.slice(at), from + name.length);
+// What CodeMirror offers at a place.
+function completions({ pos, explicit }) {
+  const c = context(pos);
+  if (!c.word && !explicit && !(c.inText && ["type", "between", "body", "joint"].includes(c.key))) return null;
+  const options = offered(c).filter(([name]) => explicit || name !== c.word).map(([label, detail]) => ({ label, detail }));
+  return options.length ? { from: pos - c.word.length, options, validFor: /^[\w-]*$/ } : null;
 }
 
 // The sentence of the key that the cursor is at, or of the word that is chosen.
 function about() {
-  let text = choices[chosen]?.[1] || "";
-  if (!choices.length) {
+  let text = CodeMirror.selectedCompletion(box.state)?.detail ?? "";
+  if (!text) {
     const place = T.value.indexOf("\n", T.selectionStart), c = context(place < 0 ? T.value.length : place), section = sections[c.table[0]];
     const here = context(), key = here.inValue ? here.key : c.key;
     const keys = section && (section.types ? section.types[c.type]?.keys : section.keys);
@@ -121,27 +75,3 @@ function about() {
   }
   $("about").textContent = text;
 }
-
-T.addEventListener("input", () => complete());
-T.addEventListener("blur", () => {
-  choices = [];
-  list();
-});
-document.addEventListener("selectionchange", () => document.activeElement === T && !choices.length && about());
-T.addEventListener("keydown", (e) => {
-  if (e.key === " " && e.ctrlKey) {
-    e.preventDefault();
-    complete(true);
-  }
-  if (!choices.length) return;
-  const act = { ArrowDown: () => (chosen = (chosen + 1) % choices.length), ArrowUp: () => (chosen = (chosen + choices.length - 1) % choices.length), Enter: () => take(chosen), Tab: () => take(chosen), Escape: () => (choices = []) }[e.key];
-  if (!act) {
-    if (["ArrowLeft", "ArrowRight", "Home", "End"].includes(e.key)) choices = [];
-    if (!choices.length) list();
-    return;
-  }
-  e.preventDefault();
-  e.stopPropagation();
-  act();
-  if (choices.length || !$("choices").hidden) list();
-});

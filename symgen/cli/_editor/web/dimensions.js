@@ -60,6 +60,7 @@ function newDimension(each) {
 }
 
 function leave(button, field) {
+  if (typing === null) return; // it has gone already: what goes loses the focus
   typing = null;
   field.replaceWith(button);
   button.focus();

@@ -230,8 +230,8 @@ changes.push((moving) => {
   clearTimeout(timer);
   if (!moving) say("");
   showWhetherSaved();
-  $("undo").disabled = !past.length;
-  $("redo").disabled = !future.length;
+  $("undo").disabled = !CodeMirror.undoDepth(box.state);
+  $("redo").disabled = !CodeMirror.redoDepth(box.state);
   check();
 });
 
@@ -306,8 +306,8 @@ $("undo").addEventListener("click", undo);
 $("redo").addEventListener("click", redo);
 window.addEventListener("keydown", (e) => {
   const key = e.key.toLowerCase(), act = e.ctrlKey || e.metaKey
-    ? { s: save, f: () => seek(true), z: e.shiftKey ? redo : undo, y: redo }[key]
-    : { f2: rename, escape: () => tool !== "move" && choosing("move") }[key];
+    ? { s: save, f: seek, z: e.shiftKey ? redo : undo, y: redo }[key]
+    : { f2: rename, escape: tool !== "move" && (() => choosing("move")) }[key];
   if (!act || (key === "z" && e.target !== T && e.target.tagName === "INPUT")) return;
   if (key !== "escape") e.preventDefault();
   e.stopPropagation();

@@ -63,7 +63,7 @@ async function askJoint() {
   else jointText.innerHTML = answer.markup; // formulas; names in them are escaped, and no script or style runs by the page's policy
 }
 jointBox.addEventListener("toggle", askJoint);
-document.addEventListener("selectionchange", () => document.activeElement === T && checkedText === T.value && askJoint());
+selections.push(() => document.activeElement === T && checkedText === T.value && askJoint());
 
 torque.addEventListener("click", () => {
   const name = jointAtCursor(), at = motion.groups.findIndex((g) => g.names.includes(`${name}.effort`));

@@ -76,7 +76,7 @@ drawn.push((q) => {
   const item = selected && !view.spatial && data.scene.items.find((each) => SECTIONS[each.role] && selected === pathOf(each));
   if (item) glow(item, q);
 });
-document.addEventListener("selectionchange", () => {
+selections.push(() => {
   if (document.activeElement !== T) return;
   const path = atCursor().split(".").slice(0, 2).join(".");
   if (path === selected || !/^(bodies|joints|forces|contacts)\./.test(path)) return;

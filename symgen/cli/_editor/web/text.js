@@ -1,150 +1,147 @@
-// -- the text -------------------------------------------------------------------------------------------------------------
+// -- the text: CodeMirror's editor, whose content is read and selected as a text field is ------------------------------------
 
-const T = $("text"), LINE = 19, TOP = 6, LARGE = 200000, STEPS = 500;
-const editor = data.editor;
-let past = [], future = [], entry = { text: "", from: 0, to: 0 }, typed = { at: 0, kind: "" };
-const changes = []; // called after each change, with whether a hand is moving something
+const { Decoration, EditorState, EditorView, GutterMarker, RangeSetBuilder, StateEffect, StateField, StreamLanguage, Transaction } = CodeMirror;
+const editor = data.editor, GROUPED = 600; // milliseconds within which typed characters are one step of undo
+const changes = [], selections = []; // called after each change, with whether a hand is moving something; after the cursor has moved
+let moving = false, bad = new Map(); // errors by line
 
-function noteChange(moving = false) {
-  paint();
-  for (const each of changes) each(moving);
+// Lines with errors, and their numbers.
+const errorsKnown = StateEffect.define();
+class WrongNumber extends GutterMarker {
+  elementClass = "bad";
 }
-
-function remember(now, together = false) {
-  if (!together) {
-    past.push(entry);
-    if (past.length > STEPS) past.shift();
+const wrongNumber = new WrongNumber();
+function onLines(state, lines, kind) {
+  const made = new RangeSetBuilder();
+  for (const [number, text] of [...lines].sort(([a], [b]) => a - b)) {
+    if (number < 1 || number > state.doc.lines) continue; // of no line, or of one that has gone
+    const { from } = state.doc.line(number);
+    made.add(from, from, kind(text));
   }
-  future = [];
-  entry = now;
+  return made.finish();
+}
+const wrongLines = StateField.define({
+  create: () => new Map(),
+  update: (lines, { effects }) => effects.findLast((e) => e.is(errorsKnown))?.value ?? lines,
+  provide: (field) => [
+    EditorView.decorations.compute([field, "doc"], (state) => onLines(state, state.field(field), (title) => Decoration.line({ class: "bad", attributes: { title } }))),
+    CodeMirror.gutterLineClass.compute([field, "doc"], (state) => onLines(state, state.field(field), () => wrongNumber)),
+  ],
+});
+const mark = () => box.dispatch({ effects: errorsKnown.of(new Map(bad)) });
+
+// TOML: comments, texts, headers, keys, numbers, words.
+const PIECES = [
+  [/^#.*/, "comment"],
+  [/^(?:"(?:[^"\\]|\\.)*"?|'[^']*'?)/, "string"],
+  [/^[A-Za-z_][\w-]*(?=\s*(?:=|\.[\w.-]+\s*=))/, "propertyName"],
+  [/^[-+]?\d[\d_.]*(?:e[-+]?\d+)?/i, "number"],
+  [/^(?:true|false)\b/, "number"],
+  [/^[A-Za-z_][\w-]*/, null],
+];
+const HEADER = /^\[+\s*[A-Za-z_"'][^\]=#]*\]+/;
+const toml = StreamLanguage.define({
+  startState: () => ({ ends: "" }),
+  token(stream, state) {
+    if (state.ends) { // in a text of several lines
+      if (stream.skipTo(state.ends)) {
+        stream.match(state.ends);
+        state.ends = "";
+      } else stream.skipToEnd();
+      return "string";
+    }
+    if (stream.eatSpace()) return null;
+    const long = stream.match(/^(?:"""|''')/);
+    if (long) {
+      [state.ends] = long;
+      return "string";
+    }
+    if (stream.column() === stream.indentation() && stream.match(HEADER)) return "heading";
+    const piece = PIECES.find(([pattern]) => stream.match(pattern));
+    if (!piece) stream.next();
+    return piece ? piece[1] : null;
+  },
+  languageData: { commentTokens: { line: "#" }, closeBrackets: { brackets: [] } },
+});
+const { tags } = CodeMirror, looks = CodeMirror.HighlightStyle.define([
+  { tag: tags.heading, color: "var(--key)", fontWeight: "bold" }, { tag: tags.propertyName, color: "var(--key)" },
+  { tag: tags.string, color: "var(--word)" }, { tag: tags.number, color: "var(--count)" }, { tag: tags.comment, color: "var(--soft)" },
+]);
+
+// A table folds at its header.
+const tables = CodeMirror.foldService.of((state, start, end) => {
+  if (!/^\s*\[/.test(state.sliceDoc(start, end))) return null;
+  let last = state.doc.lineAt(start).number;
+  while (last < state.doc.lines && !/^\s*\[+[A-Za-z_"']/.test(state.doc.line(last + 1).text)) last++;
+  while (!state.doc.line(last).text.trim()) last--;
+  return state.doc.line(last).to > end ? { from: end, to: state.doc.line(last).to } : null;
+});
+
+const EXTENSIONS = [
+  CodeMirror.lineNumbers(), CodeMirror.foldGutter(), tables, wrongLines, toml, CodeMirror.syntaxHighlighting(looks), CodeMirror.bracketMatching(),
+  CodeMirror.history({ newGroupDelay: GROUPED }), CodeMirror.search({ top: true }), CodeMirror.drawSelection(), EditorState.allowMultipleSelections.of(true),
+  CodeMirror.autocompletion({ override: [completions], icons: false, interactionDelay: 0, activateOnTypingDelay: 0 }),
+  CodeMirror.keymap.of([{ key: "Tab", run: CodeMirror.acceptCompletion }, ...CodeMirror.searchKeymap, ...CodeMirror.foldKeymap, ...CodeMirror.defaultKeymap]),
+  EditorView.cspNonce.of(document.querySelector("script[nonce]").nonce),
+  EditorView.contentAttributes.of({ id: "text", "aria-label": "Text of the mechanism file", "aria-describedby": "about status" }),
+  EditorView.updateListener.of(({ docChanged, selectionSet, startState, state }) => {
+    if (docChanged) for (const each of changes) each(moving);
+    if (docChanged || selectionSet) for (const each of selections) each();
+    if (docChanged || selectionSet || CodeMirror.selectedCompletion(state) !== CodeMirror.selectedCompletion(startState)) about();
+  }),
+];
+const box = new EditorView({ parent: $("paper"), extensions: EXTENSIONS });
+box.scrollDOM.tabIndex = 0; // scrolled by keys
+$("paper").addEventListener("keydown", (e) => e.stopPropagation()); // the player's keys are letters here
+let known = [null, ""]; // the last document, and its text
+const T = Object.defineProperties(box.contentDOM, {
+  value: {
+    get: () => {
+      if (known[0] !== box.state.doc) known = [box.state.doc, box.state.doc.toString()];
+      return known[1];
+    },
+    set: (text) => replaceText(text, { annotations: Transaction.addToHistory.of(false) }),
+  },
+  selectionStart: { get: () => box.state.selection.main.from },
+  selectionEnd: { get: () => box.state.selection.main.to },
+  setSelectionRange: { value: (anchor, head = anchor) => box.dispatch({ selection: { anchor, head } }) },
+});
+
+// Put a text in, of which what is alike at both ends stays.
+function replaceText(text, further) {
+  const old = T.value, shorter = Math.min(old.length, text.length);
+  let head = 0, tail = 0;
+  while (head < shorter && old[head] === text[head]) head++;
+  while (tail < shorter - head && old[old.length - 1 - tail] === text[text.length - 1 - tail]) tail++;
+  box.dispatch({ changes: { from: head, to: old.length - tail, insert: text.slice(head, text.length - tail) }, ...further });
 }
 
 // Another text, as one step of undo; the cursor goes to a place.
 function setText(text, from = null, to = from) {
-  T.classList.remove("moved");
-  if (text === entry.text && text === T.value) return;
-  const place = from ?? Math.min(T.selectionStart, text.length);
-  T.value = text;
-  T.setSelectionRange(place, to ?? place);
-  remember({ text, from: place, to: to ?? place });
-  typed = { at: 0, kind: "" };
-  noteChange();
+  if (text === T.value) return;
+  const anchor = from ?? Math.min(T.selectionStart, text.length);
+  replaceText(text, { selection: { anchor, head: to ?? anchor }, annotations: CodeMirror.isolateHistory.of("full") });
 }
 
 // A text that is still being dragged about: no step of undo.
 function preview(text) {
-  if (T.value === text) return;
-  T.classList.add("moved"); // what is seen is the coloured text: nothing of a long field is laid out meanwhile
-  T.value = text;
-  noteChange(true);
+  moving = true;
+  if (T.value !== text) T.value = text;
+  moving = false;
 }
 
 // Begin with a text: nothing can be undone.
 function beginText(text) {
-  past = [];
-  future = [];
-  T.value = text;
-  T.setSelectionRange(0, 0);
-  entry = { text, from: 0, to: 0 };
-  noteChange();
+  box.setState(EditorState.create({ doc: text, extensions: EXTENSIONS }));
+  for (const each of changes) each(false);
 }
 
-function travel(from, onto) {
-  if (!from.length) return;
-  onto.push({ text: T.value, from: T.selectionStart, to: T.selectionEnd });
-  entry = from.pop();
-  T.value = entry.text;
-  T.setSelectionRange(entry.from, entry.to);
-  typed = { at: 0, kind: "" };
-  reveal(entry.from);
-  noteChange();
+const undo = () => CodeMirror.undo(box), redo = () => CodeMirror.redo(box), seek = () => CodeMirror.openSearchPanel(box);
+const lineAt = (place) => box.state.doc.lineAt(place).number;
+const startOfLine = (line) => (line > box.state.doc.lines ? T.value.length + 1 : box.state.doc.line(line).from);
+
+function select(anchor, head = anchor, focus = true) {
+  if (focus) box.focus();
+  box.dispatch({ selection: { anchor, head }, effects: EditorView.scrollIntoView(anchor, { y: "nearest", yMargin: 60 }) });
 }
-const undo = () => travel(past, future), redo = () => travel(future, past);
-
-T.addEventListener("beforeinput", (e) => {
-  if (e.inputType !== "historyUndo" && e.inputType !== "historyRedo") return;
-  e.preventDefault();
-  (e.inputType === "historyUndo" ? undo : redo)();
-});
-T.addEventListener("input", (e) => {
-  const now = performance.now(), together = now - typed.at < 600 && typed.kind === e.inputType && /^(insertText|delete)/.test(e.inputType);
-  typed = { at: now, kind: e.inputType };
-  reveal(T.selectionStart);
-  remember({ text: T.value, from: T.selectionStart, to: T.selectionEnd }, together);
-  noteChange();
-});
-
-// -- lines ----------------------------------------------------------------------------------------------------------------
-
-let lines = [], bad = new Map();
-const lineAt = (place) => T.value.slice(0, place).split("\n").length;
-
-// Only lines that changed are painted anew; a very large text has no colours.
-function paint() {
-  const next = T.value.split("\n"), paper = $("paint"), numbers = $("numbers"), plain = T.value.length > LARGE;
-  let head = 0, tail = 0;
-  while (head < Math.min(lines.length, next.length) && lines[head] === next[head]) head++;
-  while (tail < Math.min(lines.length, next.length) - head && lines[lines.length - 1 - tail] === next[next.length - 1 - tail]) tail++;
-  for (let k = lines.length - tail; k > head; k--) paper.children[k - 1].remove();
-  const fresh = document.createDocumentFragment();
-  for (let k = head; k < next.length - tail; k++) fresh.append(colouredLine(next[k], plain));
-  paper.insertBefore(fresh, paper.children[head] || null);
-  while (numbers.children.length > next.length) numbers.lastChild.remove();
-  while (numbers.children.length < next.length) numbers.append(element("div", String(numbers.children.length + 1)));
-  lines = next;
-  mark();
-}
-
-function mark() {
-  for (const box of [$("paint"), $("numbers")]) {
-    for (const each of box.querySelectorAll(":scope > .bad")) each.className = "";
-    for (const line of bad.keys()) if (box.children[line - 1]) box.children[line - 1].className = "bad";
-  }
-  for (const each of $("numbers").querySelectorAll("[title]")) each.removeAttribute("title");
-  for (const [line, text] of bad) if ($("numbers").children[line - 1]) $("numbers").children[line - 1].title = text;
-}
-
-// Bring a character into view.
-function reveal(place) {
-  const top = TOP + (lineAt(place) - 1) * LINE, box = $("paper");
-  const column = place - (T.value.lastIndexOf("\n", place - 1) + 1), far = T.offsetLeft + 8 * (column + 3); // of its end, at most
-  if (far < box.clientWidth) box.scrollLeft = 0; // what a long line has moved goes back
-  if (top < box.scrollTop + LINE || top > box.scrollTop + box.clientHeight - 2 * LINE) box.scrollTop = Math.max(0, top - box.clientHeight / 3);
-}
-
-function select(from, to = from, focus = true) {
-  if (focus) T.focus({ preventScroll: true });
-  T.setSelectionRange(from, to);
-  reveal(from);
-  about();
-}
-
-const startOfLine = (line) => T.value.split("\n").slice(0, line - 1).join("\n").length + (line > 1 ? 1 : 0);
-
-// -- find -----------------------------------------------------------------------------------------------------------------
-
-function seek(on) {
-  $("find").hidden = !on;
-  $("seek").setAttribute("aria-expanded", on);
-  if (on) $("sought").select();
-  else T.focus();
-}
-
-function findNext() {
-  const sought = $("sought").value.toLowerCase(), text = T.value.toLowerCase();
-  if (!sought) return;
-  const count = text.split(sought).length - 1;
-  let at = text.indexOf(sought, T.selectionEnd);
-  if (at < 0) at = text.indexOf(sought);
-  $("found").textContent = count ? `${count} in the text` : "not in the text";
-  if (at >= 0) {
-    select(at, at + sought.length, false);
-    T.focus({ preventScroll: true });
-  }
-}
-$("seek").addEventListener("click", () => seek($("find").hidden));
-$("next").addEventListener("click", findNext);
-$("sought").addEventListener("keydown", (e) => {
-  if (e.key === "Enter") findNext();
-  else if (e.key === "Escape") seek(false);
-});
+$("seek").addEventListener("click", seek);
