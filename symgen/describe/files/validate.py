@@ -20,6 +20,7 @@ from symgen.describe.bounds.keys import SectionOfFiles, sections_of_files
 from symgen.describe.bounds.losses import losses_by_name
 from symgen.describe.bounds.smooth import rows_as_forces
 from symgen.describe.contacts.outline_tables import read_outline
+from symgen.describe.contacts.rays import value_of_output
 from symgen.describe.files.joint_tables import JointTables
 from symgen.describe.files.origins import errors_in, keep_origin
 from symgen.describe.files.remarks import with_remarks
@@ -396,8 +397,7 @@ class _Validator:
         else:
             section, key = OutputSection(value=read_value(OutputFunction, raw, where)), ""
         scope = self.scope_of_entry("outputs", name)
-        value = scope.of_motion(key, section.value)
-        unit = unit_of(section.unit, f"{where}.unit")
-        value = in_own_unit(scope, value, unit)
+        unit = unit_of(section.unit or "m" * (section.ray is not None), f"{where}.unit")
+        value = in_own_unit(scope, value_of_output(scope, key, section), unit)
         self._limits += read_limits_of_entry(name, section, unit, self._numbers, where, si=False)
         return Output(name, value, unit.text)

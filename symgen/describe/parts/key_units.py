@@ -37,6 +37,7 @@ _FURTHER = {
         **{"torsion": "N m^2", "shear": "N", "mass": "kg/m", "rotary": "kg m", "young": "Pa", "density": "kg/m^3"},
         **{"poisson": "1", "width": "m", "height": "m", "diameter": "m", "thickness": "m", "load": "N/m"},
     },
+    "outputs": {"at": "m", "reach": "m", "disc": "m", "segment": "m", "on": "m"},
     "outlines": {
         **{"to": "m", "radius": "m", "bulge": "1", "fillet": "m", "points": "m", "box": "m", "at": "m", "angle": "rad"},
     },

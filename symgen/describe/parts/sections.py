@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Any, Literal
 
 import msgspec
 
@@ -163,6 +163,30 @@ class TableSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     periodic: Flag = False
 
 
+class RayTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A ray, of a lidar for one, whose distance from the nearest shape an output reports; in the plane.
+
+    Parameters
+    ----------
+    body : str
+        Its body, or ``"ground"``.
+    at : point
+        Where it begins; the origin of the body by default.
+    direction : vector
+        Where it leads, in the frame of its body.
+    reach : scalar
+        The distance that it reports where it meets nothing nearer [m].
+    shapes : list of tables
+        What it may meet: discs, segments, lines and outlines, as of contacts.
+    """
+
+    body: str
+    at: Point = (0.0, 0.0)
+    direction: Vector
+    reach: Scalar
+    shapes: tuple[dict[str, Any], ...]
+
+
 class OutputSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A formula that results report, given as ``name = "arm.tip.x"`` or with its unit as a table.
 
@@ -170,13 +194,16 @@ class OutputSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
     ----------
     value : function of the motion
         An expression of t, parameters, body coordinates, points, joint coordinates, forces and accelerations.
+    ray : table
+        In its place, a ray.
     unit : str
         Unit of the number that the formula gives.
     smallest, largest : scalar
         Limits with which reports compare it: numbers in `unit` or with their own, or formulas of parameters.
     """
 
-    value: OutputFunction
+    value: OutputFunction | None = None
+    ray: RayTable | None = None
     unit: Text = ""
     smallest: Scalar | None = None
     largest: Scalar | None = None
