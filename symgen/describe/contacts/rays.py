@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import reduce
+
+import msgspec
 
 from symgen.base.vocabulary.expressions import ZERO, Expr, Number, Reading, call, difference, product
 from symgen.base.vocabulary.measures import Component, Marker
@@ -19,7 +21,10 @@ from symgen.describe.parts.sections import OutputSection, RayTable
 #: A point as a ray sees it: the way along the ray to the foot of its perpendicular, and how far it is to the left.
 Seen = tuple[Expr, Expr]
 #: Tables of shapes by their words.
-_SHAPES = {DISC: DiscTable, "segment": SegmentTable, "line": LineTable, "outline": OutlineTable}
+_SHAPES: Mapping[str, type[msgspec.Struct]] = {
+    **{DISC: DiscTable, "segment": SegmentTable},
+    **{"line": LineTable, "outline": OutlineTable},
+}
 
 
 def value_of_output(scope: Scope, key: str, section: OutputSection) -> Expr:
