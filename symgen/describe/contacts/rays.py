@@ -28,7 +28,7 @@ _SHAPES: Mapping[str, type[msgspec.Struct]] = {
 
 
 def value_of_output(scope: Scope, key: str, section: OutputSection) -> Expr:
-    """Return the formula of an output, or that of its ray.
+    """Return the formula of an output, or the distance along its ray.
 
     Raises
     ------
