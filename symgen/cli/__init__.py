@@ -28,6 +28,7 @@ import click
 from symgen.analyses.kinds import ANALYSES
 from symgen.base.errors import InputError, SymgenError
 from symgen.base.escapes import printable
+from symgen.base.locales import choose_locale
 from symgen.base.plugins import failure_of_plugin, load_plugins
 from symgen.base.registry import Registry
 from symgen.base.settings import command_flag, setting_names
@@ -54,6 +55,8 @@ LISTS = {
 _ARGUMENT = re.compile("`([a-z][a-z_]*)`")
 #: Commands that use no kinds of joints, forces, methods or integrators.
 WITHOUT_PLUGINS = ("cache", "completion")
+#: Commands beside the analyses that write numbers for readers.
+LOCALISED = ("view", "run", "design", "synthesize", "report", "compare", "stress", "sweep")
 
 #: Commands that are files of this folder; every analysis is one as well.
 OWN: Registry[click.Command] = Registry(__name__, "command", attribute="command")
@@ -80,6 +83,8 @@ class LazyGroup(click.Group):
         command.short_help = summary_of_command(cmd_name)
         if cmd_name not in WITHOUT_PLUGINS and not any(p.name == "plugin" for p in command.params):
             command.params.append(_plugin_option())
+        if (cmd_name in LOCALISED or cmd_name in ANALYSES) and not any(p.name == "locale" for p in command.params):
+            command.params.append(_locale_option())
         if ctx.resilient_parsing:  # the shell completes a line
             from symgen.cli._completing import complete_with
 
@@ -115,6 +120,18 @@ def _plugin_option() -> click.Option:
         # a key press that completes a line runs no file
         callback=lambda context, parameter, paths: None if context.resilient_parsing else load_plugins(paths),
         help="Run a Python file that registers methods, integrators, joints or forces of your own.",
+    )
+
+
+def _locale_option() -> click.Option:
+    """Return the option that chooses how numbers for readers are written."""
+    return click.Option(
+        ["--locale"],
+        metavar="NAME",
+        is_eager=True,
+        expose_value=False,
+        callback=lambda context, parameter, name: None if context.resilient_parsing else choose_locale(name),
+        help="Write decimal marks, thousands and dates for readers as in NAME, such as de; data files stay.",
     )
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 import click
 
 from symgen.base.errors import InputError
+from symgen.base.locales import chosen_locale
 from symgen.base.plugins import loaded_plugin_files
 from symgen.cli import INTERRUPTED, write_complaint
 from symgen.cli._shared_options import check_output_file, refuse_same_file, units_option
@@ -155,6 +156,8 @@ def command_line_again() -> str:
                 flag,
                 Path(item).name if flag in _WRITTEN else str(item).removesuffix(".0"),
             ]
+    if locale := chosen_locale():
+        parts += ["--locale", locale]
     here = Path.cwd()
     for plugin in map(Path, loaded_plugin_files()):  # with its folder only below this one: others are private
         parts += ["--plugin", str(plugin.relative_to(here)) if plugin.is_relative_to(here) else plugin.name]

@@ -12,6 +12,7 @@ from rich.text import Text
 
 from symgen.base.digits import digits, scale_of
 from symgen.base.errors import fit_lines
+from symgen.base.locales import local_text
 
 if TYPE_CHECKING:
     from symgen.result.result import Result
@@ -54,7 +55,8 @@ def show_rows(
     in_parts : bool
         Whether further parts are printed; otherwise a line names their columns.
     """
-    listed = list(rows)
+    kept = {k for k, heading in enumerate(headings) if heading in left}
+    listed = [[x if k in kept else local_text(x) for k, x in enumerate(row)] for row in rows]
     widths = [max(map(len, column)) for column in zip(headings, *listed, strict=True)]
     parts = [[*range(first)]]
     for k in range(first, len(headings)):
@@ -82,7 +84,7 @@ def show_facts(out: Console, facts: Iterable[tuple[str, str]]) -> None:
     table.add_column(overflow="fold")
     for label, text in facts:
         status = text.partition(" ")[0].rstrip(":") if label == "status" else ""
-        table.add_row(label, Text(text, COLOURS.get(status, "")))
+        table.add_row(label, Text(local_text(text), COLOURS.get(status, "")))
     out.print(table)
 
 

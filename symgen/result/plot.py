@@ -14,6 +14,7 @@ from symgen.base.arguments import number
 from symgen.base.arguments import path_argument as argument_path
 from symgen.base.errors import InputError
 from symgen.base.files import MEASURED, check_path, need_library, write_whole
+from symgen.base.locales import localise_figure
 from symgen.result.export import PLOTTED
 
 #: Dots per inch of a figure in a file and in a notebook.
@@ -56,6 +57,7 @@ class Plot:
             from symgen.result.plots import fit_into
 
             fit_into(self.figure, check_width("width", width))
+        localise_figure(self.figure)
         kind = where.suffix.lower().removeprefix(".")
         metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind, {})
         import matplotlib as mpl

@@ -17,6 +17,7 @@ import numpy as np
 from symgen.base.arguments import path_argument as argument_path
 from symgen.base.escapes import script_json
 from symgen.base.files import check_path, write_whole
+from symgen.base.locales import local_signs
 from symgen.compile.native.javascript_code import ADDRESSED, INDEX_TABLES
 from symgen.describe.drawing.mechanism_scene import build_scene
 from symgen.describe.drawing.paper import View
@@ -126,6 +127,8 @@ def page_data(
         "live": None if live is None else live.spec,
         "note": note,
     }
+    if (signs := local_signs()) is not None:
+        data["locale"] = signs
     motions = [recording] if second is None else [recording, second]
     share = MOST_DATA[spatial] // len(motions)
     pins = scene.pins

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.base.digits import clean, scale_of
+from symgen.base.locales import local_text
 from symgen.describe.drawing.scene import Array
 from symgen.result.labelled import largest_magnitudes
 
@@ -234,7 +235,7 @@ def pack_recording(recording: Recording, keep: Array, coarse: bool = False) -> d
         "t": encode_floats(recording.t[keep, None]),
         "q": encode_shorts(recording.q[keep]) if coarse else encode_floats(recording.q[keep]),
         "count": len(keep),
-        "facts": [list(fact) for fact in recording.facts],
+        "facts": [[label, local_text(text)] for label, text in recording.facts],
         "status": recording.status,
         "groups": [
             {

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Final
 from symgen.base.arguments import one_word_of
 from symgen.base.errors import InputError, quote
 from symgen.base.files import system_message
+from symgen.base.locales import local_date
 from symgen.study.report.document import DocumentTable, Letterhead, Picture, ReportDocument, Section
 
 if TYPE_CHECKING:
@@ -57,7 +58,7 @@ def put_on_paper(document: ReportDocument, size: str) -> ReportDocument:
 def origin_of_file(mechanism: Mechanism, number: str = "") -> tuple[tuple[str, str], ...]:
     """Return number, revision and author, those that there are, and the day of a report."""
     own = {"report": number, "revision": mechanism.revision, "author": mechanism.author}
-    return (*((label, text) for label, text in own.items() if text), ("date", date.today().isoformat()))
+    return (*((label, text) for label, text in own.items() if text), ("date", local_date(date.today())))
 
 
 def signing_section(document: ReportDocument) -> Iterator[Section]:

@@ -9,6 +9,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, cast
 
 from symgen.base.files import need_library
+from symgen.base.locales import localise_figure
 from symgen.study.report.document import Picture, Section
 
 if TYPE_CHECKING:
@@ -102,6 +103,7 @@ def draw_picture(
     with mpl.rc_context(_LOOK):
         figure = Figure(figsize=(WIDTH * (1.9 if wide else 1.0), height), layout="constrained")
         draw(figure)
+        localise_figure(figure)
         data, kind = _svg_file(figure)
     return Picture(name, caption, alternative, data, kind, wide, partial(_png_pixels, figure))
 
@@ -113,6 +115,7 @@ def picture_of_figure(name: str, caption: str, alternative: str, make: Callable[
 
     with mpl.rc_context(_LOOK):
         figure = make()
+        localise_figure(figure)
         data, kind = _svg_file(figure)
     return Picture(name, caption, alternative, data, kind, True, partial(_png_pixels, figure))
 

@@ -21,6 +21,7 @@ from symgen.study.report.document import DocumentTable, Picture, ReportDocument,
 from symgen.study.report.kinds import STUDY_REPORTS
 from symgen.study.report.latex import latex_tables
 from symgen.study.report.letterhead import signing_section
+from symgen.study.report.localised import localise_document
 from symgen.study.report.plain_pdf import plain_pdf
 
 if TYPE_CHECKING:
@@ -62,6 +63,7 @@ def write(document: ReportDocument, path: Path) -> Path:
         tables for a paper.
     """
     check_report("report", path)
+    document = localise_document(document)
     if path.suffix.lower() == ".html":
         return write_whole(path, html_report(document))
     if path.suffix.lower() == ".tex":

@@ -31,7 +31,8 @@ function ticks(low, high, most) {
   return found;
 }
 
-const short = (x) => (x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-3 ? x.toExponential(1) : String(+x.toPrecision(4)));
+const local = (text) => (data.locale ? text.replace(".", data.locale.decimal) : text); // for readers: inputs keep points
+const short = (x) => local(x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-3 ? x.toExponential(1) : String(+x.toPrecision(4)));
 
 function sized(canvas) {
   const ratio = window.devicePixelRatio || 1, box = canvas.getBoundingClientRect();
@@ -139,7 +140,7 @@ function makePlot(canvas, key, chosen) {
     context.lineTo(x(at), height - bottom);
     context.stroke();
     values.forEach((value, i) => {
-      if (key.children[i]) key.children[i].lastChild.textContent = `${log ? (10 ** value).toExponential(1) : short(value)}`;
+      if (key.children[i]) key.children[i].lastChild.textContent = `${log ? local((10 ** value).toExponential(1)) : short(value)}`;
     });
   }
 

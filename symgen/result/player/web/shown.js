@@ -16,7 +16,7 @@ function render() {
   timeline();
   if (group) plot.cursor(columnAt(over().along, motion.t, time), group.columns.map((c) => columnAt(c, motion.t, time)), group.log);
   const doubt = motion.moments.filter((m) => m[0] <= time && time <= m[1]);
-  $("clock").textContent = `${time.toFixed(3)} s of ${motion.end.toFixed(2)}`;
+  $("clock").textContent = `${local(time.toFixed(3))} s of ${local(motion.end.toFixed(2))}`;
   const bare = $("forces").checked && motion !== motions[0] && !motion.reactions && !motion.pulls ? ["forces are those of the recorded motion"] : [];
   $("hint").textContent = [...doubt.map((m) => m[3]), ...bare, handInWords()].filter(Boolean).join("; ");
   wanted = false;
