@@ -2,5 +2,5 @@
 
 In: values and names as users write them.
 Out: checked values, one form of errors, kinds of a folder.
-Imports: no library; nothing.
+Imports: Babel when needed; nothing else.
 """

@@ -81,7 +81,7 @@ def chosen_locale() -> str:
 
 
 def local_signs() -> dict[str, str] | None:
-    """Return the decimal mark and that of thousands of the chosen locale, for scripts of pages; None without one."""
+    """Return the marks of decimals and thousands of the chosen locale for scripts of pages; None without a locale."""
     return {"decimal": _chosen[0].decimal, "group": _chosen[0].group} if _chosen else None
 
 
@@ -117,10 +117,8 @@ def localise_figure(figure: Any) -> None:
     """Write the numbers of the texts and ticks of a figure of matplotlib as the chosen locale does, once."""
     if not _chosen or figure in _localised:
         return
-    from matplotlib.text import Text
-
     _localised.add(figure)
-    for text in figure.findobj(Text):
+    for text in figure.findobj(lambda part: hasattr(part, "set_text")):
         text.set_text(local_text(text.get_text()))
     for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
         for formatter in (axis.get_major_formatter(), axis.get_minor_formatter()):
