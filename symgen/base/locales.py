@@ -6,7 +6,7 @@ A locale is chosen once, by the option ``--locale`` of a command; without one, t
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from datetime import date
 from functools import partial
 from typing import Any, NamedTuple
@@ -125,5 +125,5 @@ def localise_figure(figure: Any) -> None:
             formatter.format_ticks = partial(_local_ticks, formatter.format_ticks)
 
 
-def _local_ticks(format_ticks: Callable[[Any], list[str]], values: Any) -> list[str]:
+def _local_ticks(format_ticks: Callable[[Sequence[float]], list[str]], values: Sequence[float]) -> list[str]:
     return [local_text(text) for text in format_ticks(values)]
