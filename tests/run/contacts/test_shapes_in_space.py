@@ -275,3 +275,13 @@ def test_the_command_runs_and_refuses(tmp_path: Path) -> None:
     refused = subprocess.run(command, capture_output=True, text=True, check=False)
     sentence = "contacts.touch.friction: expected no such key, as contacts in space have no friction, got 0.3"
     assert refused.returncode == 2 and sentence in refused.stderr
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_a_ball_hangs_in_a_bowl_and_swings(coordinates: str, tmp_path: Path) -> None:
+    """At its equilibrium the bowl carries it; its two frequencies are those of a pendulum, and its spins have none."""
+    text = head() + body("ball", (0.0, 0.0, -0.4)) + contact(BALL, 'body = "ground", sphere = -0.5')
+    model = loaded(text, tmp_path)
+    squares = np.sort(model.modes(coordinates=coordinates).omega_squared)
+    assert np.allclose(squares, [0.0, 0.0, 0.0, G / 0.4, G / 0.4], rtol=0.0, atol=1e-9)
