@@ -21,9 +21,9 @@ class Outline(msgspec.Struct, frozen=True):
         Of a disc, below 0 of a hole.
     normal : Direction or None
         Of a line.
-    axis : Direction or None
+    about : Direction or None
         Of a rim or a capsule in space.
-    sizes : tuple of Expr
+    edges : tuple of Expr
         Of a capsule the length between the centres of its ends, of a box its edges [m].
     words : str
         What else is known of an outline of a file: name, pieces, length, corners.
@@ -32,6 +32,6 @@ class Outline(msgspec.Struct, frozen=True):
     points: tuple[Marker, ...]
     radius: Expr = ZERO
     normal: Direction | None = None
-    axis: Direction | None = None
-    sizes: tuple[Expr, ...] = ()
+    about: Direction | None = None
+    edges: tuple[Expr, ...] = ()
     words: str = ""

@@ -192,7 +192,7 @@ def _read_plane(scope: Scope, key: str, table: PlaneTable) -> Plane:
 def _read_rim(scope: Scope, key: str, table: RimTable) -> Solid:
     centre, axis = _centre_and_axis(scope, key, table)
     radius = scope.constant(f"{key}.disc", table.disc, positive=True)
-    return Solid(centre, radius, (), Outline((centre,), radius, axis=axis), axis)
+    return Solid(centre, radius, (), Outline((centre,), radius, about=axis), axis)
 
 
 def _read_capsule(scope: Scope, key: str, table: CapsuleTable) -> Solid:
@@ -202,7 +202,7 @@ def _read_capsule(scope: Scope, key: str, table: CapsuleTable) -> Solid:
     ways = (product(Number(sign), length, Number(0.5)) for sign in (-1.0, 1.0))
     moved = (tuple(product(way, x) for x in axis.vector) for way in ways)
     ends = tuple(Disc(_moved(centre, way), radius, size) for way in moved)
-    return Solid(centre, radius, ends, Outline((centre,), radius, axis=axis, sizes=(length,)), axis, length)
+    return Solid(centre, radius, ends, Outline((centre,), radius, about=axis, edges=(length,)), axis, length)
 
 
 def _read_box(scope: Scope, key: str, table: BoxTable) -> Solid:
@@ -211,7 +211,7 @@ def _read_box(scope: Scope, key: str, table: BoxTable) -> Solid:
     corners = (tuple(map(product, map(Number, signs), edges)) for signs in combinations((-0.5, 0.5), repeat=3))
     ends = tuple(Disc(_moved(centre, way), Number(0.0), 0.0) for way in corners)
     words = "a box of which the corners touch, no edge and no face"
-    return Solid(centre, Number(0.0), ends, Outline((centre,), sizes=edges, words=words))
+    return Solid(centre, Number(0.0), ends, Outline((centre,), edges=edges, words=words))
 
 
 def _centre_and_axis(scope: Scope, key: str, table: RimTable | CapsuleTable) -> tuple[Marker, Direction]:

@@ -30,7 +30,7 @@ def surface_marks(pen: Pen, outline: Outline, others: Sequence[BodyPoint], reach
     """
     numbers = pen.numbers
     place = numbers.place(outline.points[0])
-    radius, sizes = numbers.number(outline.radius), [numbers.number(e) for e in outline.sizes]
+    radius, sizes = numbers.number(outline.radius), [numbers.number(e) for e in outline.edges]
     colour = pen.colour(place.body)
     look = Look(colour, colour, 1.6, 0.2)
     at, turned = numbers.in_ground_frame(place), numbers.now.turns[place.body]
@@ -38,8 +38,8 @@ def surface_marks(pen: Pen, outline: Outline, others: Sequence[BodyPoint], reach
         return [floor_under_paths(pen, outline.normal, place, others, reach)]
     if len(sizes) == 3:
         return [pen.box(place.body, at, turned.T, np.array(sizes), look)]
-    if outline.axis is not None:
-        axis = numbers.direction(outline.axis)
+    if outline.about is not None:
+        axis = numbers.direction(outline.about)
         if not sizes:
             return wheel_marks(pen, place, axis, radius, outline.points[0].body)
         ends = [at + sign * 0.5 * sizes[0] * axis for sign in (-1.0, 1.0)]

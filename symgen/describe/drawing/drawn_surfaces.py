@@ -40,7 +40,7 @@ def _places(pen: Pen, outline: Outline) -> list[BodyPoint]:
 
 def size_of_outline(numbers: PlacedMechanism, outline: Outline) -> float:
     """Return the largest of the sizes of a surface [m]."""
-    return max(abs(numbers.number(e)) for e in (outline.radius, *outline.sizes))
+    return max(abs(numbers.number(e)) for e in (outline.radius, *outline.edges))
 
 
 def _marks(pen: Pen, outline: Outline, others: list[BodyPoint], reach: float) -> list[Mark]:

@@ -16,7 +16,10 @@ from symgen.describe.table_functions import Table
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1
 #: Fields added after the form was fixed: empty ones are left out.
-_LATER = ("flexures", "pressed", "across", "speed", "backwards", "exponent", "changing", "resting", "alone", "words")
+_LATER = (
+    *("flexures", "pressed", "across", "speed", "backwards", "exponent", "changing", "resting", "alone", "words"),
+    *("about", "edges"),
+)
 
 
 def canonical_text(mechanism: Mechanism) -> str:
@@ -106,6 +109,8 @@ def mechanism_digest(mechanism: Mechanism) -> str:
         ", resting=()",
         ", alone=False",
         ", words=''",
+        ", about=None",
+        ", edges=()",
         ", shown=''",
         ", modal=None",
         ", carried=None",
