@@ -128,6 +128,26 @@ def test_a_path_drawn_by_hand_gives_linkages_that_come_near_it(page: Page) -> No
 
 
 @pytest.mark.parametrize("page", [1280], indirect=True)
+def test_three_positions_are_typed_by_keys_alone(page: Page) -> None:
+    page.run("document.querySelector('[data-tool=positions]').focus()")
+    page.key("Enter")
+    lengths, angles = np.hypot(*AHEAD.T), np.degrees(np.arctan2(AHEAD[:, 1], AHEAD[:, 0]))
+    for place, length, angle in zip(POSITIONS, lengths, angles, strict=True):
+        for words in (f"{place[0]}, {place[1]}", f"{length:.12g} < {angle:.12g}"):
+            page.run("document.getElementById('where').focus()")
+            page.chromium.call("Input.insertText", text=words)
+            page.key("Enter")
+    offers(page)
+    before = page.text("text")
+    page.run("document.querySelectorAll('#answers button')[1].focus()")
+    page.key("Enter")
+    page.until(f"document.getElementById('text').value !== {before!r}")
+    page.rested()
+    assert passes_through_positions(page) < 1e-4
+    assert page.said() == []
+
+
+@pytest.mark.parametrize("page", [1280], indirect=True)
 def test_a_task_that_cannot_be_is_said(page: Page) -> None:
     page.press("[data-tool=path]")
     for place in ((0.0, 0.0), (0.2, 0.1), (0.2, 0.1)):
