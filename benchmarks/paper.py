@@ -2,8 +2,8 @@ r"""The paper: its numbers and tables from records and measured pages, its pictu
 
     python -m benchmarks.paper FOLDER [--minutes M]
         writes paper.tex, numbers.tex, three pictures and, with pdflatex, paper.pdf; tables.md has the tables of all
-        records, records/ these, lock.txt the libraries, CITATION.cff how to cite it, and again.md what M minutes of
-        measuring anew have found
+        records, records/ these, lock.txt the libraries, a wheel the program, CITATION.cff how to cite it, and again.md
+        what M minutes of measuring anew have found; FOLDER.zip holds all of it
 
 The text is ``docs/paper/paper.tex``, in which every measured number is ``\n{KEY}`` and every table of numbers
 ``\numbers{KEY}``. What it says in words about their order is in `claims`, and a test asks for it.
@@ -18,8 +18,10 @@ import shutil
 import statistics as middle
 import subprocess
 import sys
+import zipfile
 from collections.abc import Iterator, Sequence
 from importlib.metadata import distributions
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -229,6 +231,33 @@ def lock() -> str:
     return "\n".join([f"# Python {platform.python_version()}, {platform.machine()}", *found, ""])
 
 
+def build_wheel(folder: Path) -> Path:
+    """Build the wheel of this checkout into a folder, with the build backend that is installed or with pip's own.
+
+    Raises
+    ------
+    subprocess.CalledProcessError
+        If pip cannot build it.
+    """
+    for older in folder.glob("*.whl"):
+        older.unlink()
+    own = ["--no-build-isolation"] if find_spec("hatchling") is not None else []
+    words = [sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", *own, "--wheel-dir", str(folder), str(ROOT)]
+    subprocess.run(words, check=True)
+    (wheel,) = folder.glob("*.whl")
+    return wheel
+
+
+def archive(folder: Path) -> Path:
+    """Pack what a folder has, but what LaTeX leaves, into an archive beside it."""
+    packed = folder.with_name(f"{folder.name}.zip")
+    left = {f".{ending}" for ending in ("aux", "log", "out")}
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as file:
+        for path in sorted(path for path in folder.rglob("*") if path.is_file() and path.suffix not in left):
+            file.write(path, path.relative_to(folder.parent))
+    return packed
+
+
 def pictures(folder: Path) -> None:
     """Draw the three pictures."""
     import matplotlib as mpl
@@ -293,12 +322,14 @@ def main(arguments: Sequence[str]) -> int:
     shutil.copy(CITATION, folder)
     shutil.copytree(FOLDER, folder / FOLDER.name, dirs_exist_ok=True)
     pictures(folder)
+    build_wheel(folder)
     done = typeset(folder)  # before what takes long: an error of LaTeX shows in the first minute
     try:
         measured_again.measure_in_turns(sources, 60.0 * chosen.minutes)
     finally:  # an interruption leaves what has been found
         if sources:
             (folder / "again.md").write_text(measured_again.in_words(sources), encoding="utf-8")
+        sys.stdout.write(f"{archive(folder)}\n")
     return max(done, int(not all(source.agrees for source in sources)))
 
 

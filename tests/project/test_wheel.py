@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from benchmarks.paper import build_wheel
+
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -20,18 +22,7 @@ def run(*command: str | Path, cwd: Path) -> str:
 
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("wheel")
-    # hatchling is in this environment because the project is installed editable; nothing is downloaded
-    isolation = ["--no-build-isolation"] if _has_hatchling() else []
-    run(sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", *isolation, "-w", folder, ROOT, cwd=folder)
-    (found,) = folder.glob("*.whl")
-    return found
-
-
-def _has_hatchling() -> bool:
-    from importlib.util import find_spec
-
-    return find_spec("hatchling") is not None
+    return build_wheel(tmp_path_factory.mktemp("wheel"))
 
 
 @pytest.mark.slow

@@ -190,13 +190,13 @@ def test_one_compiled_module_serves_all_cases_but_those_with_other_joints():
     """What compiles is told by the digest.
 
     These are the base, two redundant ones, the linkage of adjustable lengths, the same with a
-    driver, three chains, and a mass on a spring.
+    driver, three chains, a mass on a spring, and five at their limits.
     """
     from symgen.describe.facts.digest import digest
 
     base = Base.of_mechanism("four-bar")
     found = {digest(level.mechanism) for name in FAMILIES for level in levels_of_family(name, base, False)}
-    assert len(found) == 9
+    assert len(found) == 14
 
 
 @pytest.mark.slow

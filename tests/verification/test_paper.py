@@ -2,12 +2,14 @@
 
 import re
 import shutil
+import zipfile
 from datetime import date
 
 import pytest
 
 import symgen
 from benchmarks import paper
+from benchmarks.records import FOLDER
 
 TEXT = paper.SOURCE.read_text(encoding="utf-8")
 #: Text without its head and its references.
@@ -34,8 +36,13 @@ def test_sentences_that_compare(sentence, holds):
 @pytest.mark.slow
 def test_it_is_set(tmp_path):
     assert shutil.which("pdflatex")
-    assert paper.main([str(tmp_path)]) == 0
-    log = (tmp_path / "paper.log").read_text(encoding="latin-1")
+    folder = tmp_path / "paper"
+    assert paper.main([str(folder)]) == 0
+    with zipfile.ZipFile(tmp_path / "paper.zip") as packed:
+        names = {name.removeprefix("paper/") for name in packed.namelist()}
+    assert {f"symgen-{symgen.__version__}-py3-none-any.whl", "lock.txt", "CITATION.cff", "paper.pdf"} <= names
+    assert {f"records/{path.name}" for path in FOLDER.iterdir()} <= names and "paper.log" not in names
+    log = (folder / "paper.log").read_text(encoding="latin-1")
     assert "(6 pages" in log and "undefined" not in log and "Overfull" not in log
 
 

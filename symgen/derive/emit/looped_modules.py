@@ -62,8 +62,12 @@ _GENERIC = (
 )
 
 
-#: The right-hand side at given efforts that depend on reactions.
-PUSHED = "rhs_pushed"
+#: Functions at given efforts that depend on reactions: the right-hand side, and what is left of the forces.
+PUSHED = {"rhs": "rhs_pushed", "balance": "balance_pushed"}
+_PURPOSES = {
+    "rhs": "Rates of the state with efforts that depend on reactions; 1 where a pivot of S is suspicious.",
+    "balance": "What accelerations and multipliers leave of the forces, with efforts that depend on reactions.",
+}
 
 #: Names that the modules ``machine`` and ``model`` define.
 _MACHINE = (*(name for name, *_ in _GENERIC), "run", "tables", *_MODES)
@@ -75,18 +79,19 @@ def emit_shared_model(generator: str) -> str:
     return render_template("looped/model.py.j2", {"format": FORMAT, "generator": generator, "status": _STATUS})
 
 
-def rates_with_reactions(drags: str) -> ModulePiece:
-    """Return the right-hand side around one at given efforts that depend on reactions, see `emit_looped_law`."""
+def function_with_reactions(name: str, drags: str) -> ModulePiece:
+    """Return a function around one at given efforts that depend on reactions, see `emit_looped_law`."""
+    arguments = ", ".join(ARGUMENTS[name])
+    pushed = {"pushed": f"{PUSHED[name]}({arguments})", "sought": name == "rhs"}
     signed = {PRESSED: "none", TOUCHED: "all"}.get(drags, "each")
     places = {"effort": MODES.index("effort"), **{name: i for i, name in enumerate(BESIDE)}}
     body = (
-        render_template("looped/pressed.j2", {"drag": places, "number": NUMBERS, "signed": signed})
+        render_template("looped/pressed.j2", {"drag": places, "number": NUMBERS, "signed": signed, **pushed})
         .strip("\n")
         .split("\n")
     )
-    purpose = "Rates of the state with efforts that depend on reactions; 1 where a pivot of S is suspicious."
-    calls = {"GRAM_FACTOR", PUSHED, "run", "tables", "numpy", "math"}
-    return function_source("rhs", ", ".join(ARGUMENTS["rhs"]), purpose, body, calls=calls)
+    calls = {"GRAM_FACTOR", PUSHED[name], "run", "tables", "numpy", "math"}
+    return function_source(name, arguments, _PURPOSES[name], body, calls=calls)
 
 
 def emit_looped_law(
@@ -98,10 +103,11 @@ def emit_looped_law(
     """
     info = law.info
     layout = TableLayout([name for name, _ in info.parameters])
-    names = {"rhs": PUSHED} if drags else {}
+    names = PUSHED if drags else {}
     printed = [(f.part.role, print_function(f, names.get(f.part.name, f.part.name))) for f in law.functions]
     if drags:
-        printed.append(("acceleration", rates_with_reactions(drags)))
+        around = ((f.part.role, f.part.name) for f in law.functions if f.part.name in PUSHED)
+        printed += [(role, function_with_reactions(name, drags)) for role, name in around]
     nothing = function_source("prepare", "p", "Nothing depends on parameters of the method alone.", ["return 0"])
     versions = f"format {FORMAT}, generator {generator}"
     origins = {name: ("machine", name) for name in (*map(str.upper, HEAD), *_MACHINE)}

@@ -312,10 +312,11 @@ class LoopedStages(PipelineStages[Mapping[str, "Element"], LoopedPrograms]):
 
 
 def _refuse_loops(mechanism: Mechanism, choice: MethodChoice) -> None:
-    """Refuse methods that loops, or efforts that depend on reactions, do not take."""
+    """Refuse methods that loops, rows that may be off, or efforts that depend on reactions, do not take."""
     refuse_dense(choice.method, choice.options, choice.implicit)
-    for row in pressed_rows(mechanism):
-        refuse_bounded_rows(choice.method, choice.options, choice.implicit, row.family.noun)
+    if mechanism.has_modes:
+        pressed = next((row.family.noun for row in pressed_rows(mechanism)), "")
+        refuse_bounded_rows(choice.method, choice.options, choice.implicit, pressed)
 
 
 def _gather_functions(module: ModuleType, *names: str) -> Any:

@@ -60,6 +60,14 @@ def harmonic_motion(rate: float, q: Array, times: Array) -> Closed:
     return "closed form: a cosine", 1e-16 * max(1.0, float(turned[-1])) * abs(float(q[0])), motion, velocities
 
 
+def uniform_motion(accelerations: Sequence[float], q: Array, times: Array) -> Closed:
+    """Coordinates with constant accelerations from rest."""
+    a = np.asarray(accelerations, dtype=float)
+    far = 0.5 * float(np.abs(a).max(initial=0.0)) * float(times[-1]) ** 2
+    moved = q + 0.5 * np.outer(times**2, a)
+    return "closed form: constant accelerations", 1e-15 * far, moved, np.outer(times, a)
+
+
 def n_four_bar(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, times: Array) -> Closed:
     """All verticals turn alike, and couplers translate: see `parallel_cranks`."""
     return parallel_cranks([body.name for body in mechanism.bodies], times)

@@ -78,6 +78,8 @@ class Level:
         Length of which errors are shares [m], None for the mechanism's.
     closed : str or None
         Closed form for comparison: a catalogue entry, or ``"parallelogram"``.
+    accelerations : tuple of float or None
+        Constant accelerations of the coordinates from rest, which are a closed form too.
     family, model : str
         Names of the family and of the base model, ``-`` for a mechanism of the family's own.
     plain : Mechanism or None
@@ -100,6 +102,7 @@ class Level:
     watched: bool = True
     length: float | None = None
     closed: str | None = None
+    accelerations: tuple[float, ...] | None = None
     family: str = ""
     model: str = "-"
     plain: Mechanism | None = None

@@ -30,7 +30,7 @@ from symgen.run.layout.probe import Ready
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare
 from symgen.run.starts.assembly import Start
-from symgen.study.references.closed_forms import Closed, closed_form, harmonic_motion, parallel_cranks
+from symgen.study.references.closed_forms import Closed, closed_form, harmonic_motion, parallel_cranks, uniform_motion
 from symgen.study.references.reference import scaled_values
 from symgen.study.references.routes import derivable_part, fastest_decay, motion_by_two_routes, parts_without_derivation
 from symgen.study.stress.bench import FREE_LENGTH, Level
@@ -154,6 +154,8 @@ _COMPILED: dict[str, Any] = {}
 
 
 def _closed_form_motion(level: Level, parameters: Mapping[str, float], q: Array, times: Array) -> Closed | None:
+    if level.accelerations is not None:
+        return uniform_motion(level.accelerations, q, times)
     if level.closed is None:
         return None
     if level.closed == "parallelogram":

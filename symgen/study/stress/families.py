@@ -15,6 +15,7 @@ from symgen.derive.methods import METHODS
 from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.joints import JOINTS
 from symgen.describe.parts.scope import CENTRE, ORIGIN
+from symgen.study.stress.at_limits import contradiction, grip, pull_off, slope, wedge
 from symgen.study.stress.bench import DAMPING, GRAVITY, INERTIA, MASS, STIFFNESS, Base, Level, NotApplicable
 from symgen.study.stress.own_mechanisms import (
     bodies,
@@ -278,6 +279,8 @@ def step_stiffness(base: Base, point: tuple[float, float]) -> Level:
 
 # -- all of them -------------------------------------------------------------------------------------------------------
 
+# what holds over what pulls, just below and just above the limit
+_RATIOS, _QUICK_RATIOS = (0.98, 0.999, 1.001, 1.02), (0.999, 1.001)
 # five gains tell the limit of stability to a factor of 4
 _GRID, _QUICK_GRID = (np.geomspace(0.05, 12.8, points).tolist() for points in (15, 5))
 
@@ -285,11 +288,13 @@ FAMILIES: Mapping[str, Family] = {
     "alpha-beta": Family(alpha_beta, tuple(product(_GRID, _GRID)), tuple(product(_QUICK_GRID, _QUICK_GRID))),
     "baumgarte-gain": Family(baumgarte_gain, (1e-3, 1e-2, 1e-1, 1.0, 2.5, 3.0, 1e1), (1e-2, 3.0)),
     "bodies": Family(bodies, (1.0, 4.0, 16.0), (4.0,), own=True),
+    "contradiction": Family(contradiction, (1e-12, 1e-6, 1e-3, 1e-1), (1e-12, 1e-3), own=True),
     "damping": Family(damping, _SPRINGS, _QUICK_SPRINGS),
     "driver-rate": Family(driver_rate, (1e1, 1e3, 1e5, 1e7), (1e1, 1e5), own=True),
     "duration": Family(duration, (1e4, 1e5, 2e6), (1e4,)),
     "gain": Family(motion_gain, np.geomspace(0.01, 31.6, 15).tolist(), np.geomspace(0.01, 31.6, 8).tolist()),
     "gravity": Family(gravity, (0.0, 1e1, 1e2, 1e3, 1e4), (0.0, 1e3)),
+    "grip": Family(grip, _RATIOS, _QUICK_RATIOS, own=True),
     "inconsistent-start": Family(inconsistent_start, (1e-6, 1e-3, 1e-2, 1e-1), (1e-2,)),
     "inertia-ratio": Family(inertia_ratio, (1e-9, 1e-3, 1e3, 1e9), (1e-9,)),
     "length-ratio": Family(length_ratio, (1.0, 1e1, 1e2, 1e4, 1e6), (1.0, 1e2), own=True),
@@ -297,10 +302,12 @@ FAMILIES: Mapping[str, Family] = {
     "mass-ratio": Family(mass_ratio, (1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9), (1e-9, 1e3)),
     "near-singular": Family(near_singular, (1e-1, 1e-2, 1e-3, 1e-4), (1e-3,), own=True),
     "penalty-factor": Family(penalty_factor, (1e2, 1e4, 1e6, 1e8, 1e10, 1e12), (1e4, 1e8, 1e12)),
+    "pull-off": Family(pull_off, _RATIOS, _QUICK_RATIOS, own=True),
     "redundancy": Family(redundancy, (1.0, 2.0), (1.0,)),
     "rounded-start": Family(rounded_start, (1.0, 1e3), (1.0,)),
     "scale": Family(scale, tuple(product((-9.0, -3.0, 0.0, 9.0), (-12.0, -9.0, 0.0, 9.0))), ((-3.0, -6.0),), own=True),
     "singular-passage": Family(singular_passage, (0.0, 1e-4, 1e-3, 1e-2, 1e-1), (0.0, 1e-1), own=True),
+    "slope": Family(slope, _RATIOS, _QUICK_RATIOS, own=True),
     "spin-rate": Family(spin_rate, (1e1, 1e2, 1e3, 1e4), (1e2, 1e4)),
     "step": Family(step, (1e-2, 1e-1, 1.0, 1e1, 1e2), (1.0, 1e1)),
     "step-stiffness": Family(
@@ -310,4 +317,5 @@ FAMILIES: Mapping[str, Family] = {
     ),
     "stiff-periods": Family(stiff_periods, (1e2, 1e3, 1e4), (1e2,), own=True),
     "stiffness": Family(stiffness, _SPRINGS, _QUICK_SPRINGS),
+    "wedge": Family(wedge, _RATIOS, _QUICK_RATIOS, own=True),
 }

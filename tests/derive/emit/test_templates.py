@@ -1,5 +1,7 @@
 """Templates are given what they ask for, in all of their branches, and nothing that they do not use."""
 
+from itertools import product
+
 import jinja2
 import pytest
 from jinja2 import meta
@@ -10,7 +12,13 @@ from symgen.base.ir.program import Correction
 from symgen.derive.emit.emit import table_codes
 from symgen.derive.emit.lane_modules import Inlined
 from symgen.derive.emit.law_parts import Parts
-from symgen.derive.emit.looped_modules import emit_machine, emit_rotors, emit_shared_model, rates_with_reactions
+from symgen.derive.emit.looped_modules import (
+    PUSHED,
+    emit_machine,
+    emit_rotors,
+    emit_shared_model,
+    function_with_reactions,
+)
 from symgen.derive.emit.module import module_source
 from symgen.derive.lower.looped.layout import PRESSED, TOUCHED
 
@@ -38,8 +46,8 @@ def test_templates_that_are_rendered_alone(monkeypatch):
     emit_machine("generator")
     emit_shared_model("generator")
     emit_rotors("generator")
-    for drags in (PRESSED, TOUCHED):
-        rates_with_reactions(drags)
+    for drags, name in product((PRESSED, TOUCHED), PUSHED):
+        function_with_reactions(name, drags)
     module_source("title", [], [], {}, {})
     x, y = (0.0, 1.0, 2.0), (1.0, 2.0, 4.0)
     table_codes([Interpolation("line", x, y), Interpolation("curve", x, y, ((1.0, 0.0, 0.0, 0.0),) * 2)])
