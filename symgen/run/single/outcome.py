@@ -122,6 +122,8 @@ class Motion:
     @property
     def parameters(self) -> list[tuple[int, int, Array]]:
         """First and last output (exclusive) of each piece, and its parameters."""
+        if not self.held:
+            return [(0, len(self.times), self.p)] if len(self.times) else []
         pieces, first = list[tuple[int, int, Array]](), 0
         for until, p in (*self.held, (np.inf, self.p)):
             last = int(np.searchsorted(self.times, until, side="right"))
@@ -262,12 +264,14 @@ class Outcome(Motion, Ended):
         It is 0 for laws whose last operation is v' = M^-1 (f - D^T lambda). Others solve with penalties or by
         factorisations that may round M away: such a run stands still and violates nothing.
         """
-        from symgen.run.single.observe import observe_balance
-
         law, k = self.compiled.law_module, len(self.times)
         if not hasattr(law, "balance") or not k:
             return 0.0
-        sizes, outputs, _ = self._seen
+        from symgen.run.layout.records import Outputs
+        from symgen.run.single.observe import observe_balance
+
+        # a run of some milliseconds has this too: without room for what is observed, which may never be
+        sizes, outputs = self.simulation.sizes, Outputs(self.times, self.states, self.status_columns)
         model = (sizes, *rate_functions(law), law.accept, law.balance)
         w, iw, room = self.start.w.copy(), np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros(2 * sizes.ny)
         w[abi.STEP_STATUS] = self.last_step

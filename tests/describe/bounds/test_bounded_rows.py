@@ -24,7 +24,7 @@ from symgen.describe.parts.scope import Scope
 PACKAGE = Path(symgen.__file__).parent
 #: Who may name a kind: its own room, formats of other programs, whose keys these are, and rolling, by its forces; and
 #: the laws of contacts and of impacts, which are those of a gap and of the friction along it or by reactions, with the
-#: analyses that solve them at rest and along a recorded motion.
+#: analyses that solve them at rest and along a recorded motion; and the stress families at their limits.
 NAMING = (
     *(
         "describe/bounds/",
@@ -33,6 +33,7 @@ NAMING = (
         "describe/joints/_rolling.py",
         "describe/joints/_giving.py",
         "cli/compare.py",
+        "study/stress/at_limits.py",
         "describe/files/joint_tables.py",
         "describe/edits/snippet",
     ),
