@@ -102,8 +102,8 @@ def _mechanism(name: str) -> Mechanism:
 
 def _level(name: str, ratio: float, label: str, *accelerations: float) -> Level:
     """Return a case of 2 s whose coordinates have constant accelerations."""
-    known = {"parameters": {"ratio": ratio}, "accelerations": accelerations}
-    return Level(label, (ratio,), _mechanism(name), until=2.0, step=_STEP, **known)
+    known, mechanism = {"ratio": ratio}, _mechanism(name)
+    return Level(label, (ratio,), mechanism, 2.0, _STEP, parameters=known, accelerations=accelerations)
 
 
 def slope(base: Base, ratio: float) -> Level:
