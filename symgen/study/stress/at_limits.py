@@ -30,13 +30,15 @@ _BLOCK: Mapping[str, Any] = {"mass": 1.0, "inertia": 0.1}
 _DISC: Mapping[str, Any] = {"mass": 1.0, "inertia": INERTIA}
 
 
-def _guide(body: str, axis: tuple[float, float], **keys: Any) -> dict[str, Any]:
+def _guide(body: str, axis: tuple[float, float], **keys: Mapping[str, float | str]) -> dict[str, Any]:
     """Return a translational joint from the ground to a body's centre of mass."""
     at = [[0.0, 0.0], "centre"]
     return {"type": "translational", "between": ["ground", body], "at": at, "axis": list(axis), **keys}
 
 
-def _touching(disc: str, other: str, on: tuple[float, float], normal: tuple[float, float], friction: Any) -> Any:
+def _touching(
+    disc: str, other: str, on: tuple[float, float], normal: tuple[float, float], friction: str | float
+) -> dict[str, Any]:
     """Return a contact of a disc with a line of another body."""
     line = {"line": other, "on": list(on), "normal": list(normal)}
     return {"between": [{"body": disc, "disc": RADIUS}, line], "friction": friction}
