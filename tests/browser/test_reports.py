@@ -36,6 +36,30 @@ def test_a_tall_sketch_is_no_taller_than_a_screen(chromium: Chromium, tmp_path: 
     assert chromium.said == []
 
 
+#: The width of A4 between its margins, in pixels of 96 to the inch.
+PRINTED = round((210 - 2 * 12) / 25.4 * 96)
+
+
+def test_no_table_is_wider_than_paper_or_a_telephone(chromium: Chromium, tmp_path: Path) -> None:
+    """A table of modes made a browser shrink all pages, and long names hid the last column of the first table."""
+    names = tuple((f"spring_on_sleeve{k}, torque", "-2.39 mN m", "at 0.66 s; work of the run 70 µJ") for k in range(3))
+    first = DocumentTable("", ("", "largest", "when and where"), names)
+    moves = ", ".join(f"upper_wishbone_{k} {90 - k}.5%" for k in range(6))
+    row = ("1", "0 +- 2.99128i", "0.476077", "0", moves, moves)
+    modes = DocumentTable("Modes", ("mode", "eigenvalue", "frequency", "damping", "moves", "stiffness by"), (row,) * 3)
+    sections = Section("At a glance", tables=(first,), beside=True), Section("Frequencies", tables=(modes,))
+    path = tmp_path / "report.html"
+    path.write_text(html_report(ReportDocument("press", (), (), "", sections)), encoding="utf-8")
+    widths = "[...document.querySelectorAll('.scroll')].map((e) => e.scrollWidth - e.clientWidth)"
+    chromium.open(path, 390)
+    assert chromium.run(widths)[0] == 0
+    chromium.call("Emulation.setEmulatedMedia", media="print")
+    chromium.open(path, PRINTED)
+    assert chromium.run(widths) == [0, 0]
+    assert chromium.run("document.documentElement.scrollWidth") <= PRINTED
+    chromium.call("Emulation.setEmulatedMedia", media="")
+
+
 def test_a_report_is_printed(tmp_path):
     model = symgen.load("pendulum")
     path = write(machine_report(model, model.simulate(until=0.5)), tmp_path / "pendulum.pdf")
