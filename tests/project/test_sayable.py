@@ -30,7 +30,7 @@ def test_most_of_what_lies_within_the_aim_can_be_said() -> None:
 
 def test_most_of_that_stands_as_files() -> None:
     aim = sayable.within_the_aim(sayable.examples())
-    assert sum(f"{x.group}/{x.name}" in SAID for x in aim) >= 0.6 * len(aim)
+    assert sum(f"{x.group}/{x.name}" in SAID for x in aim) >= 0.65 * len(aim)
     assert AT_REST | IN_JOINTS | set(SAME) <= set(SAID)
 
 
