@@ -42,6 +42,7 @@ from symgen.run.planning.start_lines import (
     written_start,
 )
 from symgen.run.printed.partition_tables import PartitionTables, tables_of
+from symgen.run.single.contact_notes import NOT_SOUGHT
 
 if TYPE_CHECKING:
     from symgen.base.vocabulary.quantities import Quantity
@@ -183,6 +184,7 @@ class CModel:
             "state_names": [q.name for q in (*info.coordinates, *info.velocities)],
             "events": mechanism.events,
             "moded": bool(mechanism.bounded),
+            "not_sought": f'"{NOT_SOUGHT.format("%d")}"' if "choice_unsought" in self._memory else "",
             "whole": self.printed_run is not None,
             "named": self.named,
             "adaptive": self.run.spec.adaptive,

@@ -8,6 +8,9 @@ from numpy.typing import NDArray
 from symgen.run.loops.run_spec import BoundedNames
 from symgen.run.modes.bounded_rows import AT_REST, CONSTANT, HELD, SIGN
 
+#: What is said where motions were not sought among so many rows.
+NOT_SOUGHT = "other motions were not sought among {} rows of contacts and friction"
+
 
 def sharing_contacts(rows: BoundedNames, modes: NDArray[np.float64]) -> set[str]:
     """Return the contacts whose forces are not unique, with those that carry them.
@@ -31,7 +34,7 @@ def sharing_contacts(rows: BoundedNames, modes: NDArray[np.float64]) -> set[str]
 
 def sentence_on_motions(unsought: int) -> list[str]:
     """Return a note on motions that were not sought, among so many rows; none among 0."""
-    return [f"other motions were not sought among {unsought} rows of contacts and friction"] if unsought > 0 else []
+    return [NOT_SOUGHT.format(unsought)] if unsought > 0 else []
 
 
 def sentence_on_sharing(names: set[str]) -> list[str]:

@@ -8,6 +8,8 @@ import pytest
 from fmpy import simulate_fmu
 from fmpy.validation import validate_fmu
 
+from tests.result.targets.compilers import compiled, written
+from tests.result.targets.test_c_runs import run_of
 from tests.result.targets.test_exchanged_modes import Importer, exchanged
 from tests.result.targets.test_fmu import fmu_of, importer_of
 from tests.result.targets.test_fmu_derivatives import Unit, differences
@@ -110,3 +112,19 @@ def test_directional_derivatives_where_a_block_stands_on_a_corner(tmp_path):
     expected = differences(unit, 0.0, states, np.zeros(0))[:, : len(states)]
     np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-6)
     assert np.abs(found[len(unit.outputs) :]).max() > 1.0
+
+
+@pytest.mark.by_turns(2)
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
+def test_an_fmu_and_c_say_that_other_motions_were_not_sought(kind, tmp_path):
+    note, said = "other motions were not sought among 12 rows of contacts and friction", []
+    model = loaded(stack(np.zeros(3)) + "[run]\nuntil = 0.02\n", tmp_path)
+    path = fmu_of(model, tmp_path / "stack.fmu", fmi=3)
+    simulate_fmu(
+        str(path), fmi_type=kind, stop_time=0.02, logger=lambda *words: said.append(words[-1].decode()),
+        output=["b0.y"],
+    )  # fmt: skip
+    assert said == [note]
+    assert run_of(compiled(written(model.mechanism, tmp_path / "c"))).stderr == f"{note}\n"
+    assert note in model.simulate().notes
