@@ -15,14 +15,22 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
-from benchmarks import first_run, gallery, late_names, meeting, modal_limits, remarks, sayable
+from benchmarks import beside_siconos, first_run, gallery, late_names, meeting, modal_limits, remarks, sayable
 from benchmarks.findings import TABLES
 from benchmarks.page_tables import ROOT, place
 
 DOCS = ROOT / "docs"
 #: Pages that a program writes from the first word to the last, beside those of the gallery.
 WRITTEN = (
-    *(first_run.PAGE, late_names.PAGE, meeting.PAGE, modal_limits.PAGE, remarks.PAGE, sayable.PAGE),
+    *(
+        beside_siconos.PAGE,
+        first_run.PAGE,
+        late_names.PAGE,
+        meeting.PAGE,
+        modal_limits.PAGE,
+        remarks.PAGE,
+        sayable.PAGE,
+    ),
     DOCS / "tables" / "pairs.md",
 )
 #: Folders -> who reads them.
