@@ -196,6 +196,8 @@ class Chain(msgspec.Struct, frozen=True):
         Whether the last piece ends where the first one begins; otherwise these two are half circles.
     hollow : bool
         Whether a piece turns to the left, so that a marker may be beside several, of which the nearest counts.
+    sharp : bool
+        Whether it has edges in place of corners, within which a marker that passes them turns.
     """
 
     origin: Marker
@@ -203,6 +205,7 @@ class Chain(msgspec.Struct, frozen=True):
     pieces: tuple[ChainPiece, ...]
     closed: bool
     hollow: bool
+    sharp: bool = False
 
 
 class OnChain(msgspec.Struct, frozen=True, tag="on-chain"):

@@ -7,7 +7,7 @@ corners are arcs of that radius. At a concave corner the outline is cut into run
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
 import msgspec
@@ -20,6 +20,9 @@ TANGENT = 1e-9
 #: Largest turn of a piece [rad]: a marker is between the normals at its ends only if these differ by less than pi.
 _LARGEST_TURN = 0.55 * math.pi
 
+#: Radius that takes the place of 0 of a point at corners and ends, over the size of an outline, and how far a run goes
+#: on beyond a hollow corner for a point, over the length of its last piece.
+_EDGE, _BEYOND = 1e-9, 1e-2
 #: Parts of a side in which what is beyond a piece is looked for, what counts as on it over the size of all, and the
 #: depth over that size if nothing is beyond.
 _PARTS, _ON, _ANY = 16, 1e-9, 10.0
@@ -170,6 +173,11 @@ def _cross_each_other(*ends: tuple[float, float]) -> bool:
     return side(a, b, c) * side(a, b, d) < 0.0 and side(c, d, a) * side(c, d, b) < 0.0
 
 
+def centre_of(stretch: OutlinePiece) -> Plane:
+    """Return the centre of an arc."""
+    return _plus(stretch.start, _scaled(call("div", Number(-1.0), stretch.curvature), _left(stretch.first)))
+
+
 # -- chains ------------------------------------------------------------------------------------------------------------
 
 
@@ -226,18 +234,47 @@ def _number(a: Plane, value: Value) -> complex:
     return complex(value(a[0]), value(a[1]))
 
 
+def edged(outline: BodyOutline, value: Value) -> tuple[BodyOutline, Expr]:
+    """Return an outline with the edges that a point meets in place of corners, and the radius of its ends.
+
+    A distance from a corner has no direction at the corner. Fillets of a billionth of the outline's size have one.
+    """
+    size = max(abs(value(x)) for piece in outline.pieces for x in (*piece.start, *piece.end))
+    radius, pieces, between = Number(_EDGE * size), list(outline.pieces), dict[int, OutlinePiece]()
+    for i in range(0 if outline.closed else 1, len(pieces)):
+        if turn_between(pieces[i - 1], pieces[i], value) > TANGENT:
+            pieces[i - 1], between[i], pieces[i] = filleted(pieces[i - 1], pieces[i], radius, 1.0)
+    whole = (x for i, piece in enumerate(pieces) for x in (between.get(i), piece) if x is not None)
+    return msgspec.structs.replace(outline, pieces=tuple(whole)), radius
+
+
+def continued(stretch: OutlinePiece) -> OutlinePiece:
+    """Return a segment that goes on beyond its end, under what follows a hollow corner; an arc as it is."""
+    if stretch.curvature != ZERO:
+        return stretch
+    length = product(Number(1.0 + _BEYOND), stretch.length)
+    end = _plus(stretch.start, _scaled(length, stretch.first))
+    return msgspec.structs.replace(stretch, end=end, length=length)
+
+
 def offset_pieces(
-    stretches: Sequence[OutlinePiece], closed: bool, radius: Expr, depths: Mapping[OutlinePiece, float], value: Value
+    stretches: Sequence[OutlinePiece],
+    closed: bool,
+    radius: Expr,
+    depths: Sequence[float],
+    value: Value,
+    edge: Expr = ZERO,
 ) -> tuple[ChainPiece, ...]:
     """Return the chain on which the centre of a disc lies that touches pieces without a concave corner.
 
-    An open chain begins and ends with a half circle about its end. A closed one has an even number of pieces, so that
-    what is 0 at their junctions changes its sign at each.
+    An open chain begins and ends with a half circle about its end, of the radius of the disc and the `edge`. A closed
+    one has an even number of pieces, so that what is 0 at their junctions changes its sign at each.
     """
-    pieces = list[_Piece]()
+    pieces, rounding = list[_Piece](), sum_of_terms(radius, edge)
     if not closed:
         first = stretches[0]
-        pieces.append(_about(first.start, _scaled(Number(-1.0), first.first), radius, Number(math.pi)))
+        end = _plus(first.start, _scaled(call("neg", edge), _left(first.first)))
+        pieces.append(_about(end, _scaled(Number(-1.0), first.first), rounding, Number(math.pi)))
     for i, stretch in enumerate(stretches):
         before = stretches[i - 1]
         if (i or closed) and (turn := turn_between(before, stretch, value)) > TANGENT:
@@ -246,13 +283,14 @@ def offset_pieces(
         growth = call("add", ONE, product(stretch.curvature, radius))
         start = _plus(stretch.start, _scaled(radius, _left(stretch.first)))
         curvature, length = call("div", stretch.curvature, growth), product(stretch.length, growth)
-        depth = sum_of_terms(radius, Number(depths[stretch]))
+        depth = sum_of_terms(radius, Number(depths[i]))
         whole = _Piece(start, stretch.first, ZERO if stretch.curvature == ZERO else curvature, length, depth)
         turn = abs(value(stretch.curvature) * value(stretch.length))
         pieces += whole.split(max(1, math.ceil(turn / _LARGEST_TURN)))
     if not closed:
         last = stretches[-1]
-        pieces.append(_about(last.end, last.last, radius, Number(math.pi)))
+        end = _plus(last.end, _scaled(call("neg", edge), _left(last.last)))
+        pieces.append(_about(end, last.last, rounding, Number(math.pi)))
     elif len(pieces) % 2:
         longest = max(range(len(pieces)), key=lambda i: value(pieces[i].length))
         pieces[longest : longest + 1] = pieces[longest].split(2)

@@ -23,7 +23,12 @@ NUMBERS: Mapping[str, Callable[[int, ChainPiece], Expr]] = {
     "curvature": lambda i, piece: piece.curvature,
     "turn": lambda i, piece: _FLAT if piece.curvature == ZERO else piece.curvature,
     "before": lambda i, piece: piece.before,
-    "half": lambda i, piece: product(Number(0.5), piece.length),
+    "cosine": lambda i, piece: call("cos", product(piece.curvature, piece.length)),
+    "reach": lambda i, piece: (
+        piece.length
+        if piece.curvature == ZERO
+        else call("div", call("sin", product(piece.curvature, piece.length)), piece.curvature)
+    ),
     "side": lambda i, piece: Number(1.0 - 2.0 * (i % 2)),
     "number": lambda i, piece: Number(float(i + 1)),
 }
@@ -66,11 +71,13 @@ def way_on_chain(chain: Chain) -> Expr:
 def zero_at_junctions(chain: Chain) -> Expr:
     """Return what changes its sign where the marker passes from a piece to the next one, and is smooth there.
 
-    It is the way to the nearer end of the piece, of every second piece with the other sign.
+    It is the distance from the nearer of the normals at the ends of the piece, of every second piece with the other
+    sign. That at the end is ``(1 + k b) sin(k l) / k - a cos(k l)``, of the length l.
     """
-    half = number_of_piece(chain, "half")
-    way = call("sub", half, call("abs", call("sub", way_in_piece(chain), half)))
-    return call("mul", number_of_piece(chain, "side"), way)
+    (ahead, left), k = _place(chain), number_of_piece(chain, "curvature")
+    over = call("mul", number_of_piece(chain, "reach"), call("add", ONE, call("mul", k, left)))
+    before_end = call("sub", over, call("mul", ahead, number_of_piece(chain, "cosine")))
+    return call("mul", number_of_piece(chain, "side"), call("min", ahead, before_end))
 
 
 #: Quantities of `OnChain` -> their formulas.

@@ -47,7 +47,7 @@ class PointTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
 
 
 class OutlineSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """An outline of a body or of the ground, which discs of other bodies meet.
+    """An outline of a body or of the ground, which discs, lines and outlines of other bodies meet.
 
     The free side of a closed one is outside, that of an open one on the left of the way along its points.
 
@@ -59,6 +59,8 @@ class OutlineSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
         Corners ``[x, y]``, or ``{ to = [x, y], radius = R }`` and ``{ to = [x, y], bulge = B }`` at the end of an arc.
     closed : bool
         Whether the last point is joined to the first one.
+    inside : bool
+        Whether the free side of a closed one is inside, as of a slot.
     polygon : table
         In place of points, ``{ sides = N, radius = R }``.
     box : two scalars
@@ -74,6 +76,7 @@ class OutlineSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
     body: BodyName
     points: OutlinePoints | None = None
     closed: Flag = False
+    inside: Flag = False
     polygon: PolygonTable | None = None
     box: Pair | None = None
     at: Vector | None = None

@@ -50,7 +50,9 @@ def read_outline(scope: Scope, raw: object) -> BodyOutline:
             if getattr(section, key) is not None:
                 raise scope.error(key, "no such key beside points", value_in_words(getattr(section, key)))
         points, closed = [_read_point(scope, i, point) for i, point in enumerate(section.points)], section.closed
-    reader = _Reader(scope, points, closed, section.fillet)
+    if section.inside and not closed:
+        raise scope.error("inside", "the key closed beside it, as a chain with ends has no inside", "an open one")
+    reader = _Reader(scope, points, closed, section)
     outline = BodyOutline(scope.name, body, closed, tuple(reader.read()))
     if (crossing := crossing_of(outline, reader.value)) is not None:
         got = "pieces {} and {} that cross".format(*crossing)
@@ -91,11 +93,9 @@ def _corners_of_shape(scope: Scope, section: OutlineSection) -> Iterator[PointTa
 class _Reader:
     """Points of an outline being read."""
 
-    def __init__(
-        self, scope: Scope, points: list[PointTable | Plane], closed: bool, fillet: float | str | None
-    ) -> None:
-        self.scope, self.closed = scope, closed
-        self.fillet = None if fillet is None else scope.constant("fillet", fillet, positive=True)
+    def __init__(self, scope: Scope, points: list[PointTable | Plane], closed: bool, section: OutlineSection) -> None:
+        self.scope, self.closed, self.way = scope, closed, -1.0 if section.inside else 1.0
+        self.fillet = None if section.fillet is None else scope.constant("fillet", section.fillet, positive=True)
         self.points = list[Plane]()
         self.tables = [point if isinstance(point, PointTable) else None for point in points]
         for i, point in enumerate(points):
@@ -127,9 +127,9 @@ class _Reader:
                 got = f"points {number} and {following} at one place"
                 raise self.scope.error("points", "points that differ from the ones before them", got)
         stretches = self._stretches(1.0)
-        if self.closed and signed_area(stretches, self.value) > 0.0:
+        if self.closed and self.way * signed_area(stretches, self.value) > 0.0:
             turned = self._stretches(-1.0)
-            if signed_area(turned, self.value) > 0.0:
+            if self.way * signed_area(turned, self.value) > 0.0:
                 stretches = self._with_fillets(turned)
                 return [stretch.back for stretch in reversed(stretches)]
         return self._with_fillets(stretches)

@@ -1,4 +1,4 @@
-"""Shapes of contacts: a disc of a body, and what it meets, which is read where the pair is."""
+"""Shapes of contacts: a disc of a body or an outline, and what it meets, which is read where the pair is."""
 
 from __future__ import annotations
 
@@ -11,12 +11,13 @@ from symgen.base.errors import quote, suggest
 from symgen.base.registry import Registry
 from symgen.base.vocabulary.expressions import ZERO, Expr, call
 from symgen.base.vocabulary.measures import GROUND, Angle, Marker, Measure, Sum
+from symgen.describe.contacts.chains import BodyOutline
 from symgen.describe.contacts.outlines import Outline
 from symgen.describe.parts.fields import Point, Scalar, read_table, value_in_words
 from symgen.describe.parts.scope import Scope
 
-#: The word for the shape that each pair has.
-DISC = "disc"
+#: The words for the shapes of which each pair has one.
+DISC, OUTLINE = "disc", "outline"
 
 
 class DiscTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -35,6 +36,18 @@ class DiscTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     body: str
     at: Point = (0.0, 0.0)
     disc: Scalar = 0.0
+
+
+class OutlineTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """An outline.
+
+    Parameters
+    ----------
+    outline : str
+        Its name in the section of outlines.
+    """
+
+    outline: str
 
 
 class Disc(msgspec.Struct, frozen=True):
@@ -83,7 +96,7 @@ class Touch(msgspec.Struct, frozen=True):
 
 
 class Pair(msgspec.Struct, frozen=True):
-    """A pair of shapes: a disc, and another one.
+    """A pair of shapes: a disc or an outline, and another one.
 
     Parameters
     ----------
@@ -92,15 +105,18 @@ class Pair(msgspec.Struct, frozen=True):
     table : type
         The table of the other shape.
     read : callable
-        Scope, key of the other shape, its table and the disc -> `Touch`.
+        Scope, key of the other shape, its table and the disc or outline -> `Touch`.
     body : callable or None
         Table of the other shape -> its body; None where the table has it not, and reading asks for two bodies.
+    beside : str
+        The word for the shape that it is beside.
     """
 
     word: str
     table: type[msgspec.Struct]
-    read: Callable[[Scope, str, Any, Disc], Touch]
+    read: Callable[[Scope, str, Any, Any], Touch]
     body: Callable[[Any], str] | None
+    beside: str = DISC
 
 
 PAIRS: Registry[Pair] = Registry("symgen.describe.contacts.pairs", "pair of shapes")
@@ -114,6 +130,22 @@ def read_disc(scope: Scope, key: str, table: DiscTable) -> Disc:
     return Disc(centre, radius, scope.value(radius, f"{key}.disc"))
 
 
+def outline_named(scope: Scope, key: str, table: OutlineTable) -> BodyOutline:
+    """Return the outline with the name of a table."""
+    outlines, name = scope.context.outlines, table.outline
+    if name not in outlines:
+        hint = suggest(name, outlines)
+        raise scope.error(f"{key}.outline", "the name of an outline", f"the unknown outline {quote(name)}", hint)
+    return outlines[name]
+
+
+#: Word for the shape that a pair has -> its table, and how the shape is read from it.
+SHAPES: Mapping[str, tuple[type[msgspec.Struct], Callable[[Scope, str, Any], Disc | BodyOutline]]] = {
+    DISC: (DiscTable, read_disc),
+    OUTLINE: (OutlineTable, outline_named),
+}
+
+
 def read_pair(scope: Scope, key: str, raw: object) -> Touch:
     """Return gap and slip of two shapes.
 
@@ -123,23 +155,27 @@ def read_pair(scope: Scope, key: str, raw: object) -> Touch:
         With the shape that is wrong.
     """
     tables = two_tables(scope, key, raw, "{ body = BODY, disc = RADIUS }")
-    words = {pair.word: pair for _, pair in PAIRS.items()}
+    pairs = {(pair.beside, pair.word): pair for _, pair in PAIRS.items()}
+    words = dict.fromkeys(word for _, word in pairs)
     kinds = [word_of_shape(scope, f"{key}[{i}]", table, words, DiscTable, DISC) for i, table in enumerate(tables)]
-    if DISC not in kinds:
+    first = next((i for i in (0, 1) if (kinds[i], kinds[1 - i]) in pairs), None)
+    if first is None:
+        if OUTLINE in kinds:
+            other = kinds[1 - kinds.index(OUTLINE)]
+            raise scope.error(key, "a disc, a line or an outline beside an outline", f"a {other}")
         raise scope.error(key, "a disc, or a point, beside another shape", f"a {kinds[0]} and a {kinds[1]}")
-    first = 1 if kinds[0] != DISC else 0
-    own, other = f"{key}[{first}]", f"{key}[{1 - first}]"
-    disc = read_disc(scope, own, read_table(DiscTable, tables[first], scope.where(own)))
-    pair = words[kinds[1 - first]]
+    own, other, pair = f"{key}[{first}]", f"{key}[{1 - first}]", pairs[kinds[first], kinds[1 - first]]
+    form, read = SHAPES[pair.beside]
+    shape = read(scope, own, read_table(form, tables[first], scope.where(own)))
     table = read_table(pair.table, tables[1 - first], scope.where(other))
     if pair.body is not None:
-        check_bodies(scope, key, scope.body(other, pair.body(table)), disc)
-    return pair.read(scope, other, table, disc)
+        check_bodies(scope, key, scope.body(other, pair.body(table)), shape)
+    return pair.read(scope, other, table, shape)
 
 
-def check_bodies(scope: Scope, key: str, body: str, disc: Disc) -> None:
-    """Refuse a disc beside its own body."""
-    if body == disc.body:
+def check_bodies(scope: Scope, key: str, body: str, shape: Disc | BodyOutline) -> None:
+    """Refuse a shape beside its own body."""
+    if body == shape.body:
         raise scope.error(key, "two different bodies", f"'{body}' twice")
 
 

@@ -61,9 +61,9 @@ def rows_that_turn(mechanism: Mechanism, corrected: bool) -> tuple[int, ...]:
 
 
 def _corners_of(formula: Expr) -> tuple[Expr, ...]:
-    """Return what is 0 at the corners of a gap; none are where it passes the pieces of a chain, which is smooth."""
+    """Return what is 0 at the corners of a gap; none are where it passes the pieces of a chain without edges."""
     return tuple(
         zero
         for zero in kink_expressions(formula)
-        if not (isinstance(zero, Reading) and isinstance(zero.source, OnChain))
+        if not (isinstance(zero, Reading) and isinstance(zero.source, OnChain)) or zero.source.chain.sharp
     )

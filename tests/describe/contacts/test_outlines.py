@@ -128,8 +128,7 @@ def test_concave_corners_cut_a_chain() -> None:
         ({"points": [[0, 0], {"to": [1, 0], "radius": 0.4}]}, 0.1, "at least half of the distance"),
         ({"points": [[0, 0], {"to": [1, 0], "radius": 1, "bulge": 1}]}, 0.1, "radius or bulge, got both"),
         ({"points": [[0, 1], [0, 0], [1, 0]], "fillet": 0.1}, 0.2, "radii above that of the disc, 0.2 m, got piece 2"),
-        ({"points": [[0, 0], [1, 0], [2, -1]]}, 0.0, "a closed outline without corners beside a point"),
-        ({"box": [0.2, 0.1]}, 0.0, "the corner after piece 1"),
+        ({"points": [[0, 0], [1, 0]], "inside": True}, 0.1, "the key closed beside it"),
         ({"box": [0.2, 0.1]}, -0.1, "a hole of 0.1 m"),
         ({"box": [0.2, 0.1], "body": "disc"}, 0.1, "two different bodies, got 'disc' twice"),
         ({"box": [0.2, 0.1], "fillets": 0.1}, 0.1, "did you mean 'fillet'"),
@@ -141,6 +140,50 @@ def test_what_is_wrong_in_one_sentence(outline: dict[str, Any], radius: float, s
         validate(described(outline, radius), "test")
     assert sentence in str(caught.value)
     assert "outlines.cam" in str(caught.value) or "contacts.touch" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("outline", "other", "sentence"),
+    [
+        (
+            {"points": [[0, 0], {"to": [1, 0], "bulge": -0.2}], "closed": True},
+            {"line": "ground"},
+            "whose circle of 1.3 m",
+        ),
+        ({"box": [1, 1], "fillet": 0.1}, {"outline": "floor"}, "the convex arc of piece 2 of 'cam'"),
+        ({"box": [1, 1]}, {"outline": "floors"}, "did you mean 'floor'"),
+        ({"box": [1, 1]}, {"line": "disc"}, "two different bodies, got 'disc' twice"),
+        (
+            {"box": [1, 1]},
+            {"body": "ground", "segment": [[0, 0], [1, 0]]},
+            "a disc, a line or an outline beside an outline, got a segment",
+        ),
+    ],
+)
+def test_what_an_outline_may_not_stand_on(outline: dict[str, Any], other: dict[str, Any], sentence: str) -> None:
+    raw = described({**outline, "body": "disc"})
+    raw["outlines"]["floor"] = {"body": "ground", "points": [[-1, 0], [1, 0]]}
+    raw["contacts"]["touch"]["between"] = [{"outline": "cam"}, other]
+    with pytest.raises(InputError) as caught:
+        validate(raw, "test")
+    assert sentence in str(caught.value) and "contacts.touch" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("outline", "feet"),
+    [
+        ({"box": [0.2, 0.1]}, [0.0] * 4),
+        ({"box": [0.2, 0.1], "fillet": 0.02}, [0.02] * 4),
+        ({"points": CAM, "closed": True}, [0.03, 0.01]),  # the base circle is two arcs
+        ({"points": [[0, 0], [1, 0], [0.5, 0.2], [0.5, 1]], "closed": True}, [0.0] * 3),
+        ({"points": [[-1, 0], [0, 0.5], [1, 0]]}, [0.0] * 3),
+    ],
+)
+def test_an_outline_stands_on_its_convex_corners_and_arcs(outline: dict[str, Any], feet: list[float]) -> None:
+    raw = described({**outline, "body": "disc"})
+    raw["contacts"]["touch"]["between"] = [{"outline": "cam"}, {"line": "ground"}]
+    gaps = [row for row in validate(raw, "test").bounded if row.one_sided]
+    assert sorted(number(row.value) for row in gaps) == pytest.approx(sorted(feet))
 
 
 def test_an_unknown_outline_has_a_hint() -> None:

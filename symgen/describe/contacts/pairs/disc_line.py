@@ -32,9 +32,13 @@ class LineTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 
 def read_line(scope: Scope, key: str, table: LineTable, disc: Disc) -> Touch:
     """Return the height over the line less the radius, and the way along the line plus what the disc has turned."""
+    return touch_of_line(scope, *line_of_table(scope, key, table), disc)
+
+
+def line_of_table(scope: Scope, key: str, table: LineTable) -> tuple[Marker, Direction]:
+    """Return a point on a line and its direction towards what it meets."""
     body = scope.body(f"{key}.line", table.line)
-    on, normal = scope.marker(f"{key}.on", body, table.on), scope.direction(f"{key}.normal", body, table.normal)
-    return touch_of_line(scope, on, normal, disc)
+    return scope.marker(f"{key}.on", body, table.on), scope.direction(f"{key}.normal", body, table.normal)
 
 
 def touch_of_line(scope: Scope, on: Marker, normal: Direction, disc: Disc) -> Touch:

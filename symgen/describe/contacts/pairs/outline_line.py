@@ -1,0 +1,24 @@
+"""An outline over a line: each of its corners, ends and round parts is a foot, a part of one contact."""
+
+from __future__ import annotations
+
+import msgspec
+
+from symgen.describe.contacts.chains import BodyOutline
+from symgen.describe.contacts.feet import feet_of
+from symgen.describe.contacts.outlines import Outline
+from symgen.describe.contacts.pairs.disc_line import LineTable, line_of_table, touch_of_line
+from symgen.describe.contacts.pairs.disc_outline import as_one, drawn_outline
+from symgen.describe.contacts.surfaces import OUTLINE, Pair, Touch
+from symgen.describe.parts.scope import Scope
+
+
+def read_outline_over_line(scope: Scope, key: str, table: LineTable, outline: BodyOutline) -> Touch:
+    """Return the heights of the feet of an outline over a line, and the way of each along it."""
+    on, normal = line_of_table(scope, key, table)
+    drawn = drawn_outline(outline, lambda e: scope.value(e, key)), Outline((on,), normal=normal)
+    touches = (touch_of_line(scope, on, normal, foot) for foot in feet_of(scope, key, outline))
+    return as_one([msgspec.structs.replace(touch, outlines=drawn) for touch in touches])
+
+
+KIND = Pair("line", LineTable, read_outline_over_line, lambda table: str(table.line), OUTLINE)
