@@ -11,9 +11,8 @@ from symgen.base.vocabulary.expressions import ZERO, Expr, Number, Reading, call
 from symgen.base.vocabulary.measures import Component, Marker
 from symgen.describe.contacts.chains import BodyOutline, OutlinePiece
 from symgen.describe.contacts.pairs.disc_line import LineTable
-from symgen.describe.contacts.pairs.disc_outline import OutlineTable, outline_named
 from symgen.describe.contacts.pairs.disc_segment import SegmentTable
-from symgen.describe.contacts.surfaces import DISC, DiscTable, word_of_shape
+from symgen.describe.contacts.surfaces import DISC, DiscTable, OutlineTable, outline_named, word_of_shape
 from symgen.describe.parts.fields import read_table
 from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.sections import OutputSection, RayTable
@@ -68,7 +67,7 @@ class _Ray:
         word = word_of_shape(scope, key, raw, _SHAPES, DiscTable, DISC)
         table = read_table(_SHAPES[word], raw, scope.where(key))
         if isinstance(table, OutlineTable):
-            outline = outline_named(scope, f"{key}.outline", table.outline)
+            outline = outline_named(scope, key, table)
             yield from (self._piece(key, outline, piece) for piece in outline.pieces)
         elif isinstance(table, SegmentTable):
             body = scope.body(f"{key}.body", table.body)
