@@ -13,7 +13,7 @@ from tests.result.targets.test_c_runs import run_of
 from tests.result.targets.test_exchanged_modes import Importer, exchanged
 from tests.result.targets.test_fmu import fmu_of, importer_of
 from tests.result.targets.test_fmu_derivatives import Unit, differences
-from tests.run.contacts.scenes import CRANK, DROP, G, loaded, rocking_block, woodpecker
+from tests.run.contacts.scenes import CRANK, DROP, G, loaded, place_of_disc, rocking_block, woodpecker
 from tests.run.contacts.test_poisson import wheel
 from tests.run.contacts.test_reactions_beside import cart, two_rods
 from tests.run.contacts.test_stacks import stack
@@ -31,20 +31,6 @@ SCENES = {
     "slider with play": (CRANK, 0.014, 2, "absolute", 1e-7),
     "stack": (stack(np.array([0.0, 0.02, -0.01]), 0.02), 0.5, 3, "absolute", 1e-9),
 }
-
-
-def place_of_disc(mu: float, e: float, until: float) -> tuple[float, float]:
-    """Return place and rate along the floor of the disc of `DROP`, in a closed form of its impacts."""
-    m, inertia, r = 2.0, 0.01, 0.1
-    t, x, v, slip, fall = np.sqrt(2.0 / G), 0.0, 0.0, 3.0, np.sqrt(2.0 * G)
-    yields = 1.0 / m + r * r / inertia
-    while fall > 1e-13:
-        push = min(slip / yields, mu * m * (1.0 + e) * fall)
-        v, slip, fall = v - push / m, slip - push * yields, e * fall
-        x += v * 2.0 * fall / G
-        t += 2.0 * fall / G
-    slides = min(slip / (mu * m * G * yields), until - t)
-    return x + v * (until - t) - mu * G * slides * (until - t - 0.5 * slides), v - mu * G * slides
 
 
 @pytest.mark.by_turns(9)

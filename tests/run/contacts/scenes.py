@@ -141,6 +141,21 @@ DROP = (
     + floor("disc", 0.1, '"mu"').replace("restitution = 0.0", 'restitution = "e"')
 )
 
+
+def place_of_disc(mu: float, e: float, until: float) -> tuple[float, float]:
+    """Return place and rate along the floor of the disc of `DROP`, in a closed form of its impacts."""
+    m, inertia, r = 2.0, 0.01, 0.1
+    t, x, v, slip, fall = math.sqrt(2.0 / G), 0.0, 0.0, 3.0, math.sqrt(2.0 * G)
+    yields = 1.0 / m + r * r / inertia
+    while fall > 1e-13:
+        push = min(slip / yields, mu * m * (1.0 + e) * fall)
+        v, slip, fall = v - push / m, slip - push * yields, e * fall
+        x += v * 2.0 * fall / G
+        t += 2.0 * fall / G
+    slides = min(slip / (mu * m * G * yields), until - t)
+    return x + v * (until - t) - mu * G * slides * (until - t - 0.5 * slides), v - mu * G * slides
+
+
 #: The benchmark's slider-crank whose slider begins without a rate, and one with lighter parts.
 CRANK = slider_crank(
     (0.153, 0.306), (0.05, 0.025, 0.001), ((0.038, 0.038, 0.076), (7.4e-5, 5.9e-4, 2.7e-6)), (150.0, -75.0), (0.01, 0.4)

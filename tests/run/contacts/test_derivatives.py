@@ -1,5 +1,6 @@
 """Derivatives through impacts with friction, slip, stick and rest: forward, adjoint and by differences."""
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ from benchmarks.bounded.touch.kinds import drawn
 from benchmarks.mechanisms.toml import text as toml_text
 from symgen.describe.formulas.duals import Dual
 from symgen.run.directions.series_directions import ImpactDirections, ImpactsAhead, slopes_left_over
-from tests.run.contacts.scenes import DROP, LIGHT, body, floor, head, loaded, rods
+from tests.run.contacts.scenes import DROP, LIGHT, G, body, floor, head, loaded, place_of_disc, rods
 from tests.run.contacts.scenes_in_space import DIE
 
 #: A spinning disc that bounces, rests and rolls.
@@ -50,6 +51,26 @@ def slopes_of(
 def test_a_bouncing_disc(until: float, tmp_path: Path) -> None:
     """After one impact, after several of which the last ones stick, and at rest."""
     slopes_of(DISC, until, "disc.x", {"mu": 0.06, "e": 0.6, "height": 0.8}, tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("mu", "e"), [(0.05, 0.7), (0.02, 0.5), (0.1, 0.3), (0.03, 0.8)])
+def test_derivatives_through_a_series_of_impacts_are_those_of_its_closed_form(
+    mu: float, e: float, tmp_path: Path
+) -> None:
+    model, until = loaded(DROP, tmp_path), math.sqrt(2.0 / G) * (1.0 + e) / (1.0 - e) + 0.5
+    run = model.simulate(
+        parameters={"mu": mu, "e": e}, sensitivities=["mu", "e"], until=until, integrator="dop853", rtol=1e-11
+    )
+    place = run.q.names.index("disc.x")
+    slopes = np.asarray(run.sensitivities.table("q")).reshape(len(run.t), -1, 2)[-1, place]
+
+    def at(by_mu: float, by_e: float) -> float:
+        return place_of_disc(mu + by_mu, e + by_e, until)[0]
+
+    for slope, (a, b) in zip(slopes, ((1e-5, 0.0), (0.0, 1e-5)), strict=True):
+        known = (8.0 * (at(a, b) - at(-a, -b)) - at(2.0 * a, 2.0 * b) + at(-2.0 * a, -2.0 * b)) / 12e-5
+        assert abs(slope - known) < 1e-8 * abs(known) + 1e-9
 
 
 @pytest.mark.by_turns(3)
