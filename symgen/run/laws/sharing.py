@@ -16,7 +16,7 @@ from symgen.run.layout.scales import larger_number
 #: Pivots below this part of a row's own mobility are rounding; forces are shared that move by less than this part of B.
 _DEPENDENT, _SHARED = 1e-9, 1e-15
 #: Accelerations below this part of what they are differences of are none.
-_STILL = 1e-12
+STILL = 1e-12
 #: Turns in which what moves follows the shares, and rounds over determined rows in one.
 _TURNS, _ROUNDS = 3, 200
 
@@ -125,7 +125,7 @@ def share_forces(n: int, laws: Laws) -> bool:
         laws.first[i], laws.first[n + i], laws.does[i] = laws.left[i], laws.forces[i], laws.state[i]
     for i in range(n):  # a force at its bound that accelerates nothing may be less
         at_bound = laws.state[i] >= UPPER and laws.way[i] == 0.0 and rows_of(n, i, laws) == 1
-        if laws.law[i] == BALL and at_bound and abs(laws.left[i]) <= _STILL * size_of_terms(n, i, laws):
+        if laws.law[i] == BALL and at_bound and abs(laws.left[i]) <= STILL * size_of_terms(n, i, laws):
             laws.state[i] = ON
     found, many = True, False
     for _ in range(_TURNS):

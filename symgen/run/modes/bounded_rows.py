@@ -30,12 +30,13 @@ HELD, CONSTANT, SIGN, LIMIT, EFFORT = range(5)
 #: Constant of a row that is off and at rest with an effort of its own, of a one-sided row 0. Where another row carries
 #: it, the constant is the number of that row, counted from 1.
 AT_REST = -1.0
-#: Codes: the same modes; others; accelerations that are not finite; no forces found; forces that are not determined;
-#: bounds, gaps or restitutions that are undefined or out of range.
-SAME, OTHERS, NOT_FINITE, NO_FORCES, NOT_DETERMINED, OUT_OF_RANGE = range(6)
+#: Codes: the same modes; others; accelerations that are not finite; no forces found; bounds, gaps or restitutions that
+#: are undefined or out of range.
+SAME, OTHERS, NOT_FINITE, NO_FORCES = range(4)
+OUT_OF_RANGE = 5
 #: Codes where bounds depend on reactions: efforts that bring about all of their reaction; reactions that redundant
-#: rows leave undetermined; bounds and reactions that never agree; a force shared at rest beside what changes.
-JAMMED, REDUNDANT, DISAGREED, SHARED = range(6, 10)
+#: rows leave undetermined; bounds and reactions that never agree.
+JAMMED, REDUNDANT, DISAGREED = range(6, 9)
 #: Codes of impacts: one that the joints do not allow, one whose impulses are not found.
 NOT_APPLIED, NO_IMPULSES = 10, 11
 #: What is out of range: a gap, a restitution, a bound in motion that is 0 beside one at rest, other bounds.
@@ -46,8 +47,8 @@ IMMOVABLE = 16
 TWO_PIECES = 17
 #: Codes of contacts: no modes with forces within bounds; several with different motions; an impact that adds energy.
 NO_CONTACT_MODES, SEVERAL_MODES, GAINED = range(24, 27)
-#: Rows whose bounds depend on reactions have several motions.
-SEVERAL_BY_REACTION = 27
+#: Rows whose bounds depend on reactions have several motions; no forces are found, though no contact jams alone.
+SEVERAL_BY_REACTION, NOTHING_FOUND = 27, 28
 #: A formula of a row is no number at the end of a run, or just after it.
 NO_NUMBER = 18
 #: Gaps leave what lies between them no way to move: of opposed ones that meet, none opens.

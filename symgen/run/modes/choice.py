@@ -102,14 +102,14 @@ def choose_modes(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers
     if n > 0:
         if probe(t, c, y, p, w, iw, control) != SAME:
             return NOT_FINITE
-        found = solve_rest(c, n, w)
-        if found != SAME:
-            return int(found)
-    code = hold_rows(c, w)
+        code = solve_rest(c, n, w)
+        if code != SAME:
+            return int(code)
+    hold_rows(c, w)
     for i in range(c.rows.count):
         c.shut[i] = 0
     add_forces(c)
-    return int(write_modes(c, w)) if code == SAME else int(code)
+    return int(write_modes(c, w))
 
 
 @exact(entry=True)

@@ -103,7 +103,7 @@ def find_impulses(c: Choice, s: Strikes, w: Array) -> int:
     for first in range(c.rows.count):
         count = choose_part(c, first, rows)
         if count > 0:
-            code = solve_by_laws(c, count) if is_struck(c, s, w, count) else SAME
+            code = solve_by_laws(c, count, 1.0) if is_struck(c, s, w, count) else SAME
             if code != SAME:
                 return int(code)
             for a in range(count):

@@ -13,7 +13,19 @@ from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.run.effects.pushing import POISSON
 from symgen.run.laws.motions import NOT_SOUGHT, SEVERAL_MOTIONS, count_motions, find_forces, seek_another
-from symgen.run.laws.problem import BALL, COMPONENTS, LOWER, NOTHING, OFF, ON, PUSH, UPPER, begin_row, load_of
+from symgen.run.laws.problem import (
+    BALL,
+    COMPONENTS,
+    LOWER,
+    NOTHING,
+    OFF,
+    ON,
+    PUSH,
+    UPPER,
+    begin_row,
+    load_of,
+    middle_of,
+)
 from symgen.run.laws.problem import bound_of as load_bound
 from symgen.run.laws.sharing import find_dependent, share_forces
 from symgen.run.laws.verify import size_of_terms
@@ -25,6 +37,7 @@ from symgen.run.modes.bounded_rows import (
     NO_ACCELERATION,
     NO_CONTACT_MODES,
     NO_FACTOR,
+    NOTHING_FOUND,
     SAME,
     SEVERAL_BY_REACTION,
     SEVERAL_MODES,
@@ -35,14 +48,14 @@ from symgen.run.modes.row_records import Choice
 
 
 @exact()
-def bound_of(c: Choice, i: int) -> float:
-    """Return the bound of a row in a combination, of a contact over the force that presses; sliding has its own."""
-    return float(c.read.sliding[i] if c.loose[i] != 0 or c.signs[i] != 0.0 else c.read.static[i])
+def bound_of(c: Choice, i: int, part: float) -> float:
+    """Return the bound of a row, or a part of that at rest, of a contact over the force that presses."""
+    return float(c.read.sliding[i] if c.loose[i] != 0 or c.signs[i] != 0.0 else part * c.read.static[i])
 
 
 @exact()
-def fill_part(c: Choice, count: int) -> None:
-    """Write the problem of the rows of a part, in their order in ``order`` of the box."""
+def fill_part(c: Choice, count: int, part: float) -> None:
+    """Write the problem of the rows of a part, in their order in ``order``, with a part of the bounds at rest."""
     k, order, laws = c.rows.count, c.box.order, c.laws
     for a in range(count):
         i = order[a]
@@ -54,17 +67,17 @@ def fill_part(c: Choice, count: int) -> None:
             laws.offset[a] += c.problem.matrix[i * k + order[b]] * c.read.middle[order[b]]
         laws.law[a] = PUSH if c.rows.pushes[i] != 0 else BALL
         if c.rows.pushes[i] == 0 and c.rows.partner[i] < 0:
-            laws.beta[a], laws.middle[a] = bound_of(c, i), 0.0 if c.loose[i] != 0 else c.read.middle[i]
+            laws.beta[a], laws.middle[a] = bound_of(c, i, part), 0.0 if c.loose[i] != 0 else part * c.read.middle[i]
             if by_reaction(c, i):
                 laws.kappa[a], laws.beta[a], laws.way[a], laws.components[a] = laws.beta[a], 0.0, c.signs[i], 2
-                for part in range(2):
-                    at = COMPONENTS * a + part
-                    laws.apart[at] = c.problem.apart[2 * i + part]
+                for component in range(2):
+                    at = COMPONENTS * a + component
+                    laws.apart[at] = c.problem.apart[2 * i + component]
                     for b in range(count):
-                        laws.parts[at * count + b] = c.problem.parts[(2 * i + part) * k + order[b]]
+                        laws.parts[at * count + b] = c.problem.parts[(2 * i + component) * k + order[b]]
         if c.rows.pushes[i] == 0 and c.rows.partner[i] >= 0:
-            laws.kappa[a], laws.way[a] = bound_of(c, i), c.signs[i]
-            laws.beta[a] = bound_of(c, i) * c.problem.apart[2 * i] if POISSON else 0.0
+            laws.kappa[a], laws.way[a] = bound_of(c, i, part), c.signs[i]
+            laws.beta[a] = bound_of(c, i, part) * c.problem.apart[2 * i] if POISSON else 0.0
             for b in range(count):
                 if order[b] == c.rows.partner[i]:
                     laws.presser[a] = b
@@ -97,8 +110,7 @@ def find_carriers_of_part(c: Choice, count: int) -> None:
                     owners += 1 if c.rows.pushes[order[a]] == 0 else 2
                     owner, c.factors[j] = order[a], laws.slopes[a * count + b]
             # a reaction follows how rows share a force: where a bound depends on one, each row keeps its part
-            carried = owners == 1 and not by_reaction(c, j) and not by_reaction(c, owner)
-            c.part[j] = owner if carried else c.rows.count
+            c.part[j] = owner if owners == 1 and not has_reaction(c, count) else c.rows.count
 
 
 @exact()
@@ -119,6 +131,19 @@ def find_forces_of_part(c: Choice, count: int) -> bool:
 
 
 @exact()
+def is_still(c: Choice, count: int, a: int, part: float) -> bool:
+    """Whether the acceleration of a row is below a part of what it is a difference of."""
+    return bool(abs(c.laws.left[a]) <= part * size_of_terms(count, a, c.laws))
+
+
+@exact()
+def part_used(c: Choice, count: int, a: int) -> float:
+    """Return the part of its bound that the force of a row is; 0 for rows without one."""
+    laws, bound = c.laws, load_bound(count, a, c.laws)
+    return float(abs(laws.forces[a] - middle_of(a, load_of(count, a, laws), laws)) / bound if bound > 0.0 else 0.0)
+
+
+@exact()
 def settle_at_bounds(c: Choice, count: int) -> None:
     """Decide what forces leave open: gaps without a force stay closed, and rows at their bounds move if they are loose.
 
@@ -126,11 +151,11 @@ def settle_at_bounds(c: Choice, count: int) -> None:
     """
     laws = c.laws
     for a in range(count):
-        i, still = c.box.order[a], abs(laws.left[a]) <= NO_ACCELERATION * size_of_terms(count, a, laws)
+        i, still = c.box.order[a], is_still(c, count, a, NO_ACCELERATION)
         if laws.law[a] == PUSH and laws.state[a] == OFF and c.loose[i] == 0 and still:
             laws.state[a] = ON
-        if laws.law[a] == BALL and c.loose[i] == 0 and still and load_bound(count, a, laws) == 0.0:
-            laws.state[a] = ON if laws.way[a] == 0.0 else laws.state[a]
+        if laws.law[a] == BALL and c.loose[i] == 0 and still and laws.way[a] == 0.0 and laws.state[a] != OFF:
+            laws.state[a] = ON
         if laws.law[a] == BALL and laws.state[a] == ON and c.loose[i] != 0:
             bound = load_bound(count, a, laws)
             if bound > 0.0 and abs(laws.forces[a]) >= AT_BOUND * bound:
@@ -167,16 +192,23 @@ def name_fault(c: Choice, count: int) -> None:
 
 
 @exact(entry=True)
-def solve_by_laws(c: Choice, count: int) -> int:
-    """Find the modes of a part; return `SAME`, `NO_CONTACT_MODES` or `SEVERAL_MODES`.
+def solve_by_laws(c: Choice, count: int, part: float) -> int:
+    """Find the modes of a part with a part of the bounds at rest.
+
+    Returns `SAME`, `NO_CONTACT_MODES`, `NOTHING_FOUND` or `SEVERAL_MODES`.
 
     Where bounds depend on reactions, `DISAGREED` or `SEVERAL_BY_REACTION` with the rows that differ.
     """
     order, laws, reacts = c.box.order, c.laws, has_reaction(c, count)
-    fill_part(c, count)
+    fill_part(c, count, part)
     if not find_forces_of_part(c, count):
         name_fault(c, count)
-        return DISAGREED if reacts else NO_CONTACT_MODES
+        if reacts:
+            return DISAGREED
+        if c.jam[0] <= 0.0:
+            return NO_CONTACT_MODES
+        c.jam[0] = float(count)
+        return NOTHING_FOUND
     share_forces(count, laws)
     settle_at_bounds(c, count)
     motions = count_motions(count, laws)

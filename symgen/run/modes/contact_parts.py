@@ -10,10 +10,9 @@ from __future__ import annotations
 import math
 
 from symgen.compile.loopcode.exact import exact
-from symgen.run.effects.pushing import REACTIONS
-from symgen.run.modes.probing import (
-    by_reaction,
-)
+from symgen.compile.native.annotations import Array
+from symgen.run.layout.redundancy import is_off
+from symgen.run.modes.probing import by_reaction
 from symgen.run.modes.row_records import Choice
 
 #: Rows depend on each other above this part of their own mobilities.
@@ -82,15 +81,6 @@ def choose_part(c: Choice, part: int, rows: int) -> int:
 
 
 @exact()
-def has_contact(c: Choice, count: int) -> bool:
-    """Return whether a part has a contact with friction."""
-    for a in range(count):
-        if c.rows.partner[c.box.order[a]] >= 0:
-            return True
-    return False
-
-
-@exact()
 def has_reaction(c: Choice, count: int) -> bool:
     """Return whether bounds of a part depend on reactions."""
     for a in range(count):
@@ -100,9 +90,44 @@ def has_reaction(c: Choice, count: int) -> bool:
 
 
 @exact()
-def has_both(c: Choice, count: int) -> bool:
-    """Return whether a part has one-sided rows beside bounds that depend on reactions."""
-    pushes = False
+def has_loads(c: Choice, count: int) -> bool:
+    """Return whether bounds of a part depend on forces, and any row may rest."""
+    loads, rests = has_reaction(c, count), False
     for a in range(count):
-        pushes = pushes or c.rows.pushes[c.box.order[a]] != 0
-    return bool(REACTIONS and pushes and has_reaction(c, count))
+        i = c.box.order[a]
+        loads = loads or c.rows.partner[i] >= 0
+        rests = rests or c.rows.pushes[i] != 0 or c.signs[i] == 0.0
+    return bool(loads and rests)
+
+
+@exact()
+def reaches_reactions(c: Choice, row: int, w: Array) -> bool:
+    """Return whether a row is tied, by rows in force, to a coordinate whose bounds depend on a reaction.
+
+    Rows with bounds count as in force; coordinates and rows found are marked in ``rate`` and in the scratch.
+    """
+    entries, again = c.rows.layout.entries, True
+    for j in range(c.rows.layout.nv):
+        c.rate[j] = 0.0
+    for i in range(c.rows.layout.m):
+        c.w[i] = 1.0 if i == row else 0.0
+    while again:
+        again = False
+        for e in range(entries.shape[0] // 3):
+            i, j = entries[3 * e], entries[3 * e + 1]
+            if c.rows.place_of[i] >= 0 or not is_off(c.rows.layout, i, w):
+                if c.w[i] != c.rate[j]:
+                    c.w[i], c.rate[j], again = 1.0, 1.0, True
+    for i in range(c.rows.layout.m):
+        if c.w[i] != 0.0 and c.rows.place_of[i] >= 0 and c.rows.pressed[c.rows.place_of[i]] != 0:
+            return True
+    return False
+
+
+@exact(entry=True)
+def find_redundant(c: Choice, w: Array) -> int:
+    """Return the first row left out that has no bounds and leaves such reactions undetermined, -1 for none."""
+    for i in range(c.rows.layout.m):
+        if w[c.rows.layout.mask + i] != 0.0 and c.rows.place_of[i] < 0 and reaches_reactions(c, i, w):
+            return int(i)
+    return -1

@@ -2,9 +2,9 @@
 
 A contact is a one-sided row N and the friction T along it, ``|T| <= mu N``. Each closed contact opens, sticks, or
 slides one of two ways; in motion the way is known. Rows that depend on each other are a part
-(`symgen.run.modes.contact_parts`), whose laws are solved together (`symgen.run.modes.contact_laws`). Parts without
-contacts are left to `symgen.run.modes.resting`, with bounds by reactions to `symgen.run.modes.agreement`. The same laws
-on rates are those of an impact (`symgen.run.modes.contact_impacts`).
+(`symgen.run.modes.contact_parts`), whose laws are solved together (`symgen.run.modes.contact_laws`), with bounds by
+reactions too. Parts without either are left to `symgen.run.modes.resting`. The same laws on rates are those of an
+impact (`symgen.run.modes.contact_impacts`).
 """
 
 from __future__ import annotations
@@ -15,18 +15,14 @@ from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.effects.pushing import REACTIONS
-from symgen.run.laws.problem import LOWER, ON, UPPER
+from symgen.run.laws.problem import LOWER, OFF, ON, UPPER
+from symgen.run.laws.sharing import STILL
 from symgen.run.layout import abi
 from symgen.run.loops.search_records import COUNT, MARGIN, MEASURE, N_HEAD, RATE, ROW
-from symgen.run.modes.agreement import find_redundant, follow_reactions, rest_of_part
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
-    AT_REST,
-    CONSTANT,
-    EFFORT,
     HELD,
     JAMMED,
-    LIMIT,
     NOT_FINITE,
     OTHERS,
     REDUNDANT,
@@ -34,18 +30,16 @@ from symgen.run.modes.bounded_rows import (
     SAME,
     SIGN,
     row_scale,
+    sign_of_number,
 )
 from symgen.run.modes.choice import find_rest, write_modes
 from symgen.run.modes.choice import measure_margins as measure_margins_of_rows
-from symgen.run.modes.contact_laws import solve_by_laws
-from symgen.run.modes.contact_parts import choose_part, find_parts, has_both, has_contact, keep_touching
-from symgen.run.modes.holding import hold_rows
+from symgen.run.modes.contact_laws import fill_part, find_forces_of_part, is_still, part_used, solve_by_laws
+from symgen.run.modes.contact_parts import choose_part, find_parts, find_redundant, has_loads, keep_touching
+from symgen.run.modes.holding import carry_force, hold_row, hold_rows, keep_force
 from symgen.run.modes.probing import add_forces, by_reaction, probe_contacts, size_forces_of_parts
-from symgen.run.modes.resting import solve_rest
+from symgen.run.modes.resting import HALVINGS, SPENT, solve_rest
 from symgen.run.modes.row_records import Choice
-
-#: Whether any row is one-sided.
-ONE_SIDED = True
 
 
 @exact()
@@ -56,24 +50,29 @@ def breaks(c: Choice, i: int) -> bool:
 
 
 @exact()
-def solve_part(c: Choice, count: int, first: int) -> int:
-    """Find the modes of a part with the bounds of now; return `SAME` or a code."""
+def solve_part(c: Choice, count: int, first: int, part: float) -> int:
+    """Find the modes of a part with the bounds of now, or a part of those at rest; return `SAME` or a code."""
     for a in range(count):
         c.part[c.box.order[a]] = first
-    return int(solve_by_laws(c, count))
+    return int(solve_by_laws(c, count, part))
+
+
+@exact()
+def static_bound(c: Choice, i: int) -> float:
+    """Return the bound at rest of a row by the forces found."""
+    if c.rows.partner[i] >= 0:
+        return float(c.read.static[i] * abs(c.forces[c.rows.partner[i]]))
+    return float(c.read.static[i] * (c.sizes[i] if by_reaction(c, i) else 1.0))
 
 
 @exact()
 def part_held(c: Choice, count: int, first: int, i: int) -> float:
     """Return the part of its bound at rest that friction let go needs if it holds again, inf where it does not hold."""
     c.loose[i] = 0
-    holds, most = solve_part(c, count, first) == SAME, c.read.static[i]
+    holds = solve_part(c, count, first, 1.0) == SAME
     for a in range(count):
         holds = holds and not breaks(c, c.box.order[a])
-    if c.rows.partner[i] >= 0:
-        most *= abs(c.forces[c.rows.partner[i]])
-    if by_reaction(c, i):
-        most *= c.sizes[i]
+    most = static_bound(c, i)
     needs = abs(c.forces[i]) / most if holds and c.best[i] == ON and most > 0.0 else math.inf
     c.loose[i] = 1
     return needs if needs < AT_BOUND else math.inf
@@ -96,61 +95,90 @@ def hold_again(c: Choice, count: int, first: int) -> int:
         if best < 0:
             break
         c.loose[best], c.passing[best], again = 0, 0, True
-    return solve_part(c, count, first) if again or released > 1 else SAME
+    return solve_part(c, count, first, 1.0) if again or released > 1 else SAME
+
+
+@exact()
+def rests_within(c: Choice, count: int, part: float) -> bool:
+    """Whether all rows with bounds at rest rest by forces within a part of these."""
+    fill_part(c, count, part)
+    found = find_forces_of_part(c, count)
+    for a in range(count):
+        i = c.box.order[a]
+        dry = c.rows.pushes[i] == 0 and c.rows.partner[i] < 0 and c.loose[i] == 0 and c.signs[i] == 0.0
+        rests = c.laws.state[a] == ON or is_still(c, count, a, STILL)
+        found = found and (not dry or (rests and part_used(c, count, a) * SPENT <= 1.0))
+    return bool(found)
+
+
+@exact()
+def hold_by_others(c: Choice, count: int) -> float:
+    """Return the least part of static bounds within which rows at theirs rest by other forces of those that share them.
+
+    Where there is none the part is 1, and all that are at their bounds are loose.
+    """
+    low, high, part, tried = 0.0, SPENT, 1.0, False
+    for a in range(count):
+        i = c.box.order[a]
+        rested = c.rows.pushes[i] == 0 and c.rows.partner[i] < 0 and c.before[MODE_NUMBERS * i + SIGN] == 0.0
+        c.passing[i] = 1 if rested and c.loose[i] != 0 else 0
+        c.loose[i], tried = 0 if c.passing[i] != 0 else c.loose[i], tried or c.passing[i] != 0
+    if tried and rests_within(c, count, SPENT):
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            if rests_within(c, count, middle):
+                high = middle
+            else:
+                low = middle
+        part = high
+    for a in range(count):
+        i = c.box.order[a]
+        if tried and part == 1.0 and c.rows.pushes[i] == 0 and c.rows.partner[i] < 0 and c.signs[i] == 0.0:
+            c.loose[i] = 1 if c.passing[i] != 0 or part_used(c, count, a) >= AT_BOUND else c.loose[i]
+        c.passing[i] = 0
+    return part
 
 
 @exact()
 def choose_modes_of_part(c: Choice, count: int, first: int) -> int:
     """Choose the modes of a part with contacts: friction that its bound at rest does not hold has that in motion."""
-    again = True
-    for a in range(count):
-        c.passing[c.box.order[a]] = 0
+    again, part = True, hold_by_others(c, count)
     while again:
-        code = solve_part(c, count, first)
+        code = solve_part(c, count, first, part)
         if code != SAME:
             return int(code)
         again = False
         for a in range(count):
             i = c.box.order[a]
             if breaks(c, i):
-                c.loose[i], c.passing[i], again = 1, 1, True
+                c.loose[i], c.passing[i], again, part = 1, 1, True, 1.0
     return int(hold_again(c, count, first))
 
 
 @exact()
 def write_part(c: Choice, count: int) -> None:
     """Write the modes of a part."""
-    after = c.after
     for a in range(count):
         i = c.box.order[a]
-        at, carrier = MODE_NUMBERS * i, c.part[i]
-        if c.best[i] == ON and carrier < 0:
-            after[at + HELD] = 1.0
-            after[at + CONSTANT] = c.before[at + CONSTANT] if c.before[at + HELD] != 0.0 else c.read.value[i]
-            own = c.rows.pushes[i] == 0 and c.rows.partner[i] < 0 and not by_reaction(c, i)
-            after[at + LIMIT] += c.read.static[i] if own else 0.0
-        elif c.best[i] == ON and c.rows.pushes[i] != 0:
-            after[at + CONSTANT], after[at + LIMIT] = AT_REST, 1.0
-        elif c.best[i] == ON and carrier < c.rows.count:
-            after[at + CONSTANT] = float(carrier + 1)
-            if c.rows.partner[i] >= 0:
-                after[at + LIMIT] = c.factors[i]
-            else:
-                static = c.read.static[i] * (c.sizes[i] if by_reaction(c, i) else 1.0)
-                after[MODE_NUMBERS * carrier + LIMIT] += abs(c.factors[i]) * static
+        c.holds[i] = c.read.static[i] * (c.sizes[i] if by_reaction(c, i) else 1.0)
+        if c.best[i] == ON and c.part[i] < 0:
+            hold_row(c, i)
+        elif c.best[i] == ON and c.part[i] < c.rows.count and c.rows.pushes[i] == 0:
+            carry_force(c, i, c.part[i], c.factors[i])
         elif c.best[i] == ON:
-            slack = ROUNDED * (c.problem.scale[i] + abs(c.forces[i]))
-            after[at + CONSTANT], after[at + EFFORT], after[at + LIMIT] = AT_REST, c.forces[i], slack
+            keep_force(c, i)
         c.signs[i] = 1.0 if c.best[i] == UPPER else (-1.0 if c.best[i] == LOWER else 0.0)
-        after[at + SIGN] = 0.0 if c.rows.pushes[i] != 0 else c.signs[i]
+        if c.best[i] == OFF and c.rows.partner[i] < 0:  # its rate only passes zero, as at a dead centre
+            c.signs[i] = sign_of_number(c.trial[i])
+        c.after[MODE_NUMBERS * i + SIGN] = 0.0 if c.rows.pushes[i] != 0 else c.signs[i]
 
 
 @exact()
 def choose_parts(c: Choice, rows: int) -> int:
-    """Choose the modes of parts with contacts, and leave the rows of others; return `SAME` or a code."""
+    """Choose the modes of parts whose bounds depend on forces, and leave others; return `SAME` or a code."""
     for first in range(c.rows.count):
         count = choose_part(c, first, rows)
-        if has_contact(c, count) or has_both(c, count):
+        if has_loads(c, count):
             code = choose_modes_of_part(c, count, first)
             if code != SAME:
                 return int(code)
@@ -176,36 +204,6 @@ def find_jammed(c: Choice) -> bool:
     return False
 
 
-@exact()
-def rest_of_parts(c: Choice, left: int, w: Array) -> int:
-    """Find the forces of `left` rows at rest, part after part; return `SAME`, or why there are none."""
-    for r in range(left):
-        c.best[r] = c.rest[r]
-    for first in range(c.rows.count):
-        n = 0
-        for r in range(left):
-            if c.part[c.best[r]] == first:
-                c.rest[n] = c.best[r]
-                n += 1
-        if n > 0:
-            code = rest_of_part(c, n, w)
-            if code != SAME:
-                return int(code)
-    for r in range(left):
-        c.rest[r] = c.best[r]
-    return SAME
-
-
-@exact()
-def watch_reactions(c: Choice, w: Array) -> int:
-    """Hold rows whose largest efforts follow reactions; return as `hold_rows` and `follow_reactions` do."""
-    code = hold_rows(c, w)
-    add_forces(c)
-    for i in range(c.rows.count):
-        c.taken[i] = 1 if c.after[MODE_NUMBERS * i + HELD] != 0.0 else 0
-    return int(follow_reactions(c)) if code == SAME else int(code)
-
-
 @exact(entry=True)
 def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
     """Choose modes as `symgen.run.modes.choice.choose_modes` does, where there are contacts.
@@ -223,9 +221,8 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
         if REACTIONS and find_jammed(c):
             return JAMMED
         rows = find_parts(c)
-        if ONE_SIDED:
-            size_forces_of_parts(c, rows)
-            code = choose_parts(c, rows)
+        size_forces_of_parts(c, rows)
+        code = choose_parts(c, rows)
         if code != SAME:
             return int(code)
         for r in range(n):
@@ -236,21 +233,17 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
     for i in range(c.rows.count):
         c.taken[i] = 0
     if left > 0:
-        code = rest_of_parts(c, left, w) if REACTIONS else solve_rest(c, left, w)
+        code = solve_rest(c, left, w)
         if code != SAME:
             return int(code)
-    if REACTIONS:
-        code = watch_reactions(c, w)
-    else:
-        code = hold_rows(c, w)
-        add_forces(c)
+    hold_rows(c, w)
+    add_forces(c)
     for i in range(c.rows.count):
         struck = struck or c.shut[i] != 0
         c.shut[i] = 0
-    if code == SAME:
-        code = write_modes(c, w)
+    code = write_modes(c, w)
     # an impact has taken all rows out of force, and where none comes back there are others all the same
-    return int(OTHERS) if struck and code == SAME else int(code)
+    return int(OTHERS) if struck else int(code)
 
 
 @exact(entry=True)

@@ -17,13 +17,12 @@ from symgen.run.modes.bounded_rows import (
     LIMIT,
     NO_ACCELERATION,
     NO_FACTOR,
-    NOT_DETERMINED,
     ROUNDED,
-    SAME,
     SIGN,
     usual_of,
 )
 from symgen.run.modes.box import independent_set, solve_independent
+from symgen.run.modes.probing import by_reaction
 from symgen.run.modes.row_records import Choice
 
 #: Rows at rest that are put into force: see `take_rows`.
@@ -84,9 +83,9 @@ def hold_rows(c: Choice, w: Array) -> int:
     Bounds that vary are no numbers: margins read them, times the largest effort of a row that another one carries.
 
     Rows that push come first: a coordinate that they keep at rest does not slide. One whose rate only passes zero, at
-    a dead centre, does. Returns `SAME`, or `NOT_DETERMINED`.
+    a dead centre, does. Returns the number of rows in force.
     """
-    k, n, after = c.rows.count, c.at_rest[0], c.after
+    k, n = c.rows.count, c.at_rest[0]
     for i in range(k * k):
         c.rest_of[i] = c.problem.matrix[i]
     for i in range(k):
@@ -106,22 +105,17 @@ def hold_rows(c: Choice, w: Array) -> int:
     take_rows(c, kept, ALL, w)
     count = 0
     for i in range(k):
-        at = MODE_NUMBERS * i
         if c.taken[i] != 0:
-            c.box.order[count] = i
             count += 1
-            after[at + HELD] = 1.0
-            after[at + CONSTANT] = c.before[at + CONSTANT] if c.before[at + HELD] != 0.0 else c.read.value[i]
-            after[at + LIMIT] = 0.0 if c.rows.pushes[i] != 0 or is_followed(c, i) else c.holds[i]
+            hold_row(c, i)
     for r in range(kept):
         i = c.rest[r]
         other = c.taken[i] == 0 and c.signs[i] == 0.0 and c.problem.matrix[i * k + i] > DEPENDENT * c.problem.alone[i]
         if other and not (c.rows.pushes[i] != 0 and undetermined_part(c, i) > DEPENDENT):
-            if share_force(c, i, count) != SAME:
-                return NOT_DETERMINED
+            share_force(c, i, count)
     for i in range(k):
-        after[MODE_NUMBERS * i + SIGN] = 0.0 if c.rows.pushes[i] != 0 else c.signs[i]
-    return SAME
+        c.after[MODE_NUMBERS * i + SIGN] = 0.0 if c.rows.pushes[i] != 0 else c.signs[i]
+    return int(count)
 
 
 @exact()
@@ -156,43 +150,51 @@ def find_carriers(c: Choice, i: int, count: int) -> float:
 
 
 @exact()
-def share_force(c: Choice, i: int, count: int) -> int:
+def share_force(c: Choice, i: int, count: int) -> None:
     """Give the effort of a row that rows in force determine to the one that carries it.
 
     Where several do, a row with two bounds keeps the effort that it has: as long as theirs are within their bounds all
     rest, and where one reaches its bound, efforts are shared out anew.
     """
-    k, box, after = c.rows.count, c.box, c.after
     most = find_carriers(c, i, count)
     owners, owner, a, factor = 0, -1, 0, 0.0
-    c.named[0] = i
-    for j in range(k):
+    for j in range(c.rows.count):
         if c.taken[j] != 0:
-            if abs(box.left[a]) > NO_FACTOR * most:
+            if abs(c.box.left[a]) > NO_FACTOR * most:
                 owners += 1
-                owner, factor = j, abs(box.left[a])
-                c.named[owners] = j
+                owner, factor = j, abs(c.box.left[a])
             a += 1
+    if owners == 1 and c.rows.pushes[i] == 0:
+        carry_force(c, i, owner, factor)
+    else:
+        keep_force(c, i)
+
+
+@exact()
+def hold_row(c: Choice, i: int) -> None:
+    """Put a row into force. Of bounds that margins read, the number ``limit`` has nothing."""
+    at, read = MODE_NUMBERS * i, c.rows.pushes[i] != 0 or c.rows.partner[i] >= 0 or by_reaction(c, i)
+    c.after[at + HELD] = 1.0
+    c.after[at + CONSTANT] = c.before[at + CONSTANT] if c.before[at + HELD] != 0.0 else c.read.value[i]
+    c.after[at + LIMIT] += 0.0 if read or is_followed(c, i) else c.holds[i]
+
+
+@exact()
+def carry_force(c: Choice, i: int, owner: int, factor: float) -> None:
+    """Have a row in force carry that of another one, of which a unit is `factor` of its own."""
+    c.after[MODE_NUMBERS * i + CONSTANT] = float(owner + 1)
+    if c.rows.partner[i] >= 0 or is_followed(c, i):
+        c.after[MODE_NUMBERS * i + LIMIT] = factor
+    else:
+        c.after[MODE_NUMBERS * owner + LIMIT] += abs(factor) * c.holds[i]
+
+
+@exact()
+def keep_force(c: Choice, i: int) -> None:
+    """Have a row at rest keep its force. One at its bound is not watched at zero, and none is not watched."""
     at = MODE_NUMBERS * i
-    if c.rows.pushes[i] != 0:
-        after[at + CONSTANT], after[at + LIMIT] = AT_REST, 1.0
-        return SAME
-    if owners == 1:
-        after[at + CONSTANT] = float(owner + 1)
-        if is_followed(c, i):
-            after[at + LIMIT] = factor
-        else:
-            after[MODE_NUMBERS * owner + LIMIT] += factor * c.holds[i]
-        return SAME
-    pressed = c.rows.pressed[i] != 0
-    for j in range(1, owners + 1):
-        pressed = pressed or c.rows.pressed[c.named[j]] != 0
-    if pressed:
-        for j in range(owners + 1, k + 1):
-            c.named[j] = -1
-        return NOT_DETERMINED
-    after[at + CONSTANT], after[at + EFFORT] = AT_REST, c.forces[i]
-    if is_followed(c, i):  # an effort at its bound is not watched at zero, and none is not watched
-        slack = ROUNDED * (c.problem.scale[i] + abs(c.forces[i]) + c.holds[i])
-        after[at + LIMIT] = slack if abs(c.forces[i]) > slack else 1.0
-    return SAME
+    c.after[at + CONSTANT], c.after[at + LIMIT] = AT_REST, 1.0
+    if c.rows.pushes[i] == 0:
+        slack = 0.1 * ROUNDED * (c.problem.scale[i] + abs(c.forces[i]) + c.holds[i])
+        c.after[at + EFFORT] = c.forces[i]
+        c.after[at + LIMIT] = slack if abs(c.forces[i]) > slack else 1.0

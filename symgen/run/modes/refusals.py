@@ -25,12 +25,11 @@ from symgen.run.modes.bounded_rows import (
     NO_NUMBER,
     NO_RESTITUTION,
     NOT_APPLIED,
-    NOT_DETERMINED,
     NOT_FINITE,
+    NOTHING_FOUND,
     REDUNDANT,
     SEVERAL_BY_REACTION,
     SEVERAL_MODES,
-    SHARED,
     TWO_PIECES,
 )
 
@@ -59,6 +58,7 @@ class Sentence(NamedTuple):
 OF_KIND = {
     TWO_PIECES: {"corners"},
     NO_CONTACT_MODES: {"contacts"},
+    NOTHING_FOUND: {"contacts"},
     SEVERAL_MODES: {"contacts"},
     GAINED: {"contacts", "reactions"},
     SEVERAL_BY_REACTION: {"pressed", "reactions"},
@@ -78,11 +78,6 @@ SENTENCES = {
     ),
     NOT_FINITE: Sentence("{a_kind}", "accelerations that are finite", "others at t = {t:.6g} s"),
     NO_FORCES: Sentence("{a_kind}", "forces at rest that can be found", "none after many changes"),
-    NOT_DETERMINED: Sentence(
-        "{a_kind}",
-        "{all} whose forces at rest are determined, or share one direction of motion",
-        "forces of {names} that rest at one time",
-    ),
     JAMMED: Sentence(
         "{by_reaction} of {name}",
         "{by_reaction} that brings about less than all of its own reaction (a jamming number below 1)",
@@ -94,11 +89,6 @@ SENTENCES = {
         "{row}, which other rows determine",
     ),
     DISAGREED: Sentence("{by_reaction}", "bounds and reactions that agree", "others at {pressed} after many changes"),
-    SHARED: Sentence(
-        "{by_reaction}",
-        "{by_reaction} by reactions whose forces at rest are determined, or that rests for good",
-        "{names} at rest at one time, beside what changes",
-    ),
     IMMOVABLE: Sentence(
         "{kind} {name}",
         "an impact that can change the rate of the gap",
@@ -118,6 +108,12 @@ SENTENCES = {
         "contact {name}",
         "a finite force",
         "none at t = {t:.9g} s: its mobility less that of its friction is {first:.6g} (at most 0 jams)",
+        "a smaller coefficient of friction",
+    ),
+    NOTHING_FOUND: Sentence(
+        "contact {name}",
+        "forces within the bounds of all contacts and friction that depend on each other",
+        "none that are found at t = {t:.9g} s among {first:.0f} rows",
         "a smaller coefficient of friction",
     ),
     SEVERAL_MODES: Sentence("contacts", "one motion at t = {t:.9g} s", "several: {modes}, and {others}"),

@@ -4,8 +4,6 @@ Where more rows rest than the mechanism has freedom, forces at rest are not dete
 and others keep the efforts that they have, until one is at its bound. As any forces within all bounds hold, efforts are
 then shared out anew: those whose largest part of a static bound is least. Only where this part is 1 does the row move.
 Rows that begin to move have their sliding forces before others at rest are let go for good.
-
-Bounds that depend on reactions have another `solve_within` (`symgen.run.modes.agreement`).
 """
 
 from __future__ import annotations
@@ -34,7 +32,7 @@ from symgen.run.modes.box import INSIDE, is_contrary, solve_box
 from symgen.run.modes.row_records import Choice
 
 #: Rows are at their bounds beyond this part; number of halvings in which the least part is found.
-_SPENT, _HALVINGS = 1.0 - 1e-11, 30
+SPENT, HALVINGS = 1.0 - 1e-11, 30
 
 
 @exact()
@@ -111,15 +109,15 @@ def share_anew(c: Choice, n: int) -> float:
 
     Where there is none it is loose, and the part is 1.
     """
-    low, high, found = 0.0, _SPENT, False
+    low, high, found = 0.0, SPENT, False
     for r in range(n):
         i = c.rest[r]
         if c.found.broken[i] != 0 and c.loose[i] != 0 and c.rows.pushes[i] == 0 and is_shared(c, n, i):
             c.taken[i], found = 1, True
     if not found:
         return 1.0
-    if rest_within(c, n, _SPENT):
-        for _ in range(_HALVINGS):
+    if rest_within(c, n, SPENT):
+        for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
             if rest_within(c, n, middle):
                 high = middle

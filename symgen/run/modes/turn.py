@@ -32,13 +32,12 @@ from symgen.run.modes.bounded_rows import (
     NO_IMPULSES,
     NO_RESTITUTION,
     NOT_APPLIED,
-    NOT_DETERMINED,
+    NOTHING_FOUND,
     OTHERS,
     OUT_OF_RANGE,
     SAME,
     SEVERAL_BY_REACTION,
     SEVERAL_MODES,
-    SHARED,
     SIGN,
     switch_off,
 )
@@ -113,7 +112,7 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
     which = float(row)
     if code == JAMMED:
         first = c.jam[0]
-    elif code == NOT_DETERMINED or code == SHARED or code == SEVERAL_BY_REACTION:
+    elif code == SEVERAL_BY_REACTION:
         which = set_of(c.named, c.rows.count + 1)
     elif code == NO_IMPULSES:
         which = set_of(c.rest, c.at_rest[0])
@@ -132,7 +131,9 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
         first = c.read.value[row]
     elif code == IMMOVABLE:
         first = c.read.speed[row]
-    elif (CONTACTS and code == NO_CONTACT_MODES) or ((CONTACTS or REACTIONS) and code == GAINED):
+    elif (CONTACTS and (code == NO_CONTACT_MODES or code == NOTHING_FOUND)) or (
+        (CONTACTS or REACTIONS) and code == GAINED
+    ):
         first = c.jam[0]
     elif CONTACTS and code == SEVERAL_MODES:
         first, second = modes_in_digits(c, c.best), modes_in_digits(c, c.other)

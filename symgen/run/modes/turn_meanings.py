@@ -29,7 +29,7 @@ CORNERED = Meanings("runs with corners of gaps", meet_impacts=strike_past_corner
 PRESSED = Meanings(
     "runs with bounds that depend on reactions",
     SEEKS=True,
-    choose_modes=exact_instance(choose_contacts, BY_REACTIONS | {"ONE_SIDED": False}),
+    choose_modes=exact_instance(choose_contacts, BY_REACTIONS),
 )
 IN_PIECES = Meanings("runs with gaps of several pieces", PIECES=True)
 TOUCHED = Meanings(

@@ -297,8 +297,8 @@ def test_rows_choose_modes_by_reactions_in_compiled_loops(integrator: str, coord
 
 
 @pytest.mark.slow
-def test_pins_that_share_their_rest_rest_for_good_or_are_refused() -> None:
-    """Four pins whose forces at rest nothing determines: a torque that follows the time may break them loose."""
+def test_pins_that_share_their_rest_rest_as_long_as_any_forces_hold() -> None:
+    """Four pins whose forces at rest nothing determines, beside a torque that follows the time, as single runs do."""
     raw, source = read_raw("four-bar")
     raw = copy.deepcopy(raw)
     raw["parameters"]["mu"] = 2.0
@@ -309,7 +309,9 @@ def test_pins_that_share_their_rest_rest_for_good_or_are_refused() -> None:
     assert rows.status[0] == "ok" and abs(rows["crank.omega"][0, 0]) < 1e-14
     raw["forces"] = {**raw.get("forces", {}), "motor": {"type": "torque", "body": "crank", "torque": "0.01*sin(t)"}}
     model = symgen.Model(validate(raw, source))
-    with pytest.raises(InputError, match=r"got A, B, C, D at rest at one time, beside what changes") as refused:
-        model.simulate(**settings)
-    rows = model.sweep({"mu": [0.2, 2.0]}, **settings)
-    assert list(rows.status) == ["ok", "failed"] and rows.reason[1] == str(refused.value)
+    rows = model.sweep({"mu": [0.2, 2.0]}, quantities=("crank.theta", "crank.omega"), times=[0.5], **settings)
+    assert list(rows.status) == ["ok", "ok"] and abs(rows["crank.omega"][1, 0]) < 1e-14
+    result = model.simulate(**settings)
+    for pin in "ABCD":
+        reaction = np.hypot(result[f"{pin}.Fx"], result[f"{pin}.Fy"])
+        assert np.all(np.abs(result[f"{pin}.force"]) <= 2.0 * 0.3 * reaction * (1.0 + 1e-9))

@@ -67,7 +67,6 @@ FAULTS = {
         0.0,
         "friction of guide: expected a bound in motion above 0, as that at rest is above 0, got 0",
     ),
-    "shared": (pins(0.2, forces=MOTOR), 2.0, "got A, B, C, D at rest at one time, beside what changes"),
 }
 COORDINATES = "absolute", "joint"
 
