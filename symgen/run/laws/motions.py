@@ -17,12 +17,14 @@ from symgen.run.laws.problem import (
     OFF,
     ON,
     PUSH,
+    TINY,
     UPPER,
     Laws,
     acceleration_of,
     bound_of,
     load_of,
     middle_of,
+    mobility_of,
     rows_of,
     size_of,
 )
@@ -36,6 +38,8 @@ COUNTED = 256
 #: Beginnings: the forces that are there, rest, none, and sweeps of row after row; what holds all, by many sweeps.
 _GIVEN, _AT_REST, _NONE, _SWEPT = range(4)
 _BEGINNINGS, _SOUGHT, _SWEEPS, _HELD, _RELAXED = 6, 5, 5, 6, 300
+#: Balls of two rows take part in more sweeps than these: what is near without their forces is found before.
+_LONG = 25
 #: Forces above are no beginning; accelerations of two motions differ by more than this part.
 _HUGE, _ONE = 1e100, 1e-7
 #: Accelerations of chosen states below this part of what they are differences of are rounding.
@@ -59,6 +63,12 @@ def sweep_laws(n: int, times: int, laws: Laws) -> None:
                     laws.forces[i] = 0.0
                 else:
                     laws.forces[i] = middle + min(max(wants - middle, -bound), bound)
+            elif times > _LONG and laws.law[i] == BALL and laws.way[i] == laws.way[i + 1] == 0.0:
+                own = max(mobility_of(n, i, laws), TINY)
+                x = laws.forces[i] + acceleration_of(n, i, laws) / own
+                y = laws.forces[i + 1] + acceleration_of(n, i + 1, laws) / own
+                part = min(1.0, bound_of(n, i, laws) / max(math.sqrt(x * x + y * y), TINY))
+                laws.forces[i], laws.forces[i + 1] = part * x, part * y
 
 
 @exact()

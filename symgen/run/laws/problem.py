@@ -24,9 +24,8 @@ from symgen.run.layout.scales import larger_number
 PUSH, BALL, SECOND, NOTHING = range(4)
 #: What a row does: no force; rest, or a gap that stays closed; at its upper and at its lower bound.
 OFF, ON, UPPER, LOWER = range(4)
-#: Most components of a load.
-COMPONENTS = 3
-_TINY = 1e-300
+#: Most components of a load; a size that is no divisor of zero.
+COMPONENTS, TINY = 3, 1e-300
 
 
 class Laws(Record):
@@ -189,7 +188,7 @@ def root_of(n: int, i: int, laws: Laws) -> float:
 @exact()
 def size_of(n: int, laws: Laws) -> float:
     """Return the largest acceleration without forces, or by forces in motion, over the root of its mobility."""
-    most = _TINY
+    most = TINY
     for i in range(n):
         root = root_of(n, i, laws)
         most = larger_number(most, abs(laws.offset[i]) / root if mobility_of(n, i, laws) > 0.0 else 0.0)
