@@ -17,6 +17,8 @@ from symgen.run.modes.row_records import Choice
 
 #: Rows depend on each other above this part of their own mobilities.
 COUPLED = 1e-12
+#: Whether some rows with two bounds depend on no force; parts of these have a problem of their own.
+PLAIN = True
 
 
 @exact()
@@ -91,8 +93,8 @@ def has_reaction(c: Choice, count: int) -> bool:
 
 @exact()
 def has_loads(c: Choice, count: int) -> bool:
-    """Return whether bounds of a part depend on forces, and any row may rest."""
-    loads, rests = has_reaction(c, count), False
+    """Return whether the laws are for a part: its bounds depend on forces, and any row may rest."""
+    loads, rests = has_reaction(c, count) or not PLAIN, False
     for a in range(count):
         i = c.box.order[a]
         loads = loads or c.rows.partner[i] >= 0

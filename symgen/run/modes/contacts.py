@@ -35,8 +35,8 @@ from symgen.run.modes.bounded_rows import (
 from symgen.run.modes.choice import find_rest, write_modes
 from symgen.run.modes.choice import measure_margins as measure_margins_of_rows
 from symgen.run.modes.contact_laws import fill_part, find_forces_of_part, is_still, part_used, solve_by_laws
-from symgen.run.modes.contact_parts import choose_part, find_parts, find_redundant, has_loads, keep_touching
-from symgen.run.modes.holding import carry_force, hold_row, hold_rows, keep_force
+from symgen.run.modes.contact_parts import PLAIN, choose_part, find_parts, find_redundant, has_loads, keep_touching
+from symgen.run.modes.holding import carry_force, hold_row, hold_rows, keep_force, set_holds, write_signs
 from symgen.run.modes.probing import add_forces, by_reaction, probe_contacts, size_forces_of_parts
 from symgen.run.modes.resting import HALVINGS, SPENT, solve_rest
 from symgen.run.modes.row_records import Choice
@@ -99,16 +99,26 @@ def hold_again(c: Choice, count: int, first: int) -> int:
 
 
 @exact()
+def leaves_its_bound(c: Choice, count: int, a: int) -> bool:
+    """Return whether a row with a bound at rest moves by the forces found, or has more than its bound."""
+    i = c.box.order[a]
+    if c.rows.pushes[i] != 0 or c.rows.partner[i] >= 0 or c.loose[i] != 0 or c.signs[i] != 0.0:
+        return False
+    if c.laws.state[a] != ON and not is_still(c, count, a, STILL):
+        return True
+    return bool(part_used(c, count, a) * SPENT > 1.0)
+
+
+@exact()
 def rests_within(c: Choice, count: int, part: float) -> bool:
     """Whether all rows with bounds at rest rest by forces within a part of these."""
     fill_part(c, count, part)
-    found = find_forces_of_part(c, count)
+    if not find_forces_of_part(c, count):
+        return False
     for a in range(count):
-        i = c.box.order[a]
-        dry = c.rows.pushes[i] == 0 and c.rows.partner[i] < 0 and c.loose[i] == 0 and c.signs[i] == 0.0
-        rests = c.laws.state[a] == ON or is_still(c, count, a, STILL)
-        found = found and (not dry or (rests and part_used(c, count, a) * SPENT <= 1.0))
-    return bool(found)
+        if leaves_its_bound(c, count, a):
+            return False
+    return True
 
 
 @exact()
@@ -168,7 +178,9 @@ def write_part(c: Choice, count: int) -> None:
         elif c.best[i] == ON:
             keep_force(c, i)
         c.signs[i] = 1.0 if c.best[i] == UPPER else (-1.0 if c.best[i] == LOWER else 0.0)
-        if c.best[i] == OFF and c.rows.partner[i] < 0:  # its rate only passes zero, as at a dead centre
+        if (
+            c.best[i] == OFF and c.rows.pushes[i] == 0 and c.rows.partner[i] < 0
+        ):  # its rate only passes zero, as at a dead centre
             c.signs[i] = sign_of_number(c.trial[i])
         c.after[MODE_NUMBERS * i + SIGN] = 0.0 if c.rows.pushes[i] != 0 else c.signs[i]
 
@@ -225,18 +237,22 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
         code = choose_parts(c, rows)
         if code != SAME:
             return int(code)
+    if PLAIN:
         for r in range(n):
             if c.taken[c.rest[r]] != 2:
                 c.rest[left] = c.rest[r]
                 left += 1
-    c.at_rest[0] = left
-    for i in range(c.rows.count):
-        c.taken[i] = 0
-    if left > 0:
-        code = solve_rest(c, left, w)
-        if code != SAME:
-            return int(code)
-    hold_rows(c, w)
+        c.at_rest[0] = left
+        for i in range(c.rows.count):
+            c.taken[i] = 0
+        if left > 0:
+            code = solve_rest(c, left, w)
+            if code != SAME:
+                return int(code)
+        hold_rows(c, w)
+    else:
+        set_holds(c)
+        write_signs(c)
     add_forces(c)
     for i in range(c.rows.count):
         struck = struck or c.shut[i] != 0

@@ -5,7 +5,6 @@ from __future__ import annotations
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array
-from symgen.run.effects.pushing import REACTIONS
 from symgen.run.layout.scales import larger_number
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
@@ -76,6 +75,20 @@ def take_rows(c: Choice, n: int, which: int, w: Array) -> None:
                 left[i * k + j] -= c.trial[i] * c.box.right[j] / pivot
 
 
+@exact()
+def set_holds(c: Choice) -> None:
+    """Set the bounds at rest as forces."""
+    for i in range(c.rows.count):
+        c.holds[i] = c.read.static[i] * (c.sizes[i] if by_reaction(c, i) else 1.0)
+
+
+@exact()
+def write_signs(c: Choice) -> None:
+    """Write the signs of rates to the modes."""
+    for i in range(c.rows.count):
+        c.after[MODE_NUMBERS * i + SIGN] = 0.0 if c.rows.pushes[i] != 0 else c.signs[i]
+
+
 @exact(entry=True)
 def hold_rows(c: Choice, w: Array) -> int:
     """Put independent rows among those at rest into force; set their constants and largest efforts.
@@ -88,8 +101,7 @@ def hold_rows(c: Choice, w: Array) -> int:
     k, n = c.rows.count, c.at_rest[0]
     for i in range(k * k):
         c.rest_of[i] = c.problem.matrix[i]
-    for i in range(k):
-        c.holds[i] = c.read.static[i] * (c.sizes[i] if REACTIONS and c.rows.pressed[i] != 0 else 1.0)
+    set_holds(c)
     kept = 0
     for r in range(n):
         i = c.rest[r]
@@ -113,8 +125,7 @@ def hold_rows(c: Choice, w: Array) -> int:
         other = c.taken[i] == 0 and c.signs[i] == 0.0 and c.problem.matrix[i * k + i] > DEPENDENT * c.problem.alone[i]
         if other and not (c.rows.pushes[i] != 0 and undetermined_part(c, i) > DEPENDENT):
             share_force(c, i, count)
-    for i in range(k):
-        c.after[MODE_NUMBERS * i + SIGN] = 0.0 if c.rows.pushes[i] != 0 else c.signs[i]
+    write_signs(c)
     return int(count)
 
 

@@ -54,6 +54,17 @@ REACTING = Meanings(
     strike=exact_instance(strike_contacts, BY_REACTIONS),
     gather=exact_instance(gather_contacts, BY_REACTIONS),
 )
+#: No box problem of rows without loads.
+LOADED = Meanings(
+    "runs with contacts in which bounds of all two-sided rows depend on forces",
+    choose_modes=exact_instance(choose_contacts, {"PLAIN": False}),
+    gather=exact_instance(gather_contacts, {"PLAIN": False}),
+)
+LOADED_BY_REACTIONS = Meanings(
+    "runs in which bounds of all two-sided rows depend on forces, some on reactions",
+    choose_modes=exact_instance(choose_contacts, BY_REACTIONS | {"PLAIN": False}),
+    gather=exact_instance(gather_contacts, BY_REACTIONS | {"PLAIN": False}),
+)
 BY_POISSON = Meanings(
     "runs whose restitutions are ratios of impulses",
     strike=exact_instance(strike_contacts, BY_REACTIONS | {"POISSON": True}),
@@ -62,6 +73,7 @@ BY_POISSON = Meanings(
 TURNING = {
     **{"pressed": PRESSED, "corners": CORNERED, "pieces": IN_PIECES, "contacts": TOUCHED, "reactions": REACTING},
     **{"poisson": BY_POISSON, "holding": HOLDING},
+    **{"loaded": LOADED, "loaded by reactions": LOADED_BY_REACTIONS},
 }
 
 
