@@ -192,7 +192,7 @@ def hold_row(c: Choice, i: int) -> None:
 
 @exact()
 def carry_force(c: Choice, i: int, owner: int, factor: float) -> None:
-    """Have a row in force carry that of another one, of which a unit is `factor` of its own."""
+    """Have row `owner` carry the force of row `i`: `factor` of its own for each unit."""
     c.after[MODE_NUMBERS * i + CONSTANT] = float(owner + 1)
     if c.rows.partner[i] >= 0 or is_followed(c, i):
         c.after[MODE_NUMBERS * i + LIMIT] = factor
