@@ -14,6 +14,7 @@ from tests.result.targets.test_exchanged_modes import Importer, exchanged
 from tests.result.targets.test_fmu import fmu_of, importer_of
 from tests.result.targets.test_fmu_derivatives import Unit, differences
 from tests.run.contacts.scenes import CRANK, DROP, G, loaded, place_of_disc, rocking_block, woodpecker
+from tests.run.contacts.scenes_in_space import DIE
 from tests.run.contacts.test_poisson import wheel
 from tests.run.contacts.test_reactions_beside import cart, two_rods
 from tests.run.contacts.test_stacks import stack
@@ -29,11 +30,12 @@ SCENES = {
     "pins beside a contact": (two_rods(touch="contact"), 1.0, 3, "absolute", 1e-8),
     "wheel at a kerb": (wheel(0.1, 8.0, 0.4, 0.3)[0], 0.5, 2, "absolute", 1e-9),
     "slider with play": (CRANK, 0.014, 2, "absolute", 1e-7),
+    "die in space": (DIE, 0.6, 3, "absolute", 1e-8),
     "stack": (stack(np.array([0.0, 0.02, -0.01]), 0.02), 0.5, 3, "absolute", 1e-9),
 }
 
 
-@pytest.mark.by_turns(9)
+@pytest.mark.by_turns(10)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_scenes_are_those_of_runs(name, tmp_path):
