@@ -188,7 +188,7 @@ REFUSED = [
     ("nothing.x", "got the unknown body or joint 'nothing'"),
     ([1.0], "expected a number or an expression of t, parameters and what is known of the motion"),
     ({"value": "t", "units": "m"}, "got the unknown key 'units'; did you mean 'unit'?"),
-    ({"unit": "m"}, "outputs.wrong.value: expected a number or an expression"),
+    ({"unit": "m"}, "outputs.wrong: expected one of value and ray, got none of them"),
 ]
 
 

@@ -37,7 +37,7 @@ def value_of_output(scope: Scope, key: str, section: OutputSection) -> Expr:
     if section.ray is not None and section.value is None:
         return _Ray(scope, section.ray).distance(section.ray)
     if section.ray is not None or section.value is None:
-        raise scope.error(key, "one of value and ray", "both" if section.ray is not None else "none of them")
+        raise scope.error("", "one of value and ray", "both" if section.ray is not None else "none of them")
     return scope.of_motion(key, section.value)
 
 

@@ -19,7 +19,7 @@ from symgen.run.modes.strikes import BEST, COUNT, LAST, OF_SERIES, Strikes, acce
 _LOW, _LOST = 1e-6, 0.1
 #: Changes of a gap below this part of the mechanism's length are rounding.
 _RESOLVED = 2e-15
-#: Whether the impulses that bring gaps to rest have friction, along contacts or by reactions.
+#: Whether gaps come to rest beside rows whose bounds depend on forces, along contacts or by reactions.
 RUBS = False
 
 
@@ -107,7 +107,7 @@ def end_lost_flights(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arr
     return int(end_series(t, c, s, end, now, iw))
 
 
-#: The same where contacts or friction by reactions take part.
+#: The same where contacts or pins that rub take part.
 end_flights_that_rub = exact_instance(end_flights, {"RUBS": True})
 end_lost_flights_that_rub = exact_instance(end_lost_flights, {"RUBS": True})
 end_flights_by_reactions = exact_instance(end_flights, BY_REACTIONS | {"RUBS": True})
