@@ -24,9 +24,18 @@ DISC = (
 
 
 def slopes_of(
-    text: str, until: float, name: str, values: dict[str, float], folder: Path, within: float = 1e-6
+    text: str,
+    until: float,
+    name: str,
+    values: dict[str, float],
+    folder: Path,
+    within: float = 1e-6,
+    steps: dict[str, float] | None = None,
 ) -> dict[str, float]:
-    """Return derivatives of a coordinate at an end, which are the same forward, adjoint and by differences."""
+    """Return derivatives of a coordinate at an end, which are the same forward, adjoint and by differences.
+
+    `steps` are those of differences where they are not 1e-5.
+    """
     model, by = loaded(text, folder), list(values)
     settings: dict[str, Any] = {"integrator": "dop853", "until": until}
     forward = model.simulate(rtol=1e-11, sensitivities=by, verify=False, **settings)
@@ -35,11 +44,12 @@ def slopes_of(
     slopes = np.asarray(forward.sensitivities.table("q")).reshape(len(forward.t), -1, len(by))[-1, place]
     gradient = model.gradient(name, by=by, rtol=1e-11, way="adjoint", **settings)
     for (parameter, value), slope in zip(values.items(), slopes, strict=True):
+        step = (steps or {}).get(parameter, 1e-5)
         ends = [
             model.simulate(rtol=1e-12, parameters={parameter: value + h}, verify=False, **settings)[name][-1]
-            for h in (1e-5, -1e-5)
+            for h in (step, -step)
         ]
-        differences = (ends[0] - ends[1]) / 2e-5
+        differences = (ends[0] - ends[1]) / (2.0 * step)
         assert abs(slope - differences) < within * abs(differences) + 1e-9, parameter
         assert abs(gradient.by[parameter] - slope) < 1e-6 * abs(slope) + 1e-9, parameter
     return dict(zip(by, map(float, slopes), strict=True))
