@@ -7,6 +7,7 @@ signature. The spelling is Numba's, so that emitted modules, which name these ty
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -75,6 +76,11 @@ class RecordType:
     def fields(self) -> tuple[str, ...]:
         """Names of its parts, or empty."""
         return getattr(self.constructor, "_fields", ())
+
+    @functools.cached_property
+    def whole(self) -> bool:
+        """Whether all parts are integers of eight bytes."""
+        return all(part is int64 for part in self.parts)
 
     def __iter__(self) -> Iterator[Kind]:
         return iter(self.parts)

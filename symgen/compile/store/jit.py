@@ -123,13 +123,13 @@ class MachineFunction(ABC):
 
     def address(self, signature: types.Signature) -> int:
         """Return the address of the machine code."""
-        if is_by_numba():
-            from symgen.compile.store.numba_route import address_by_numba
-
-            return address_by_numba(self, signature)
         # callers ask with the same object again and again, whose types take long to hash
         latest = self._latest
         if latest is None or latest[0] is not signature:
+            if is_by_numba():
+                from symgen.compile.store.numba_route import address_by_numba
+
+                return address_by_numba(self, signature)
             latest = self._latest = signature, self.code(signature.arguments).address
         return latest[1]
 

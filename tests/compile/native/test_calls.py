@@ -63,6 +63,21 @@ def test_slots_and_what_is_in_them():
         argument_type("x")
 
 
+def test_addresses_of_arrays_that_are_empty_or_not_to_be_written():
+    kept, empty = np.arange(6.0), np.zeros((0, 3))
+    kept.flags.writeable = False
+    for array in (kept, kept[2:], empty, np.arange(6.0)[3:]):
+        assert slot_values(ArrayType(float64, array.ndim), array)[0] == array.ctypes.data
+
+
+def test_records_of_integers_alone():
+    sizes = RecordType((int64, int64), Pair)
+    assert slot_values(sizes, Pair(np.int64(3), 4)) == [3, 4]
+    for few in ((3,), (3, 4, 5)):
+        with pytest.raises(ValueError, match="zip"):
+            slot_values(sizes, few)
+
+
 @pytest.mark.parametrize("value", [None, [1.0], np.zeros(2, int), np.zeros((1, 2)), np.zeros(4)[::2]])
 def test_another_array_is_refused(value):
     with pytest.raises(TypeError, match="expected an array"):
