@@ -65,14 +65,38 @@ def solid(
     shape: Callable[[Array], Array] = lambda x: x,
 ) -> Mesh:
     """Return a block of quadratic elements along the first axis, bent by `shape`; in the plane in plane stress."""
-    d, points, weights = len(sizes), *np.polynomial.legendre.leggauss(3)
-    lines = [
-        np.linspace(-0.5 * s if i else 0.0, 0.5 * s if i else s, 2 * c + 1)
+    edges = [
+        np.linspace(-0.5 * s if i else 0.0, 0.5 * s if i else s, c + 1)
         for i, (s, c) in enumerate(zip(sizes, counts, strict=True))
     ]
-    grid = np.array(list(product(*lines)))
-    x, steps = shape(grid), np.array([len(line) for line in lines])
-    number = np.arange(len(x)).reshape(steps)
+    return blocks(edges, None, young, poisson, density, thick, shape)
+
+
+def blocks(
+    edges: list[Array],
+    keep: Callable[[Array], Any] | None = None,
+    young: float = 2e9,
+    poisson: float = 0.3,
+    density: float = 1000.0,
+    thick: float = 1.0,
+    shape: Callable[[Array], Array] = lambda x: x,
+    grade: Callable[[Array], tuple[float, float]] = lambda x: (1.0, 1.0),
+) -> Mesh:
+    """Return quadratic elements between edges along each axis: those whose middles are to be kept.
+
+    `shape` bends them, and `grade` has factors of stiffness and density by the middle of an element.
+    """
+    d, points, weights = len(edges), *np.polynomial.legendre.leggauss(3)
+    lines = [np.sort(np.concatenate([e, 0.5 * (e[1:] + e[:-1])])) for e in edges]
+    grid, steps = np.array(list(product(*lines))), [len(line) for line in lines]
+    number = np.arange(len(grid)).reshape(steps)
+    places = [tuple(slice(2 * c, 2 * c + 3) for c in cell) for cell in product(*(range(len(e) - 1) for e in edges))]
+    kept = [number[place].ravel() for place in places]
+    kept = [nodes for nodes in kept if keep is None or keep(grid[nodes].mean(axis=0))]
+    used = np.unique(np.concatenate(kept))
+    own_number = np.full(len(grid), -1)
+    own_number[used] = np.arange(len(used))
+    x = shape(grid[used])
     if d == 2:
         law = young / (1 - poisson**2) * np.array([[1, poisson, 0], [poisson, 1, 0], [0, 0, (1 - poisson) / 2]]) * thick
     else:
@@ -85,8 +109,7 @@ def solid(
         )
     rho = density * (thick if d == 2 else 1.0)
     rows, columns, stiff, heavy, plain, cells = [], [], [], [], [], []
-    for cell in product(*(range(c) for c in counts)):
-        nodes = number[tuple(slice(2 * c, 2 * c + 3) for c in cell)].ravel()
+    for nodes in (own_number[these] for these in kept):
         cells.append(nodes)
         k, m = np.zeros((d * len(nodes),) * 2), np.zeros((len(nodes),) * 2)
         for at in product(range(3), repeat=d):
@@ -98,6 +121,8 @@ def solid(
             g = np.linalg.solve(jacobian, slopes)
             k += volume * (b := _strains(g)).T @ law @ b
             m += volume * rho * np.outer(n, n)
+        stiffer, heavier = grade(x[nodes].mean(axis=0))
+        k, m = stiffer * k, heavier * m
         own = (nodes[:, None] * d + np.arange(d)).ravel()
         rows.append(np.repeat(own, len(own)))
         columns.append(np.tile(own, len(own)))
@@ -111,8 +136,8 @@ def solid(
         x,
         sparse.csc_array((np.concatenate(heavy), place), shape=size),
         sparse.csc_array((np.concatenate(stiff), place), shape=size),
-        number[0].ravel(),
-        number[-1].ravel(),
+        own_number[[n for n in number[0].ravel() if own_number[n] >= 0]],
+        own_number[[n for n in number[-1].ravel() if own_number[n] >= 0]],
         sparse.csc_array((values, (i, j)), shape=(len(x),) * 2),
         tuple(cells),
         law / (thick if d == 2 else 1.0),

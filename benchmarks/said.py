@@ -276,6 +276,7 @@ SAID: Mapping[str, Table | str] = {
     "exudyn/rigidBodyTutorial2": chain_in_space(2),
     "exudyn/rigidPendulum": chain(1),
     "exudyn/simple4linkPendulumBing": chain(4),
+    "exudyn/solutionViewerTest": chain_in_space(6),
     "exudyn/slidercrankWithMassSpring": engine(
         forces={"hold": spring("ground", "piston", [[1.0, 0.0], "centre"], 30.0)}
     ),
