@@ -26,7 +26,7 @@ from symgen.run.laws.problem import (
     middle_of,
     mobility_of,
     rows_of,
-    size_of,
+    weigh_laws,
 )
 from symgen.run.laws.sharing import spread_forces
 from symgen.run.laws.verify import obeys, size_of_terms
@@ -170,7 +170,7 @@ def moves_alike(n: int, laws: Laws) -> bool:
 
     Differences count over what forces of all rows make, and those that are as large as what is there without forces.
     """
-    most = size_of(n, laws)
+    most = weigh_laws(n, laws)
     for i in range(n):
         most += math.sqrt(abs(laws.matrix[i * n + i])) * (abs(laws.forces[i]) + abs(laws.first[n + i]))
     for i in range(n):
@@ -197,13 +197,22 @@ def moves_as_chosen(n: int, laws: Laws) -> bool:
 
 
 @exact()
+def is_first(n: int, laws: Laws) -> bool:
+    """Whether the first motion has the chosen states."""
+    for i in range(n):
+        if laws.state[i] != laws.does[i]:
+            return False
+    return True
+
+
+@exact()
 def try_combinations(n: int, differs: bool, laws: Laws) -> bool:
     """Whether a combination has a motion, or one that `differs` from that kept."""
     found, more = False, True
     while more and not found:
-        found = choose_states(n, laws) and follow_laws(n, True, laws)
-        if found and not obeys(n, laws):
-            found = spread_forces(n, laws) and obeys(n, laws)
+        found = choose_states(n, laws) and not (differs and is_first(n, laws)) and follow_laws(n, True, laws)
+        if found and not obeys(n, laws):  # where forces are many others may
+            found = laws.column[n - 1] < 0 and spread_forces(n, laws) and obeys(n, laws)
         found = found and moves_as_chosen(n, laws) and not (differs and moves_alike(n, laws))
         more = next_combination(n, laws)
     return found
@@ -265,15 +274,27 @@ def find_another(n: int, laws: Laws) -> bool:
 
 
 @exact()
+def is_one_contact(n: int, laws: Laws) -> bool:
+    """Whether the rows are one contact whose acceleration its friction cannot turn about: then its motion is one."""
+    if n != 2:
+        return False
+    gap = 0 if laws.law[0] == PUSH else 1
+    own, across, rub = laws.matrix[3 * gap], laws.matrix[1], 1 - gap
+    regular = own * laws.matrix[3 * rub] > (1.0 + _ONE) * across * across
+    return bool(laws.presser[rub] == gap and regular and own > (1.0 + _ONE) * laws.kappa[rub] * abs(across))
+
+
+@exact()
 def count_motions(n: int, laws: Laws) -> int:
     """Return how many motions there are beside the one found: `ONE_MOTION`, `SEVERAL_MOTIONS` or `NOT_SOUGHT`.
 
-    Without loads forces minimise a convex function, and the motion is one.
+    Without loads forces minimise a convex function, and the motion is one. So it is of one contact whose mobility has
+    the same sign in all that its friction may do.
     """
     depends = False
     for i in range(n):
         depends = depends or laws.presser[i] >= 0 or laws.components[i] > 0
-    if not depends:
+    if not depends or is_one_contact(n, laws):
         return ONE_MOTION
     if count_combinations(n, laws) > COUNTED:
         return NOT_SOUGHT

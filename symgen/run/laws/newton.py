@@ -23,10 +23,9 @@ from symgen.run.laws.problem import (
     load_within,
     middle_of,
     mobility_of,
-    root_of,
     rows_of,
-    size_of,
     slope_of_load,
+    weigh_laws,
 )
 from symgen.run.layout.scales import larger_number
 
@@ -40,14 +39,14 @@ _LESS = 1e-4
 
 
 @exact()
-def fill_push(n: int, i: int, root: float, most: float, chosen: bool, laws: Laws) -> None:
-    """Write what is missing where a row pushes, and its slopes; set its state unless that is `chosen`."""
+def fill_push(n: int, i: int, most: float, chosen: bool, sloped: bool, laws: Laws) -> None:
+    """Write what is missing where a row pushes, and slopes if asked for; set the state unless it is `chosen`."""
     own, left = laws.matrix[i * n + i], acceleration_of(n, i, laws)
     if not chosen:
         laws.state[i] = ON if laws.law[i] == PUSH and own > 0.0 and laws.forces[i] + left / own < 0.0 else OFF
     closed = laws.state[i] == ON and own > 0.0
-    laws.right[i] = (left / own if closed else laws.forces[i]) * root / most
-    for j in range(n):
+    laws.right[i] = (left / own if closed else laws.forces[i]) * laws.root[i] / most
+    for j in range(n if sloped else 0):
         if closed:
             laws.slopes[i * n + j] = -laws.matrix[i * n + j] / own
         else:
@@ -55,8 +54,8 @@ def fill_push(n: int, i: int, root: float, most: float, chosen: bool, laws: Laws
 
 
 @exact()
-def fill_ball(n: int, i: int, root: float, most: float, chosen: bool, laws: Laws) -> None:
-    """Write what is missing at a ball of one row, and its slopes; set its state unless that is `chosen`."""
+def fill_ball(n: int, i: int, most: float, chosen: bool, sloped: bool, laws: Laws) -> None:
+    """Write what is missing at a ball of one row, and slopes if asked for; set the state unless it is `chosen`."""
     own, left, load = laws.matrix[i * n + i], acceleration_of(n, i, laws), load_within(n, i, chosen, laws)
     bound, middle = laws.beta[i] + laws.kappa[i] * load, middle_of(i, load, laws)
     if laws.way[i] != 0.0:
@@ -70,12 +69,12 @@ def fill_ball(n: int, i: int, root: float, most: float, chosen: bool, laws: Laws
     if laws.components[i] > 0 and laws.way[i] == 0.0:
         factor = laws.middle[i]
     if laws.state[i] == ON:
-        laws.right[i] = left / own * root / most
+        laws.right[i] = left / own * laws.root[i] / most
     elif laws.state[i] == OFF:
-        laws.right[i] = laws.forces[i] * root / most
+        laws.right[i] = laws.forces[i] * laws.root[i] / most
     else:
-        laws.right[i] = (laws.forces[i] - middle - side * bound) * root / most
-    for j in range(n):
+        laws.right[i] = (laws.forces[i] - middle - side * bound) * laws.root[i] / most
+    for j in range(n if sloped else 0):
         if laws.state[i] == ON:
             laws.slopes[i * n + j] = -laws.matrix[i * n + j] / own
         else:
@@ -86,8 +85,8 @@ def fill_ball(n: int, i: int, root: float, most: float, chosen: bool, laws: Laws
 
 
 @exact()
-def fill_disc(n: int, i: int, root: float, most: float, chosen: bool, laws: Laws) -> None:
-    """Write what is missing at a ball of two rows, and its slopes; set its state unless that is `chosen`."""
+def fill_disc(n: int, i: int, most: float, chosen: bool, sloped: bool, laws: Laws) -> None:
+    """Write what is missing at a ball of two rows, and slopes if asked for; set the state unless it is `chosen`."""
     own, load = mobility_of(n, i, laws), load_within(n, i, chosen, laws)
     bound, length, first, second = laws.beta[i] + laws.kappa[i] * load, 1.0, laws.way[i], laws.way[i + 1]
     moves, u, v = first != 0.0 or second != 0.0, 0.0, 0.0
@@ -104,9 +103,9 @@ def fill_disc(n: int, i: int, root: float, most: float, chosen: bool, laws: Laws
     laws.state[i + 1], rests = laws.state[i], laws.state[i] == ON and own > 0.0
     size = bound if laws.state[i] == UPPER else 0.0
     turns = 0.0 if moves or size == 0.0 or length == 0.0 else size / length
-    laws.right[i] = (u if rests else laws.forces[i] - size * first) * root / most
-    laws.right[i + 1] = (v if rests else laws.forces[i + 1] - size * second) * root / most
-    for j in range(n):
+    laws.right[i] = (u if rests else laws.forces[i] - size * first) * laws.root[i] / most
+    laws.right[i + 1] = (v if rests else laws.forces[i + 1] - size * second) * laws.root[i] / most
+    for j in range(n if sloped else 0):
         x, y = 1.0 if j == i else 0.0, 1.0 if j == i + 1 else 0.0
         along = -laws.matrix[i * n + j] / own if own > 0.0 else 0.0
         across = -laws.matrix[(i + 1) * n + j] / own if own > 0.0 else 0.0
@@ -120,31 +119,32 @@ def fill_disc(n: int, i: int, root: float, most: float, chosen: bool, laws: Laws
 
 
 @exact(entry=True)
-def miss_laws(n: int, most: float, chosen: bool, laws: Laws) -> float:
-    """Write what is missing at each law to ``right`` and its derivatives to ``slopes``; return the size of it.
+def miss_laws(n: int, most: float, chosen: bool, sloped: bool, laws: Laws) -> float:
+    """Write what is missing at each law to ``right``, and if asked for its derivatives to ``slopes``; return its size.
 
     Both are scaled by the roots of mobilities. With `chosen` states stay as they are, else they follow from forces.
     """
     size = 0.0
     for i in range(n):
-        root = root_of(n, i, laws)
         if laws.law[i] == PUSH or laws.law[i] == NOTHING:
-            fill_push(n, i, root, most, chosen, laws)
+            fill_push(n, i, most, chosen, sloped, laws)
         elif laws.law[i] == BALL and rows_of(n, i, laws) == 2:
-            fill_disc(n, i, root, most, chosen, laws)
+            fill_disc(n, i, most, chosen, sloped, laws)
         elif laws.law[i] == BALL:
-            fill_ball(n, i, root, most, chosen, laws)
+            fill_ball(n, i, most, chosen, sloped, laws)
     for i in range(n):
-        root = root_of(n, i, laws)
         size += laws.right[i] * laws.right[i]
-        for j in range(n):
-            laws.slopes[i * n + j] *= root / root_of(n, j, laws)
+        for j in range(n if sloped else 0):
+            laws.slopes[i * n + j] *= laws.root[i] / laws.root[j]
     return math.sqrt(size)
 
 
 @exact(entry=True)
 def solve_slopes(n: int, laws: Laws) -> int:
-    """Replace ``right`` by the solution of the equations of ``slopes``, 0 where it is free; return their rank."""
+    """Replace ``right`` by the solution of the equations of ``slopes``, 0 where it is free; return their rank.
+
+    The last ``column`` is -1 where some are free.
+    """
     slopes, right, column, rank, first = laws.slopes, laws.right, laws.column, 0, 0.0
     for j in range(n):
         column[j] = j
@@ -180,6 +180,8 @@ def solve_slopes(n: int, laws: Laws) -> int:
         laws.left[column[j]] = right[j] if j < rank else 0.0
     for j in range(n):
         right[j] = laws.left[j]
+    if rank < n:
+        column[n - 1] = -1
     return int(rank)
 
 
@@ -196,21 +198,25 @@ def follow_laws(n: int, chosen: bool, laws: Laws) -> bool:
 
     With `chosen` the states of the rows are given.
     """
-    most = size_of(n, laws)
-    size, found = miss_laws(n, most, chosen, laws), False
-    for _ in range(_STEPS):
+    most = weigh_laws(n, laws)
+    size, found = miss_laws(n, most, chosen, True, laws), False
+    for j in range(n):
+        laws.column[j] = -1
+    for step in range(_STEPS):
         if size <= _SOLVED:
             found = True
             break
+        if step > 0:
+            miss_laws(n, most, chosen, True, laws)
         solve_slopes(n, laws)
         for i in range(n):
             laws.kept[i] = laws.forces[i]
-            laws.left[i] = laws.right[i] * most / root_of(n, i, laws)
+            laws.left[i] = laws.right[i] * most / laws.root[i]
         part, better, before = 1.0, False, size
         for _halving in range(_HALVINGS):
             for i in range(n):
                 laws.forces[i] = laws.kept[i] - part * laws.left[i]
-            size = miss_laws(n, most, chosen, laws)
+            size = miss_laws(n, most, chosen, False, laws)
             if size < (1.0 - _LESS * part) * before or size <= _SOLVED:
                 better = True
                 break
@@ -218,11 +224,11 @@ def follow_laws(n: int, chosen: bool, laws: Laws) -> bool:
         if not better:
             for i in range(n):
                 laws.forces[i] = laws.kept[i]
-            size = miss_laws(n, most, chosen, laws)
+            size = miss_laws(n, most, chosen, False, laws)
             break
     largest = 1.0
     for i in range(n):
-        largest = larger_number(largest, abs(laws.forces[i]) * root_of(n, i, laws) / most)
+        largest = larger_number(largest, abs(laws.forces[i]) * laws.root[i] / most)
     found = found or size <= _ROUNDED * largest
     set_left(n, laws)
     return found

@@ -53,6 +53,8 @@ class Laws(Record):
         `OFF`, `ON`, `UPPER` or `LOWER`.
     other : Array of int64, shape (k,)
         States of a second motion, where there are several.
+    root : Array, shape (k,)
+        Roots of own mobilities, 1 for rows that nothing moves: units cancel by them.
     slopes, right, kept, first, column, option, does, depends : Array, Array of int64
         Working memory.
     """
@@ -72,6 +74,7 @@ class Laws(Record):
     left: Array
     state: Integers
     other: Integers
+    root: Array
     slopes: Array
     right: Array
     kept: Array
@@ -179,22 +182,15 @@ def mobility_of(n: int, i: int, laws: Laws) -> float:
 
 
 @exact()
-def root_of(n: int, i: int, laws: Laws) -> float:
-    """Return the root of the own mobility of a law, 1 for rows that nothing moves: units cancel by it."""
-    own = mobility_of(n, i, laws)
-    return math.sqrt(own) if own > 0.0 else 1.0
-
-
-@exact()
-def size_of(n: int, laws: Laws) -> float:
-    """Return the largest acceleration without forces, or by forces in motion, over the root of its mobility."""
+def weigh_laws(n: int, laws: Laws) -> float:
+    """Set the roots of mobilities; return the largest acceleration without forces, or by forces in motion, over its."""
     most = TINY
     for i in range(n):
-        root = root_of(n, i, laws)
-        most = larger_number(most, abs(laws.offset[i]) / root if mobility_of(n, i, laws) > 0.0 else 0.0)
+        own, square = mobility_of(n, i, laws), 0.0
+        laws.root[i] = math.sqrt(own) if own > 0.0 else 1.0
+        most = larger_number(most, abs(laws.offset[i]) / laws.root[i] if own > 0.0 else 0.0)
         if laws.way[i] != 0.0:
-            square = 0.0
             for part in range(laws.components[i]):
                 square += laws.apart[COMPONENTS * i + part] ** 2
-            most = larger_number(most, (laws.beta[i] + laws.kappa[i] * math.sqrt(square)) * root)
+            most = larger_number(most, (laws.beta[i] + laws.kappa[i] * math.sqrt(square)) * laws.root[i])
     return float(most)

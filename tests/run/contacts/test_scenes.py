@@ -178,7 +178,7 @@ def test_uncoupled_discs_cost_as_much_as_alone(tmp_path: Path) -> None:
         found.append(json.loads(done.stdout))
     one, eight = found
     assert one["events"] == 1 and eight["events"] == 8
-    assert eight["solved"][0] == 8 * one["solved"][0] and max(eight["solved"]) == 8 * max(one["solved"]) == 48
+    assert eight["solved"][0] == 8 * one["solved"][0] and max(eight["solved"]) == 8 * max(one["solved"]) == 16
 
 
 @pytest.mark.slow_cases("joint")
