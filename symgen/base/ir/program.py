@@ -96,6 +96,16 @@ MODES = ("held", "constant", "sign", "limit", "effort")
 MODE_NUMBERS = len(MODES)
 #: Where bounds depend on a reaction, the square of its jamming number is in the section ``jamming``.
 JAMMING = "jamming"
+#: Where the forces of gaps press rows, what rows in force carry for these is in the section ``carrying``. It has three
+#: parts, each of a spare number and one for each row with bounds: the sum of the bounds at rest that the row carries,
+#: what it exerts over its own bound with this sum, and that number of the row which carries it.
+CARRYING = "carrying"
+
+
+def size_of_carrying(rows: int, pressed: bool) -> int:
+    """Return the length of the section ``carrying`` of a model with some rows with bounds; 0 unless gaps press some."""
+    return 3 * (rows + 1) if pressed else 0
+
 
 #: Sections of ``w`` that a start settles; all others are written before they are read.
 SETTLED = ("status", "winding", "modes", "mask", "saved", "pivot", "gauge", "row_weight", "mass", "mass_entry")

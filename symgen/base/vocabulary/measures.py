@@ -382,6 +382,16 @@ class Driven(msgspec.Struct, frozen=True, tag="driven"):
     power: bool = False
 
 
+class Carrying(msgspec.Struct, frozen=True, tag="carrying"):
+    """Sum of the bounds at rest of the rows that a row in force carries beside its own force [N].
+
+    With `share`, of a row that another one carries: what the carrier exerts, over its own bound with this sum; else 0.
+    """
+
+    row: str
+    share: bool = False
+
+
 class Integral(msgspec.Struct, frozen=True, tag="integral"):
     """The integral over time, from the start of the run, of a formula of outputs."""
 
@@ -389,4 +399,4 @@ class Integral(msgspec.Struct, frozen=True, tag="integral"):
 
 
 #: Sources of readings.
-Source = Measure | Speed | Exerted | Driven | Integral | Flexed
+Source = Measure | Speed | Exerted | Driven | Carrying | Integral | Flexed

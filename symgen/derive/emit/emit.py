@@ -9,6 +9,7 @@ from symgen.base.errors import InputError, plural
 from symgen.base.ir.interpolation import Interpolation
 from symgen.base.ir.program import DERIVATIVES, FORMAT, SLOPES, SUFFIXES, Block, LawProgram, ModelLayout, ModelProgram
 from symgen.base.vocabulary.infos import LawInfo
+from symgen.derive.emit.carried_lines import carried_lines
 from symgen.derive.emit.law_parts import PartsLayout, law_modules
 from symgen.derive.emit.module import (
     PLATFORMS,
@@ -32,6 +33,7 @@ from symgen.derive.emit.whole import Places, name_in_model
 from symgen.derive.formulate.equations import Equations
 
 if TYPE_CHECKING:
+    from symgen.derive.lower.carrying import CarriedSums
     from symgen.derive.lower.side_program import SideProgram
 
 #: Most numbers of tables in the 64 KiB of a CUDA device's constant memory, with room left for others.
@@ -261,8 +263,12 @@ def straight_functions(
     equations: Equations | SideProgram,
     target: str = "cpu",
     further: Names | None = None,
+    carried: CarriedSums | None = None,
 ) -> list[ModulePiece]:
-    """Return blocks as straight-line functions; `further` names are added to the names of q, v and p of `equations`."""
+    """Return blocks as straight-line functions; `further` names are added to the names of q, v and p of `equations`.
+
+    The first function begins with what it reads of `carried` sums.
+    """
     names = {("q", i): f"{q.name} [{q.unit}]" for i, q in enumerate(equations.coordinates)}
     names |= {("v", i): f"{v.name} [{v.unit}]" for i, v in enumerate(equations.velocities)}
     names |= {("p", i): f"{p.name} [{p.unit}]" for i, p in enumerate(equations.parameters)}
@@ -274,15 +280,19 @@ def straight_functions(
         names |= {("z", i): f"{x.name} [{x.unit}]" for i, x in enumerate(equations.states, 1)}
     codes = []
     for block in blocks:
-        lines = Printer(block, ElementAccess(layout, names | observed if block.name == "observe" else names)).lines()
-        body: list[str] = []
+        access = ElementAccess(layout, names | observed if block.name == "observe" else names)
+        lines, body, called = Printer(block, access).lines(), list[str](), frozenset[str]()
+        if carried is not None and block is blocks[0]:
+            body, called = carried_lines(carried, layout, names)
         for title, part in (("inputs", lines.inputs), ("intermediate terms", lines.terms), ("outputs", lines.outputs)):
             body += [f"# {title}", *part] if part else []
         body.append(f"return int({lines.flag})" if lines.flag else "return 0")
         purpose = f"{block.purpose}: {plural(block.operations, 'operation')}."
         arguments = ", ".join(block.arguments)
         codes.append(
-            function_source(block.name, arguments, purpose, body, PLATFORMS[target].decorator, calls=lines.functions)
+            function_source(
+                block.name, arguments, purpose, body, PLATFORMS[target].decorator, calls=lines.functions | called
+            )
         )
     return codes
 
@@ -308,7 +318,10 @@ def emit_side(program: SideProgram) -> str:
 
 def _print_functions(program: SideProgram, place: str, first: int = 0) -> tuple[list[ModulePiece], list[str]]:
     """Return the functions, and lines with the meaning of each place, from the `first` on."""
-    codes = [*table_codes(program.tables), *straight_functions(program.blocks, program.layout, program)]
+    codes = [
+        *table_codes(program.tables),
+        *straight_functions(program.blocks, program.layout, program, carried=program.carried),
+    ]
     formulas = [f"{place.format(i)} {formula}" for i, formula in enumerate(program.formulas, first)]
     return codes, [f"format {FORMAT}, templates {templates_digest()}", "", *formulas]
 

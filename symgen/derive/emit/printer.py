@@ -119,10 +119,13 @@ class LaneAccess(ElementAccess):
 
 
 class Printer:
-    """Prints one block as lines of Python; after `lines`, `text` holds text and precedence of every node."""
+    """Prints one block as lines of Python; after `lines`, `text` holds text and precedence of every node.
 
-    def __init__(self, block: Block, access: Access) -> None:
-        self.block, self.access, self.graph = block, access, block.graph
+    Terms are called by the `prefix` and their numbers.
+    """
+
+    def __init__(self, block: Block, access: Access, prefix: str = "s") -> None:
+        self.block, self.access, self.graph, self.prefix = block, access, block.graph, prefix
         self.needed = block.needed
         self.uses = Counter(a for node in self.needed for a in self.graph.nodes[node].args) + Counter(block.nodes)
         self.text: dict[int, tuple[str, int]] = {}  # node -> (expression, precedence)
@@ -148,7 +151,7 @@ class Printer:
             else:
                 text, level = self.operation(op, args, payload)
                 if self.uses[node] > 1 or len(text) > _INLINE:
-                    name = f"s{len(terms)}"
+                    name = f"{self.prefix}{len(terms)}"
                     terms.append(f"{name} = {text}")
                     text, level = name, 5
                 self.text[node] = (text, level)

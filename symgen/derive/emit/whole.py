@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from symgen.base.ir.program import COUNTERS, JAMMING, STATUS
+from symgen.base.ir.program import CARRYING, COUNTERS, JAMMING, STATUS
 from symgen.derive.emit.module import ModulePiece, Origins, module_source
 from symgen.describe.bounds.by_reaction import JAMMING_MEANS
 
@@ -45,6 +45,7 @@ MEANINGS = {
     "row_corner": "diagonal of R",
     "row_factor": "factors of the reflections that make Q",
     JAMMING: JAMMING_MEANS,
+    CARRYING: "what rows in force carry for others at rest",
     "mass_entry": "entries of M that depend on positions",
     "body_entry": "entries of the metric of bodies' own velocities",
     "moved": "sum of the corrections in this step",

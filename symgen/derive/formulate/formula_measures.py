@@ -9,6 +9,7 @@ from symgen.base.vocabulary.expressions import ZERO, Name, Reading, moving_quant
 from symgen.base.vocabulary.measures import (
     GROUND,
     Angle,
+    Carrying,
     Component,
     Driven,
     Exerted,
@@ -83,7 +84,7 @@ def _moving_quantity(nodes: ModelNodes, leaf: Name | Reading) -> DerivedMeasure:
     Velocities of bodies on a tree are those of the joint's point, not of the centre of mass.
     """
     if isinstance(leaf, Reading):
-        assert not isinstance(leaf.source, Exerted | Driven | Integral | Flexed), "rows read measures"
+        assert not isinstance(leaf.source, Exerted | Driven | Carrying | Integral | Flexed), "rows read measures"
         return nodes.measure_or_velocity(leaf.source)
     body, _, label = leaf.name.rpartition(".")
     if label in ("theta", "omega"):

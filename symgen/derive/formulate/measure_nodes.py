@@ -12,6 +12,7 @@ from symgen.base.vocabulary.measures import (
     GROUND,
     Angle,
     BladeSpeed,
+    Carrying,
     Component,
     Direction,
     Dot,
@@ -166,7 +167,7 @@ class ModelNodes(Formulas):
             return self.graph.sum_of(self.graph.mul(e.total, e.rate) if r.source.power else e.total for e in exerted)
         if isinstance(r.source, Driven):
             return self._effort_of_row(r.source)
-        assert not isinstance(r.source, Integral), "integrals are read at outputs only"
+        assert not isinstance(r.source, Carrying | Integral), "functions of a run read these"
         derived, g = self.measure_or_velocity(r.source), self.graph
         if r.order == 0:
             return derived.value

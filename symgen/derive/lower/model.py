@@ -2,7 +2,18 @@
 
 from __future__ import annotations
 
-from symgen.base.ir.program import JAMMING, MODE_NUMBERS, SECTIONS, STATUS, Block, ModelLayout, ModelProgram, OutputSlot
+from symgen.base.ir.program import (
+    CARRYING,
+    JAMMING,
+    MODE_NUMBERS,
+    SECTIONS,
+    STATUS,
+    Block,
+    ModelLayout,
+    ModelProgram,
+    OutputSlot,
+    size_of_carrying,
+)
 from symgen.derive.formulate.equations import Equations
 from symgen.derive.lower.factor import fill_of_order
 from symgen.derive.lower.hoist import Hoister
@@ -41,8 +52,12 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         *((name, len(scalars.stored[name])) for name in ("lower", "reciprocal") if name in scalars.stored),
         ("mass_entry", len(scalars.mass_entries)),
         (JAMMING, len(equations.drags)),
+        (
+            CARRYING,
+            size_of_carrying(sum(row.bounded for row in equations.rows), any(x.signed for x in equations.drags)),
+        ),
     ):
-        if size or name not in ("winding", "modes", "mass_entry", JAMMING):
+        if size or name not in ("winding", "modes", "mass_entry", JAMMING, CARRYING):
             sections[name] = (offset, size)
             offset += size
     layout = ModelLayout(

@@ -12,11 +12,12 @@ from dataclasses import dataclass, field
 from symgen.base.ir.derivative import Key, jacobian
 from symgen.base.ir.graph import Graph
 from symgen.base.ir.interpolation import Interpolation
-from symgen.base.ir.program import JAMMING, STATUS, Block, ModelLayout, OutputSlot
+from symgen.base.ir.program import CARRYING, JAMMING, STATUS, Block, ModelLayout, OutputSlot
 from symgen.base.vocabulary.expressions import Expr, Reading
-from symgen.base.vocabulary.measures import Integral, Measure
+from symgen.base.vocabulary.measures import Carrying, Integral, Measure
 from symgen.base.vocabulary.quantities import Quantity
 from symgen.derive.formulate.measure_nodes import ModelNodes
+from symgen.derive.lower.carrying import CarriedSums, carried_sums, formulas_of_carried, slot_of_carrying
 from symgen.derive.lower.windings import Beside
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.formulas.results_read import integrals_of_outputs
@@ -24,12 +25,12 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import state_quantities
 
 #: Inputs of formulas that rates along the motion take as constant.
-FORCES = frozenset({"ydot", "multipliers", JAMMING})
+FORCES = frozenset({"ydot", "multipliers", JAMMING, CARRYING})
 
 
 @dataclass(frozen=True)
 class SideProgram:
-    """Functions of formulas; `formulas` are readable names of their outputs."""
+    """Functions of formulas; `formulas` are readable names of their outputs, `carried` what the first one reads."""
 
     mechanism: str
     blocks: tuple[Block, ...]
@@ -39,12 +40,14 @@ class SideProgram:
     velocities: tuple[Quantity, ...]
     tables: tuple[Interpolation, ...]
     formulas: tuple[str, ...]
+    carried: CarriedSums | None = None
 
     @property
     def reads(self) -> tuple[str, ...]:
         """Inputs of the function: ``t``, ``q``, ``v``, ``p``, ``ydot`` and sections of ``w``."""
-        first = self.blocks[0]
-        return tuple(sorted({space for space, _ in first.graph.inputs_of(first.nodes)}))
+        blocks = self.blocks[:1] if self.carried is None else (self.blocks[0], self.carried.block)
+        read = {space for block in blocks for space, _ in block.graph.inputs_of(block.nodes)}
+        return tuple(sorted(read if self.carried is None else read | {"modes"}))
 
     @property
     def of_forces(self) -> tuple[int, ...]:
@@ -77,6 +80,8 @@ class SideModel(ModelNodes):
         if isinstance(r.source, Integral):
             place = 1 + len(self.mechanism.states) + integrals_of_outputs(self.mechanism)[r.source]
             return self.graph.input("z", place)  # after the work and states
+        if isinstance(r.source, Carrying):
+            return self.graph.input(CARRYING, slot_of_carrying(self.mechanism, r.source))
         return super().reading(r)
 
     def place_of_turn(self, m: Measure) -> int:
@@ -168,7 +173,13 @@ def lower_side(
     graph, images = copy_to_own_graph(model.graph, nodes)
     outputs = tuple((OutputSlot("out", i), image) for i, image in enumerate(images))
     block = Block(name, purpose, graph, outputs, ("t", "y", "p", "w", "ydot", "out"))
-    return side_program(mechanism, (block,), beside, labels)
+    places = {place for space, place in graph.inputs_of(images) if space == CARRYING}
+    if not places:
+        return side_program(mechanism, (block,), beside, labels)
+    graph, images = copy_to_own_graph(model.graph, [model.expression(e) for e in formulas_of_carried(mechanism)])
+    numbers = Block(name, purpose, graph, tuple((OutputSlot(CARRYING, i), x) for i, x in enumerate(images)), ())
+    carried = carried_sums(mechanism, numbers, beside.sections, places)
+    return side_program(mechanism, (block,), beside, labels, carried)
 
 
 def lower_integrands(mechanism: Mechanism, beside: Beside) -> SideProgram:
@@ -203,10 +214,17 @@ def lower_integrands(mechanism: Mechanism, beside: Beside) -> SideProgram:
     return side_program(mechanism, blocks, beside, [to_text(integral.of) for integral in integrands])
 
 
-def side_program(mechanism: Mechanism, blocks: tuple[Block, ...], beside: Beside, labels: Sequence[str]) -> SideProgram:
+def side_program(
+    mechanism: Mechanism,
+    blocks: tuple[Block, ...],
+    beside: Beside,
+    labels: Sequence[str],
+    carried: CarriedSums | None = None,
+) -> SideProgram:
     """Return blocks as the program of a separate module; `labels` name the outputs."""
     coordinates, velocities = state_quantities(mechanism)
-    used = {table for block in blocks for table, _ in block.tables}
+    every = blocks if carried is None else (*blocks, carried.block)
+    used = {table for block in every for table, _ in block.tables}
     return SideProgram(
         mechanism=mechanism.name,
         blocks=blocks,
@@ -219,4 +237,5 @@ def side_program(mechanism: Mechanism, blocks: tuple[Block, ...], beside: Beside
         velocities=velocities,
         tables=tuple(t.interpolated for t in mechanism.tables if t.name in used),
         formulas=tuple(labels),
+        carried=carried,
     )

@@ -15,7 +15,7 @@ import msgspec
 from symgen.base.errors import InputError
 from symgen.base.ir.program import MODE_NUMBERS, MODES
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call, readings_in
-from symgen.base.vocabulary.measures import Driven, Integral
+from symgen.base.vocabulary.measures import Carrying, Driven, Integral
 from symgen.describe.bounded import BoundedRow, RowFamily
 from symgen.describe.mechanism import Mechanism, ModeEvent, Output
 
@@ -29,6 +29,8 @@ JAM = "jam"
 HIT, REST, LEAVE = "hit", "rest", "leave"
 #: Last word of the event at which a contact opens.
 LIFT = "lift"
+#: Bound in place of none, by which forces may be divided [N].
+LEAST_BOUND = Number(1e-300)
 
 
 # -- formulas of one row -----------------------------------------------------------------------------------------------
@@ -45,25 +47,28 @@ def effort_in_force(row: BoundedRow) -> Reading:
 
 
 def bounds_from_carried_force(row: BoundedRow, beside: Sequence[BoundedRow]) -> tuple[Expr, ...]:
-    """Return what a row in force adds to its bound for each row whose force it carries, where bounds vary.
+    """Return what a row in force adds to its bound for rows whose force it carries, where bounds vary.
 
     Constant bounds of these are in the number ``limit`` of the row. Of a carried row the number ``constant`` is the
-    place of its carrier, counted from 1, and ``limit`` is the largest force of the carrier for each of its own.
+    place of its carrier, counted from 1, and ``limit`` is the largest force of the carrier for each of its own. All
+    friction that gaps press is one number, whose sums for all rows are found together: written out in each row, they
+    would grow with the square of the rows.
     """
     place = next(i for i, other in enumerate(beside, 1) if other.row == row.row)
     terms = list[Expr]()
+    if any(other.signed and other.row != row.row for other in beside):
+        terms.append(carried_bounds(row))
     for other in beside:
-        if other.signed and other.row != row.row:  # its bound is that of the force that presses it
-            pressing = Reading(other.pressed[0], Driven(other.pressed[0], other.measure))
-            held, constant, limit = (name_of_number(other, number) for number in ("held", "constant", "limit"))
-            carries = call("mul", call("sub", ONE, held), equals_whole_number(constant, place))
-            carried = call("mul", carries, call("abs", limit))
-            terms.append(call("mul", carried, call("mul", other.numbers[0][1], pressing)))
-        elif other.changing and not other.pressed and other.row != row.row:
+        if other.changing and not other.pressed and other.row != row.row:
             held, constant, limit = (name_of_number(other, number) for number in ("held", "constant", "limit"))
             carries = call("mul", call("sub", ONE, held), equals_whole_number(constant, place))
             terms.append(call("mul", call("mul", carries, limit), other.numbers[0][1]))
     return tuple(terms)
+
+
+def carried_bounds(row: BoundedRow) -> Reading:
+    """Return the sum of the bounds at rest, by forces of gaps, of the rows that a row in force carries."""
+    return Reading(f"{row.row}.carried", Carrying(row.row))
 
 
 def equals_whole_number(number: Expr, value: int) -> Expr:

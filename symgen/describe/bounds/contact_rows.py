@@ -13,15 +13,17 @@ import msgspec
 
 from symgen.base.ir.program import JAMMING
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, Reading, call, sum_of_terms
-from symgen.base.vocabulary.measures import Driven, Effort, Holonomic, Measure
+from symgen.base.vocabulary.measures import Carrying, Driven, Effort, Holonomic, Measure
 from symgen.describe.bounded import BoundedRow, RowFamily
 from symgen.describe.bounds.bounded_modes import (
     HIT,
     JAM,
+    LEAST_BOUND,
     LIFT,
     REVERSE,
     SLIP,
     bounds_from_carried_force,
+    carried_bounds,
     closed_by,
     effort_in_force,
     equals_whole_number,
@@ -35,9 +37,6 @@ from symgen.describe.bounds.row import Bounds
 from symgen.describe.contacts.outlines import Outline
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import ModeEvent, Output
-
-#: Bound in place of none, by which forces may be divided [N].
-_LEAST_BOUND = Number(1e-300)
 
 
 def _line_of_gap(facts: Mapping[str, Any]) -> str:
@@ -196,33 +195,14 @@ class Tangent(Bounds, frozen=True):
         """
         against = call("mul", name_of_number(self, "sign"), call("mul", self.sliding, self.pressing))
         own = call("add", against, name_of_number(self, "effort"))
-        others = [(i, row) for i, row in enumerate(beside, 1) if isinstance(row, Tangent) and row.row != self.row]
-        if not others:
+        if not any(row.signed and row.row != self.row for row in beside):
             return call("sub", effort_in_force(self), own)
-        place = next(i for i, row in enumerate(beside, 1) if row.row == self.row)
-        total = call("mul", effort_in_force(self), self._part_of_bounds(place, [row for _, row in others]))
-        for i, row in others:
-            its = call(
-                "mul", effort_in_force(row), row._part_of_bounds(i, [x for x in beside if x.row != row.row], self)
-            )
-            carried = call("mul", self._is_carried_by(i), call("sign", name_of_number(self, "limit")))
-            total = call("add", total, call("mul", carried, its))
-        return call("sub", total, own)
-
-    def _is_carried_by(self, place: int) -> Expr:
-        """Return the formula that is 1 where the row at a place carries the friction of this one, else 0."""
-        held, constant = name_of_number(self, "held"), name_of_number(self, "constant")
-        return call("mul", call("sub", ONE, held), equals_whole_number(constant, place))
-
-    def _part_of_bounds(self, place: int, others: Sequence[BoundedRow], of: Tangent | None = None) -> Expr:
-        """Return the bound of a row, by default its own, over the sum of all bounds that it carries."""
-        total: Expr = call("max", call("mul", self.static, self.pressing), _LEAST_BOUND)
-        own = total if of is None else call("mul", of.static, of.pressing)
-        for row in others:
-            if isinstance(row, Tangent):
-                size = call("mul", call("abs", name_of_number(row, "limit")), call("mul", row.static, row.pressing))
-                total = call("add", total, call("mul", row._is_carried_by(place), size))
-        return call("div", own, total)
+        bound = call("mul", self.static, self.pressing)
+        least = call("max", bound, LEAST_BOUND)
+        part = call("div", least, call("add", least, carried_bounds(self)))
+        share = Reading(f"{self.row}.share", Carrying(self.row, share=True))
+        lent = call("mul", call("sign", name_of_number(self, "limit")), call("mul", share, least))
+        return call("sub", call("add", call("mul", effort_in_force(self), part), lent), own)
 
     @property
     def pressing(self) -> Reading:

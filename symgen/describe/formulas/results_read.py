@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from symgen.base.vocabulary.expressions import Expr, Name, moving_quantities, readings_in
-from symgen.base.vocabulary.measures import Driven, Exerted, Integral
+from symgen.base.vocabulary.measures import Carrying, Driven, Exerted, Integral
 from symgen.describe.coordinate_names import ACCELERATIONS
 from symgen.describe.formulas.readings import OUTPUT
 from symgen.describe.mechanism import Joint, Mechanism
@@ -38,7 +38,7 @@ def reads_results(value: Expr) -> bool:
     return any(
         x.name.rpartition(".")[2] in _ACCELERATIONS
         if isinstance(x, Name)
-        else x.order == OUTPUT or isinstance(x.source, Driven | Exerted)
+        else x.order == OUTPUT or isinstance(x.source, Carrying | Driven | Exerted)
         for x in moving_quantities(value)
     )
 

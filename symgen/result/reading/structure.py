@@ -8,7 +8,7 @@ from itertools import count
 
 from symgen.base.ir.graph import Graph
 from symgen.base.vocabulary.expressions import Reading
-from symgen.base.vocabulary.measures import Driven, Exerted, Flexed
+from symgen.base.vocabulary.measures import Carrying, Driven, Exerted, Flexed
 from symgen.derive.formulate.equations import Equations
 from symgen.derive.formulate.flexure import exertions_of_force
 from symgen.derive.formulate.frames import FRAME_SLOTS, SPATIAL_SLOTS
@@ -75,7 +75,9 @@ def element_terms(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
 def _node_of_reading(model: ModelNodes, reading: Reading) -> int | None:
     """Return the node of a measure or an effort; None of what multipliers, powers or beams are."""
     source = reading.source
-    if isinstance(source, Driven | Flexed) or (isinstance(source, Exerted) and (source.power or source.flexures)):
+    if isinstance(source, Carrying | Driven | Flexed) or (
+        isinstance(source, Exerted) and (source.power or source.flexures)
+    ):
         return None
     if isinstance(source, Exerted):
         return model.graph.sum_of(e.total for e in exertions_of_force(model, source))

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError, refuse_overflow
-from symgen.base.ir.program import JAMMING
+from symgen.base.ir.program import CARRYING, JAMMING
 from symgen.base.vocabulary.expressions import Expr
 from symgen.compile.store.entries import Entries
 from symgen.compile.store.loaded_modules import load_module, plain_function
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 #: Sections of ``w`` that formulas of a run may read, at the places of a model of either shape.
-READ = ("status", "winding", "modes", "multipliers", JAMMING)
+READ = ("status", "winding", "modes", "multipliers", JAMMING, CARRYING)
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,7 @@ from symgen.base.vocabulary.measures import (
     Angle,
     Bearing,
     BladeSpeed,
+    Carrying,
     Component,
     Direction,
     Distance,
@@ -153,7 +154,9 @@ class ReferenceFormulas:
 
     def _reading_expression(self, r: Reading) -> Any:
         """Return a measure's value, or its rate."""
-        assert not isinstance(r.source, Exerted | Driven | Integral | Flexed), "functions of state read motions"
+        assert not isinstance(r.source, Exerted | Driven | Carrying | Integral | Flexed), (
+            "functions of state read motions"
+        )
         if isinstance(r.source, Speed):
             return self._speed_expression(r.source)
         value = self._measure_expression(r.source)

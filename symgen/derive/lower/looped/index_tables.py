@@ -6,7 +6,7 @@ from array import array
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from symgen.base.ir.program import JAMMING, MODE_NUMBERS, STATUS
+from symgen.base.ir.program import CARRYING, JAMMING, MODE_NUMBERS, STATUS, size_of_carrying
 from symgen.derive.lower.looped.forms import FormInfo
 from symgen.derive.lower.looped.instances import Instance
 from symgen.derive.lower.looped.layout import BESIDE, DRAG_RECORD, GENERIC, HEAD, SECTIONS, STAGES
@@ -136,6 +136,9 @@ class Builder:
         for name, length in ((JAMMING, 1), ("drag_record", DRAG_RECORD)) if shape.drag_index else ():
             sections[name] = (offset, length * len(shape.drag_index))
             offset += sections[name][1]
+        if carrying := size_of_carrying(len(shape.mode_index), any(shape.signed_drags)):
+            sections[CARRYING] = (offset, carrying)
+            offset += carrying
         for name, size in (*SECTIONS, *self.law.sections):
             sections[name] = (offset, sizes[size])
             # rotors are rows after those of D where D M^-1 D^T is solved with
