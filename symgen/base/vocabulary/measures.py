@@ -198,6 +198,9 @@ class Chain(msgspec.Struct, frozen=True):
         Whether a piece turns to the left, so that a marker may be beside several, of which the nearest counts.
     sharp : bool
         Whether it has edges in place of corners, within which a marker that passes them turns.
+    leaving : tuple of pairs
+        Of each piece the ways at the ends of the stretch within which it leaves the curve, equal where it does not;
+        empty where none does.
     """
 
     origin: Marker
@@ -206,6 +209,7 @@ class Chain(msgspec.Struct, frozen=True):
     closed: bool
     hollow: bool
     sharp: bool = False
+    leaving: tuple[tuple[Expr, Expr], ...] = ()
 
 
 class OnChain(msgspec.Struct, frozen=True, tag="on-chain"):

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from symgen.base.vocabulary.measures import Chain, PieceNumber
 from symgen.derive.formulate.derived_measure import DerivedMeasure
-from symgen.describe.contacts.on_chain import NUMBERS
+from symgen.describe.contacts.on_chain import numbers_at
 from symgen.describe.formulas.formula_nodes import Formulas
 
 #: Distance in place of that from no piece [m].
@@ -30,7 +30,8 @@ def numbers_of_piece(nodes: Formulas, chain: Chain, place: tuple[int, int]) -> d
         Nodes of the coordinates of the marker in the frame of the chain.
     """
     g, choice = nodes.graph, _Choice(nodes, chain, place)
-    numbers = [[nodes.expression(of(i, piece)) for of in NUMBERS.values()] for i, piece in enumerate(chain.pieces)]
+    at = [numbers_at(chain, i) for i in range(len(chain.pieces))]
+    numbers = [[nodes.expression(e) for e in each.values()] for each in at]
     inner, chosen, best = range(len(numbers)), numbers[0], g.constant(_FAR)
     if not chain.closed:
         inner = range(1, len(numbers) - 1)
@@ -44,7 +45,7 @@ def numbers_of_piece(nodes: Formulas, chain: Chain, place: tuple[int, int]) -> d
             belongs = g.call("and", belongs, g.call("lt", gap, best))
             best = g.call("where", belongs, gap, best)
         chosen = choice.select(belongs, numbers[i], chosen)
-    measures = (PieceNumber(chain, name) for name in NUMBERS)
+    measures = (PieceNumber(chain, name) for name in at[0])
     return {m: DerivedMeasure(node, {}, g.zero) for m, node in zip(measures, chosen, strict=True)}
 
 

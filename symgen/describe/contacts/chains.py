@@ -297,6 +297,22 @@ def offset_pieces(
     return tuple(_with_ways(pieces))
 
 
+def stretches_left(pieces: Sequence[ChainPiece], left: Sequence[bool], closed: bool) -> tuple[tuple[Expr, Expr], ...]:
+    """Return of each piece of a chain the ways at the ends of the stretch of pieces that are left; equal of others."""
+    count, round_trip = len(pieces), sum_of_terms(pieces[-1].before, pieces[-1].length)
+    found: list[tuple[Expr, Expr]] = [(ZERO, ZERO)] * count
+    for i in range(count):
+        if not left[i] or (left[i - 1] and (i or closed)):
+            continue
+        following = next(j for j in range(i + 1, i + count + 1) if not left[j % count] or (j == count and not closed))
+        end = pieces[(following - 1) % count]
+        first, last = pieces[i].before, sum_of_terms(end.before, end.length)
+        for j in range(i, following):
+            ways = [(first, last), (first, sum_of_terms(last, round_trip)), (difference(first, round_trip), last)]
+            found[j % count] = ways[0 if following <= count else 1 + (j >= count)]
+    return tuple(found)
+
+
 class _Piece(msgspec.Struct, frozen=True):
     """A piece of a chain, as a `ChainPiece` without the way before it."""
 

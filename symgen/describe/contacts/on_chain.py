@@ -3,6 +3,9 @@
 With u from the start of a piece to the marker, the direction t and the curvature k, ``a = t . u``, ``b = n . u`` on
 the left, ``z = 2 b + k (a^2 + b^2)`` and ``w = sqrt(1 + k z)``, the gap is ``z / (1 + w)``, which is b of a segment,
 and the way along the piece ``atan2(k a, 1 + k b) / k``.
+
+Where another row has the contact, the gap grows by ``((s - p) (q - s))^2 / (q - p)^3`` of the way s on the chain
+between the ends p and q of that stretch, smoothly from 0.
 """
 
 from __future__ import annotations
@@ -32,6 +35,19 @@ NUMBERS: Mapping[str, Callable[[int, ChainPiece], Expr]] = {
     "side": lambda i, piece: Number(1.0 - 2.0 * (i % 2)),
     "number": lambda i, piece: Number(float(i + 1)),
 }
+#: What the gap grows by is a product of the squares of the ways from these ends of a stretch, and of this factor.
+_LEAVING = ("first", "last", "growth")
+
+
+def numbers_at(chain: Chain, i: int) -> dict[str, Expr]:
+    """Return the numbers of a piece of a chain, counted from 0."""
+    found = {name: of(i, chain.pieces[i]) for name, of in NUMBERS.items()}
+    if chain.leaving:
+        first, last = chain.leaving[i]
+        length = call("sub", last, first)
+        growth = ZERO if first == last else call("div", ONE, call("pow", length, Number(3.0)))
+        found |= dict(zip(_LEAVING, (first, last, growth), strict=True))
+    return found
 
 
 def number_of_piece(chain: Chain, name: str = "number") -> Reading:
@@ -54,7 +70,13 @@ def gap_of_chain(chain: Chain) -> Expr:
     (ahead, left), k = _place(chain), number_of_piece(chain, "curvature")
     square = call("add", call("mul", ahead, ahead), call("mul", left, left))
     height = call("add", call("mul", Number(2.0), left), call("mul", k, square))
-    return call("div", height, call("add", ONE, call("sqrt", call("add", ONE, call("mul", k, height)))))
+    gap = call("div", height, call("add", ONE, call("sqrt", call("add", ONE, call("mul", k, height)))))
+    if not chain.leaving:
+        return gap
+    first, last, growth = (number_of_piece(chain, name) for name in _LEAVING)
+    way = way_on_chain(chain)
+    between = call("mul", call("sub", way, first), call("sub", last, way))
+    return call("add", gap, call("mul", growth, call("mul", between, between)))
 
 
 def way_in_piece(chain: Chain) -> Expr:

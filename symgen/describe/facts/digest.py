@@ -18,7 +18,7 @@ FORM = 1
 #: Fields added after the form was fixed: empty ones are left out.
 _LATER = (
     *("flexures", "pressed", "across", "speed", "backwards", "exponent", "changing", "resting", "alone", "words"),
-    *("about", "edges"),
+    *("about", "edges", "leaving"),
 )
 
 
@@ -111,6 +111,7 @@ def mechanism_digest(mechanism: Mechanism) -> str:
         ", words=''",
         ", about=None",
         ", edges=()",
+        ", leaving=()",
         ", shown=''",
         ", modal=None",
         ", carried=None",

@@ -30,6 +30,7 @@ from symgen.run.modes.bounded_rows import (
     SAME,
     SIGN,
     STILL,
+    is_held,
     row_scale,
     sign_of_number,
     switch_off,
@@ -57,11 +58,14 @@ from symgen.run.modes.strikes import (
     find_immovable,
     find_touching,
     follow_series,
+    is_closing,
     is_struck,
 )
 
 #: Impulses below this part of the largest are rounding.
 _NOTHING = 1e-12
+#: Gaps are along each other where the squared cosine of their directions is nearer to 1.
+_ALONG = 1e-9
 #: An impact adds energy where its work is above this part of the work of its impulses, one by one.
 _GAIN = 1e-9
 
@@ -83,7 +87,32 @@ def find_struck_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: 
     c.at_rest[0] = n
     if probe_contacts(t, c, y, p, w, iw, control) != SAME:
         return NOT_FINITE
-    return int(find_immovable(c, w, gaps))
+    return int(find_immovable(c, w, leave_to_others(c, w)))
+
+
+@exact()
+def leave_to_others(c: Choice, w: Array) -> int:
+    """Leave out closed gaps along which one strikes that was open, with their friction; return the number of gaps left.
+
+    A contact goes on as another row there. Impulses of both are differences of rounding.
+    """
+    n, left, gaps, matrix, k = c.at_rest[0], 0, 0, c.problem.matrix, c.rows.count
+    for r in range(n):
+        i = c.rest[r]
+        gap, kept = i if c.rows.pushes[i] != 0 else c.rows.partner[i], True
+        for other in range(n if gap >= 0 and is_held(c, w, gap) else 0):
+            j = c.rest[other]
+            if c.rows.pushes[j] != 0 and not is_held(c, w, j) and is_closing(c, w, j):
+                both = matrix[gap * k + gap] * matrix[j * k + j]
+                kept = kept and matrix[gap * k + j] * matrix[gap * k + j] < (1.0 - _ALONG) * both
+        if kept:
+            c.rest[left] = i
+            left += 1
+            gaps += 1 if c.rows.pushes[i] != 0 else 0
+        else:
+            c.taken[i] = 0
+    c.at_rest[0] = left
+    return gaps
 
 
 @exact()

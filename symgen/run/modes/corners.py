@@ -22,7 +22,6 @@ from symgen.run.loops.search_records import (
     N_HEAD,
     ROW,
     SIDE,
-    UNCERTAIN,
 )
 from symgen.run.modes.bounded_rows import (
     HELD,
@@ -45,6 +44,8 @@ _DOUBLINGS, _PASSING = 24, 4.0
 _GRAIN = 1e-13
 #: Least time of which that resolution is a part [s].
 _EARLY = 1e-3
+#: Depth over the mechanism's length to which a gap beside a closed one only touches: closed ones are as far from 0.
+_TOUCHED = 1e-10
 
 
 @exact()
@@ -121,7 +122,7 @@ def spare_touching(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Intege
     """
     accelerate_in_force(t, c, Instant(y, p, w), iw)
     for i in range(c.rows.dry, c.rows.count):
-        rate, deep = c.read.speed[i], 2.0 * UNCERTAIN * row_scale(c, w, i, abi.LENGTH) * c.out[i]
+        rate, deep = c.read.speed[i], 2.0 * _TOUCHED * row_scale(c, w, i, abi.LENGTH) * c.out[i]
         if rate < 0.0 and rate * rate < deep and is_shut(c, w, i) and not is_held(c, w, i):
             take_for_still(c, i)
 

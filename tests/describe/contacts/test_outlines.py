@@ -150,7 +150,11 @@ def test_what_is_wrong_in_one_sentence(outline: dict[str, Any], radius: float, s
             {"line": "ground"},
             "whose circle of 1.3 m",
         ),
-        ({"box": [1, 1], "fillet": 0.1}, {"outline": "floor"}, "the convex arc of piece 2 of 'cam'"),
+        (
+            {"points": [[0, 0], {"to": [1, 0], "bulge": -0.2}], "closed": True},
+            {"outline": "floor"},
+            "whose circle of 1.3 m",
+        ),
         ({"box": [1, 1]}, {"outline": "floors"}, "did you mean 'floor'"),
         ({"box": [1, 1]}, {"line": "disc"}, "two different bodies, got 'disc' twice"),
         (

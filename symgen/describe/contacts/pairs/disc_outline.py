@@ -18,6 +18,7 @@ from symgen.describe.contacts.chains import (
     offset_pieces,
     points_on,
     runs_of,
+    stretches_left,
 )
 from symgen.describe.contacts.outlines import Outline
 from symgen.describe.contacts.surfaces import (
@@ -53,9 +54,12 @@ def as_one(touches: Sequence[Touch]) -> Touch:
 
 
 def touches_on_outline(
-    scope: Scope, key: str, outline: BodyOutline, disc: Disc, drawn: tuple[Outline, ...]
+    scope: Scope, key: str, outline: BodyOutline, disc: Disc, drawn: tuple[Outline, ...], faces: bool = False
 ) -> list[Touch]:
-    """Return gap and slip of a disc beside each run of an outline; a point meets edges in place of corners."""
+    """Return gap and slip of a disc beside each run of an outline; a point meets edges in place of corners.
+
+    With `faces` the disc leaves what is convex, whose contacts are those of feet of the outline.
+    """
 
     def value(e: Expr) -> float:
         return scope.value(e, key)
@@ -75,14 +79,15 @@ def touches_on_outline(
                 pieces[0] = continued(pieces[0].back).back
             if outline.closed or number < len(runs) - 1:
                 pieces[-1] = continued(pieces[-1])
-        chain = Chain(
-            frame,
-            disc.centre,
-            offset_pieces(pieces, closed, disc.radius, depths, value, edge),
-            closed,
-            any(value(stretch.curvature) < 0.0 for stretch in run),
-            edge != ZERO,
-        )
+        parts = offset_pieces(pieces, closed, disc.radius, depths, value, edge)
+        # a point meets the edges at corners also of faces alone
+        bends = [value(part.curvature) for part in parts]
+        round_parts = [faces and k > 0.0 and k * value(edge) < 0.5 for k in bends]
+        if all(round_parts):
+            continue
+        hollow = any(value(stretch.curvature) < 0.0 for stretch in run)
+        leaving = stretches_left(parts, round_parts, closed) if any(round_parts) else ()
+        chain = Chain(frame, disc.centre, parts, closed, hollow, edge != ZERO or bool(leaving), leaving)
         way: Expr = Reading(f"{scope.name}.way", Lap(chain) if closed else OnChain(chain, "way"))
         turns = tuple(
             product(Number(sign), disc.radius, Reading(f"{of}.theta", Angle(GROUND, of)))
