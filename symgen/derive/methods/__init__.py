@@ -12,7 +12,20 @@ from symgen.derive.methods._base import Method
 
 #: Words of textbooks and other programs -> the method that is nearest.
 MEANT = {
-    **dict.fromkeys(("kkt", "dae", "direct", "multipliers", "lagrange-multipliers", "index-1", "index1"), "lagrange"),
+    **dict.fromkeys(
+        (
+            "kkt",
+            "dae",
+            "direct",
+            "multipliers",
+            "lagrange-multipliers",
+            "index-1",
+            "index1",
+            "newton-euler",
+            "euler-lagrange",
+        ),
+        "lagrange",
+    ),
     **dict.fromkeys(("gear-gupta-leimkuhler", "index-2", "index2", "stabilized-index-2"), "ggl"),
     **dict.fromkeys(("minimal", "minimal-coordinates", "independent-coordinates"), "coordinate-partitioning"),
     **dict.fromkeys(("index-3", "index3", "hht"), "generalized-alpha"),

@@ -51,12 +51,15 @@ def _wheel_tables(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
 
 
 def _contact_tables(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
-    """Return a contact of a disc about a point with a line of the ground or of another body, with friction."""
-    disc, line = spots
-    radius, normal = _disc_on_line("touch", file, disc, line)
+    """Return a contact, with friction, of a disc about a point with another wheel, by its centre, or with a line."""
+    disc, other = (_at_wheel(file, spot) for spot in spots)
+    radius, normal = _disc_on_line("touch", file, disc, other)
+    own = _radius_of_wheel(file, other)
     shapes = (
         f'{{ body = "{disc.body}", at = {disc.written}, disc = {radius} }}',
-        f'{{ line = "{line.owner}", on = {line.written}, normal = {vector_text(normal)} }}',
+        f'{{ body = "{other.body}", at = {other.written}, disc = {own} }}'
+        if own and _radius_of_wheel(file, disc)
+        else f'{{ line = "{other.owner}", on = {other.written}, normal = {vector_text(normal)} }}',
     )
     lines = (f"between = [{', '.join(shapes)}]", f"friction = {FRICTION}", f"restitution = {RESTITUTION}")
     return [table_at(f"contacts.{file.take_free_name('touch')}", *lines)]
@@ -64,7 +67,7 @@ def _contact_tables(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
 
 def _rolling_tables(file: EditedFile, spots: Sequence[Spot]) -> list[Table]:
     """Return a joint that lets a disc about a point roll on a line of the ground or of another body."""
-    disc, line = spots
+    disc, line = _at_wheel(file, spots[0]), spots[1]
     radius, (x, y) = _disc_on_line("roll", file, disc, line)
     lines = [
         'type = "rolling"',
@@ -138,10 +141,21 @@ def _disc_on_line(kind: str, file: EditedFile, disc: Spot, line: Spot) -> tuple[
     if disc.body == line.body:
         raise InputError(kind, "a line of another body or of the ground", f"'{disc.body}' twice")
     reach = _distance(kind, disc, line)
-    radius = f"{disc.body}{_RADIUS}"
-    own = radius if disc.point == "A" and radius in file.raw.get("parameters", {}) else ""
     normal = file.turn_into_body(line.owner, (disc.x - line.x) / reach, (disc.y - line.y) / reach)
-    return f'"{own}"' if own else exact_number(reach), normal
+    return _radius_of_wheel(file, disc) or exact_number(reach), normal
+
+
+def _at_wheel(file: EditedFile, spot: Spot) -> Spot:
+    """Return a spot as the centre of the wheel that a pin holds there, else as it is."""
+    ends = file.ends_at_pin(spot.joint) if spot.joint else {}
+    wheels = (spot._replace(body=body, point="A", at=(0.0, 0.0)) for body, at in ends.items() if at == '"A"')
+    return next((wheel for wheel in wheels if _radius_of_wheel(file, wheel)), spot)
+
+
+def _radius_of_wheel(file: EditedFile, spot: Spot) -> str:
+    """Return the parameter that is the radius of a wheel about a spot, as a file has it; empty where there is none."""
+    radius = f"{spot.body}{_RADIUS}"
+    return f'"{radius}"' if spot.point == "A" and radius in file.raw.get("parameters", {}) else ""
 
 
 def _distance(kind: str, a: Spot, b: Spot) -> float:

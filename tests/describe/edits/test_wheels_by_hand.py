@@ -142,3 +142,42 @@ def test_wheels_that_cannot_be_added(kind: str, spots: tuple[Spot, ...], sentenc
     text = drawn(EMPTY, ("body", Spot(0.0, 1.0), Spot(1.0, 1.0)))
     with pytest.raises(InputError, match=sentence):
         drawn(text, (kind, *spots))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("shape", ["straight", "looped"])
+@pytest.mark.parametrize("centre", [0.15, 0.2])
+def test_a_roller_on_a_cam_sticks_for_many_turns(centre: float, shape: str, tmp_path) -> None:
+    """The roller is as high as two circles that touch, and rolls: its turns are counted beyond the first half."""
+    hub, seat = Spot(0.0, 0.0), Spot(0.0, centre + 0.3)
+    end = Spot(0.0, 1.0)
+    wheel, roller = Spot(0.0, centre, "wheel1", "A"), seat._replace(body="bar1", point="A")
+    text = drawn(
+        EMPTY,
+        ("wheel", Spot(0.0, centre), Spot(0.0, centre + 0.2)),
+        ("pin", hub._replace(body="wheel1", at=(0.0, -centre)), hub),
+        ("body", seat, end),
+        ("wheel", roller, Spot(0.1, centre + 0.3)),
+        ("slide", end._replace(body="bar1", point="B"), Spot(0.0, 2.0)),
+        ("touch", wheel, roller._replace(joint="pin2")),
+        ("motor", hub._replace(body="wheel1", at=(0.0, -centre), joint="pin1")),
+    )
+    assert text.count("disc = ") == 2 and '"wheel2_radius"' in text.split("[contacts.")[1]
+    result = run(text, tmp_path, until=4.0, shape=shape)
+    turned = 0.5 * math.pi + 2.0 * result.t
+    x, y = centre * np.cos(turned), centre * np.sin(turned)
+    assert result["wheel2.y"] == pytest.approx(y + np.sqrt(0.3**2 - x**2), abs=1e-8)
+    sticks = result.t > next(event.t for event in result.events if event.name == "touch1.stick")
+    # no slip: the rates of both circles, beside the turning of their line of centres
+    line = np.gradient(np.unwrap(np.arctan2(result["wheel2.y"] - y, -x)), result.t, edge_order=2)
+    slip = 0.2 * (2.0 - line) + 0.1 * (result["wheel2.omega"] - line)
+    assert np.abs(slip[sticks]).max() < 1e-4 and result["wheel2.theta"][-1] < -4.0 * math.pi
+
+
+@pytest.mark.parametrize("spot", [Spot(0.0, 1.0, "bar1", "A"), Spot(0.0, 1.0, "bar1", "A", joint="pin1")])
+def test_a_wheel_that_is_pinned_rolls_by_its_own_radius(spot: Spot) -> None:
+    """A click at the pin means the wheel, not the bar that it was pinned to."""
+    text = drawn(EMPTY, ("body", Spot(0.0, 1.0), Spot(1.0, 1.0)), ("wheel", spot._replace(joint=""), Spot(0.0, 1.2)))
+    rolling = tomllib.loads(drawn(text, ("roll", spot, Spot(0.0, 0.8))))["joints"]["roll1"]
+    meant = ("wheel1", "wheel1_radius") if spot.joint else ("bar1", 0.2)
+    assert (rolling["between"][0], rolling["radius"]) == meant

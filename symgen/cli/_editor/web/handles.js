@@ -18,7 +18,7 @@ const TOOLS = [
   ["friction", "Friction", 1, 1, "A pin or a slide that rubs: click it; its bound stands in the text."],
   ["spring", "Spring", 2, 2, "Two points with a spring and a damper between them."],
   ["wheel", "Wheel", 2, 2, "The centre of a disc and a place on its rim; a ringed point is pinned to it. Its radius is a parameter."],
-  ["touch", "Contact", 2, 2, "The centre of a disc, then where a line lies below it, on the ground or on a body: they touch, rub and bounce."],
+  ["touch", "Contact", 2, 2, "The centre of a disc, then that of another wheel, or where a line lies below it, on the ground or on a body: they touch, rub and bounce."],
   ["roll", "Roll", 2, 2, "The centre of a disc, then where it touches the line on which it rolls without slip."],
   ["rack", "Rack", 2, 2, "The pin of a pinion, then a point of the rack, which a slide holds."],
   ["rope", "Rope", 4, 4, "One end, the centre of a sheave, its rim, the other end."],
@@ -86,6 +86,10 @@ bench.append(snap, where);
 bench.setAttribute("aria-orientation", "vertical");
 $("stage").prepend(bench);
 $("picture").append(layer, pointer, asking);
+layer.addEventListener("wheel", (e) => { // a ring under the hand zooms as the picture below it does
+  e.preventDefault();
+  $("view").dispatchEvent(new WheelEvent("wheel", e));
+}, { passive: false });
 underlay();
 
 function choosing(name) {

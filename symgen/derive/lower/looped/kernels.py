@@ -289,6 +289,7 @@ class _Kernel:
             "geometry": [(OutputSlot("residual", 0), phi), *common],
             "motion": common + force,
             "full": [(OutputSlot("phi", 0), phi), *common, *force],
+            "wind": self.counted_angles(),
         }
 
     @property

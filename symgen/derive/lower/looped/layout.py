@@ -27,7 +27,7 @@ STAGES: dict[str, tuple[tuple[str, str], ...]] = {
     "move": (("body", "move"),),
     "turn": (("body", "turn"),),
     "normalise": (("body", "normalise"),),
-    "wind": (("joint", "wind"), ("force", "wind")),
+    "wind": (("joint", "wind"), ("bound", "wind"), ("force", "wind")),
     "geometry": (("joint", "geometry"), ("bound", "geometry"), ("rotor", "geometry")),
     "motion": (("body", "motion"), *((kind, "motion") for kind in ("joint", "bound", "rotor", "force"))),
     "full": (("body", "motion"), ("joint", "full"), ("bound", "full"), ("rotor", "motion"), ("force", "motion")),
