@@ -34,8 +34,9 @@ SPANS, EVERY = (12, 18, 24, 30, 36, 42, 48, 60, 70), 3
 LEAST, MOST = 0.01, 2.5
 #: Fits of one start, each of so many steps as least squares take, and the part by which one has to be better.
 FITS, BETTER = 6, 0.02
-#: What a transmission angle keeps beside the least one [rad], and how much its cosine counts beside parts of the size.
-SPARE, STEEP = math.radians(2.0), 0.1
+#: What a transmission angle keeps beside the least one [rad], and how much its cosine counts beside parts of the size:
+#: more, where the linkage that was found falls short of the least angle between the points.
+SPARE, STEEP = math.radians(2.0), (0.1, 1.0, 10.0)
 #: Starts differ by so many sizes of the task, all pins together.
 APART = 0.5
 
@@ -86,17 +87,26 @@ class PathSearch:
         steep = f"max(abs({COSINE}) - {math.cos(transmission + SPARE)!r}, 0)"  # 0 as well, where forces pass well
         columns = {"coupler.x": self.points[:, 0], "coupler.y": self.points[:, 1], steep: np.zeros(len(self.points))}
         data = MeasuredData("the path", np.linspace(0.0, 1.0, len(self.points)), columns)
-        units, weights = ("m", "m", ""), (1.0 / task.size, 1.0 / task.size, STEEP)
-        residuals = Residuals([data], dict(zip(columns, units, strict=True)), dict(zip(columns, weights, strict=True)))
-        self._aim = ColumnAim(residuals, tuple(reader.place("synthesize", name) for name in columns))
+        units = dict(zip(columns, ("m", "m", ""), strict=True))
+        self._aims = list[ColumnAim]()
+        for each in STEEP:
+            weights = dict(zip(columns, (1.0 / task.size, 1.0 / task.size, each), strict=True))
+            places = tuple(reader.place("synthesize", name) for name in columns)
+            self._aims.append(ColumnAim(Residuals([data], units, weights), places))
         self._names = (*PLACES, *self.turns)
         self._motions = motions_of(mechanism, Settings(until=1.0), self._names, 1.0, reader.quantities)
 
     def find(self, starts: int, seed: int) -> Iterator[Linkage]:
         """Yield verified linkages, from the best shapes on."""
         for start in self._begin(starts, seed):
-            linkage = self._fit(start)
-            if linkage is not None:
+            for aim in self._aims:
+                found = self._fit(start, aim)
+                if found is None:
+                    break
+                linkage, start = found
+                if linkage.transmission >= self.transmission:
+                    break
+            if found is not None:
                 yield linkage
 
     def _begin(self, starts: int, seed: int) -> list[PathStart]:
@@ -109,15 +119,15 @@ class PathSearch:
                 break
         return chosen
 
-    def _fit(self, start: PathStart) -> Linkage | None:
-        """Return the linkage of least squares near a shape."""
+    def _fit(self, start: PathStart, aim: ColumnAim) -> tuple[Linkage, PathStart] | None:
+        """Return the linkage of least squares near a shape, verified, and as a shape itself."""
         way, count = np.sign(start.turns[0]), len(self.turns)
         ends = np.sort([way * LEAST, way * MOST])
         low, high = (
             np.append(np.tile(x, 5), np.full(count, end)) for x, end in ((self.low, ends[0]), (self.high, ends[1]))
         )
         ranges = Ranges(self._names, low, high, np.append(start.places, start.turns))
-        search = Search(ranges, self._motions, self._aim, [], 1.0)
+        search = Search(ranges, self._motions, aim, [], 1.0)
         found = search.check(ranges.parts(ranges.start))
         for _ in range(FITS):
             if found is None:
@@ -127,12 +137,15 @@ class PathSearch:
                 break
         if found is None:
             return None
-        values = dict(zip(self._names, ranges.values(found.u).tolist(), strict=True))
-        turned = np.cumsum([0.0, *(values[name] for name in self.turns)])
+        numbers = ranges.values(found.u)
+        turned = np.cumsum([0.0, *numbers[len(PLACES) :].tolist()])
         turn = 2.0 * math.pi * float(way) if self.task.is_closed else float(turned[-1])
         if abs(turned[-1]) > 2.0 * math.pi:
             return None
-        return verify_linkage(pins_of_values(values), turn, turned / turn, self.points, None)
+        values = dict(zip(self._names, numbers.tolist(), strict=True))
+        linkage = verify_linkage(pins_of_values(values), turn, turned / turn, self.points, None)
+        fitted = PathStart(start.miss, numbers[: len(PLACES)], numbers[len(PLACES) :])
+        return None if linkage is None else (linkage, fitted)
 
     # -- shapes --------------------------------------------------------------------------------------------------------
 

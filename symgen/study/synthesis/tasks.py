@@ -103,6 +103,10 @@ def _check(where: str, task: SynthesisTask) -> None:
 def _columns(source: object) -> Iterator[tuple[str, Array]]:
     """Yield names and numbers in SI units."""
     if isinstance(source, str | Path):
+        if Path(source).suffix.lower() in (".toml", ".json"):
+            raise InputError(
+                str(source), "a CSV file with the columns x and y, and angle for positions", "another file"
+            )
         table = read_csv_table(str(source), Path(source))
         for k, name in enumerate(table.names):
             yield name, np.array(table.numbers_in_unit(k, _UNITS[name]) if name in _UNITS else [])

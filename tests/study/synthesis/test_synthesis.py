@@ -131,3 +131,41 @@ def test_a_linkage_in_a_file_that_has_its_names_keeps_what_is_there(tmp_path):
     for name in ("coupler", "coupler1"):
         tips = np.column_stack([motion[f"{name}.P.x"], motion[f"{name}.P.y"]])
         assert tips == pytest.approx(np.array([[0.0, 0.0], [0.8, 0.2], [0.0, 0.0]]), abs=1e-8)
+
+
+def hoeken(angles):
+    """Return tips of Hoeken's linkage: crank 1 on a ground of 2.2, coupler and rocker 2.8, the tip at twice that."""
+    pin = np.exp(1j * angles)
+    to = 2.2 - pin
+    height = np.sqrt(2.8**2 - 0.25 * np.abs(to) ** 2)
+    return pin + 2.0 * (0.5 * to + 1j * height * to / np.abs(to))
+
+
+@pytest.mark.slow
+def test_the_curve_of_a_known_linkage_gives_that_linkage_or_its_cognate():
+    """Points of a whole turn of Hoeken's curve have an optimum of 0: its own pins, and those of Roberts' cognates."""
+    tips = hoeken(np.linspace(0.0, 2.0 * math.pi, 13))
+    tips[-1] = tips[0]
+    found = synthesize({"x": tips.real, "y": tips.imag}, transmission=math.radians(20.0))
+    assert found.ok and found.linkages[0].deviation < 1e-9
+    exact = [each for each in found.linkages if each.deviation < 1e-9]
+    own = [each.pins for each in exact if np.hypot(*each.pins.crank_pivot) < 1e-6]
+    assert own, [each.pins for each in found.linkages]
+    assert own[0].rocker_pivot == pytest.approx((2.2, 0.0), abs=1e-6)
+    assert math.dist(own[0].crank_pivot, own[0].crank_pin) == pytest.approx(1.0, abs=1e-6)
+    assert math.dist(own[0].rocker_pin, own[0].rocker_pivot) == pytest.approx(2.8, abs=1e-6)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("turned", [1.0, 0.75])
+@pytest.mark.parametrize("flat", [0.5, 0.8])
+def test_an_ellipse_is_met_by_linkages_that_keep_the_transmission_angle(flat, turned):
+    """Where least squares fall short of the angle between the points, the search goes on with more weight on it."""
+    angles = np.linspace(0.0, 2.0 * math.pi * turned, 13)
+    x, y = 0.4 * np.cos(angles), 0.4 * flat * np.sin(angles)
+    if turned == 1.0:
+        x[-1], y[-1] = x[0], y[0]
+    found = synthesize({"x": x, "y": y})
+    assert found.ok, found.reason
+    assert found.linkages[0].deviation < 0.02 * 0.8
+    assert all(each.transmission >= math.radians(30.0) - 1e-6 for each in found.linkages)
