@@ -1,5 +1,6 @@
 """Reports in a browser: sketches are bounded in height."""
 
+import base64
 import re
 from pathlib import Path
 
@@ -80,3 +81,125 @@ def test_a_wide_table_is_printed_across_with_its_heading(tmp_path):
     data = write(document, tmp_path / "a.pdf").read_bytes()
     sizes = re.findall(rb"/MediaBox \[0 0 (\d+)[.\d]* (\d+)[.\d]*\]", data)
     assert [int(width) > int(height) for width, height in sizes] == [False, True, False]
+
+
+#: A platform on two parallel arms, which a driver lifts.
+LIFT = """\
+[mechanism]
+name = "platform"
+title = "Platform on two arms"
+gravity = [0.0, -9.81]
+
+[run]
+until = 3.0
+
+[parameters]
+arm = { value = 600, unit = "mm" }
+load = { value = 1500, unit = "N" }
+lift = { value = 60, unit = "deg" }
+
+[bodies.low]
+mass = 8.0
+inertia = 0.24
+centre_of_mass = ["arm/2", 0.0]
+points = { A = [0.0, 0.0], B = ["arm", 0.0] }
+angle = "-20 deg"
+
+[bodies.high]
+mass = 8.0
+inertia = 0.24
+centre_of_mass = ["arm/2", 0.0]
+points = { A = [0.0, 0.0], B = ["arm", 0.0] }
+position = [0.0, 0.25]
+angle = "-20 deg"
+
+[bodies.table]
+mass = 25.0
+inertia = 2.0
+centre_of_mass = [0.4, 0.0]
+points = { L = [0.0, 0.0], U = [0.0, 0.25], tip = [0.9, 0.0] }
+position = ["arm*cos(pi/9)", "-arm*sin(pi/9)"]
+
+[joints.a]
+type = "revolute"
+between = ["ground", "low"]
+at = [[0.0, 0.0], "A"]
+
+[joints.b]
+type = "revolute"
+between = ["ground", "high"]
+at = [[0.0, 0.25], "A"]
+
+[joints.c]
+type = "revolute"
+between = ["low", "table"]
+at = ["B", "L"]
+
+[joints.d]
+type = "revolute"
+between = ["high", "table"]
+at = ["B", "U"]
+
+[joints.turn]
+type = "driver"
+joint = "a"
+value = "-pi/9 + lift*(1 - cos(pi*t/3))/2"
+
+[forces.cargo]
+type = "force"
+body = "table"
+at = [0.5, 0.0]
+force = [0.0, "-load"]
+
+[outputs]
+torque = { value = "turn.effort", unit = "N m", largest = 2000 }
+height = { value = "1000*table.tip.y", unit = "mm" }
+"""
+FURTHER = "\n".join(
+    f'{body}_{kind}{k} = "{body}.{kind} + {k}*{body}.x"'
+    for body in ("low", "high", "table")
+    for kind in ("vx", "vy", "ay", "omega")
+    for k in range(4)
+)
+#: Machines as text and what is changed, the most pages, and words of the first page.
+PRINTED_MACHINES = {
+    "good": (LIFT, {}, 2, "keeps 1 limit"),
+    "at a dead point": (LIFT, {"lift": 2.4}, 2, "singular position"),
+    "jammed": (LIFT, {"lift": 1.9198621771937625}, 3, ""),
+    "overloaded": (LIFT, {"load": 6000.0}, 2, "1 of 1 limit is exceeded"),
+    "with contacts": ("woodpecker", {}, 3, "The run reaches 2 s"),
+    "with fifty quantities": (LIFT + FURTHER, {}, 4, "keeps 1 limit"),
+}
+#: Headings that stand at the foot of a page with nothing below them, by the layout on paper: none may.
+BLOCKS = """
+  [...document.querySelectorAll('h2, h3')].filter((h) => {
+    const next = h.nextElementSibling;
+    return next && getComputedStyle(h).breakAfter !== 'avoid';
+  }).length
+"""
+
+
+@pytest.mark.parametrize("name", PRINTED_MACHINES)
+def test_a_report_on_paper_and_on_a_telephone(name: str, chromium: Chromium, tmp_path: Path) -> None:
+    """Few pages, the last one not nearly empty, nothing wider than paper or telephone, units of the first page."""
+    text, changed, most, words = PRINTED_MACHINES[name]
+    file = tmp_path / "machine.toml"
+    file.write_text(text)
+    model = symgen.load(file if "\n" in text else text)
+    document = machine_report(model, model.simulate(parameters=changed))
+    page = write(document, tmp_path / "machine.html")
+    assert words in page.read_text(encoding="utf-8")
+    for width, media in ((1280, ""), (390, ""), (PRINTED, "print")):
+        chromium.call("Emulation.setEmulatedMedia", media=media)
+        chromium.open(page, width)
+        assert chromium.run("document.documentElement.scrollWidth") <= width
+        if media:
+            assert chromium.run(BLOCKS) == 0
+            printed = chromium.call("Page.printToPDF", preferCSSPageSize=True, paperWidth=8.27, paperHeight=11.69)
+    chromium.call("Emulation.setEmulatedMedia", media="")
+    data = base64.b64decode(printed["data"])
+    assert len(re.findall(rb"/Type\s*/Page\b(?!s)", data)) <= most
+    if "\n" in text and name != "jammed":  # newtons and radians of the file are kN and degrees on all pages
+        shown = page.read_text(encoding="utf-8")
+        assert " kN</td>" in shown and " deg</td>" in shown and not re.search(r"[0-9] rad\b|\[rad\]", shown)
+    assert chromium.said == []
