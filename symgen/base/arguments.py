@@ -92,12 +92,15 @@ def text(where: str, value: object, expected: str = "a text") -> str:
     return value
 
 
-def one_word_of(where: str, value: object, candidates: Iterable[str]) -> str:
-    """Return one of some words."""
+def one_word_of(where: str, value: object, candidates: Iterable[str], meant: Mapping[str, str] | None = None) -> str:
+    """Return one of some words; `meant` leads from words of others to them."""
     words = list(candidates)
     expected = f"one of {', '.join(words)}"
     if text(where, value, expected) not in words:
-        raise InputError(where, expected, kind_of_value(value), suggest(str(value), words))
+        word = (meant or {}).get(str(value).lower(), "")
+        raise InputError(
+            where, expected, kind_of_value(value), f"did you mean '{word}'?" if word else suggest(str(value), words)
+        )
     return str(value)
 
 

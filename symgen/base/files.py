@@ -85,15 +85,34 @@ def check_path(where: str, path: Path, endings: Mapping[str, tuple[str, ...]], e
     """
     ending = path.suffix.lower()
     if ending not in endings:
-        hint = suggest(ending, endings) if ending else ""
         expected = f"a file ending in {', '.join(endings)}"
-        raise InputError(where, expected, f"'{path}'", "" if hint.startswith("known") else hint)
+        raise InputError(where, expected, f"'{path}'", _hint_on_ending(path, endings))
     need_library(where, *endings[ending], extra=extra)
     if ending in MEASURED and not any(map(shutil.which, MEASURED[ending])):
         programs = " or ".join(MEASURED[ending])
         raise InputError(where, f"{programs}, which measure the texts of a {ending} file", "none of them")
     check_writable(where, path)
     return path
+
+
+#: Endings that other programs write -> those that take their place.
+_ENDINGS_MEANT = {
+    **dict.fromkeys((".xlsx", ".xls", ".ods", ".mat", ".txt", ".dat", ".tsv", ".json"), ".csv"),
+    **dict.fromkeys((".h5", ".hdf5", ".hdf"), ".nc"),
+    **dict.fromkeys((".doc", ".docx", ".odt", ".ps"), ".pdf"),
+    **dict.fromkeys((".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp"), ".png"),
+    **dict.fromkeys((".dxf", ".dwg", ".eps"), ".svg"),
+    **dict.fromkeys((".avi", ".mp4", ".mov", ".webm", ".gif", ".htm"), ".html"),
+}
+
+
+def _hint_on_ending(path: Path, endings: Mapping[str, tuple[str, ...]]) -> str:
+    """Return the name with a likely ending; of one without an ending with the table's, else with the first one."""
+    ending = path.suffix.lower()
+    meant = _ENDINGS_MEANT.get(ending, "") if ending else next((e for e in (".csv", *endings) if e in endings), "")
+    if meant not in endings and (hint := suggest(ending, endings)).startswith("did"):
+        meant = hint.removeprefix("did you mean '").removesuffix("'?")
+    return f"did you mean '{path.with_suffix(meant)}'?" if meant in endings and path.name else ""
 
 
 def check_file_name(where: str, path: Path) -> None:

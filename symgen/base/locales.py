@@ -68,11 +68,25 @@ def _signs_of_locale(name: str) -> Signs:
     try:
         locale = Locale.parse(name.replace("-", "_"))
     except (UnknownLocaleError, ValueError, TypeError):
-        raise InputError("--locale", "a locale, such as de, fr or de_CH", quote(name)) from None
+        raise InputError("--locale", "a locale, such as de, fr or de_CH", quote(name), _hint_on_locale(name)) from None
     symbols: Any = locale.number_symbols
     signs = symbols.get("latn", symbols)
     pattern = re.sub(r"y+", "y", str(locale.date_formats["short"].pattern))
     return Signs(name, signs["decimal"], signs["group"], pattern)
+
+
+def _hint_on_locale(word: str) -> str:
+    """Return the locale that a language means, in English or in its own words, or whose name begins a longer one."""
+    from babel import Locale, localedata
+
+    meant = word.casefold()
+    first = re.split(r"[-_.@]", meant)[0]
+    codes = [code for code in localedata.locale_identifiers() if "_" not in code]
+    english = Locale("en").languages
+    if first not in codes:
+        own = (code for code in codes if meant == (Locale(code).get_display_name() or "").casefold())
+        first = next((code for code in codes if meant == str(english.get(code, "")).casefold()), None) or next(own, "")
+    return f"did you mean '{first}'?" if first else ""
 
 
 def chosen_locale() -> str:

@@ -16,6 +16,11 @@ from symgen.base.errors import InputError, suggest
 
 SHAPES = ("auto", "straight", "looped")
 COORDINATES = ("absolute", "joint", "auto")
+#: Words of textbooks and of other programs for them.
+COORDINATES_MEANT = {
+    **dict.fromkeys(("relative", "minimal", "reduced", "generalized", "generalised", "joints", "tree"), "joint"),
+    **dict.fromkeys(("cartesian", "maximal", "redundant", "global", "bodies", "body", "natural"), "absolute"),
+}
 
 
 @dataclass(frozen=True)
@@ -59,7 +64,7 @@ _name = partial(arguments.text, expected="a name")
 _repeat = partial(arguments.whole_number, least=1, most=1000)
 _shape, _coordinates = (
     partial(arguments.one_word_of, candidates=SHAPES),
-    partial(arguments.one_word_of, candidates=COORDINATES),
+    partial(arguments.one_word_of, candidates=COORDINATES, meant=COORDINATES_MEANT),
 )
 
 

@@ -34,7 +34,7 @@ from symgen.base.registry import Registry
 from symgen.base.settings import command_flag, setting_names
 from symgen.base.units import read_amount, read_unit
 from symgen.base.version import __version__
-from symgen.cli._meant import hint_on_choice, hint_on_command, hint_on_option
+from symgen.cli._meant import hint_on_choice, hint_on_command, hint_on_extra, hint_on_option
 
 OK, FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 #: Number of new objects before the first garbage collection; imports create about as many.
@@ -277,6 +277,12 @@ def _sentence_of_error(error: click.ClickException) -> str:
         text = text[: number.start()].rstrip() + f" expected a number, got '{number[1]}'{_hint_on_number(number[1])}"
     elif isinstance(error, click.BadParameter) and (choice := _NOT_A_CHOICE.search(text)):
         text = text.rstrip(".") + hint_on_choice(choice[1], re.findall(r"'([^']*)'", choice[2]))
+    elif extra := _EXTRA.search(text):
+        text = text.rstrip(".") + hint_on_extra(extra[1])
+    elif context is not None and isinstance(context.command, click.Group) and (unknown := _NO_COMMAND.search(text)):
+        text = (
+            f"there is no command '{unknown[1]}'; {hint_on_command(unknown[1], context.command.list_commands(context))}"
+        )
     help_at = f" (symgen {context.info_name} --help)" if context is not None and context.parent is not None else ""
     return text[:1].lower() + text[1:].rstrip(".") + help_at
 
@@ -303,6 +309,9 @@ def _hint_on_number(word: str) -> str:
 #: What click says of a word that is no number, and of one that is none of a few.
 _NOT_A_NUMBER = re.compile(r"'([^']*)' is not a valid (?:float|integer)(?: range)?\.?$")
 _NOT_A_CHOICE = re.compile(r"'([^']*)' is not one of (.*)$")
+#: What it says of a word too many, and of an unknown command of a command.
+_EXTRA = re.compile(r"unexpected extra arguments? \(([^ )]*)")
+_NO_COMMAND = re.compile(r"No such command '([^']*)'")
 
 
 def spare_collections() -> None:

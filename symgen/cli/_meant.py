@@ -7,6 +7,7 @@ from difflib import SequenceMatcher
 from typing import Final
 
 from symgen.base.errors import CLOSE, suggest
+from symgen.base.units import read_unit
 
 #: Words that users type for commands -> what stands after ``symgen``.
 COMMANDS_MEANT: Final = {
@@ -36,6 +37,7 @@ COMMANDS_MEANT: Final = {
     **dict.fromkeys(("scan", "batch", "montecarlo", "monte-carlo", "vary", "doe"), "sweep"),
     **dict.fromkeys(("ls", "catalogue", "catalog", "examples", "models"), "list"),
     **dict.fromkeys(("inverse-dynamics", "torques"), "inverse"),
+    **dict.fromkeys(("purge", "delete", "remove", "rm", "wipe", "empty", "clean", "reset"), "cache clear"),
     **{"help": "--help", "version": "--version", "usage": "--help"},
 }
 _UNTIL: Final = (
@@ -67,6 +69,12 @@ OPTIONS_MEANT: Final = {
     **dict.fromkeys(("--columns", "--outputs", "--signals", "--variables", "-q", "-y"), ("--quantity",)),
     **dict.fromkeys(("--threads", "--workers", "--processes", "--cores", "-j"), ("--jobs",)),
     **dict.fromkeys(("--lang", "--language", "--backend"), ("--target",)),
+    **dict.fromkeys(("--keep", "--fields", "--channels"), ("--quantity",)),
+    **dict.fromkeys(("--motion", "--data", "--recording", "--continue", "--restart"), ("--from",)),
+    **dict.fromkeys(("--quiet", "--silent"), ("--json",)),
+    **dict.fromkeys(("--animate", "--animation", "--show", "--video", "--gui"), ("symgen view MODEL -o FILE.html",)),
+    **dict.fromkeys(("--inputs", "--u"), ("--input", "--by")),
+    **{"--latex": ("--format latex",), "--tex": ("--format latex",), "--at-time": ("--at",)},
 }
 
 
@@ -74,7 +82,7 @@ OPTIONS_MEANT: Final = {
 VALUES_MEANT: Final = {
     **dict.fromkeys(("python", "numba", "numpy", "py"), "cpu"),
     **dict.fromkeys(("gpu", "nvidia"), "cuda"),
-    **dict.fromkeys(("c++", "cpp", "c99", "ansi-c"), "c"),
+    **dict.fromkeys(("c++", "cpp", "c99", "ansi-c", "fortran", "rust", "c#", "matlab", "arduino"), "c"),
     **dict.fromkeys(("fmi", "simulink", "modelica", "fmi2", "fmi3"), "fmu"),
     **dict.fromkeys(("js", "web", "html"), "javascript"),
     **{"tex": "latex", "txt": "text", "plain": "text"},
@@ -93,12 +101,25 @@ def hint_on_command(word: str, commands: Sequence[str]) -> str:
     meant = COMMANDS_MEANT.get(word.lower(), "")
     if not meant:
         return suggest(word, commands)
-    return f"did you mean '{meant}'?" if meant in commands else f"did you mean 'symgen {meant}'?"
+    own = meant.rpartition(" ")[2]
+    if meant in commands or own in commands:  # of symgen, or of one of its commands
+        return f"did you mean '{meant if meant in commands else own}'?"
+    return f"did you mean 'symgen {meant}'?"
+
+
+def hint_on_extra(word: str) -> str:
+    """Return the hint on a word too many, with a semicolon before it: a unit or a value that stands apart."""
+    if word.lower() in ("true", "false", "yes", "no", "on", "off"):
+        return "; an option that is on or off has no value"
+    if not isinstance(read_unit(word), str):
+        return "; a number and its unit are one word, such as --set arm=300mm; --until and --step are in s without it"
+    return ""
 
 
 def hint_on_option(option: str, options: Sequence[str]) -> str:
     """Return the likely option for an unknown one, by meaning or by spelling; empty where none is."""
-    meant = next((each for each in OPTIONS_MEANT.get(option, ()) if each in options), "")
+    words = OPTIONS_MEANT.get(option, ())
+    meant = next((each for each in words if each.split()[0] in (*options, "symgen")), "")
     if meant:
         return f"did you mean '{meant}'?"
     hint = suggest(option, options)

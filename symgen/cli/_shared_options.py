@@ -224,10 +224,21 @@ def read_pairs(option: str, texts: Sequence[str], form: str = "NAME=VALUE") -> d
             colon = re.fullmatch(r"([\w.]+)\s*:\s*(\S+)", text)
             hint = f"did you mean {colon[1]}={colon[2]}?" if colon and form == "NAME=VALUE" else ""
             raise InputError(option, form, quote(text), hint)
+        if form == "NAME=VALUE" and "=" in value:
+            raise InputError(option, f"{form} once", quote(text), _hint_on_pairs(option, name, value))
         if name in values:
             raise InputError(f"{option} {name}", "each name once", "it twice")
         values[name] = value
     return values
+
+
+def _hint_on_pairs(option: str, name: str, value: str) -> str:
+    """Return what a word with several signs ``=`` means: one too many, or several assignments in one word."""
+    if value.startswith("="):
+        return f"did you mean {name}={value.lstrip('= ')}?"
+    pairs = [part.strip() for part in re.split(r"[;,]", f"{name}={value}")]
+    separate = all(re.fullmatch(r"[\w.]+\s*=[^=]+", pair) for pair in pairs)
+    return f"did you mean {' '.join(f'{option} {pair}' for pair in pairs)}?" if separate else ""
 
 
 def read_assignments(option: str, texts: Sequence[str]) -> dict[str, float]:
@@ -269,8 +280,9 @@ def read_comma_list(option: str, text: str | None) -> tuple[str, ...]:
     if text is None:
         return ()
     parts = tuple(part.strip() for part in text.split(","))
-    if not all(parts):
-        raise InputError(option, "words separated by commas", quote(text))
+    if not all(parts) or (";" in text and "," not in text):
+        hint = f"did you mean {','.join(part.strip() for part in text.split(';'))}?" if ";" in text else ""
+        raise InputError(option, "words separated by commas", quote(text), hint)
     return parts
 
 
@@ -345,7 +357,9 @@ def read_time_list(option: str, text: str) -> tuple[float, ...]:
         from symgen.study.ensemble.axes import axis_values
 
         return tuple(axis_values(text, option, ("s", "s")).tolist())
-    return tuple(
-        _number_above(option, "finite times, separated by commas, or lin(first, last, count)", w)
-        for w in read_comma_list(option, text)
-    )
+    expected = "finite times, separated by commas, or lin(first, last, count)"
+    if ":" in text:
+        from symgen.study.ensemble.axes import meant_axis
+
+        raise InputError(option, expected, quote(text), meant_axis(text))
+    return tuple(_number_above(option, expected, w) for w in read_comma_list(option, text))

@@ -126,6 +126,10 @@ def parameters_of_variants(model: str, text: str) -> tuple[str, list[dict[str, f
     from symgen.study.report.variants_report import MOST_VARIANTS
 
     ((name, values),) = read_pairs("--vary", [text], "NAME=VALUE,VALUE").items()
+    if "(" in values or ";" in values:
+        listed = values.replace(";", ",")
+        hint = "symgen sweep takes ranges" if "(" in values else f"did you mean {name}={listed}?"
+        raise InputError("--vary", "NAME=VALUE,VALUE", quote(text), hint)
     texts = [*dict.fromkeys(values.split(","))]
     if not 2 <= len(texts) <= MOST_VARIANTS:
         expected = f"two to {MOST_VARIANTS} different values with commas between them"

@@ -120,7 +120,10 @@ def read_result_file(option: str, path: Path, read: Callable[[Path], _Value], li
     need_library(option, *libraries)
     check_file_name(option, path)
     if not path.is_file():
-        raise InputError(option, "a file of a result", f"'{path}', which is none")
+        beside = sorted(p.name for p in path.parent.glob("*") if p.suffix in SAVED) if path.parent.is_dir() else []
+        near = suggest(path.name, beside).partition("did you mean '")[2].removesuffix("'?")
+        hint = f"did you mean '{path.parent / near}'?" if near else ""
+        raise InputError(option, "a file of a result", f"'{path}', which is none", hint)
     try:
         return read(path)
     except InputError:

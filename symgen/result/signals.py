@@ -191,6 +191,8 @@ def check_single(name: str, columns: Iterable[str]) -> None:
 
 def _hint_on_owner(name: str, columns: Iterable[str]) -> str:
     """Return the hint on a quantity whose owner is left out, or that a textbook calls otherwise; else nothing."""
+    if name.lower() in ("time", "seconds"):
+        return "the time is 't', which stands beside all others"
     parts = [column.split(".") for column in columns]
     whole = dict.fromkeys(".".join(part[:i]) for part in parts for i in range(2, len(part) + 1))
     owned = [each for each in whole if each.endswith(f".{name}")][:MOST_OFFERED]

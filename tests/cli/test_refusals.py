@@ -52,7 +52,7 @@ REFUSED = {
     "compare four-bar --reference scipy-rado": "did you mean 'scipy-radau'?",
     "compare four-bar --csv nowhere/rows.csv": "--csv: expected a file in a folder that exists",
     "inspect four-bar --format pdf": "'pdf' is not one of",
-    "cache inof": "no such command 'inof'",
+    "cache inof": "there is no command 'inof'; did you mean 'info'?",
     "new Crane": "expected lower-case words joined by dashes",
     "completion csh": "'csh' is not one of",
     "compare pendulum -o report.doc": "--output: expected a file ending in .html, .md, .pdf, .tex, got 'report.doc'",

@@ -13,6 +13,7 @@ from symgen.describe import catalogue
 from symgen.describe.edits.template import new_file_text
 from symgen.describe.edits.text_changes import keep_line_ends
 from symgen.describe.files.load import LARGEST_FILE, read_text
+from symgen.describe.files.meant_files import hint_on_files
 
 _MARK = "\ufeff"
 
@@ -60,7 +61,9 @@ class Document:
             return cls._begin_from(Path(f"{name}.toml"), entry.read_text(encoding="utf-8"))
         path = Path(name)
         if not path.is_file():
-            hint = f"symgen edit --new {path.stem} begins one" if path.suffix == ".toml" else ""
+            hint = hint_on_files(path)
+            if not hint and path.suffix == ".toml":
+                hint = f"symgen edit --new {path.stem} begins one"
             raise InputError(
                 "edit", "the path of a mechanism file or a catalogue name without a size", quote(name), hint
             )

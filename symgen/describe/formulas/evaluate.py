@@ -8,6 +8,7 @@ from graphlib import CycleError, TopologicalSorter
 
 from symgen.base import arguments
 from symgen.base.errors import InputError, suggest
+from symgen.base.settings import setting_names
 from symgen.base.vocabulary.expressions import (
     FUNCTIONS,
     Call,
@@ -94,6 +95,8 @@ def _hint_on_parameter(mechanism: Mechanism, name: str, known: Iterable[str]) ->
     hint = hint_on_number(mechanism, name, known)
     if hint and not hint.startswith("known"):
         return hint
+    if name in setting_names():
+        return f"it is no parameter: did you mean `{name}`?"
     owner, _, key = name.rpartition(".")
     if not key.isidentifier():
         return hint

@@ -55,7 +55,7 @@ def check_identifier(name: str, where: str, what: str) -> str:
 def check_mechanism_name(name: str, where: str) -> str:
     """Return `name` if it may name a mechanism: lower-case words joined by dashes."""
     if len(name) > LONGEST or not _KEBAB.fullmatch(name):
-        cured = re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-0123456789")[:LONGEST].strip("-")
+        cured = re.sub(r"[^a-z0-9]+", "-", name.lower().removesuffix(".toml")).strip("-0123456789")[:LONGEST].strip("-")
         hint = f"for example '{cured}'" if cured else ""
         raise InputError(where, "lower-case words joined by dashes, such as 'four-bar'", quote(name), hint)
     return name

@@ -35,6 +35,10 @@ _SECTIONS: Final = {
     **dict.fromkeys(("variables", "constants"), "parameters"),
 }
 _KEYS_OF_ENTRIES: Final = {"mass": "bodies", "between": "joints", "stiffness": "forces", "force": "forces"}
+_KEYS_OF_HEADS: Final = {
+    "mechanism": ("name", "title", "gravity", "space", "remarks"),
+    "run": ("until", "step", "method", "integrator", "rtol", "atol"),
+}
 _LISTED: Final = re.compile(
     r"\s*[\[(]?\s*[-+.\d]+(?:[eE][-+]?\d+)?(?:\s*[,;\s]\s*[-+.\d]+(?:[eE][-+]?\d+)?)+\s*[\])]?\s*"
 )
@@ -53,8 +57,11 @@ def hint_on_section(name: str, content: object, sections: Iterable[str]) -> str:
     known = list(sections)
     if (word := _SECTIONS.get(name.lower(), "")) in known:
         return f"did you mean '{word}'?"
-    if (hint := hint_on_key(name, known)) or not isinstance(content, Mapping):
+    if hint := hint_on_key(name, known):
         return hint
+    if not isinstance(content, Mapping):
+        own = next((section for section, keys in _KEYS_OF_HEADS.items() if name in keys), "")
+        return f"did you mean '{name}' below the header '[{own}]'?" if own else ""
     section = next((part for key, part in _KEYS_OF_ENTRIES.items() if key in content), "")
     return f"did you mean '[{section}.{name}]'?" if section else ""
 

@@ -174,12 +174,26 @@ def check_axis(text: str, where: str) -> None:
         axis_values(text, where)
 
 
-def _meant_axis(text: str) -> str:
-    """Return the hint on numbers without a word before them, empty for other texts."""
-    parts = [part.strip() for part in re.split(r"[,:;]", text.strip("[]()"))]
+def meant_axis(text: str) -> str:
+    """Return the hint on numbers without a word before them or with other signs between them, else nothing."""
+    word, opened, inside = text.partition("(")
+    if opened and word.strip() in _WORDS:
+        parts = [part.strip() for part in inside.rstrip(") ").split(";")]
+        return f"did you mean {word.strip()}({', '.join(parts)})?" if len(parts) > 1 else ""
+    parts = [part.strip() for part in re.split(r"\.\.+|[,:;]", text.strip("[]()"))]
     if not all(re.fullmatch(r"[-+.\d][-+.\deE]*", part) for part in parts):
         return ""
-    return f"did you mean values({', '.join(parts)})?"
+    if ":" not in text and ".." not in text:
+        return f"did you mean values({', '.join(parts)})?"
+    try:
+        first, last = float(parts[0]), float(parts[-1])
+        steps = 10.0 if len(parts) == 2 else (last - first) / float(parts[1])  # as in MATLAB
+    except (ValueError, ZeroDivisionError):
+        return ""
+    if len(parts) > 3 or not 0.5 < steps < 1e6:
+        return ""
+    whole = abs(steps - round(steps)) < 1e-9 * steps
+    return f"did you mean lin({f'{parts[0]}, {parts[-1]}, {round(steps) + 1}' if whole else ', '.join(parts)})?"
 
 
 def _read_axis_text(text: str, where: str, units: tuple[str, str]) -> tuple[str, list[float]]:
@@ -187,12 +201,14 @@ def _read_axis_text(text: str, where: str, units: tuple[str, str]) -> tuple[str,
     expected = "lin(a, b, n), log(a, b, n), values(a, b, ...) or uniform(a, b, n, seed)"
     match = _SHAPE.fullmatch(text) if len(text) <= 1_000_000 else None
     if match is None:
-        raise InputError(where, expected, quote(text.strip()), _meant_axis(text.strip()))
+        raise InputError(where, expected, quote(text.strip()), meant_axis(text.strip()))
     word = match[1]
     if word not in _WORDS:
         meant = _MEANT.get(word.lower(), "")
         raise InputError(where, expected, quote(word), f"did you mean '{meant}'?" if meant else suggest(word, _WORDS))
     _, arity, form = _WORDS[word]
+    if ";" in match[2]:
+        raise InputError(where, form, quote(text.strip()), meant_axis(text.strip()))
     parts = match[2].split(",")
     last = len(parts) - _COUNTS.get(word, 0)
     numbers = [

@@ -92,7 +92,10 @@ class Names:
                 expected = f"a parameter, or an initial coordinate or velocity of {self.model}"
                 if name.startswith(METHOD):
                     names, expected = self.options, "a parameter of the method, which is a number"
-                raise InputError(where, expected, "none of that name", suggest(name, names) or "it has none")
+                key = name.rpartition(".")[2]
+                makes = f"'{key} = VALUE' in [parameters] makes one, which the body reads by its name"
+                hint = makes if key in ("mass", "inertia") else suggest(name, names) or "it has none"
+                raise InputError(where, expected, "none of that name", hint)
             if name in self.coordinates and name.rpartition(".")[2] in _EULER:
                 raise InputError(
                     where,

@@ -43,7 +43,7 @@ def test_uniform_draws_the_same_values_for_the_same_seed():
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("1:3:21", r"x: got '1:3:21'; did you mean values\(1, 3, 21\)\? \(expected lin\(a, b, n\), "),
+        ("1:3:21", r"x: got '1:3:21'; did you mean lin\(1, 3, 21\)\? \(expected lin\(a, b, n\), "),
         ("", "got ''"),
         ("linn(1, 2, 3)", r"got 'linn'; did you mean 'lin'\?"),
         ("lin(1, 2)", r"expected lin\(first, last, count\), got 2 numbers"),
