@@ -32,7 +32,7 @@ class Hand:
     keys: bool = False
     actions: int = 0
     tool: str = "move"
-    drawn: list[str] = field(default_factory=list)
+    places: list[tuple[float, float]] = field(default_factory=list)
 
     def use(self, tool: str, *places: Place) -> None:
         """Use a tool at places: points by name, or coordinates in metres, which are typed."""

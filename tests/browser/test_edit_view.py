@@ -64,6 +64,16 @@ def test_a_rail_as_long_as_a_fall_leaves_the_view_and_two_clicks_pin_to_the_grou
     assert page.said() == []
 
 
+def test_the_wheel_zooms_over_a_ringed_point_too(hand: Hand) -> None:
+    page = hand.page
+    hand.bar((0.0, 0.0), (1.0, 0.0))
+    page.rested()
+    hand.choose("pin")
+    before, (x, y) = scale(page), page.where("bodies.bar1.points.A")
+    page.chromium.call("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=300)
+    page.until(f"window.symgen.editor.place(1, 0)[0] - window.symgen.editor.place(0, 0)[0] < 0.9 * {before}")
+
+
 def test_a_zoom_by_hand_stays_until_fit_is_pressed(hand: Hand) -> None:
     page = hand.page
     hand.choose("bar")
