@@ -86,13 +86,20 @@ def compiled_loop(
 
 
 def exact_instance(function: Function, meanings: Mapping[str, Any]) -> Function:
-    """Return an exact function with other meanings of names in it and in its callees; see `Instances`."""
+    """Return an exact function with other meanings of names in it and in its callees; see `Instances`.
 
+    Functions with the same meanings share callees, which are compiled once.
+    """
+    made: Function = _exact_instances(tuple(sorted(meanings.items()))).of(function)
+    return made
+
+
+@functools.cache
+def _exact_instances(meanings: tuple[tuple[str, Any], ...]) -> Instances:
     def same_kind(copy: python.FunctionType, original: object) -> Any:
         return original.like(copy) if isinstance(original, Exact) else copy
 
-    made: Function = Instances(meanings, same_kind).of(function)
-    return made
+    return Instances(dict(meanings), same_kind)
 
 
 def signature_of(loop: object) -> Any:
