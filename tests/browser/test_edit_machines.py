@@ -1,5 +1,6 @@
 """Machines drawn in ``symgen edit`` by the mouse alone, on a desk and on a telephone: joints, places and motion."""
 
+import itertools
 import json
 import tomllib
 from collections.abc import Callable, Iterator
@@ -26,8 +27,11 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 class Mouse(Hand):
     """A hand that clicks at places of the grid, and at ringed points; by keys it types them."""
 
+    #: Whether the view was chosen by hand, so that nothing moves when a motion arrives.
+    zoomed = False
+
     def use(self, tool: str, *places: Place) -> None:
-        if self.page.run("document.querySelectorAll('.handle').length"):
+        if not self.zoomed and self.page.run("document.querySelectorAll('.handle').length"):
             self.page.rested()
         self.places += [place for place in places if not isinstance(place, str) and tool in BODIES]
         if self.keys:
@@ -413,6 +417,7 @@ def test_a_hundred_and_one_bodies_by_the_mouse_alone(chromium: Chromium, tmp_pat
         while scale(page) > 170.0:
             wheel(page, 300)
         page.rested()
+        hand.zoomed = True
         pivots = [
             (round(APART * i, 9), round(LEVEL * j, 9)) for j in (0, -1, 1) for i in (*range(9), *range(-1, -9, -1))
         ]
@@ -420,8 +425,8 @@ def test_a_hundred_and_one_bodies_by_the_mouse_alone(chromium: Chromium, tmp_pat
             if k > 1:
                 hand.use("bar", (x, y), (x, round(y + 0.2, 9)))
             hand.ground(f"bodies.bar{k}.points.A")
-        for k in range(1, len(pivots)):
-            hand.use("bar", f"bodies.bar{k}.points.B", f"bodies.bar{k + 1}.points.B")
+        for one, other in itertools.pairwise(pivots):
+            hand.use("bar", *((x, round(y + 0.2, 9)) for x, y in (one, other)))
         hand.use("motor", "joints.pin1")
         page.rested()
         page.picture("hundred")
