@@ -142,6 +142,8 @@ const startOfLine = (line) => (line > box.state.doc.lines ? T.value.length + 1 :
 
 function select(anchor, head = anchor, focus = true) {
   if (focus) box.focus();
-  box.dispatch({ selection: { anchor, head }, effects: EditorView.scrollIntoView(anchor, { y: "nearest", yMargin: 60 }) });
+  // on a telephone the text lies below the picture: what a hand draws there must not scroll it away
+  const stays = !focus && matchMedia("(max-width: 760px)").matches;
+  box.dispatch({ selection: { anchor, head }, effects: stays ? [] : EditorView.scrollIntoView(anchor, { y: "nearest", yMargin: 60 }) });
 }
 $("seek").addEventListener("click", seek);
