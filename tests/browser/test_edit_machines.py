@@ -117,7 +117,7 @@ def toggle_clamp(hand: Mouse) -> None:
 def door(hand: Mouse) -> None:
     """A garage door, its rail first: its top in a slot, its middle on an arm, a spring that carries it."""
     hand.use("bar", (0.4, -0.3), (-0.4, 0.3))
-    hand.drag("slot", "bodies.bar1.points.B", (80, 0))
+    hand.use("slot", "bodies.bar1.points.B")
     hand.use("point", "bodies.bar1.points.A", (0.0, 0.0))
     hand.use("bar", (-0.4, -0.2), "bodies.bar1.points.C")
     hand.ground("bodies.bar2.points.A")
