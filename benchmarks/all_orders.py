@@ -58,6 +58,7 @@ STEPS = {
     "trapezoidal": (32, 6, 2),
     "newmark": (32, 6, 2),
     "generalized-alpha": (64, 6, 2),
+    "hht": (64, 6, 2),
     "half-explicit": (32, 7, 2),
     "phem56": (8, 7, 2),
     "rattle": (64, 6, 2),
@@ -65,6 +66,7 @@ STEPS = {
     "gauss": (8, 6, 2),
     "symplectic-euler": (512, 6, 2),
     "sdirk": (8, 6, 2),
+    "rodas": (8, 6, 2),
     "radau5": (8, 6, 2),
     "bdf": (64, 5, 2),
 }

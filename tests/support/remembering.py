@@ -6,11 +6,12 @@ PAIRS = [
         ("direct-correction", name)
         for name in ("euler", "heun", "rk4", "rkmk4", "rkmk4-screws", "abm4", "abm", "dopri5", "dop853", "picard")
     ),
-    *(("direct-correction", name) for name in ("sdirk", "radau5", "bdf", "trapezoidal", "newmark")),
+    *(("direct-correction", name) for name in ("sdirk", "rodas", "radau5", "bdf", "trapezoidal", "newmark")),
     *(
         ("ggl", "radau5"),
         ("ggl", "bdf"),
         ("generalized-alpha", "generalized-alpha"),
+        ("generalized-alpha", "hht"),
         ("index3-augmented-lagrangian", "trapezoidal"),
     ),
     *((m, i) for m in ("coordinate-partitioning", "null-space") for i in ("rk4", "abm4", "abm", "dop853", "picard")),

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 MEANT = {
     **dict.fromkeys(("ode45", "rk45", "rkf45", "dopri", "dormand-prince", "ode5", "tsit5"), "dopri5"),
     **dict.fromkeys(("ode78", "ode89", "ode8", "vern9"), "dop853"),
-    **dict.fromkeys(("ode15s", "ode15i", "ode23s", "lsoda", "vode", "cvode", "ida", "dassl", "gear"), "bdf"),
+    **dict.fromkeys(("ode15s", "ode15i", "lsoda", "vode", "cvode", "ida", "dassl", "gear"), "bdf"),
     **dict.fromkeys(("implicit-euler", "backward-euler", "euler-implicit"), "bdf"),
     **dict.fromkeys(("radau", "radau-iia", "ode23t", "ode23tb"), "radau5"),
     **dict.fromkeys(("ode113", "adams", "adams-bashforth"), "abm"),
@@ -27,8 +27,8 @@ MEANT = {
     **dict.fromkeys(("forward-euler", "explicit-euler", "ode1"), "euler"),
     **dict.fromkeys(("semi-implicit-euler", "implicit", "implicitfast"), "symplectic-euler"),
     **dict.fromkeys(("verlet", "leapfrog", "shake"), "rattle"),
-    **dict.fromkeys(("hht", "hht-alpha"), "generalized-alpha"),
-    **{"newmark-beta": "newmark", "crank-nicolson": "trapezoidal"},
+    **dict.fromkeys(("ode23s", "rosenbrock", "ros4", "rodas4", "linearly-implicit-euler"), "rodas"),
+    **{"hht-alpha": "hht", "newmark-beta": "newmark", "crank-nicolson": "trapezoidal"},
 }
 INTEGRATORS: Registry[Integrator] = Registry(
     "symgen.run.integrators", "integrator", beside="symgen.derive.methods", meant=MEANT

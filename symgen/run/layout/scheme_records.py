@@ -126,6 +126,21 @@ class Backward(Stages):
     highest: int
 
 
+class Linear(Stages):
+    """A linearly implicit scheme: `filtered` is its gamma, one stage has the pattern of the filter.
+
+    Attributes
+    ----------
+    carried : Array, shape (s * s,)
+        Weights c_ij of the stages before, over h.
+    drifts : Array, shape (s,)
+        Weights of the derivative with respect to t.
+    """
+
+    carried: Array
+    drifts: Array
+
+
 class Alpha(Record):
     """A scheme of Newmark's family, with the sources, numbers and plan of its Newton matrix."""
 
@@ -285,4 +300,4 @@ KEPT = ("numbers", "plan", "filter_numbers", "filter_plan")
 TABLEAU, ROTATIONS, SCREWS, MULTISTEP = map(record_type, (TableauRecord, Rotations, Screws, Multistep))
 STAGES, ALPHA, NODES, CONSTRAINED = map(record_type, (Stages, Alpha, Nodes, ConstrainedStages))
 PARTITIONED, SYMMETRIC, PROJECTION = map(record_type, (PartitionedStages, Symmetric, Projection))
-BACKWARD = record_type(Backward)
+BACKWARD, LINEAR = map(record_type, (Backward, Linear))

@@ -92,6 +92,8 @@ def test_the_error_of_penalty_falls_with_the_penalty():
     "generalized-alpha-generalized-alpha",
     "ggl-radau5",
     "lagrange-sdirk",
+    "lagrange-rodas",
+    "generalized-alpha-hht",
     "null-space-abm4",
     "rattle-rattle",
     "augmented-hamiltonian-rk4",
@@ -109,8 +111,12 @@ def test_the_error_of_penalty_falls_with_the_penalty():
 @pytest.mark.parametrize(
     ("method", "integrator"),
     [
-        *(("lagrange", i) for i in ("euler", "heun", "abm4", "abm", "newmark", "trapezoidal", "sdirk", "radau5")),
+        *(
+            ("lagrange", i)
+            for i in ("euler", "heun", "abm4", "abm", "newmark", "trapezoidal", "sdirk", "rodas", "radau5")
+        ),
         ("generalized-alpha", "generalized-alpha"),
+        ("generalized-alpha", "hht"),
         ("index3-augmented-lagrangian", "trapezoidal"),
         ("ggl", "radau5"),
         ("rattle", "rattle"),

@@ -44,7 +44,13 @@ def test_redundant_constraints_by_every_method():
 
 
 @pytest.mark.by_turns(3)
-@pytest.mark.slow_cases("penalty-sdirk-1e-06", "generalized-alpha-generalized-alpha-1e-05", "lagrange-radau5-1e-11")
+@pytest.mark.slow_cases(
+    "generalized-alpha-hht-1e-05",
+    "lagrange-rodas-1e-10",
+    "penalty-sdirk-1e-06",
+    "generalized-alpha-generalized-alpha-1e-05",
+    "lagrange-radau5-1e-11",
+)
 @pytest.mark.parametrize(
     ("method", "integrator", "tolerance"),
     [
@@ -52,6 +58,8 @@ def test_redundant_constraints_by_every_method():
         ("ggl", "radau5", 1e-11),
         ("direct-correction", "trapezoidal", 1e-5),
         ("generalized-alpha", "generalized-alpha", 1e-5),
+        ("generalized-alpha", "hht", 1e-5),
+        ("lagrange", "rodas", 1e-10),
         ("penalty", "sdirk", 1e-6),
     ],
 )

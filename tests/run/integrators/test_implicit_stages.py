@@ -29,7 +29,12 @@ CONSTANT = {"integrator.adaptive": "false"}
     ("integrator", "settings"),
     [
         *[("radau5", {}), ("radau5", {"method": "ggl"}), ("sdirk", {}), ("trapezoidal", {"step": 1e-3})],
-        *[("newmark", {"step": 1e-3}), ("generalized-alpha", {"method": "generalized-alpha"})],
+        *[
+            ("newmark", {"step": 1e-3}),
+            ("rodas", {}),
+            ("hht", {"method": "generalized-alpha"}),
+            ("generalized-alpha", {"method": "generalized-alpha"}),
+        ],
     ],
 )
 def test_a_driver_does_the_work_of_the_spring_that_it_pulls(integrator, settings):

@@ -146,6 +146,7 @@ def test_generalised_alpha_turns_bodies_by_exponentials():
     [
         ("index3-augmented-lagrangian", "trapezoidal", 0.002, 2),
         ("lagrange", "newmark", 0.002, 2),
+        ("generalized-alpha", "hht", 0.002, 2),
         ("lagrange", "trapezoidal", 0.002, 2),
     ],
 )
@@ -155,7 +156,9 @@ def test_orders_of_implicit_schemes(method, integrator, step, order):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("method", "integrator"), [("lagrange", "radau5"), ("ggl", "radau5"), ("lagrange", "sdirk")])
+@pytest.mark.parametrize(
+    ("method", "integrator"), [("lagrange", "radau5"), ("ggl", "radau5"), ("lagrange", "sdirk"), ("lagrange", "rodas")]
+)
 def test_adaptive_implicit_schemes(method, integrator):
     result = load(mechanism()).simulate(
         method=method, integrator=integrator, rtol=1e-9, atol=1e-10, until=TIMES[-1], times=TIMES

@@ -311,6 +311,8 @@ def test_methods_take_states(method):
 #: Method and integrator, and the order of a constant step, of schemes whose unknowns are not the stages of a tableau.
 SCHEMES = [
     ("lagrange", "newmark", 2),
+    ("lagrange", "rodas", 4),
+    ("generalized-alpha", "hht", 2),
     ("generalized-alpha", "generalized-alpha", 2),
     ("index3-augmented-lagrangian", "trapezoidal", 2),
     ("rattle", "rattle", 2),
@@ -329,7 +331,7 @@ def test_orders_with_a_state(method, integrator, order):
     errors = []
     for step in (2e-3, 1e-3) if order > 3 else (5e-4, 2.5e-4):  # of order 5 more than rounding is left
         settings = {"until": 0.1, "step": step, "method": method, "integrator": integrator}
-        settings |= options if integrator in ("generalized-alpha", "phem56") else {}
+        settings |= options if integrator in ("generalized-alpha", "hht", "phem56", "rodas") else {}
         result = Model(motor()).simulate(**settings)
         errors.append(np.abs([result.v["wheel.omega"][-1], result.outputs["i"][-1]] - wanted))
     np.testing.assert_allclose(np.log2(errors[0] / errors[1]), order, rtol=0.03)
@@ -343,7 +345,7 @@ def test_schemes_with_a_state_in_a_loop(method, integrator, order, coordinates):
     """A four-bar and its motor beside a run of dop853: what a step of 2e-4 leaves of an error of this order."""
     model, settings = Model(driven_four_bar()), {"until": 0.1}
     settings |= {"shape": "looped"} if coordinates == "looped" else {"coordinates": coordinates}
-    chosen = integrator in ("generalized-alpha", "phem56")
+    chosen = integrator in ("generalized-alpha", "hht", "phem56", "rodas")
     options = {"options": {"integrator.adaptive": "false"}} if chosen else {}
     wanted = model.simulate(**settings, **TIGHT)
     result = model.simulate(**settings, **options, step=2e-4, method=method, integrator=integrator)

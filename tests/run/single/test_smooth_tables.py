@@ -155,6 +155,8 @@ def on_the_wire(times):
         ("direct-correction", "sdirk"),
         ("direct-correction", "trapezoidal"),
         ("direct-correction", "newmark"),
+        ("direct-correction", "rodas"),
+        ("generalized-alpha", "hht"),
         ("ggl", "radau5"),
         ("generalized-alpha", "generalized-alpha"),
     ],
