@@ -134,6 +134,18 @@ def ratios(key: str, *integrators: str) -> list[float]:
     return [x for integrator in integrators for x in equal_error.ratios(METHODS[key], integrator)]
 
 
+def between_seeds() -> dict[str, str]:
+    """Return by how much shares and geometric means of the two seeds differ at most."""
+    points, means = [0.0], [0.0]
+    for key in NAMES:
+        one, other = measures("rk4", key)
+        points += [abs(float(one[share][:-2]) - float(other[share][:-2])) for share in ("better", "worse")]
+        pairs = [statistics.pairs_of(own, "rk4", METHODS[key]) for own in samples()]
+        logs = [np.mean([math.log(base.error / own.error) for base, own in each if own.error > 0.0]) for each in pairs]
+        means.append(math.exp(abs(logs[0] - logs[1])) - 1.0)
+    return {"seeds.points": f"{max(points):.0f}", "seeds.means": f"{100.0 * max(means):.0f}"}
+
+
 def numbers() -> dict[str, str]:
     """Return the numbers of the text by their keys."""
     regular = [[line for line in own if line.get("runs") is not None] for own in samples()]
@@ -156,6 +168,7 @@ def numbers() -> dict[str, str]:
             found[f"work.{key}.{integrator}"] = f"{math.exp(float(np.mean(np.log(own)))):.2f}"
             low, high = np.quantile(own, (0.1, 0.9))
             found |= {f"work.{key}.{integrator}.{end}": f"{x:.2f}" for end, x in (("low", low), ("high", high))}
+    found |= between_seeds()
     found["work.count"] = str(len(equal_work.predictable_lines()))
     more = np.log(statistics.paired(both, "rk4", METHODS["velocity"], METHODS["direct"]))
     upper = np.sort(more)[-(len(more) // 20) :].sum() / more.sum()
