@@ -37,6 +37,7 @@ PAIRS = (
     ("baumgarte", "radau5"),
     ("ggl", "radau5"),
     ("direct-correction", "sdirk"),
+    ("direct-correction", "rodas"),
     ("direct-correction", "trapezoidal"),
     ("direct-correction", "newmark"),
     ("generalized-alpha", "generalized-alpha"),
