@@ -373,11 +373,11 @@ def _instance(meanings: dict[str, Any], name: str) -> A:
     return Instances(meanings, compiled).of(decide)
 
 
-#: The same where rows have bounds, and where gaps have corners too.
-decide_on_margins = _instance(_meanings(margins=True, corners=False), "decide_on_margins")
-decide_at_corners = _instance(_meanings(margins=True, corners=True), "decide_at_corners")
+#: The same where rows have bounds. It looks for corners of gaps in any case: what a function means is a number, and of
+#: two codes the one for corners would be compiled once more after a file without them.
+decide_on_margins = _instance(_meanings(margins=True, corners=True), "decide_on_margins")
 
 
-def search_of(margins: bool, corners: bool) -> A:
-    """Return `decide` of runs with bounded rows, or without, and with corners of gaps."""
-    return decide_at_corners if corners else decide_on_margins if margins else decide
+def search_of(margins: bool) -> A:
+    """Return `decide` of runs with bounded rows, or without."""
+    return decide_on_margins if margins else decide

@@ -91,6 +91,16 @@ def pass_corners(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, 
 
 
 @exact(entry=True)
+def has_corners(hunt: Array) -> bool:
+    """Whether any gap has corners."""
+    n, found = int(hunt[COUNT]), 0
+    for k in range(n):
+        if hunt[N_HEAD + MARGIN * n + k] == float(CORNER):
+            found = 1
+    return found == 1
+
+
+@exact(entry=True)
 def begin_at_corners(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, iw: Integers, hunt: Array) -> int:
     """Move a start on that lies on corners of closed gaps, as `pass_corners` does; return the number of corners.
 

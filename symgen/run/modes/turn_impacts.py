@@ -10,7 +10,7 @@ from symgen.run.loops.afresh import begin_afresh
 from symgen.run.loops.event_loop import EventState
 from symgen.run.loops.unbound import keep_after, keep_before
 from symgen.run.modes.bounded_rows import OTHERS, OUT_OF_RANGE, SAME, TWO_PIECES
-from symgen.run.modes.corners import begin_at_corners, find_both_pieces, pass_corners, spare_touching
+from symgen.run.modes.corners import begin_at_corners, find_both_pieces, has_corners, pass_corners, spare_touching
 from symgen.run.modes.flights import mark_flights
 from symgen.run.modes.found_rows import forget_passed
 from symgen.run.modes.placing import put_gaps
@@ -59,6 +59,8 @@ def strike_gaps(t: float, modes: OfModes, state: EventState) -> int:
 def strike_past_corners(t: float, modes: OfModes, state: EventState) -> int:
     """Take the state past the corners of gaps before which a step has ended, and do what `strike_gaps` does."""
     c, passed = modes.choice, 0
+    if not has_corners(state.hunt):
+        return int(strike_gaps(t, modes, state))
     if state.control[abi.BEGUN] == 0:
         passed = begin_at_corners(t, c, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt)
     elif state.hunt[records.NOTED] > 0.0:  # other choices are at no event

@@ -69,9 +69,11 @@ BY_POISSON = Meanings(
     "runs whose restitutions are ratios of impulses",
     strike=exact_instance(strike_contacts, BY_REACTIONS | {"POISSON": True}),
 )
+#: Keys of `TURNING`.
+CONTACTS, CORNERS = "contacts", "corners"
 #: Meanings for what a run's rows have (`symgen.run.loops.run_spec.Watched.turning`).
 TURNING = {
-    **{"pressed": PRESSED, "corners": CORNERED, "pieces": IN_PIECES, "contacts": TOUCHED, "reactions": REACTING},
+    **{"pressed": PRESSED, CORNERS: CORNERED, "pieces": IN_PIECES, CONTACTS: TOUCHED, "reactions": REACTING},
     **{"poisson": BY_POISSON, "holding": HOLDING},
     **{"loaded": LOADED, "loaded by reactions": LOADED_BY_REACTIONS},
 }

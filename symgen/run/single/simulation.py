@@ -136,7 +136,7 @@ class Simulation:
         from symgen.run.single.events import Events
 
         rates, _ = rate_functions(self.compiled.law_module)
-        search = search_of(watched.bounded is not None, bool(watched.corners))
+        search = search_of(watched.bounded is not None)
         functions = *self.setup.functions, watched.function, search, rates
         self.setup = replace(self.setup, loop=loop_with_events(self.setup.loop), functions=functions)
         self.events = Events(self.compiled, watched, self.spec.until)

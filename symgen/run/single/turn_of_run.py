@@ -31,7 +31,7 @@ from symgen.run.modes.bounded_rows import NOT_APPLIED, SIGN
 from symgen.run.modes.pin_impulses import kicks_along_rows
 from symgen.run.modes.refusals import HOLDING_SENTENCES, names_in, refusal, refusal_of_catch
 from symgen.run.modes.turn import FURTHER, begin_modes, open_rows_of, take_resets, take_turn
-from symgen.run.modes.turn_meanings import meanings_of_turn
+from symgen.run.modes.turn_meanings import CONTACTS, CORNERS, meanings_of_turn
 from symgen.run.modes.turn_records import OfModes
 from symgen.run.single.contact_notes import sharing_contacts
 from symgen.run.single.events import Happening
@@ -364,8 +364,10 @@ class TurnOfRun:
 
     @cached_property
     def _entry(self) -> Callable[..., int]:
-        watched = self.watched
-        function, signature = serving_function(self.rows is not None, watched.effects is not None, watched.turning)
+        watched, turning = self.watched, self.watched.turning
+        if CONTACTS in turning and CORNERS not in turning:  # one code, so that the next file with corners has it
+            turning = CORNERS, *turning
+        function, signature = serving_function(self.rows is not None, watched.effects is not None, turning)
         return bind_arguments(function, types.FunctionType(signature), 0.0, self.memory, self.simulation.state)
 
 

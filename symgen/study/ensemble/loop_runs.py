@@ -99,7 +99,7 @@ class LoopRuns:
             chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
         system, inner = (sizes, *setup.functions), self.integrator.loop(adaptive)
         if self.watched is not None:
-            search = search_of(self.watched.bounded is not None, bool(self.watched.corners))
+            search = search_of(self.watched.bounded is not None)
             system, inner = (*system, self.watched.function, search, rates), loop_with_events(inner)
             state = event_state(self.watched, sizes, state)
             if out.events.shape[1]:
