@@ -31,7 +31,7 @@ WRITTEN = (
         remarks.PAGE,
         sayable.PAGE,
     ),
-    DOCS / "tables" / "pairs.md",
+    *(DOCS / "tables" / name for name in ("mujoco.md", "pairs.md")),
 )
 #: Folders -> who reads them.
 KINDS = {"tables": "legends", "development": "development", "decisions": "development"}
