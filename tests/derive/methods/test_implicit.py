@@ -79,6 +79,8 @@ class Stage:
     def scratch(self):
         w = [0.0] * self.law.nw
         w[0:20] = [0.01] * 20  # the step, which adaptive gains are taken from, is among the status
+        offset, size = self.info.sections["row_weight"]
+        w[offset : offset + size] = [1.0] * size
         return w
 
     def residual(self, t, y, k, p):

