@@ -22,7 +22,7 @@ Dense = Callable[[float], Array]
 _PARTS, _LONGEST, _MOST = 4, 1e-2, 600
 #: Gaps that are zero [m]; rates at which gaps close that do not spring back, and below which a series is at its
 #: end [m/s].
-_NEAR, _SLOW, _LAST = 1e-11, 1e-6, 1e-3
+_NEAR, _SLOW, _LAST = 1e-11, 1e-6, 1e-4
 #: Gaps and forces above which a margin counts that has begun at 0, and its depth that contradicts the mode.
 _AWAKE, _DEEP = {"hit": 1e-14}, -1e-7
 
