@@ -37,6 +37,7 @@ FEATURES = {
     "ropes": "ropes over sheaves",
     "holds": "joints that hold for a while",
     "sliding": "points that slide along beams, cables",
+    "formulas": "formulas that were found since",
 }
 _PAGE = """# Examples of other systems
 

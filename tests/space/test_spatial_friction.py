@@ -258,7 +258,9 @@ def test_a_sleeve_rubs_along_and_about_its_axis() -> None:
 
 def test_other_joints_are_named() -> None:
     raw_friction = {"coefficient": 0.5, "radius": 0.1}
-    with pytest.raises(InputError, match=r"among revolute, translational, cylindrical, got a universal joint"):
+    with pytest.raises(
+        InputError, match=r"among revolute, translational, cylindrical, slides-on, got a universal joint"
+    ):
         raw = {
             "mechanism": {"name": "cross", "space": "spatial"},
             "bodies": {"rod": {"mass": 1.0, "inertia": [1.0, 1.0, 1.0]}},

@@ -11,6 +11,7 @@ from scipy.optimize import fsolve
 from support.emitted import mechanism_of
 
 import symgen
+from symgen.base.errors import InputError
 from tests.result.targets.compilers import compiled, written
 from tests.result.targets.test_c import rows_of
 
@@ -228,3 +229,74 @@ def test_rows_steps_and_c_slide_as_a_run_does(tmp_path):
         "0.8",
     )
     assert abs(rows[-1, names.index("trolley.x")] - run["trolley.x"][-1]) < 1e-9
+
+
+@pytest.mark.slow
+def test_friction_by_the_reaction_on_a_straight_rigid_curve():
+    """300 coefficients on a slope of 3 to 4, as x'' = g (0.6 - 0.8 mu), or at rest from mu = 0.75 on."""
+    stations = [{"at": [0.4 * k, -0.3 * k]} for k in range(5)]
+    on = {"type": "slides-on", "body": "bead", "along": stations, "step": 0.5, "friction": {"coefficient": "mu"}}
+    model = model_of(
+        parameters={"mu": 0.3},
+        bodies={"bead": {"type": "point", "mass": 0.3, "position": [0.08, -0.06]}},
+        joints={"on": on},
+    )
+    mu, until = np.linspace(0.0, 1.0, 300), 0.7
+    rows = model.sweep({"mu": list(mu)}, quantities=["on.displacement"], until=until, rtol=1e-10, atol=1e-12)
+    assert set(rows.status) == {"ok"}
+    for keys, refused in (({"shape": "looped"}, "straight code"), ({"method": "udwadia-kalaba"}, "massless bodies")):
+        with pytest.raises(InputError, match=refused):
+            model.simulate(until=until, **keys)
+    way = 0.1 + 0.5 * G * np.maximum(0.6 - 0.8 * mu, 0.0) * until**2
+    np.testing.assert_allclose(rows["on.displacement"][:, 0], way, atol=1e-9)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("space", ["planar", "spatial"])
+def test_a_bead_loses_its_speed_round_a_bend_as_a_rope_its_tension(space):
+    """v = v0 exp(-mu angle), exactly where tangents are given, for any curve between; in space the bend is tilted."""
+    spatial, mu, speed = space == "spatial", 0.3, 2.0
+    tilt = np.array([[1.0, 0.0], [0.0, 0.8], [0.0, 0.6]] if spatial else np.eye(2))
+    angles = np.linspace(0.0, np.pi, 5)
+    at = 0.5 * np.column_stack([np.sin(angles), 1.0 - np.cos(angles)]) @ tilt.T
+    axes = np.column_stack([np.cos(angles), np.sin(angles)]) @ tilt.T
+    stations = [{"at": p.tolist(), "axis": a.tolist()} for p, a in zip(at, axes, strict=True)]
+    bead = {"type": "point", "mass": 0.3, "position": at[0].tolist(), "velocity": (speed * axes[0]).tolist()}
+    on = {"type": "slides-on", "body": "bead", "along": stations, "step": 0.125 * np.pi, "stop": {"lower": -1.0}}
+    model = symgen.Model(
+        mechanism_of(
+            {
+                "mechanism": {"name": "bend", "space": space},
+                "bodies": {"bead": bead},
+                "joints": {"on": on | {"friction": {"coefficient": mu}}},
+                "outputs": {"lost": {"value": "on.dissipated", "unit": "J"}},
+            }
+        )
+    )
+    run = model.simulate(until=2.2, **TIGHT)
+    assert run.ok
+    passed = [event for event in run.events if event.name.startswith("on.passes")]
+    speeds = [np.linalg.norm([event.v[f"bead.v{x}"] for x in "xyz"[: tilt.shape[0]]]) for event in passed]
+    np.testing.assert_allclose(speeds, speed * np.exp(-mu * angles[1:4]), rtol=1e-7)  # events are found a little late
+    last = np.linalg.norm([run[f"bead.v{x}"][-1] for x in "xyz"[: tilt.shape[0]]])  # straight on after the bend
+    np.testing.assert_allclose(last, speed * np.exp(-mu * np.pi), rtol=1e-9)
+    lost = 0.5 * 0.3 * (speed**2 - last**2)
+    np.testing.assert_allclose(run["lost"][-1], lost, rtol=1e-8)
+
+
+@pytest.mark.slow
+def test_friction_by_the_reaction_on_a_sagging_cable_in_rows_steps_derivatives_and_c(tmp_path):
+    """A trolley rolls on a cable and comes to rest; targets agree, and the power of the force is what is lost."""
+    wheel = {"type": "slides-on", "body": "trolley", "beam": "line", "friction": {"coefficient": 0.1}}
+    model = trolley(6, wheel=wheel)
+    run = model.simulate(until=0.8, sensitivities=["load"], **{k: x for k, x in TIGHT.items() if k != "verify"})
+    assert run.ok and abs(run["wheel.force"]).max() > 0.09
+    np.testing.assert_allclose(run.energy["error"], 0.0, atol=1e-8)
+    ends = [model.simulate(parameters={"load": LOAD + d}, until=0.8, **TIGHT)["trolley.x"][-1] for d in (1e-4, -1e-4)]
+    assert abs(run.gradient("trolley.x")["load"][-1] - (ends[0] - ends[1]) / 2e-4) < 1e-6
+    settings = {k: x for k, x in TIGHT.items() if k != "verify"}
+    rows = model.sweep({"load": [LOAD]}, quantities=["trolley.x"], until=0.8, **settings)
+    assert abs(rows["trolley.x"][0] - run["trolley.x"][-1]) < 1e-10
+    c = written(model.mechanism, tmp_path, coordinates="absolute", integrator="dop853", rtol=1e-11, atol=1e-12)
+    names, printed = rows_of(compiled(c), "0.8")
+    assert abs(printed[-1, names.index("trolley.x")] - run["trolley.x"][-1]) < 1e-9

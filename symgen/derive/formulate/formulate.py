@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from symgen.base.errors import refuse_overflow
+from symgen.base.ir.interpolation import Interpolation
 from symgen.base.ir.program import MODE_NUMBERS, table_of_payload
 from symgen.base.vocabulary.expressions import ZERO
 from symgen.base.vocabulary.measures import Dot, Holonomic, Row, StiffHolonomic, Sum
@@ -83,7 +84,6 @@ def formulate(mechanism: Mechanism) -> Equations:
     joint_coordinates = _joint_coordinates(model)
     rates = _rates_of_states(model, rows)
     coordinates, velocities = state_quantities(mechanism)
-    read = {table_of_payload(o.payload)[0] for o in model.graph.nodes if o.op == "table"}
     return Equations(
         name=mechanism.name,
         graph=model.graph,
@@ -101,7 +101,6 @@ def formulate(mechanism: Mechanism) -> Equations:
         joint_coordinates=tuple(joint_coordinates),
         windings=tuple(model.windings),
         spins=_first_indices_of_spins(model),
-        tables=tuple(t.interpolated for t in mechanism.tables if t.name in read),
         omissions=(
             *(Omission(f"row {row}", f"it repeats row {other} for all q") for row, other in repeats),
             *_omitted_terms(mechanism),
@@ -113,7 +112,13 @@ def formulate(mechanism: Mechanism) -> Equations:
         states=tuple(Quantity(x.name, x.unit) for x in mechanism.states),
         state_rates=rates,
         drags=tuple(_drag_of_reaction(model, row, rows, repeats) for row in pressed_rows(mechanism)),
+        tables=_tables_read(model),  # the last one: drags may read tables
     )
+
+
+def _tables_read(model: ModelNodes) -> tuple[Interpolation, ...]:
+    read = {table_of_payload(o.payload)[0] for o in model.graph.nodes if o.op == "table"}
+    return tuple(t.interpolated for t in model.mechanism.tables if t.name in read)
 
 
 def _rates_of_states(model: ModelNodes, rows: Sequence[ConstraintRow]) -> tuple[int, ...]:

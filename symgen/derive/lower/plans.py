@@ -9,19 +9,24 @@ from symgen.base.ir.graph import PARAMETER
 from symgen.base.ir.program import EliminationPlan
 from symgen.derive.formulate.equations import Equations, without_bounded_rows
 from symgen.derive.lower.closed_loops import loops_in_order
-from symgen.derive.lower.fixed_velocities import fixed_velocities
+from symgen.derive.lower.fixed_velocities import fixed_velocities, mass_entries
 from symgen.derive.lower.record import record_multipliers
 from symgen.derive.lower.scalar import ScalarNodes
 
 
-def cheapest_plan(equations: Equations, closing: bool = True) -> EliminationPlan:
+def cheapest_plan(equations: Equations, closing: bool = True, drags: bool | None = None) -> EliminationPlan:
     """Return the plan whose right-hand side has the fewest operations.
 
     Equal numbers are decided by the longest chain of operations. Loops in closed form are left out unless `closing`.
+    With `drags`, which the equations have unless told otherwise, sliders without mass are eliminated: M has no inverse.
     """
     if not equations.m:
         return EliminationPlan()
-    costs = {plan: cost_of_plan(equations, plan) for plan in _candidate_plans(equations) if closing or not plan.loops}
+    inverts = not (bool(equations.drags) if drags is None else drags) or not _has_massless(equations)
+    plans = [
+        plan for plan in _candidate_plans(equations) if (closing or not plan.loops) and (inverts or not plan.schur)
+    ]
+    costs = {plan: cost_of_plan(equations, plan) for plan in plans}
     best = min(costs, key=costs.__getitem__)
     normal = replace(best, normal=True)
     # Euler parameters have no sines whose squares meet
@@ -43,8 +48,8 @@ def closing_plan(equations: Equations, plan: EliminationPlan, free: Sequence[int
         Velocities that no loop is solved for.
     """
     if any(row.bounded for row in equations.rows):
-        equations = without_bounded_rows(equations)
-        plan = cheapest_plan(equations, closing=False)
+        drags, equations = bool(equations.drags), without_bounded_rows(equations)
+        plan = cheapest_plan(equations, closing=False, drags=drags)
     loops = loops_in_order(equations, plan.fixed, free) if free and not plan.loops else ()
     orders = dict.fromkeys((loops, loops[::-1]))  # from free velocities on, and towards them
     normal = (False,) if equations.spins else (False, True)
@@ -61,6 +66,11 @@ def _candidate_plans(equations: Equations) -> Iterator[EliminationPlan]:
         loops = loops_in_order(equations, fixed)
         if loops:
             yield EliminationPlan(fixed, schur=False, loops=loops)
+
+
+def _has_massless(equations: Equations) -> bool:
+    """Return whether M has a 0 on its diagonal."""
+    return any(i == j and equations.graph.value(node) == 0.0 for (i, j), node in mass_entries(equations).items())
 
 
 def cost_of_plan(equations: Equations, plan: EliminationPlan) -> tuple[int, int]:

@@ -6,15 +6,27 @@ from collections.abc import Iterable, Sequence
 
 from symgen.base.errors import InputError
 from symgen.base.ir.program import JAMMING
-from symgen.base.vocabulary.expressions import ONE, Expr, Reading, call, scalar_product_of
-from symgen.base.vocabulary.measures import GROUND, Dot, Driven, Holonomic, Measure, Turn, axes
+from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Reading, call, scalar_product_of, sum_of_terms
+from symgen.base.vocabulary.measures import (
+    GROUND,
+    Dot,
+    Driven,
+    FormulaMeasure,
+    Holonomic,
+    Measure,
+    Row,
+    Turn,
+    axes,
+)
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.mechanism import Joint, Mechanism
 from symgen.describe.parts.scope import Scope
+from symgen.describe.table_functions import curve_slope
 
+SLIDING = "slides-on"
 #: Kinds of joints, in the plane and in space, whose rows of forces are the components of a reaction.
-REACTING = ("revolute", "translational", "pin-in-slot")
-REACTING_IN_SPACE = ("revolute", "translational", "cylindrical")
+REACTING = ("revolute", "translational", "pin-in-slot", SLIDING)
+REACTING_IN_SPACE = ("revolute", "translational", "cylindrical", SLIDING)
 #: What the section of jamming numbers of emitted code has.
 JAMMING_MEANS = "squares of the parts of a reaction that friction by the reaction itself brings about"
 
@@ -28,19 +40,40 @@ def reacting_rows(scope: Scope, joint: Joint, key: str) -> tuple[str, ...]:
         At the key, if the joint has no such rows.
     """
     kinds = REACTING_IN_SPACE if scope.spatial else REACTING
-    rows = tuple(f"{joint.name}.{row.label}" for row in joint.rows if isinstance(row, Holonomic) and row.unit == "m")
+    own = [row for row in joint.rows if isinstance(row, Holonomic) and row.unit == "m"]
+    if joint.kind == SLIDING:  # without those of the slider
+        own = own[: scope.dimension]
+    rows = tuple(f"{joint.name}.{row.label}" for row in own)
     if not rows or joint.kind not in kinds:
         expected = f"friction by the reaction of a joint among {', '.join(kinds)}"
         raise scope.error(key, expected, f"a {joint.kind} joint")
     return rows
 
 
-def directions_across(measure: Measure, pressed: Sequence[str]) -> tuple[tuple[Measure, ...], ...]:
-    """Return the cosines of the axes of ground with two directions across the axis of a hinge in space."""
+def directions_across(joint: Joint, measure: Measure, pressed: Sequence[str]) -> tuple[tuple[Measure, ...], ...]:
+    """Return the cosines of the axes of ground with two directions across the axis of a hinge in space.
+
+    On a curve they are rows of the vector product with its tangent, whose length is the stretch of the curve: so the
+    bound along the way is that of a force on the point.
+    """
+    if joint.kind == SLIDING and pressed:
+        slopes = [_slope(row) for row in joint.rows[: len(pressed)]]
+        x, y, z = (*slopes, ZERO)[:3]
+        minus_x, minus_y, minus_z = (call("neg", each) for each in (x, y, z))
+        lines = ((minus_y, x),) if len(slopes) == 2 else ((ZERO, z, minus_y), (minus_z, ZERO, x), (y, minus_x, ZERO))
+        return tuple(tuple(FormulaMeasure(each) for each in line) for line in lines)
     if len(pressed) < 3:
         return ()
     assert isinstance(measure, Turn), "a joint with three forces turns about an axis"
     return tuple(tuple(Dot(e, axis) for axis in axes(GROUND, 3)) for e in (measure.zero, measure.quarter))
+
+
+def _slope(row: Row) -> Expr:
+    """Return the derivative by the way of the place on a curve, which a row compares with a point."""
+    assert isinstance(row, Holonomic) and isinstance(row.measure, FormulaMeasure), "a row of a point on a curve"
+    formula = row.measure.of
+    assert isinstance(formula, Call), "a difference"
+    return curve_slope(formula.arguments[0])
 
 
 def reaction_components(row: BoundedRow) -> tuple[Expr, ...]:
@@ -51,7 +84,7 @@ def reaction_components(row: BoundedRow) -> tuple[Expr, ...]:
     return tuple(
         scalar_product_of(
             forces,
-            [Reading(f"{row.name}.across{k}{axis}", cosine) for axis, cosine in zip("xyz", line, strict=True)],
+            [Reading(f"{row.name}.across{k}{axis}", cosine) for axis, cosine in zip("xyz", line, strict=False)],
         )
         for k, line in enumerate(row.across)
     )
@@ -65,7 +98,7 @@ def size_of_reaction(row: BoundedRow) -> Expr:
     if len(parts) == 1:
         return call("abs", parts[0])
     squares = [call("mul", part, part) for part in parts]
-    return call("sqrt", call("add", *squares))
+    return call("sqrt", sum_of_terms(*squares))
 
 
 def rows_bounded_by_reactions(mechanism: Mechanism) -> tuple[BoundedRow, ...]:

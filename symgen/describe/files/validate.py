@@ -214,7 +214,7 @@ class _Validator:
             space=head.space,
             gravity=gravity,
             parameters=parameters,
-            tables=(*tables, *(shapes_of_curves() if self.joints.sliders else ())),
+            tables=(*tables, *(shapes_of_curves(any(row.across for row in bounded)) if self.joints.sliders else ())),
             bodies=(*bodies, *(x.body for x in self.joints.sliders)),  # type: ignore[arg-type]  # all of one space
             joints=joints,
             forces=forces,

@@ -100,9 +100,7 @@ class SlidesOn(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
             triad = make_triad(scope, GROUND, tuple(scope.value(e, "along") for e in along.vector))
             rows += rows_of_point_on_axis(Marker(GROUND, start), slider, triad)
         else:
-            x, y = along.vector
-            across = Direction(GROUND, (call("neg", y), x))
-            rows.append(Holonomic("across", Component(Marker(GROUND, start), slider, across)))
+            rows.append(Holonomic("across", Component(Marker(GROUND, start), slider, axes(GROUND, 2)[1])))
         others = dict.fromkeys(s.point.body for s in stations if s.point.body != GROUND)
         bodies = (body, *(name for name in others if name != body), slider.body)
         return Joint(scope.name, scope.kind, bodies, tuple(rows), (("displacement", way),))
@@ -163,14 +161,12 @@ class SlidesOn(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         return [_place(scope, "along", station.point) for station in self._curve(scope)[0]]
 
     def _line(self, scope: Scope) -> tuple[tuple[Expr, ...], Direction]:
-        """Return the line of the slider: from the first point of the curve to the second at the start."""
+        """Return the line of the slider: along x of the ground, so that its rows fix velocities alone."""
         first, second, *_ = self._places(scope)
-        length = math.dist(first, second)
-        if not length > 0.0:
+        if not math.dist(first, second) > 0.0:
             raise scope.error("along", "points apart from each other", "two at one place")
         n = scope.dimension
-        vector = tuple(literal_of((b - a) / length) for a, b in zip(first[:n], second[:n], strict=True))
-        return tuple(map(literal_of, first[:n])), Direction(GROUND, vector)
+        return tuple(map(literal_of, first[:n])), axes(GROUND, n)[0]
 
     def _nearest_way(self, scope: Scope) -> float:
         """Return the way to the chord that is nearest to the point at the start, in steps."""

@@ -10,7 +10,7 @@ from symgen.compile.store.identity import combined_digest
 from symgen.derive.lower.law import refuse_bounded_rows
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS, Method
-from symgen.describe.bounds.by_reaction import pressed_rows
+from symgen.describe.bounds.by_reaction import SLIDING, pressed_rows
 from symgen.describe.mechanism import Mechanism
 
 #: Characters of a file stem that say which velocities are free, at most.
@@ -95,12 +95,16 @@ def choice_for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = T
     if not mechanism.has_massless:
         return choice
     # M is not inverted then, and multipliers are refined; loads of bounds are those of one solution
+    whole = choice.with_options(solver="augmented") if "solver" in choice.options else choice
     if pressed := pressed_rows(mechanism):
-        name = next(body.name for body in mechanism.bodies if body.massless)
-        expected = (
-            f"a mass and moments of inertia above 0, as {pressed[0].family.one} depends on the reaction of a joint"
-        )
-        raise InputError(f"bodies.{name}", expected, "one that is 0", pressed[0].family.apart)
-    if choice.method.needs_regular_mass(choice.options):
+        sliders = {joint.bodies[-1] for joint in mechanism.joints if joint.kind == SLIDING}
+        name = next((body.name for body in mechanism.bodies if body.massless and body.name not in sliders), "")
+        if name:
+            expected = (
+                f"a mass and moments of inertia above 0, as {pressed[0].family.one} depends on the reaction of a joint"
+            )
+            raise InputError(f"bodies.{name}", expected, "one that is 0", pressed[0].family.apart)
+        free = False  # rows of a point on a curve fix its velocities: elimination gives its mass to the slider
+    if choice.method.needs_regular_mass((whole if pressed else choice).options):
         raise InputError(f"method '{choice.method.name}'", "one that does with massless bodies", "one that inverts M")
-    return choice.with_options(solver="augmented") if free and "solver" in choice.options else choice
+    return whole if free else choice

@@ -13,6 +13,7 @@ from dataclasses import replace
 from typing import Any
 
 from symgen.base.errors import InputError
+from symgen.describe.bounds.by_reaction import pressed_rows
 from symgen.describe.formulas.results_read import reads_results
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.free_by_loops import choice_at_start
@@ -166,6 +167,8 @@ def straight_alone(mechanism: Mechanism) -> str:
         return "states that read accelerations or forces"
     if mechanism.holding:
         return "joints that hold for a while"
+    if mechanism.has_massless and pressed_rows(mechanism):
+        return "sliders on curves beside friction by reactions"
     return "rows that may be off" if mechanism.switchable else ""
 
 

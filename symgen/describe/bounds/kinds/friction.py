@@ -142,7 +142,7 @@ def _friction_along_coordinate(
         resting=resting,
         changing=changing,
         pressed=pressed,
-        across=directions_across(measure, pressed),
+        across=directions_across(joint, measure, pressed),
         speed=scope.constant(f"{key}.speed", section.speed, positive=True) if section.speed is not None else None,
     )
 
