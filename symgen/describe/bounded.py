@@ -156,6 +156,21 @@ class BoundedRow(Protocol):
         ...
 
     @property
+    def paired(self) -> bool:
+        """Whether it is one of two rows along a contact in space, of which the second one follows the first."""
+        ...
+
+    @property
+    def way(self) -> Expr | None:
+        """Component of the direction of its motion; None where that is the number ``sign`` of the row."""
+        ...
+
+    @property
+    def renewed(self) -> Expr | None:
+        """The number ``sign`` after a step; None where steps leave it as it is."""
+        ...
+
+    @property
     def across(self) -> tuple[tuple[Measure, ...], ...]:
         """Cosines of the axes of `pressed` with directions across the joint; none where these are components."""
         ...

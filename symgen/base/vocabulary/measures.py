@@ -278,6 +278,22 @@ class RollingSpeed(msgspec.Struct, frozen=True, tag="rolling-speed"):
     axis: Direction | None = None
 
 
+class SphereSlip(msgspec.Struct, frozen=True, tag="sphere-slip"):
+    """Velocity of the surface of a sphere about `b` along that of a sphere about `a`, where they touch [m/s].
+
+    ``t . (v_b - v_a - omega_b x r_b n - omega_a x r_a n)`` with ``n = side (b - a) / |b - a|``; `side` is -1 and one
+    radius below 0 where one sphere is hollow. ``t = e - (e . n) / (1 + z . n) (z + n)`` is `along` e, turned with n
+    from `zero` z, across it; both belong to the ground. Singular where n is opposite to z.
+    """
+
+    a: Marker
+    b: Marker
+    zero: Direction
+    along: Direction
+    radii: tuple[Expr, Expr]
+    side: Expr
+
+
 class BladeSpeed(msgspec.Struct, frozen=True, tag="blade-speed"):
     """Velocity of marker `at` of a body across its blade, in a plane of the ground [m/s].
 
@@ -296,7 +312,7 @@ class FormulaSpeed(msgspec.Struct, frozen=True, tag="formula-speed"):
     of: Expr
 
 
-Speed = PointSpeed | RollingSpeed | BladeSpeed | FormulaSpeed
+Speed = PointSpeed | RollingSpeed | SphereSlip | BladeSpeed | FormulaSpeed
 
 
 class Holonomic(msgspec.Struct, frozen=True, tag="holonomic"):

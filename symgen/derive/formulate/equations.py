@@ -174,6 +174,8 @@ class Equations(Counted):
         Nodes of their rates; as inputs of the graph the states are ``z``, numbered from 1.
     drags : tuple of Drag
         Efforts by reactions, in motion; no part of `forces` and `power`.
+    renewed : tuple of (int, int)
+        Places in the section ``modes`` of numbers that each step renews, and their nodes.
     """
 
     name: str
@@ -201,6 +203,7 @@ class Equations(Counted):
     states: tuple[Quantity, ...] = ()
     state_rates: tuple[int, ...] = ()
     drags: tuple[Drag, ...] = ()
+    renewed: tuple[tuple[int, int], ...] = ()
 
     @property
     def reads_results(self) -> bool:

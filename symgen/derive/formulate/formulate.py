@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from symgen.base.errors import refuse_overflow
 from symgen.base.ir.interpolation import Interpolation
-from symgen.base.ir.program import MODE_NUMBERS, table_of_payload
+from symgen.base.ir.program import MODE_NUMBERS, MODES, table_of_payload
 from symgen.base.vocabulary.expressions import ZERO
 from symgen.base.vocabulary.measures import Dot, Holonomic, Row, StiffHolonomic, Sum
 from symgen.base.vocabulary.quantities import Quantity
@@ -111,6 +111,11 @@ def formulate(mechanism: Mechanism) -> Equations:
         metric=() if model.tree is None else model.tree.metric_of_bodies(),
         states=tuple(Quantity(x.name, x.unit) for x in mechanism.states),
         state_rates=rates,
+        renewed=tuple(
+            (modes[row.row] + MODES.index("sign"), model.expression(row.renewed))
+            for row in mechanism.bounded
+            if row.renewed is not None
+        ),
         drags=tuple(_drag_of_reaction(model, row, rows, repeats) for row in pressed_rows(mechanism)),
         tables=_tables_read(model),  # the last one: drags may read tables
     )
@@ -199,10 +204,10 @@ def _drag_of_reaction(
     """
     g, places = model.graph, {row.name: i for i, row in enumerate(rows)}
     refuse_shared_reactions(bounded, repeats)
-    rate = model.measure(bounded.measure).rate(g, model.velocities)
+    rate = model.measure_or_velocity(bounded.measure).rate(g, model.velocities)
     with refuse_overflow(bounded.where):
         sign, coefficient = (
-            model.expression(name_of_number(bounded, "sign")),
+            model.expression(bounded.way or name_of_number(bounded, "sign")),
             model.expression(bounded.coefficient, rate=rate),
         )
     rows_of = tuple(places[name] for name in bounded.pressed)

@@ -147,6 +147,23 @@ def _disc_speed(f: Frames, k: Constants) -> Any:
     )
 
 
+def _sphere_slip(f: Frames, k: Constants) -> Any:
+    one, other, ground = _spatial_frames(f)
+    places = one.locate(k[0]), other.locate(k[1])
+    apart = _vector_difference(places[1], places[0])
+    size = k[6] / sp.sqrt(_scalar_product(apart, apart))
+    normal, zero, along = tuple(size * x for x in apart), ground.rotate(k[2]), ground.rotate(k[3])
+    lean = _scalar_product(along, normal) / (1 + _scalar_product(zero, normal))
+    tangent = tuple(e - lean * (z + n) for e, z, n in zip(along, zero, normal, strict=True))
+    total = sp.S.Zero
+    for body, place, radius, sign in ((other, places[1], k[5], 1), (one, places[0], k[4], -1)):
+        if body.moves:
+            total += sign * _scalar_product(tangent, tuple(derivative_along_motion(x, (body,)) for x in place))
+        if body.turns:
+            total -= radius * _scalar_product(tangent, cross_product(body.spin(), normal))
+    return total
+
+
 def _blade_speed(f: Frames, k: Constants) -> Any:
     ground, body = _spatial_frames(f)
     across = cross_product(ground.rotate(k[1]), body.rotate(k[2]))
@@ -173,6 +190,7 @@ _MEASURES: dict[str, tuple[_Build, int, str, bool]] = {
     "rim-height": (_rim_height, 4, "vvvvs", False),
     "sphere-speed": (_sphere_speed, 2, "vvvs", True),
     "disc-speed": (_disc_speed, 2, "vvvsv", True),
+    "sphere-slip": (_sphere_slip, 3, "vvvvsss", True),
     "blade-speed": (_blade_speed, 2, "vvv", True),
 }
 
@@ -205,7 +223,7 @@ def derive_kernel(kind: str, frames: tuple[tuple[int, str], ...]) -> Kernel:
     ----------
     kind : str
         ``component``, ``distance``, ``half-square``, ``link-stretch``, ``point-speed``; in space also ``dot``,
-        ``spin``, ``rim-height``, ``sphere-speed``, ``disc-speed`` or ``blade-speed``.
+        ``spin``, ``rim-height``, ``sphere-speed``, ``disc-speed``, ``sphere-slip`` or ``blade-speed``.
     frames : tuple of (slot, kind)
         Frame of the kernel and its kind, for each frame argument of the measure.
     """

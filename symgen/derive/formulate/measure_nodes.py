@@ -29,6 +29,7 @@ from symgen.base.vocabulary.measures import (
     PieceNumber,
     PointSpeed,
     Speed,
+    SphereSlip,
     Spin,
     Sum,
     Swing,
@@ -306,6 +307,10 @@ class ModelNodes(Formulas):
         if isinstance(speed, BladeSpeed):
             constants = [*self.local(speed.at), *self.direction(speed.normal), *self.direction(speed.blade)]
             return self._insert_kernel("blade-speed", (speed.normal.body, speed.at.body), constants)
+        if isinstance(speed, SphereSlip):
+            constants = [*self.local(speed.a), *self.local(speed.b), *self.direction(speed.zero)]
+            constants += [*self.direction(speed.along), *map(self.expression, (*speed.radii, speed.side))]
+            return self._insert_kernel("sphere-slip", (speed.a.body, speed.b.body, speed.zero.body), constants)
         constants = [*self.local(speed.centre), *self.direction(speed.along), *self.direction(speed.normal)]
         constants.append(self.expression(speed.radius))
         bodies = speed.along.body, speed.centre.body

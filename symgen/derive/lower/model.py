@@ -117,6 +117,7 @@ def measure_block(hoister: Hoister, scalars: ScalarNodes) -> Block:
     outputs += scalars.violation("velocity", residuals)
     outputs += [to_status("kinetic", equations.kinetic), to_status("potential", equations.potential)]
     outputs += [(OutputSlot("winding", i), node) for i, node in enumerate(equations.windings)]
+    outputs += [(OutputSlot("modes", place), node) for place, node in equations.renewed]
     purpose = "D v - nu with the D and nu that `geometry` left, and the energies"
     return hoister.block_with_hoisted("measure", purpose, outputs, ("t", "y", "p", "w"))
 

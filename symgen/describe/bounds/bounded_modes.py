@@ -56,7 +56,8 @@ def bounds_from_carried_force(row: BoundedRow, beside: Sequence[BoundedRow]) -> 
     """
     place = next(i for i, other in enumerate(beside, 1) if other.row == row.row)
     terms = list[Expr]()
-    if any(other.signed and other.row != row.row for other in beside):
+    # of two rows along a contact none carries another one's
+    if any(other.signed and not other.paired and other.row != row.row for other in beside):
         terms.append(carried_bounds(row))
     for other in beside:
         if other.changing and not other.pressed and other.row != row.row:

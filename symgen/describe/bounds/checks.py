@@ -28,6 +28,15 @@ def check_bounds(mechanism: Mechanism, source: str) -> None:
             raise InputError(
                 f"{source}: {row.where}", "a coordinate that no driver prescribes", f"one that '{driver}' prescribes"
             )
+    paired = next((row for row in mechanism.bounded if row.paired), None)
+    if paired is not None:
+        rubs = next((row for row in two_sided_rows(mechanism) if row.pressed and not row.signed), None)
+        if rubs is not None:
+            expected = "no friction of contacts in space beside bounds by reactions"
+            raise InputError(f"{source}: {rubs.where}", expected, f"that of '{paired.name}'")
+        if mechanism.restitution_law == "poisson":
+            expected = '"newton" beside friction of contacts in space'
+            raise InputError(f"{source}: mechanism.restitution_law", expected, '"poisson"')
     gaps = dict[tuple[Measure, object], str]()
     for row in one_sided_rows(mechanism):
         if row.in_contact and (row.measure, row.held.value) in gaps:

@@ -9,10 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import partial, reduce
 
+import msgspec
+
 from symgen.base.vocabulary.expressions import ZERO, Expr, call, sum_of_terms
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import effort_in_force, measure_derivative
 from symgen.describe.bounds.contact_rows import ContactGap, Tangent
+from symgen.describe.bounds.contact_rows_in_space import TangentInSpace
 from symgen.describe.mechanism import Output
 
 
@@ -82,10 +85,12 @@ class GapOfPart(ContactGap, frozen=True):
 
 def part_of_contact(gap: ContactGap, part: int) -> tuple[BoundedRow, ...]:
     """Return the rows of a part of a contact, with the number of the part, from the gap of the whole contact."""
-    tangent = None
-    if gap.tangent is not None:
+    tangent: Tangent | None = None
+    if isinstance(gap.tangent, TangentInSpace):
+        tangent = msgspec.structs.replace(gap.tangent, part=part)
+    elif gap.tangent is not None:
         own = {name: getattr(gap.tangent, name) for name in Tangent.__struct_fields__}
         tangent = TangentOfPart(**own, part=part)
     whole = {name: getattr(gap, name) for name in ContactGap.__struct_fields__}
     row = GapOfPart(**{**whole, "tangent": tangent}, part=part)
-    return (row,) if tangent is None else (tangent, row)
+    return (row,) if tangent is None else (*tangent.rows, row)

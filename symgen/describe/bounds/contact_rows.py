@@ -176,6 +176,17 @@ class Tangent(Bounds, frozen=True):
         return msgspec.structs.replace(self, alone=True)
 
     @property
+    def rows(self) -> tuple[Tangent, ...]:
+        """The rows of friction along the contact."""
+        return (self,)
+
+    def mode(self, closed: Expr) -> Expr:
+        """Return the formula of the mode of its contact in outputs, from that of a closed gap."""
+        sign = name_of_number(self, "sign")
+        still = call("mul", closed, call("sub", ONE, call("mul", sign, sign)))
+        return call("add", still, call("mul", Number(2.0), sign))
+
+    @property
     def place(self) -> tuple[str, Expr]:
         """The coordinate."""
         return f"slip of {self.name}", measure_derivative(self, 0)
@@ -299,7 +310,8 @@ class ContactGap(EndStop, frozen=True):
     def events(self, beside: Sequence[BoundedRow]) -> tuple[ModeEvent, ...]:
         """Return the events at which the contact closes or opens; an impact sets the rate of slip as well."""
         hit, opens = super().events(beside)
-        reset = hit.reset if self.tangent is None else (*hit.reset, (measure_derivative(self.tangent), ZERO))
+        along = () if self.tangent is None else self.tangent.rows
+        reset = (*hit.reset, *((measure_derivative(row), ZERO) for row in along))
         lift = event_of_mode(self, LIFT, opens.when, "force of a closed contact 0")
         return (event_of_mode(self, HIT, hit.when, hit.text, reset), lift)
 
@@ -317,8 +329,4 @@ class ContactGap(EndStop, frozen=True):
     def mode(self) -> Expr:
         """The formula of its mode in outputs."""
         closed: Expr = formula_of_closed(self)
-        if self.tangent is None:
-            return closed
-        sign = name_of_number(self.tangent, "sign")
-        still = call("mul", closed, call("sub", ONE, call("mul", sign, sign)))
-        return call("add", still, call("mul", Number(2.0), sign))
+        return closed if self.tangent is None else self.tangent.mode(closed)

@@ -16,6 +16,7 @@ class Bounds(msgspec.Struct, frozen=True):
     one_sided: ClassVar[bool] = False
     signed: ClassVar[bool] = False
     in_contact: ClassVar[bool] = False
+    paired: ClassVar[bool] = False
 
     @property
     def reversed(self) -> bool:
@@ -60,6 +61,16 @@ class Bounds(msgspec.Struct, frozen=True):
     def coefficient(self) -> Expr:
         """Bound in motion over the size of the reaction."""
         return ZERO
+
+    @property
+    def way(self) -> Expr | None:
+        """Component of the direction of its motion; None where that is the number ``sign`` of the row."""
+        return None
+
+    @property
+    def renewed(self) -> Expr | None:
+        """The number ``sign`` after a step; None where steps leave it as it is."""
+        return None
 
     @property
     def without_reaction(self) -> Self:

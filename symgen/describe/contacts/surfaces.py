@@ -10,7 +10,7 @@ import msgspec
 from symgen.base.errors import quote, suggest
 from symgen.base.registry import Registry
 from symgen.base.vocabulary.expressions import ZERO, Expr, call
-from symgen.base.vocabulary.measures import GROUND, Angle, Marker, Measure, Sum
+from symgen.base.vocabulary.measures import GROUND, Angle, Marker, Measure, Speed, Sum
 from symgen.describe.contacts.chains import BodyOutline
 from symgen.describe.contacts.outlines import Outline
 from symgen.describe.parts.fields import Point, Scalar, read_table, value_in_words
@@ -85,6 +85,8 @@ class Touch(msgspec.Struct, frozen=True):
         The surfaces, for pictures.
     further : tuple of Touch
         The same of other smooth parts of a surface, which are in touch apart from this one.
+    slips : tuple of two Speed, or empty
+        In space, in place of `slip`, the velocity of the second surface along the first one; empty without friction.
     """
 
     gap: Measure
@@ -93,6 +95,7 @@ class Touch(msgspec.Struct, frozen=True):
     distance: Expr | None = None
     outlines: tuple[Outline, ...] = ()
     further: tuple[Touch, ...] = ()
+    slips: tuple[Speed, Speed] | tuple[()] = ()
 
 
 class Pair(msgspec.Struct, frozen=True):

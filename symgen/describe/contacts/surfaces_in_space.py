@@ -15,6 +15,7 @@ from symgen.describe.contacts.outlines import Outline
 from symgen.describe.contacts.surfaces import Disc, Touch, two_tables, word_of_shape
 from symgen.describe.parts.fields import Point, Scalar, Vector, read_table
 from symgen.describe.parts.scope import Scope
+from symgen.describe.parts.triads import directions_across
 
 #: The word for a shape whose table names none.
 SPHERE = "sphere"
@@ -117,10 +118,11 @@ class BoxTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
 
 
 class Plane(msgspec.Struct, frozen=True):
-    """A plane through a point, with its normal towards what it meets."""
+    """A plane through a point, with its normal towards what it meets, and two directions along it."""
 
     on: Marker
     normal: Direction
+    across: tuple[Direction, Direction]
 
     @property
     def body(self) -> str:
@@ -186,7 +188,8 @@ def _read_sphere(scope: Scope, key: str, table: SphereTable) -> Disc:
 
 def _read_plane(scope: Scope, key: str, table: PlaneTable) -> Plane:
     body = scope.body(f"{key}.plane", table.plane, turns=True)
-    return Plane(scope.marker(f"{key}.on", body, table.on), scope.direction(f"{key}.normal", body, table.normal))
+    normal = scope.direction(f"{key}.normal", body, table.normal)
+    return Plane(scope.marker(f"{key}.on", body, table.on), normal, directions_across(scope, f"{key}.normal", normal))
 
 
 def _read_rim(scope: Scope, key: str, table: RimTable) -> Solid:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from symgen.base.vocabulary.expressions import (
+    ONE,
     ZERO,
     Expr,
     Number,
@@ -19,6 +20,7 @@ from symgen.base.vocabulary.expressions import (
     literal_of,
     product,
     scalar_product_of,
+    sum_of_terms,
     vector_product,
 )
 from symgen.base.vocabulary.measures import GROUND, Direction
@@ -137,6 +139,26 @@ def make_triad(
     return _right_handed_triad(
         body, _part_across_axis(scope, keys[1], _unit_vector(scope, keys[1], reference), along), along
     )
+
+
+def directions_across(scope: Scope, key: str, normal: Direction) -> tuple[Direction, Direction]:
+    """Return two directions across another one, which may be an expression of parameters.
+
+    They are those of a triad about the normal z of the file's values, turned with the normal n from there:
+    ``t = e - (e . n) / (1 + z . n) (z + n)``.
+    """
+    x, y, z = (scope.value(e, key) for e in normal.vector)
+    axis = _tidy_vector((x, y, z))
+    triad = _right_handed_triad(normal.body, _any_direction_across(axis), axis)
+    if all(isinstance(e, Number) for e in normal.vector):
+        return triad.first, triad.second
+    lean, turned = call("add", ONE, scalar_product_of(axis_of := triad.axis.vector, normal.vector)), list[Direction]()
+    for direction in (triad.first, triad.second):
+        part = call("div", scalar_product_of(direction.vector, normal.vector), lean)
+        both = (sum_of_terms(z, n) for z, n in zip(axis_of, normal.vector, strict=True))
+        vector = (difference(e, product(part, s)) for e, s in zip(direction.vector, both, strict=True))
+        turned.append(Direction(normal.body, tuple(vector)))
+    return turned[0], turned[1]
 
 
 def make_cross(

@@ -36,7 +36,8 @@ def contact_facts(run: Prepared) -> dict[str, dict[str, Any]]:
     -------
     dict of str to dict
         ``closed``; of closed ones ``part``, the contacts that depend on each other, ``unique`` of their forces, and
-        ``jamming``, the jamming numbers for s = 1 and -1 [1/kg], where a row acts along the gap.
+        ``jamming``, the jamming numbers for s = 1 and -1 [1/kg], where one row acts along the gap; two have a
+        number for each direction.
     """
     gaps = [row for row in run.mechanism.bounded if isinstance(row, ContactGap)]
     if not gaps:
@@ -54,12 +55,12 @@ def contact_facts(run: Prepared) -> dict[str, dict[str, Any]]:
     bounds = [0.0 if g.tangent is None else float(numbers[2 * k + dry + places[g.tangent.row]]) for g in closed]
     rows, owners = (
         _rows_of(run, closed),
-        [i for i, g in enumerate(closed) for _ in range(1 if g.tangent is None else 2)],
+        [i for i, g in enumerate(closed) for _ in range(_rows_of_contact(g))],
     )
     for i, gap in enumerate(closed):
         at = owners.index(i)
         own: dict[str, Any] = {"jamming": None}
-        if gap.tangent is not None:
+        if gap.tangent is not None and not gap.tangent.paired:
             own["jamming"] = [float(rows[at, at] - s * bounds[i] * rows[at, at + 1]) for s in (1.0, -1.0)]
         facts[gap.name] |= own
     for part in _parts_of(rows, owners):
@@ -69,6 +70,10 @@ def contact_facts(run: Prepared) -> dict[str, dict[str, Any]]:
         for i in part:
             facts[closed[i].name] |= {"part": [closed[j].name for j in part], "unique": unique}
     return facts
+
+
+def _rows_of_contact(gap: ContactGap) -> int:
+    return 1 if gap.tangent is None else 1 + len(gap.tangent.rows)
 
 
 def _rows_of(run: Prepared, closed: list[ContactGap]) -> Array:
@@ -84,7 +89,7 @@ def _rows_of(run: Prepared, closed: list[ContactGap]) -> Array:
         compiled_form(apply_effects)(
             effects.model, start.t, Instant(start.y.copy(), start.p, start.w.copy()), chosen, work
         )
-    n, m, count = info.nv, info.m, sum(1 if gap.tangent is None else 2 for gap in closed)
+    n, m, count = info.nv, info.m, sum(map(_rows_of_contact, closed))
     rows, mass = work.impulse.rows[: (m + count) * n].reshape(-1, n), work.impulse.mass.reshape(n, n)
     joints = rows[[i for i in range(m) if i not in info.bounded]]
     own = rows[m:]

@@ -31,6 +31,7 @@ from symgen.base.vocabulary.measures import (
     RollingSpeed,
     Row,
     Speed,
+    SphereSlip,
     Spin,
     Sum,
     Turn,
@@ -68,7 +69,11 @@ def row_words(mechanism: Mechanism) -> dict[str, RowWords]:
     texts = {f"{joint.name}.{row.label}": writer.describe_row(row) for joint in mechanism.joints for row in joint.rows}
     for bounded in mechanism.bounded:
         if bounded.one_sided:
-            held = writer.describe_holonomic(bounded.held)
+            held = writer.describe_row(bounded.held)
+        elif bounded.paired:
+            slip = writer.describe_row(bounded.held)
+            texts[bounded.row] = RowWords(f"while it sticks, {slip.words}", slip.vectors)
+            continue
         else:
             held = RowWords(writer.noun_of_measure(bounded.measure), "")
         texts[bounded.row] = RowWords(bounded.family.held.format(held.words), held.vectors)
@@ -194,6 +199,8 @@ class _Writer:
                     sentence,
                     f"{_direction_in_formula(along)} . (v({self.name_of_point(centre)}) - {turn} x {lever}{below})",
                 )
+            case SphereSlip(a, b):
+                return f"where {b.body} touches {a.body} it does not slip", ""
             case BladeSpeed(at, normal, blade):
                 sentence = f"{self.name_of_point(at)} does not move across the blade {_direction_in_sentence(blade)}"
                 return (

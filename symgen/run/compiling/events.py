@@ -150,7 +150,7 @@ def _partners_of(rows: Sequence[BoundedRow]) -> tuple[int, ...]:
     for i, row in enumerate(rows):
         if row.signed:
             gap = places[row.pressed[0]]
-            partners[i], partners[gap] = gap, i
+            partners[i], partners[gap] = gap, i if partners[gap] < 0 else partners[gap]
     return tuple(partners)
 
 

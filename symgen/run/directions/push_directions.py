@@ -97,14 +97,16 @@ def push_state(
 
 
 def refuse_law_without_directions(watched: Watched | None) -> None:
-    """Refuse derivatives of a run whose impacts obey a law that has none.
+    """Refuse derivatives of a run whose impacts, or whose friction, obey a law that has none.
 
     Raises
     ------
     InputError
-        If one-sided rows have Poisson's law.
+        If one-sided rows have Poisson's law, or contacts in space friction.
     """
     rows = None if watched is None else watched.bounded
+    if rows is not None and rows.paired:
+        raise InputError("derivatives", "a mechanism without friction of contacts in space", "one with it")
     if rows is not None and rows.one_sided and rows.poisson:
         raise InputError("derivatives", 'restitution_law = "newton"', '"poisson", whose impacts have none')
 

@@ -36,6 +36,8 @@ _EPSILON = 2.0**-52
 REACTIONS = False
 #: Whether restitutions are ratios of impulses, of expansion to compression.
 POISSON = False
+#: Whether friction of contacts has two rows, as in space.
+PAIRED = False
 
 
 class Ties(Record):
@@ -235,13 +237,14 @@ def tie_impulses(count: int, ties: Ties) -> int:
     most, slides = ties.taken.shape[0] // (count + 1), 0
     for a in range(count):
         if ties.held[a] < 0:
-            ties.right[slides] = ties.ratio[a] * ties.taken[ties.row_of[a - 1]]
+            gap = 2 if PAIRED and ties.held[a - 1] < 0 else 1
+            ties.right[slides] = ties.ratio[a] * ties.taken[ties.row_of[a - gap]]
             column = 0
             for b in range(count):
                 if ties.held[b] < 0:
                     own = 1.0 if a == b else 0.0
                     ties.matrix[slides * count + column] = (
-                        own - ties.ratio[a] * ties.taken[(b + 1) * most + ties.row_of[a - 1]]
+                        own - ties.ratio[a] * ties.taken[(b + 1) * most + ties.row_of[a - gap]]
                     )
                     column += 1
             slides += 1

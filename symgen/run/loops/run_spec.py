@@ -130,6 +130,11 @@ class BoundedNames:
         return self.one_sided and (bool(self.pressed) or self.poisson)
 
     @property
+    def paired(self) -> bool:
+        """Whether friction of contacts has two rows, as in space."""
+        return any(one == other >= 0 for one, other in zip(self.partners, self.partners[1:], strict=False))
+
+    @property
     def all_loaded(self) -> bool:
         """Whether bounds of all two-sided rows depend on forces, of reactions or of contacts."""
         loads = {*self.pressed, *(i for i, partner in enumerate(self.partners) if partner >= 0)}
@@ -254,6 +259,7 @@ class Watched:
             "poisson": rows.one_problem and rows.poisson,
             "loaded": rows.all_loaded and not rows.pressed,
             "loaded by reactions": rows.all_loaded and rows.pressed,
+            "paired": rows.paired,
         }
         return (*(kind for kind, those in has.items() if those), *holding)
 

@@ -17,6 +17,7 @@ from symgen.base.ir.numerics import SKIP
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
+from symgen.run.effects.pushing import PAIRED
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import choose_rows, farthest_row, is_off
 from symgen.run.loops.afresh import forget_steps
@@ -48,6 +49,7 @@ from symgen.run.modes.bounded_rows import (
     sign_of_number,
 )
 from symgen.run.modes.holding import hold_rows
+from symgen.run.modes.paired_rows import component_at, length_at, share_found
 from symgen.run.modes.probing import add_forces, probe
 from symgen.run.modes.resting import solve_rest
 from symgen.run.modes.row_records import Choice
@@ -66,8 +68,12 @@ def find_rest(c: Choice, w: Array) -> int:
         c.taken[i] = 0
     for i in range(c.rows.count):
         at, pushes = MODE_NUMBERS * i, c.rows.pushes[i] != 0
+        if PAIRED:
+            share_found(c, w, i)
         found = c.found.broken[i] + c.found.stopped[i] != 0
         still = abs(c.read.speed[i]) <= STILL * row_scale(c, w, i, abi.SPEED) or found
+        if PAIRED:
+            still = length_at(c, c.read.speed, i) <= STILL * row_scale(c, w, i, abi.SPEED) or found
         still = (still or is_held(c, w, i)) and not (pushes and not is_shut(c, w, i))
         loose = (still and c.read.starting[i] != 0 and c.before[at + SIGN] != 0.0) or c.found.broken[i] != 0
         loose = (loose and c.found.stopped[i] == 0) or c.found.left[i] != 0
@@ -77,6 +83,8 @@ def find_rest(c: Choice, w: Array) -> int:
             loose = loose or (moves and c.before[MODE_NUMBERS * owner + HELD] != 0.0)
         c.loose[i] = 1 if loose else 0
         c.signs[i] = 0.0 if still or pushes else sign_of_number(c.read.speed[i])
+        if PAIRED and not (still or pushes):
+            c.signs[i] = component_at(c, c.read.speed, i)
         if still:
             c.rest[n] = i
             n += 1

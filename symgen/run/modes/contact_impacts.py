@@ -16,7 +16,7 @@ from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.effects.accumulation import accumulation, add_resets
-from symgen.run.effects.pushing import POISSON, REACTIONS
+from symgen.run.effects.pushing import PAIRED, POISSON, REACTIONS
 from symgen.run.laws.problem import LOWER, OFF, ON, UPPER
 from symgen.run.layout import abi
 from symgen.run.layout.scales import larger_number
@@ -45,6 +45,7 @@ from symgen.run.modes.contact_series import (
     sum_series,
     turns_back,
 )
+from symgen.run.modes.paired_rows import component_at, find_direction, first_of, is_first, length_at
 from symgen.run.modes.pin_impulses import find_shortfall, probe_impact, push
 from symgen.run.modes.probing import by_reaction, forget_kicks, pose_impact, probe_contacts
 from symgen.run.modes.reading import read_rows
@@ -137,7 +138,17 @@ def find_impulses(c: Choice, s: Strikes, w: Array) -> int:
                 return int(code)
             for a in range(count):
                 c.part[c.box.order[a]] = c.rows.count
+    if PAIRED:
+        for i in range(c.rows.dry):
+            c.signs[i] = find_direction(c, i) if c.best[i] == UPPER and is_first(c, first_of(c, i)) else 0.0
     return SAME
+
+
+@exact()
+def row_along(c: Choice, s: Strikes, i: int, j: int) -> int:
+    """Return the row of friction of a gap that velocity j of its event is along."""
+    owners = s.effects.model[4].owners
+    return int(c.rows.partner[i] + (1 if j > 1 and owners[j - 2] == owners[j] else 0))
 
 
 @exact()
@@ -169,13 +180,13 @@ def tie_velocities(c: Choice, s: Strikes, rests: bool, keeps: bool) -> None:
         ties.leads[j], ties.parts[j] = -1, 0.0
         for i in range(c.rows.dry, c.rows.count):
             if owners[j] == s.events[i] and s.active[i] != 0:
-                friction = c.rows.partner[i]
+                friction = row_along(c, s, i, j) if PAIRED else c.rows.partner[i]
                 if j == 0 or owners[j - 1] != owners[j]:
                     ties.held[j], ties.values[j] = 1, 0.0 if rests else s.asked[i]
                     if POISSON and not rests and c.mode[i] != ON:  # its impulse is that of compression alone
                         ties.held[j] = 0
                 elif c.mode[friction] >= UPPER and (not POISSON or ties.held[j - 1] > 0):
-                    sign = 1.0 if c.mode[friction] == UPPER else -1.0
+                    sign = c.signs[friction] if PAIRED else 1.0 if c.mode[friction] == UPPER else -1.0
                     ties.held[j], ties.ways[j], ties.ratio[j] = -1, -sign, -sign * c.read.sliding[friction]
                 elif c.mode[friction] == ON:
                     ties.held[j] = 1
@@ -195,7 +206,7 @@ def lose_at_contacts(c: Choice, s: Strikes, y: Array) -> None:
         for i in range(c.rows.dry, c.rows.count):
             if owners[j] == s.events[i] and s.active[i] != 0:
                 gap = j == 0 or owners[j - 1] != owners[j]
-                place = i if gap else c.rows.partner[i]
+                place = i if gap else row_along(c, s, i, j) if PAIRED else c.rows.partner[i]
                 rate, impulse = c.read.speed[place], ties.impulses[j]
                 if POISSON:
                     impulse += s.memory.kicked[place]
@@ -359,9 +370,14 @@ def recall_modes(c: Choice, s: Strikes) -> None:
     for j in range(1, owners.shape[0]):
         for i in range(c.rows.dry, c.rows.count):
             slides = owners[j] == owners[j - 1] and owners[j] == s.events[i]
-            if slides and ties.kept[j - 1] > 0 and c.rows.partner[i] >= 0:
+            gap = j - 2 if PAIRED and j > 1 and owners[j - 2] == owners[j] else j - 1
+            if slides and ties.kept[gap] > 0 and c.rows.partner[i] >= 0:
                 way = UPPER if ties.kept_ways[j] < 0.0 else LOWER
-                c.mode[c.rows.partner[i]] = way if ties.kept[j] < 0 else (ON if ties.kept[j] > 0 else OFF)
+                if PAIRED:
+                    way, c.signs[row_along(c, s, i, j)] = UPPER, -ties.kept_ways[j]
+                c.mode[row_along(c, s, i, j) if PAIRED else c.rows.partner[i]] = (
+                    way if ties.kept[j] < 0 else (ON if ties.kept[j] > 0 else OFF)
+                )
 
 
 @exact()
@@ -378,7 +394,12 @@ def rest_contacts(t: float, c: Choice, s: Strikes, end: float, in_series: bool, 
             j = c.rows.partner[i]
             if j >= 0 and (turns or c.read.speed[i] > STILL * row_scale(c, now.w, i, abi.SPEED)):
                 still = abs(c.read.speed[j]) <= STILL * row_scale(c, now.w, j, abi.SPEED)
-                c.mode[j] = ON if still else (UPPER if sign_of_number(c.read.speed[j]) > 0.0 else LOWER)
+                if PAIRED and is_first(c, j):
+                    still = length_at(c, c.read.speed, j) <= STILL * row_scale(c, now.w, j, abi.SPEED)
+                    c.mode[j] = c.mode[j + 1] = ON if still else UPPER
+                    c.signs[j], c.signs[j + 1] = component_at(c, c.read.speed, j), component_at(c, c.read.speed, j + 1)
+                else:
+                    c.mode[j] = ON if still else (UPPER if sign_of_number(c.read.speed[j]) > 0.0 else LOWER)
     choose_events(c, s, False)
     tie_velocities(c, s, True, False)
     if REACTIONS:

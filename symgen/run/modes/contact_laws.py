@@ -11,7 +11,7 @@ import math
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
-from symgen.run.effects.pushing import POISSON
+from symgen.run.effects.pushing import PAIRED, POISSON
 from symgen.run.laws.motions import NOT_SOUGHT, SEVERAL_MOTIONS, count_motions, find_forces, seek_another
 from symgen.run.laws.problem import (
     BALL,
@@ -21,6 +21,7 @@ from symgen.run.laws.problem import (
     OFF,
     ON,
     PUSH,
+    SECOND,
     UPPER,
     begin_row,
     load_of,
@@ -43,6 +44,7 @@ from symgen.run.modes.bounded_rows import (
     SEVERAL_MODES,
 )
 from symgen.run.modes.contact_parts import has_reaction
+from symgen.run.modes.paired_rows import is_first, is_second, settle_pair
 from symgen.run.modes.probing import by_reaction
 from symgen.run.modes.row_records import Choice
 
@@ -75,7 +77,9 @@ def fill_part(c: Choice, count: int, part: float) -> None:
                     laws.apart[at] = c.problem.apart[2 * i + component]
                     for b in range(count):
                         laws.parts[at * count + b] = c.problem.parts[(2 * i + component) * k + order[b]]
-        if c.rows.pushes[i] == 0 and c.rows.partner[i] >= 0:
+        if PAIRED and is_second(c, i):
+            laws.law[a], laws.way[a] = SECOND, c.signs[i]
+        elif c.rows.pushes[i] == 0 and c.rows.partner[i] >= 0:
             laws.kappa[a], laws.way[a] = bound_of(c, i, part), c.signs[i]
             laws.beta[a] = bound_of(c, i, part) * c.problem.apart[2 * i] if POISSON else 0.0
             for b in range(count):
@@ -110,7 +114,7 @@ def find_carriers_of_part(c: Choice, count: int) -> None:
                     owners += 1 if c.rows.pushes[order[a]] == 0 else 2
                     owner, c.factors[j] = order[a], laws.slopes[a * count + b]
             # a reaction follows how rows share a force: where a bound depends on one, each row keeps its part
-            c.part[j] = owner if owners == 1 and not has_reaction(c, count) else c.rows.count
+            c.part[j] = owner if owners == 1 and not (PAIRED or has_reaction(c, count)) else c.rows.count
 
 
 @exact()
@@ -152,6 +156,10 @@ def settle_at_bounds(c: Choice, count: int) -> None:
     laws = c.laws
     for a in range(count):
         i, still = c.box.order[a], is_still(c, count, a, NO_ACCELERATION)
+        if PAIRED and is_first(c, i):
+            both = still and is_still(c, count, a + 1, NO_ACCELERATION)
+            settle_pair(a, i, both, load_bound(count, a, laws), c.loose, c)
+            continue
         if laws.law[a] == PUSH and laws.state[a] == OFF and c.loose[i] == 0 and still:
             laws.state[a] = ON
         if laws.law[a] == BALL and c.loose[i] == 0 and still and laws.way[a] == 0.0 and laws.state[a] != OFF:
@@ -185,7 +193,12 @@ def name_fault(c: Choice, count: int) -> None:
                 c.named[0], c.jam[0] = i, c.problem.matrix[i * k + i]
             if j >= 0 and c.problem.matrix[i * k + i] > 0.0:
                 turned = c.read.sliding[j] * c.problem.matrix[i * k + j]
-                turned = c.signs[j] * turned if c.signs[j] != 0.0 else abs(turned)
+                if PAIRED and is_first(c, j):
+                    other = c.read.sliding[j] * c.problem.matrix[i * k + j + 1]
+                    size = math.sqrt(turned * turned + other * other)
+                    turned = c.signs[j] * turned + c.signs[j + 1] * other if c.signs[j] != 0.0 else size
+                else:
+                    turned = c.signs[j] * turned if c.signs[j] != 0.0 else abs(turned)
                 left = c.problem.matrix[i * k + i] - turned
                 if left / c.problem.matrix[i * k + i] < least:
                     c.named[0], c.jam[0], least = i, left, left / c.problem.matrix[i * k + i]

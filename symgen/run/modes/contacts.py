@@ -14,7 +14,7 @@ import math
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
-from symgen.run.effects.pushing import REACTIONS
+from symgen.run.effects.pushing import PAIRED, REACTIONS
 from symgen.run.laws.problem import LOWER, OFF, ON, UPPER
 from symgen.run.laws.sharing import STILL
 from symgen.run.layout import abi
@@ -37,6 +37,7 @@ from symgen.run.modes.choice import measure_margins as measure_margins_of_rows
 from symgen.run.modes.contact_laws import fill_part, find_forces_of_part, is_still, part_used, solve_by_laws
 from symgen.run.modes.contact_parts import PLAIN, choose_part, find_parts, find_redundant, has_loads, keep_touching
 from symgen.run.modes.holding import carry_force, hold_row, hold_rows, keep_force, set_holds, write_signs
+from symgen.run.modes.paired_rows import find_direction, first_of, is_first, is_second, length_at, write_pair
 from symgen.run.modes.probing import add_forces, by_reaction, probe_contacts, size_forces_of_parts
 from symgen.run.modes.resting import HALVINGS, SPENT, solve_rest
 from symgen.run.modes.row_records import Choice
@@ -68,13 +69,22 @@ def static_bound(c: Choice, i: int) -> float:
 @exact()
 def part_held(c: Choice, count: int, first: int, i: int) -> float:
     """Return the part of its bound at rest that friction let go needs if it holds again, inf where it does not hold."""
+    second = PAIRED and is_first(c, i)
     c.loose[i] = 0
+    if second:
+        c.loose[i + 1] = 0
     holds = solve_part(c, count, first, 1.0) == SAME
     for a in range(count):
         holds = holds and not breaks(c, c.box.order[a])
     most = static_bound(c, i)
-    needs = abs(c.forces[i]) / most if holds and c.best[i] == ON and most > 0.0 else math.inf
+    needs = (
+        (length_at(c, c.forces, i) if PAIRED else abs(c.forces[i])) / most
+        if holds and c.best[i] == ON and most > 0.0
+        else math.inf
+    )
     c.loose[i] = 1
+    if second:
+        c.loose[i + 1] = 1
     return needs if needs < AT_BOUND else math.inf
 
 
@@ -85,16 +95,18 @@ def hold_again(c: Choice, count: int, first: int) -> int:
     while True:
         best, least, released = -1, math.inf, 0
         for a in range(count):
-            released += c.passing[c.box.order[a]]
+            released += 0 if PAIRED and is_second(c, c.box.order[a]) else c.passing[c.box.order[a]]
         for a in range(count):
             i = c.box.order[a]
-            if c.passing[i] != 0 and (again or released > 1):
+            if c.passing[i] != 0 and (again or released > 1) and not (PAIRED and is_second(c, i)):
                 needs = part_held(c, count, first, i)
                 if needs < (1.0 - ROUNDED) * least:
                     best, least = i, needs
         if best < 0:
             break
         c.loose[best], c.passing[best], again = 0, 0, True
+        if PAIRED and is_first(c, best):
+            c.loose[best + 1] = c.passing[best + 1] = 0
     return solve_part(c, count, first, 1.0) if again or released > 1 else SAME
 
 
@@ -177,7 +189,13 @@ def write_part(c: Choice, count: int) -> None:
             carry_force(c, i, c.part[i], c.factors[i])
         elif c.best[i] == ON:
             keep_force(c, i)
-        c.signs[i] = 1.0 if c.best[i] == UPPER else (-1.0 if c.best[i] == LOWER else 0.0)
+        begins = PAIRED and c.best[i] == UPPER and c.signs[i] == 0.0
+        if PAIRED and is_first(c, first_of(c, i)):
+            c.signs[i] = find_direction(c, i) if begins else c.signs[i] if c.best[i] == UPPER else 0.0
+        else:
+            c.signs[i] = 1.0 if c.best[i] == UPPER else (-1.0 if c.best[i] == LOWER else 0.0)
+        if PAIRED and is_second(c, i):  # after both have been written
+            write_pair(c, i - 1, begins)
         if (
             c.best[i] == OFF and c.rows.pushes[i] == 0 and c.rows.partner[i] < 0
         ):  # its rate only passes zero, as at a dead centre
@@ -273,6 +291,8 @@ def measure_margins_of_contacts(c: Choice, w: Array, hunt: Array) -> int:
         i = int(hunt[at + ROW * n + k])
         numbers = c.rows.first + MODE_NUMBERS * i
         still = w[numbers + HELD] == 0.0 and w[numbers + SIGN] == 0.0
+        if PAIRED and is_first(c, i):  # watched as long as one of both rows is not in force
+            still = still or (w[numbers + MODE_NUMBERS + HELD] == 0.0 and w[numbers + SIGN] == 0.0)
         if hunt[at + MARGIN * n + k] == float(RATE) and c.rows.pushes[i] == 0 and c.rows.partner[i] >= 0 and still:
             hunt[at + MEASURE * n + k] = row_scale(c, w, i, abi.SPEED)
     return int(found)

@@ -7,7 +7,9 @@ import numpy as np
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers, Record
+from symgen.run.effects.pushing import PAIRED
 from symgen.run.modes.bounded_rows import SIGN, is_held, is_kept_shut
+from symgen.run.modes.paired_rows import is_second
 from symgen.run.modes.row_records import FURTHER_PIECE, Choice
 
 #: What a row with bounds does at a transition: rest ends, rest begins, its rate changes sign, an impact, the row comes
@@ -130,6 +132,9 @@ def log_changes_of_contacts(t: float, c: Choice, w: Array, log: Transitions) -> 
     """Do what `log_changes` does, where the row along a gap has transitions as long as the gap is closed."""
     for i in range(c.rows.count):
         sign, before, j = w[c.rows.first + MODE_NUMBERS * i + SIGN], log.signs[i], c.rows.partner[i]
+        if PAIRED and j >= 0 and c.rows.pushes[i] == 0:  # a direction that has been renewed is no transition
+            sign, before = 1.0 if sign != 0.0 and not is_second(c, i) else 0.0, 1.0 if before != 0.0 else 0.0
+            before = 0.0 if is_second(c, i) else before
         if c.rows.pushes[i] == 0 and sign != before and (j < 0 or (log.shut[j] != 0 and is_held(c, w, j))):
             log_transition(t, log, i, SLIP if before == 0.0 else STICK if sign == 0.0 else REVERSE)
         if c.rows.pushes[i] != 0 and (1 if is_held(c, w, i) else 0) != log.shut[i]:

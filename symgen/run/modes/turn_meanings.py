@@ -65,6 +65,18 @@ LOADED_BY_REACTIONS = Meanings(
     choose_modes=exact_instance(choose_contacts, BY_REACTIONS | {"PLAIN": False}),
     gather=exact_instance(gather_contacts, BY_REACTIONS | {"PLAIN": False}),
 )
+#: Friction of contacts has two rows; their laws are the same.
+IN_PAIRS = {"PAIRED": True}
+PAIRED_ROWS = Meanings(
+    "runs with friction of contacts in space",
+    choose_modes=exact_instance(choose_contacts, IN_PAIRS),
+    measure_margins=exact_instance(measure_margins_of_contacts, IN_PAIRS),
+    find_struck=exact_instance(find_struck_contacts, IN_PAIRS),
+    strike=exact_instance(strike_contacts, IN_PAIRS),
+    gather=exact_instance(gather_contacts, IN_PAIRS),
+    log_changes=exact_instance(log_changes_of_contacts, IN_PAIRS),
+    log_changes_in_pieces=exact_instance(log_changes_of_contacts, IN_PAIRS),
+)
 BY_POISSON = Meanings(
     "runs whose restitutions are ratios of impulses",
     strike=exact_instance(strike_contacts, BY_REACTIONS | {"POISSON": True}),
@@ -75,7 +87,7 @@ CONTACTS, CORNERS = "contacts", "corners"
 TURNING = {
     **{"pressed": PRESSED, CORNERS: CORNERED, "pieces": IN_PIECES, CONTACTS: TOUCHED, "reactions": REACTING},
     **{"poisson": BY_POISSON, "holding": HOLDING},
-    **{"loaded": LOADED, "loaded by reactions": LOADED_BY_REACTIONS},
+    **{"loaded": LOADED, "loaded by reactions": LOADED_BY_REACTIONS, "paired": PAIRED_ROWS},
 }
 
 

@@ -50,9 +50,11 @@ from symgen.run.printed.kept_run import CHANGED, ENDING, VISIBLE, Visible, meet_
 from symgen.run.printed.lost_flights import (
     end_flights,
     end_flights_by_reactions,
+    end_flights_in_pairs,
     end_flights_that_rub,
     end_lost_flights,
     end_lost_flights_by_reactions,
+    end_lost_flights_in_pairs,
     end_lost_flights_that_rub,
 )
 from symgen.run.rows.row_events import ModelWithModes, begin_row_in_modes
@@ -351,7 +353,12 @@ _REACTING = Meanings(
     end_flights=end_flights_by_reactions,
     end_lost_flights=end_lost_flights_by_reactions,
 )
-_TURNING = {"corners": _CORNERED, "contacts": _TOUCHED, "reactions": _REACTING}
+_PAIRED = Meanings(
+    "FMUs for model exchange with friction of contacts in space",
+    end_flights=end_flights_in_pairs,
+    end_lost_flights=end_lost_flights_in_pairs,
+)
+_TURNING = {"corners": _CORNERED, "contacts": _TOUCHED, "reactions": _REACTING, "paired": _PAIRED}
 
 
 def exchanged_run(loop: RuntimeFunction, traits: Traits) -> tuple[Any, Any]:

@@ -110,5 +110,7 @@ def end_lost_flights(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Arr
 #: The same where contacts or pins that rub take part.
 end_flights_that_rub = exact_instance(end_flights, {"RUBS": True})
 end_lost_flights_that_rub = exact_instance(end_lost_flights, {"RUBS": True})
+end_flights_in_pairs = exact_instance(end_flights, {"RUBS": True, "PAIRED": True})
+end_lost_flights_in_pairs = exact_instance(end_lost_flights, {"RUBS": True, "PAIRED": True})
 end_flights_by_reactions = exact_instance(end_flights, BY_REACTIONS | {"RUBS": True})
 end_lost_flights_by_reactions = exact_instance(end_lost_flights, BY_REACTIONS | {"RUBS": True})

@@ -41,6 +41,7 @@ from symgen.base.vocabulary.measures import (
     PointSpeed,
     RimHeight,
     Speed,
+    SphereSlip,
     Spin,
     Sum,
     Turn,
@@ -293,6 +294,19 @@ class ReferenceFormulas:
     def _velocity_of_marker(self, marker: Marker) -> sp.Matrix:
         return sp.Matrix([self._derivative_along_motion(x) for x in self._place_of_marker(marker)])
 
+    def _slip_of_spheres(self, slip: SphereSlip) -> Any:
+        """Return the velocity of one sphere along another: of both points that touch, along a turned direction."""
+        away = self._place_of_marker(slip.b) - self._place_of_marker(slip.a)
+        normal = self._to_expression(slip.side) * away / sp.sqrt(away.dot(away))
+        zero, along = self._direction_in_ground(slip.zero), self._direction_in_ground(slip.along)
+        tangent = along - along.dot(normal) / (1 + zero.dot(normal)) * (zero + normal)
+        touching = sp.zeros(3, 1)
+        for marker, radius, sign in ((slip.b, slip.radii[1], -1), (slip.a, slip.radii[0], 1)):
+            arm = sign * self._to_expression(radius) * normal
+            velocity = self._velocity_of_marker(marker) + self._omega_of_body(marker.body).cross(arm)
+            touching -= sign * velocity
+        return tangent.dot(touching)
+
     def _speed_expression(self, speed: Speed) -> Any:
         if isinstance(speed, FormulaSpeed):
             return self._to_expression(speed.of)
@@ -301,6 +315,8 @@ class ReferenceFormulas:
         if isinstance(speed, BladeSpeed):
             across = self._direction_in_ground(speed.normal).cross(self._direction_in_ground(speed.blade))
             return self._velocity_of_marker(speed.at).dot(across) / sp.sqrt(across.dot(across))
+        if isinstance(speed, SphereSlip):
+            return self._slip_of_spheres(speed)
         along, down = self._direction_in_ground(speed.along), -self._direction_in_ground(speed.normal)
         if speed.axis is not None:  # a thin disc touches with its lowest point
             axis = self._direction_in_ground(speed.axis)

@@ -103,8 +103,9 @@ SPHERE = '{ body = "disc", sphere = 0.1 }'
             "contacts.pair.between[1]: expected a shape: sphere, plane, disc, capsule, box, got the unknown key 'line'",
         ),
         (
-            f'between = [{SPHERE}, {{ plane = "ground" }}]\nfriction = 0.3',
-            "contacts.pair.friction: expected no such key, as contacts in space have no friction, got 0.3",
+            f'between = [{SPHERE}, {{ body = "other", capsule = [0.1, 0.3] }}]\nfriction = 0.3',
+            "contacts.pair.friction: expected no such key beside a formula, or a capsule beside a sphere, which have "
+            "no friction in space, got 0.3",
         ),
         (
             f'between = [{SPHERE}, {{ body = "other", disc = 0.1 }}]',

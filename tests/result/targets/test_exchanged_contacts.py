@@ -14,7 +14,7 @@ from tests.result.targets.test_exchanged_modes import Importer, exchanged
 from tests.result.targets.test_fmu import fmu_of, importer_of
 from tests.result.targets.test_fmu_derivatives import Unit, differences
 from tests.run.contacts.scenes import CRANK, DROP, G, loaded, place_of_disc, rocking_block, woodpecker
-from tests.run.contacts.scenes_in_space import DIE
+from tests.run.contacts.scenes_in_space import DIE, SKITTLE
 from tests.run.contacts.test_poisson import wheel
 from tests.run.contacts.test_reactions_beside import cart, two_rods
 from tests.run.contacts.test_stacks import stack
@@ -31,6 +31,7 @@ SCENES = {
     "wheel at a kerb": (wheel(0.1, 8.0, 0.4, 0.3)[0], 0.5, 2, "absolute", 1e-9),
     "slider with play": (CRANK, 0.014, 2, "absolute", 1e-7),
     "die in space": (DIE, 0.6, 3, "absolute", 1e-8),
+    "ball in space": (SKITTLE, 1.2, 3, "absolute", 1e-8),
     "stack": (stack(np.array([0.0, 0.02, -0.01]), 0.02), 0.5, 3, "absolute", 1e-9),
 }
 

@@ -26,11 +26,27 @@ def body(
     return text + f"orientation = {{ rotation_vector = {listed(more.get('turn', (0.0,) * 3))} }}\n"
 
 
-def contact(one: str, other: str, restitution: object = 0.0, name: str = "touch") -> str:
+def contact(
+    one: str, other: str, restitution: object = 0.0, name: str = "touch", friction: object | None = None
+) -> str:
     """Return a contact of two shapes."""
-    return f"[contacts.{name}]\nbetween = [{{ {one} }}, {{ {other} }}]\nrestitution = {restitution}\n"
+    text = f"[contacts.{name}]\nbetween = [{{ {one} }}, {{ {other} }}]\nrestitution = {restitution}\n"
+    return text if friction is None else f"{text}friction = {friction}\n"
 
 
+def ball_of(
+    radius: float, place: Any, velocity: Any = (0.0, 0.0, 0.0), mass: float = 1.0, name: str = "ball", **more: Any
+) -> str:
+    """Return the table of a solid sphere."""
+    return body(name, place, velocity, mass, (0.4 * mass * radius**2,) * 3, **more)
+
+
+#: A ball that is thrown on a floor with spin, bounces, slips and rolls.
+SKITTLE = (
+    head()
+    + ball_of(0.2, (0.0, 0.0, 0.3), (2.0, 0.7, 0.0), 1.3, omega=(5.0, 9.0, 30.0))
+    + contact('body = "ball", sphere = 0.2', 'plane = "ground"', 0.4, friction=0.21)
+)
 #: A box that falls on a floor that gravity is not across, with a ball on its body that another one falls on.
 DIE = (
     head((1.0, 0.0, -G))

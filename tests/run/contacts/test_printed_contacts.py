@@ -14,7 +14,7 @@ from benchmarks.mechanisms.toml import text as toml
 from tests.result.targets.test_c_modes import program_of, rows_of
 from tests.result.targets.test_fmu import fmu_of, simulated
 from tests.run.contacts.scenes import DROP, loaded, rocking_block, woodpecker
-from tests.run.contacts.scenes_in_space import DIE
+from tests.run.contacts.scenes_in_space import DIE, SKITTLE
 
 #: Steps of a module that Node reads: its last state, and what has happened.
 NODE = """
@@ -35,6 +35,7 @@ PRINTED = {
     "block": (rocking_block(0.15, 0.5, 0.12), 1.6, 5e-4, 12, "block.theta", 1e-12),
     "woodpecker": (woodpecker(), 0.4, 5e-5, 30, "sleeve.y", 1e-12),
     "die": (DIE, 0.6, 5e-4, 8, "die.z", 1e-12),
+    "ball": (SKITTLE, 1.2, 5e-4, 20, "ball.x", 1e-9),
     "sled": (toml(drawn("sled", 29).raw), 0.4, 5e-4, 60, "disc.theta", 2e-11),
 }
 

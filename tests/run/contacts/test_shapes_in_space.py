@@ -271,9 +271,9 @@ def test_the_command_runs_and_refuses(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "symgen", "run", str(path), "--until", "3"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0 and "touch.rest" in done.stdout
-    path.write_text(f"{BOUNCE}friction = 0.3\n")
+    path.write_text(f"{BOUNCE}friction = -0.3\n")
     refused = subprocess.run(command, capture_output=True, text=True, check=False)
-    sentence = "contacts.touch.friction: expected no such key, as contacts in space have no friction, got 0.3"
+    sentence = "contacts.touch.friction: expected a value of at least 0, got -0.3"
     assert refused.returncode == 2 and sentence in refused.stderr
 
 

@@ -12,6 +12,7 @@ from symgen.base.vocabulary.measures import FormulaMeasure
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.contact_parts import part_of_contact
 from symgen.describe.bounds.contact_rows import CONTACTS, TANGENTS, ContactGap, Tangent
+from symgen.describe.bounds.contact_rows_in_space import TangentInSpace
 from symgen.describe.bounds.keys import SectionOfFiles
 from symgen.describe.bounds.kinds.stop import read_restitution
 from symgen.describe.contacts.slopes import slopes_of_places
@@ -22,6 +23,8 @@ from symgen.describe.parts.scope import Scope
 
 #: Largest difference of slopes that are one.
 _SAME = 1e-9
+#: What is expected where contacts in space have no friction.
+_WITHOUT_FRICTION = "no such key beside a formula, or a capsule beside a sphere, which have no friction in space"
 
 
 class FrictionOfContact(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -40,7 +43,7 @@ class FrictionOfContact(msgspec.Struct, frozen=True, kw_only=True, forbid_unknow
 
 
 class ContactSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A contact of two bodies, or of a body and the ground; in space without friction.
+    """A contact of two bodies, or of a body and the ground.
 
     Parameters
     ----------
@@ -78,10 +81,6 @@ def read_contact(scope: Scope, raw: object) -> tuple[BoundedRow, ...]:
         With the key that is wrong.
     """
     section = read_table(ContactSection, raw, scope.where(""))
-    if scope.spatial and section.friction is not None:
-        raise scope.error(
-            "friction", "no such key, as contacts in space have no friction", value_in_words(section.friction)
-        )
     touch = read_touch(scope, section)
     return rows_of_contact(scope, "", scope.name, touch, section.friction, section.restitution)
 
@@ -109,7 +108,7 @@ def _rows_of_touch(
     if tangent is not None and table:
         tangent = msgspec.structs.replace(tangent, table=table)
     gap = ContactGap(name, name, touch.gap, touch.value, "m", law, tangent, touch.distance, table, touch.outlines)
-    return (gap,) if tangent is None else (tangent, gap)
+    return (gap,) if tangent is None else (*tangent.rows, gap)
 
 
 def _read_friction(scope: Scope, key: str, name: str, touch: Touch, raw: object) -> Tangent:
@@ -127,7 +126,11 @@ def _read_friction(scope: Scope, key: str, name: str, touch: Touch, raw: object)
         raise scope.error(
             at["static"], f"a value of at least that of sliding ({sizes['sliding']!r})", repr(sizes["static"])
         )
-    return Tangent(name, touch.slip, sliding, static)
+    if not scope.spatial:
+        return Tangent(name, touch.slip, sliding, static)
+    if not touch.slips:
+        raise scope.error(key, _WITHOUT_FRICTION, value_in_words(raw))
+    return TangentInSpace(name=name, measure=touch.slips[0], sliding=sliding, static=static, slips=touch.slips)
 
 
 def read_touch(scope: Scope, section: ContactSection) -> Touch:
@@ -141,6 +144,8 @@ def read_touch(scope: Scope, section: ContactSection) -> Touch:
             raise scope.error("slip", "no such key beside between, whose shapes have one", value_in_words(section.slip))
         return (read_pair_in_space if scope.spatial else read_pair)(scope, "between", section.between)
     assert section.gap is not None, "one of both keys is there"
+    if scope.spatial and section.friction is not None:
+        raise scope.error("friction", _WITHOUT_FRICTION, value_in_words(section.friction))
     of = scope.of_row("gap", section.gap, speeds=False, inputs=True)
     if section.friction is None:
         if section.slip is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from symgen.base.vocabulary.measures import Component
+from symgen.base.vocabulary.measures import Component, Direction, RollingSpeed
 from symgen.describe.contacts.outlines import Outline
 from symgen.describe.contacts.surfaces import Disc, Touch
 from symgen.describe.contacts.surfaces_in_space import PairInSpace, Plane
@@ -24,8 +24,14 @@ def read_sphere_over_plane(scope: Scope, key: str, sphere: Disc, plane: Plane) -
 
 def touch_of_plane(sphere: Disc, plane: Plane, drawn: Outline) -> Touch:
     """Return the height of a centre over a plane, which is the radius where they touch."""
-    height = Component(plane.on, sphere.centre, plane.normal)
-    return Touch(height, sphere.radius, height, None, (drawn, plane.outline))
+    height, (one, other) = Component(plane.on, sphere.centre, plane.normal), plane.across
+    slips = (slip_on_plane(sphere, plane, one), slip_on_plane(sphere, plane, other))
+    return Touch(height, sphere.radius, height, None, (drawn, plane.outline), slips=slips)
+
+
+def slip_on_plane(sphere: Disc, plane: Plane, along: Direction) -> RollingSpeed:
+    """Return the velocity of the point of a sphere that touches, along a direction of the plane."""
+    return RollingSpeed(sphere.centre, along, plane.normal, sphere.radius)
 
 
 KIND = PairInSpace(("sphere", "plane"), read_sphere_over_plane)
