@@ -279,7 +279,7 @@ class RollingSpeed(msgspec.Struct, frozen=True, tag="rolling-speed"):
 
 
 class SphereSlip(msgspec.Struct, frozen=True, tag="sphere-slip"):
-    """Velocity of the surface of a sphere about `b` along that of a sphere about `a`, where they touch [m/s].
+    """Velocity of a sphere about `b` along the surface of a sphere about `a`, where they touch [m/s].
 
     ``t . (v_b - v_a - omega_b x r_b n - omega_a x r_a n)`` with ``n = side (b - a) / |b - a|``; `side` is -1 and one
     radius below 0 where one sphere is hollow. ``t = e - (e . n) / (1 + z . n) (z + n)`` is `along` e, turned with n

@@ -181,7 +181,7 @@ class Tangent(Bounds, frozen=True):
         return (self,)
 
     def mode(self, closed: Expr) -> Expr:
-        """Return the formula of the mode of its contact in outputs, from that of a closed gap."""
+        """Return the formula of the mode of its contact in outputs, from the formula of a closed gap."""
         sign = name_of_number(self, "sign")
         still = call("mul", closed, call("sub", ONE, call("mul", sign, sign)))
         return call("add", still, call("mul", Number(2.0), sign))

@@ -116,7 +116,7 @@ class TangentInSpace(Tangent, frozen=True, kw_only=True):
         return call("abs", call("sign", name_of_number(self.rows[0], "sign")))
 
     def mode(self, closed: Expr) -> Expr:
-        """Return the formula of the mode of its contact in outputs, from that of a closed gap: 2 where it slides."""
+        """Return the formula of the mode of its contact in outputs, from the formula of a closed gap: 2 where it slides."""
         return call("add", closed, self.moves)
 
     @property
@@ -159,7 +159,7 @@ class TangentInSpace(Tangent, frozen=True, kw_only=True):
 
     @property
     def renewed(self) -> Expr:
-        """The number ``sign`` after a step: that of before where slip is slow, as none, and unless it slides."""
+        """The number ``sign`` after a step; it stays where slip is slow, and unless the contact slides."""
         least, own = name_of_number(self.rows[0], "constant"), name_of_number(self, "sign")
         slow = call("lt", _length(self._slip), call("mul", Number(CLEAR), least))
         return call("where", call("mul", self.moves, call("sub", ONE, slow)), self.way, own)

@@ -53,7 +53,7 @@ def length_at(c: Choice, numbers: Array, i: int) -> float:
 
 @exact()
 def component_at(c: Choice, numbers: Array, i: int) -> float:
-    """Return a row's component of the direction of a vector, not 0; of no vector, that of any."""
+    """Return a row's component of the direction of a vector, not 0; a vector of length 0 has any direction."""
     size = length_at(c, numbers, i)
     part = numbers[i] / size if size > 0.0 else math.sqrt(0.5)
     return float(part if part != 0.0 else TINY)
