@@ -225,6 +225,13 @@ class Lap(msgspec.Struct, frozen=True, tag="lap"):
     chain: Chain
 
 
+class Wrapped(msgspec.Struct, frozen=True, tag="wrapped"):
+    """s = a measure and as many periods as bring it next to its latest value, at first next to 0."""
+
+    of: Measure
+    period: Expr
+
+
 class PieceNumber(msgspec.Struct, frozen=True, tag="piece-number"):
     """s = a number of the piece of a chain that its marker belongs to: it jumps where the marker passes to another."""
 
@@ -234,8 +241,8 @@ class PieceNumber(msgspec.Struct, frozen=True, tag="piece-number"):
 
 #: Angles that are periodic, so that their turns must be counted.
 Turning = Turn | Bearing
-#: These, and ways round closed chains.
-Periodic = Turning | Lap
+#: These, ways round closed chains, and measures that go on over periods.
+Periodic = Turning | Lap | Wrapped
 #: All angles.
 AnyAngle = Angle | Turn | Bearing
 Measure = (
@@ -253,6 +260,7 @@ Measure = (
     | FormulaMeasure
     | OnChain
     | Lap
+    | Wrapped
     | PieceNumber
 )
 

@@ -35,6 +35,7 @@ from symgen.base.vocabulary.measures import (
     Swing,
     Turn,
     Turning,
+    Wrapped,
     axes,
 )
 from symgen.derive.formulate.chain_nodes import numbers_of_piece
@@ -258,6 +259,10 @@ class ModelNodes(Formulas):
             return self._planar_angle(m)
         if isinstance(m, Lap):
             return self._lap_on_branch(m)
+        if isinstance(m, Wrapped):
+            of = self.measure(m.of)
+            value = self._on_branch(m, of.value, self.expression(m.period))
+            return DerivedMeasure(value, of.row, of.bias, of.drift)
         if isinstance(m, Turning):
             return self._turn_on_branch(m)
         bodies, constants = self._bodies_and_constants(m)

@@ -7,7 +7,16 @@ from dataclasses import dataclass
 from typing import Any
 
 from symgen.base.vocabulary.expressions import Reading, moving_quantities, readings_in
-from symgen.base.vocabulary.measures import FormulaMeasure, FormulaSpeed, Holonomic, Measure, Periodic, Sum, Turning
+from symgen.base.vocabulary.measures import (
+    FormulaMeasure,
+    FormulaSpeed,
+    Holonomic,
+    Measure,
+    Periodic,
+    Sum,
+    Turning,
+    Wrapped,
+)
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.mechanism import Force, Joint, Mechanism
 from symgen.describe.parts.topology import state_measures
@@ -42,6 +51,8 @@ def counted_turns(measures: Iterable[Any]) -> tuple[Measure, ...]:
         elif isinstance(measure, FormulaMeasure | FormulaSpeed):
             waiting = [r.source for r in moving_quantities(measure.of) if isinstance(r, Reading)] + waiting
         elif isinstance(measure, Periodic):
+            if isinstance(measure, Wrapped):  # derived after what it wraps
+                angles |= dict.fromkeys(counted_turns([measure.of]))
             angles[measure] = None
     return tuple(angles)
 

@@ -14,6 +14,7 @@ import msgspec
 
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, call, difference, product, sum_of_terms
 from symgen.base.vocabulary.measures import ChainPiece
+from symgen.describe.contacts.gear import Gear
 
 #: Turn of the direction below which two pieces are tangent [rad].
 TANGENT = 1e-9
@@ -69,6 +70,7 @@ class BodyOutline(msgspec.Struct, frozen=True):
     body: str
     closed: bool
     pieces: tuple[OutlinePiece, ...]
+    gear: Gear | None = None
 
 
 # -- pieces ------------------------------------------------------------------------------------------------------------

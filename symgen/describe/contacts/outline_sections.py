@@ -22,6 +22,34 @@ class PolygonTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     radius: Scalar
 
 
+class GearTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A spur gear with involute teeth, the middle of one of which is on the first axis.
+
+    Parameters
+    ----------
+    module : scalar
+        Diameter of the pitch circle over the number of teeth [m].
+    teeth : int
+        Number of teeth.
+    pressure_angle : float
+        Angle of the flanks on the pitch circle [rad]; 20 degrees by default.
+    addendum, dedendum : float
+        Height and depth of teeth beyond and within the pitch circle, over the module.
+    thinner : float
+        What a tooth lacks of half of the pitch, on the pitch circle and over the module: play.
+    tolerance : float
+        Largest distance of the arcs from the involute over the module; two gears touch by the involute itself.
+    """
+
+    module: Scalar
+    teeth: int
+    pressure_angle: float = 0.3490658503988659
+    addendum: float = 1.0
+    dedendum: float = 1.25
+    thinner: float = 0.0
+    tolerance: float = 1e-4
+
+
 class PointTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A point of an outline, and the piece that leads to it: an arc by its radius or its bulge, otherwise a segment.
 
@@ -63,12 +91,14 @@ class OutlineSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
         Whether the free side of a closed one is inside, as of a slot.
     polygon : table
         In place of points, ``{ sides = N, radius = R }``.
+    gear_profile : table
+        In place of points, a spur gear, ``{ module = M, teeth = N }``.
     box : two scalars
         In place of points, width and height [m].
     at : vector
-        Centre of a polygon or a box; the origin by default [m].
+        Centre of a polygon, a box or a gear; the origin by default [m].
     angle : scalar
-        How far a polygon or a box is turned [rad]; a corner of a polygon is on the first axis otherwise.
+        How far it is turned [rad]; a corner of a polygon is on the first axis otherwise.
     fillet : scalar
         Radius of fillets at all corners [m].
     """
@@ -78,6 +108,7 @@ class OutlineSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
     closed: Flag = False
     inside: Flag = False
     polygon: PolygonTable | None = None
+    gear_profile: GearTable | None = None
     box: Pair | None = None
     at: Vector | None = None
     angle: Scalar | None = None

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+import msgspec
+
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, call, product, sum_of_terms
 from symgen.describe.contacts.chains import (
     TANGENT,
@@ -18,6 +20,7 @@ from symgen.describe.contacts.chains import (
     signed_area,
     turn_between,
 )
+from symgen.describe.contacts.gear_teeth import teeth_of_gear
 from symgen.describe.contacts.outline_sections import OutlineSection, PointTable
 from symgen.describe.parts.fields import read_table, value_in_words
 from symgen.describe.parts.scope import Scope
@@ -40,10 +43,19 @@ def read_outline(scope: Scope, raw: object) -> BodyOutline:
     body = scope.body("body", section.body)
     if body in scope.context.bodies and scope.context.bodies[body].is_point:
         raise scope.error("body", "a body with an angle, or the ground", f"the point mass '{body}'")
-    given = [key for key in ("points", "polygon", "box") if getattr(section, key) is not None]
+    given = [key for key in ("points", "polygon", "box", "gear_profile") if getattr(section, key) is not None]
     if len(given) != 1:
-        raise scope.error("points", "one of points, polygon and box", " and ".join(given) if given else "none of them")
-    if section.points is None:
+        raise scope.error(
+            "points", "one of points, polygon, box and gear_profile", " and ".join(given) if given else "none of them"
+        )
+    gear = None
+    if section.gear_profile is not None:
+        gear, corners = teeth_of_gear(scope, section.gear_profile)
+        places = _placed(scope, section, [place for place, _ in corners])
+        bulges = (PointTable(to=(0.0, 0.0), bulge=bulge) for _, bulge in corners)
+        points, closed = list[PointTable | Plane](places), True
+        tables = list[PointTable | None](bulges)
+    elif section.points is None:
         points, closed = list(_corners_of_shape(scope, section)), True
     else:
         for key in ("at", "angle"):
@@ -53,8 +65,13 @@ def read_outline(scope: Scope, raw: object) -> BodyOutline:
     if section.inside and not closed:
         raise scope.error("inside", "the key closed beside it, as a chain with ends has no inside", "an open one")
     reader = _Reader(scope, points, closed, section)
-    outline = BodyOutline(scope.name, body, closed, tuple(reader.read()))
-    if (crossing := crossing_of(outline, reader.value)) is not None:
+    if gear is not None:
+        reader.tables = tables
+        at = (ZERO, ZERO) if section.at is None else scope.vector("at", section.at)
+        angle = ZERO if section.angle is None else scope.constant("angle", section.angle)
+        gear = msgspec.structs.replace(gear, first=angle, centre=(at[0], at[1]))
+    outline = BodyOutline(scope.name, body, closed, tuple(reader.read()), gear)
+    if gear is None and (crossing := crossing_of(outline, reader.value)) is not None:
         got = "pieces {} and {} that cross".format(*crossing)
         raise scope.error(given[0], "a chain that does not cross itself", got)
     return outline
@@ -79,6 +96,11 @@ def _corners_of_shape(scope: Scope, section: OutlineSection) -> Iterator[PointTa
         width, height = (scope.constant(f"box[{i}]", size, positive=True) for i, size in enumerate(section.box))
         signs = ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))
         places = [(product(Number(x), width), product(Number(y), height)) for x, y in signs]
+    yield from _placed(scope, section, places)
+
+
+def _placed(scope: Scope, section: OutlineSection, places: list[Plane]) -> Iterator[Plane]:
+    """Yield points of a shape, turned by its angle about the origin and moved to its place."""
     x, y = (ZERO, ZERO) if section.at is None else scope.vector("at", section.at)
     angle = ZERO if section.angle is None else scope.constant("angle", section.angle)
     cosine, sine = call("cos", angle), call("sin", angle)

@@ -77,8 +77,8 @@ class Touch(msgspec.Struct, frozen=True):
         Distance of the shapes less `value`, with a derivative of length 1 over either body's place where they touch.
     value : Expr
         Where the shapes touch.
-    slip : Measure
-        Coordinate whose rate is the speed of one surface along the other.
+    slip : Measure or None
+        Coordinate whose rate is the speed of one surface along the other; None where friction is not described.
     distance : Expr or None
         The distance that is reported, where the gap is another function of it.
     outlines : tuple of Outline
@@ -91,7 +91,7 @@ class Touch(msgspec.Struct, frozen=True):
 
     gap: Measure
     value: Expr
-    slip: Measure
+    slip: Measure | None
     distance: Expr | None = None
     outlines: tuple[Outline, ...] = ()
     further: tuple[Touch, ...] = ()

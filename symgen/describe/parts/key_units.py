@@ -40,6 +40,7 @@ _FURTHER = {
     "outputs": {"at": "m", "reach": "m", "disc": "m", "segment": "m", "on": "m"},
     "outlines": {
         **{"to": "m", "radius": "m", "bulge": "1", "fillet": "m", "points": "m", "box": "m", "at": "m", "angle": "rad"},
+        "module": "m",
     },
 }
 #: Units of what a joint has along a coordinate: of an angle, of a displacement.

@@ -35,6 +35,7 @@ from symgen.base.vocabulary.measures import (
     Spin,
     Sum,
     Turn,
+    Wrapped,
     nested_parts,
 )
 from symgen.describe.formulas.formula_text import to_text
@@ -152,6 +153,8 @@ class _Writer:
                 return "a formula of the file"
             case OnChain() | Lap() | PieceNumber():
                 return f"a quantity beside an outline of {measure.chain.origin.body}"
+            case Wrapped():
+                return f"{self.noun_of_measure(measure.of)}, but for whole periods"
             case _:
                 terms = [
                     self.noun_of_measure(term)

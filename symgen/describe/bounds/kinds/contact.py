@@ -126,11 +126,13 @@ def _read_friction(scope: Scope, key: str, name: str, touch: Touch, raw: object)
         raise scope.error(
             at["static"], f"a value of at least that of sliding ({sizes['sliding']!r})", repr(sizes["static"])
         )
-    if not scope.spatial:
-        return Tangent(name, touch.slip, sliding, static)
-    if not touch.slips:
-        raise scope.error(key, _WITHOUT_FRICTION, value_in_words(raw))
-    return TangentInSpace(name=name, measure=touch.slips[0], sliding=sliding, static=static, slips=touch.slips)
+    if scope.spatial:
+        if not touch.slips:
+            raise scope.error(key, _WITHOUT_FRICTION, value_in_words(raw))
+        return TangentInSpace(name=name, measure=touch.slips[0], sliding=sliding, static=static, slips=touch.slips)
+    if touch.slip is None:
+        raise scope.error(key, "no friction along teeth, of which several touch", value_in_words(raw))
+    return Tangent(name, touch.slip, sliding, static)
 
 
 def read_touch(scope: Scope, section: ContactSection) -> Touch:

@@ -10,6 +10,7 @@ from symgen.base.vocabulary.expressions import ZERO, Expr, Number, Reading, prod
 from symgen.base.vocabulary.measures import GROUND, Angle, Chain, FormulaMeasure, Lap, Marker, OnChain
 from symgen.describe.contacts.chains import (
     BodyOutline,
+    OutlinePiece,
     Value,
     continued,
     depths_of,
@@ -112,11 +113,16 @@ def _check_disc(scope: Scope, key: str, outline: BodyOutline, disc: Disc) -> Non
 
 def drawn_outline(outline: BodyOutline, value: Value) -> Outline:
     """Return the line along an outline with the defaults of parameters."""
-    points = [point for stretch in outline.pieces for point in points_on(stretch, value)]
+    fine = outline.gear is None  # arcs of teeth are short
+    points = [p for stretch in outline.pieces for p in (points_on(stretch, value) if fine else _start(stretch, value))]
     x, y = outline.pieces[-1].end
     points.append((value(x), value(y)))
     markers = tuple(Marker(outline.body, (Number(x), Number(y))) for x, y in points)
     return Outline(markers, words=_words_on(outline, value))
+
+
+def _start(stretch: OutlinePiece, value: Value) -> list[tuple[float, float]]:
+    return [(value(stretch.start[0]), value(stretch.start[1]))]
 
 
 def _words_on(outline: BodyOutline, value: Value) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from symgen.describe.contacts.chains import BodyOutline
 from symgen.describe.contacts.feet import feet_of
+from symgen.describe.contacts.gear_pairs import touch_of_gears
 from symgen.describe.contacts.pairs.disc_outline import as_one, drawn_outline, touches_on_outline
 from symgen.describe.contacts.surfaces import OUTLINE, OutlineTable, Pair, Touch, check_bodies, outline_named
 from symgen.describe.parts.scope import Scope
@@ -19,6 +20,8 @@ def read_two_outlines(scope: Scope, key: str, table: OutlineTable, outline: Body
     other = outline_named(scope, key, table)
     check_bodies(scope, key, other.body, outline)
     drawn = tuple(drawn_outline(each, lambda e: scope.value(e, key)) for each in (outline, other))
+    if outline.gear is not None and other.gear is not None:
+        return touch_of_gears(scope, key, (outline, other), (outline.gear, other.gear), drawn)
     touches = list[Touch]()
     for standing, under, faces in ((outline, other, False), (other, outline, True)):
         for foot in feet_of(scope, key, standing):
