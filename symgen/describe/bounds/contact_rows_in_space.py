@@ -116,7 +116,7 @@ class TangentInSpace(Tangent, frozen=True, kw_only=True):
         return call("abs", call("sign", name_of_number(self.rows[0], "sign")))
 
     def mode(self, closed: Expr) -> Expr:
-        """Return the formula of the mode of its contact in outputs, from the formula of a closed gap: 2 where it slides."""
+        """Return the formula of the contact's mode in outputs, 2 where it slides, from the formula of a closed gap."""
         return call("add", closed, self.moves)
 
     @property
@@ -207,7 +207,7 @@ class TangentInSpace(Tangent, frozen=True, kw_only=True):
         )
 
     def outputs(self, beside: Sequence[BoundedRow]) -> Iterator[Output]:
-        """Yield the size of the friction, the sum of those of all parts, and the speed of slip at the nearest one."""
+        """Yield the size of the friction summed over all parts, and the speed of slip at the nearest one."""
         if self.number != 1 or self.part > 1:
             return
         parts = [row for row in beside if isinstance(row, TangentInSpace) and row.name == self.name and row.number == 1]

@@ -128,7 +128,7 @@ class _Flank:
         return max((abs(abs(p - centre) - radius) for p in within), default=0.0)
 
     def tooth(self) -> Iterator[tuple[complex, float]]:
-        """Yield the points of a tooth counterclockwise with the bulges before them; the first is that of the root."""
+        """Yield the points of a tooth counterclockwise with the bulges before them; the first bulge belongs to the root."""
         right = [(self.at(max(self.begin, 0.0))[0], 0.0), *self.arcs()]
         if self.begin < 0.0:
             right.insert(0, ((1.0 + self.begin) * self.base * cmath.exp(-1j * self.half), 0.0))
@@ -141,7 +141,7 @@ class _Flank:
             yield point.conjugate(), bulge
 
     def _root_direction(self) -> complex:
-        """Return the direction of the right flank at its root, turned by that of the left one before, downwards."""
+        """Return the downward direction of the right flank at its root, less the angle of the left flank before."""
         direction = self.at(max(self.begin, 0.0))[1]
         middle = cmath.exp(-1j * math.pi / self.teeth)
         outwards = direction / middle  # mirrored by the middle of the gap, and back
