@@ -128,7 +128,7 @@ class _Flank:
         return max((abs(abs(p - centre) - radius) for p in within), default=0.0)
 
     def tooth(self) -> Iterator[tuple[complex, float]]:
-        """Yield the points of a tooth counterclockwise with the bulges before them; the first bulge belongs to the root."""
+        """Yield the points of a tooth counterclockwise and the bulges before them, first the bulge of the root."""
         right = [(self.at(max(self.begin, 0.0))[0], 0.0), *self.arcs()]
         if self.begin < 0.0:
             right.insert(0, ((1.0 + self.begin) * self.base * cmath.exp(-1j * self.half), 0.0))
