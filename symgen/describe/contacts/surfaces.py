@@ -87,6 +87,8 @@ class Touch(msgspec.Struct, frozen=True):
         The same of other smooth parts of a surface, which are in touch apart from this one.
     slips : tuple of two Speed, or empty
         In space, in place of `slip`, the velocity of the second surface along the first one; empty without friction.
+    changes_rows : bool
+        Whether a contact passes from one part to another one while it is closed, as arcs of two outlines do.
     """
 
     gap: Measure
@@ -96,6 +98,7 @@ class Touch(msgspec.Struct, frozen=True):
     outlines: tuple[Outline, ...] = ()
     further: tuple[Touch, ...] = ()
     slips: tuple[Speed, Speed] | tuple[()] = ()
+    changes_rows: bool = False
 
 
 class Pair(msgspec.Struct, frozen=True):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import msgspec
+
 from symgen.describe.contacts.chains import BodyOutline
 from symgen.describe.contacts.feet import feet_of
 from symgen.describe.contacts.gear_pairs import touch_of_gears
@@ -22,11 +24,12 @@ def read_two_outlines(scope: Scope, key: str, table: OutlineTable, outline: Body
     drawn = tuple(drawn_outline(each, lambda e: scope.value(e, key)) for each in (outline, other))
     if outline.gear is not None and other.gear is not None:
         return touch_of_gears(scope, key, (outline, other), (outline.gear, other.gear), drawn)
-    touches = list[Touch]()
-    for standing, under, faces in ((outline, other, False), (other, outline, True)):
-        for foot in feet_of(scope, key, standing):
+    touches, feet = list[Touch](), [feet_of(scope, key, each) for each in (outline, other)]
+    for standing, under, faces in ((feet[0], other, False), (feet[1], outline, True)):
+        for foot in standing:
             touches += touches_on_outline(scope, key, under, foot, drawn, faces)
-    return as_one(touches)
+    changes = all(any(foot.size > 0.0 for foot in each) for each in feet)
+    return msgspec.structs.replace(as_one(touches), changes_rows=changes)
 
 
 KIND = Pair(OUTLINE, OutlineTable, read_two_outlines, None, OUTLINE)
