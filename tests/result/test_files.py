@@ -175,7 +175,7 @@ def test_violations_are_drawn_on_a_logarithmic_axis(result):
     ("name", "sentence"),
     [
         ("run.xlsx", "save: expected a file ending in .nc, .parquet, .csv, got"),
-        ("run.parq", "did you mean '.parquet'?"),
+        ("run.parq", "run.parquet'?"),
         ("run", "save: expected a file ending in .nc, .parquet, .csv, got"),
         ("nowhere/run.csv", "save: expected a file in a folder that exists, got"),
     ],

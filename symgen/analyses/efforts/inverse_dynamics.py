@@ -18,7 +18,7 @@ from symgen.analyses.prescribed.prescribed import driver_names
 from symgen.base import arguments
 from symgen.base.digits import clean
 from symgen.base.errors import InputError, plural
-from symgen.describe.bounds.contact_rows_in_space import refuse_friction_in_space
+from symgen.describe.bounds.contact_rows_in_space import refuse_rows_in_pairs
 from symgen.describe.bounds.smooth import sliding_rows_as_forces
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.holding_joints import refuse_holding
@@ -194,7 +194,7 @@ def inverse_dynamics(
 ) -> Inverse:
     """Return the efforts that a motion needs; see `symgen.api.Model.inverse`, which has these arguments and errors."""
     refuse_holding("inverse dynamics", mechanism)
-    refuse_friction_in_space("inverse dynamics", mechanism)
+    refuse_rows_in_pairs("inverse dynamics", mechanism)
     contacts = Contacts.of_mechanism(mechanism)
     mechanism = sliding_rows_as_forces(WHERE, mechanism, contacts.apart)
     names = arguments.words(WHERE, actuators)

@@ -48,7 +48,7 @@ def _length(parts: Sequence[Expr]) -> Expr:
     return call("sqrt", sum_of_terms(*(call("mul", x, x) for x in parts), _NONE))
 
 
-def refuse_friction_in_space(where: str, mechanism: Mechanism) -> None:
+def refuse_rows_in_pairs(where: str, mechanism: Mechanism) -> None:
     """Refuse friction of contacts in space where runs alone have it.
 
     Raises

@@ -78,7 +78,7 @@ class Touch(msgspec.Struct, frozen=True):
     value : Expr
         Where the shapes touch.
     slip : Measure or None
-        Coordinate whose rate is the speed of one surface along the other; None where friction is not described.
+        Coordinate whose rate is the speed of one surface along the other; None where nothing rubs.
     distance : Expr or None
         The distance that is reported, where the gap is another function of it.
     outlines : tuple of Outline
@@ -86,7 +86,7 @@ class Touch(msgspec.Struct, frozen=True):
     further : tuple of Touch
         The same of other smooth parts of a surface, which are in touch apart from this one.
     slips : tuple of two Speed, or empty
-        In space, in place of `slip`, the velocity of the second surface along the first one; empty without friction.
+        In space, in place of `slip`, the velocity of the second surface along the first one; empty where nothing rubs.
     changes_rows : bool
         Whether a contact passes from one part to another one while it is closed, as arcs of two outlines do.
     """

@@ -168,9 +168,9 @@ def straight_alone(mechanism: Mechanism) -> str:
     if mechanism.holding:
         return "joints that hold for a while"
     if mechanism.has_massless and pressed_rows(mechanism):
-        return "sliders on curves beside friction by reactions"
+        return "sliders on curves beside bounds by reactions"
     if any(row.paired for row in mechanism.bounded):
-        return "friction of contacts in space"
+        return "slip of contacts in space"
     return "rows that may be off" if mechanism.switchable else ""
 
 

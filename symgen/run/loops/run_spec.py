@@ -131,7 +131,7 @@ class BoundedNames:
 
     @property
     def paired(self) -> bool:
-        """Whether friction of contacts has two rows, as in space."""
+        """Whether slip of contacts has two rows, as in space."""
         return any(one == other >= 0 for one, other in zip(self.partners, self.partners[1:], strict=False))
 
     @property

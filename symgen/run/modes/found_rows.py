@@ -29,6 +29,14 @@ def find_rows(c: Choice, breaks: int, stops: int, leaves: int) -> None:
         c.found.left[leaves] = 1
 
 
+@exact()
+def find_alike(c: Choice, i: int, goes_on: bool) -> None:
+    """Let the row after one have found what that one has, neither of them rest where slip goes on."""
+    if goes_on:
+        c.found.stopped[i] = 0
+    c.found.broken[i + 1], c.found.stopped[i + 1] = c.found.broken[i], c.found.stopped[i]
+
+
 @exact(entry=True)
 def allow_depth(c: Choice, depth: float) -> None:
     """Set the largest depth of open gaps below zero, over the mechanism's length."""

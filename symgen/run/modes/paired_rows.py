@@ -14,6 +14,7 @@ from symgen.compile.native.annotations import Array, Integers
 from symgen.run.laws.problem import ON, TINY, UPPER
 from symgen.run.layout import abi
 from symgen.run.modes.bounded_rows import AT_BOUND, CONSTANT, LIMIT, ROUNDED, row_scale
+from symgen.run.modes.found_rows import find_alike
 from symgen.run.modes.row_records import Choice
 
 #: Velocity of slip out of rest, over `speed_by_friction`; up to this many times of it, slip that goes on keeps it.
@@ -63,9 +64,8 @@ def component_at(c: Choice, numbers: Array, i: int) -> float:
 def share_found(c: Choice, w: Array, i: int) -> None:
     """Let both rows have what events have found of the first one; slip whose direction has turned goes on."""
     if is_first(c, i):
-        if length_at(c, c.read.speed, i) > PASSED * row_scale(c, w, i, abi.SPEED):
-            c.found.stopped[i] = 0
-        c.found.broken[i + 1], c.found.stopped[i + 1] = c.found.broken[i], c.found.stopped[i]
+        goes_on = length_at(c, c.read.speed, i) > PASSED * row_scale(c, w, i, abi.SPEED)
+        find_alike(c, i, goes_on)
 
 
 @exact()

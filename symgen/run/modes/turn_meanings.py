@@ -65,10 +65,10 @@ LOADED_BY_REACTIONS = Meanings(
     choose_modes=exact_instance(choose_contacts, BY_REACTIONS | {"PLAIN": False}),
     gather=exact_instance(gather_contacts, BY_REACTIONS | {"PLAIN": False}),
 )
-#: Friction of contacts has two rows; their laws are the same.
+#: Slip of contacts has two rows; their laws are the same.
 IN_PAIRS = {"PAIRED": True}
 PAIRED_ROWS = Meanings(
-    "runs with friction of contacts in space",
+    "runs with slip of contacts in space",
     choose_modes=exact_instance(choose_contacts, IN_PAIRS),
     measure_margins=exact_instance(measure_margins_of_contacts, IN_PAIRS),
     find_struck=exact_instance(find_struck_contacts, IN_PAIRS),

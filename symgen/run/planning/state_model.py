@@ -13,7 +13,7 @@ from symgen.base import arguments
 from symgen.base.errors import InputError, suggest
 from symgen.base.settings import COORDINATES, Settings
 from symgen.describe.bounds.bounded_modes import one_sided_rows, refuse_bounds, without_bounds
-from symgen.describe.bounds.contact_rows_in_space import refuse_friction_in_space
+from symgen.describe.bounds.contact_rows_in_space import refuse_rows_in_pairs
 from symgen.describe.bounds.smooth import sliding_rows_as_forces
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.evaluate import parameter_values
@@ -67,7 +67,7 @@ class StateModel:
             own = {p.name for p in mechanism.parameters}
             values = {name: x for name, x in given.items() if name in own}
             mechanism = in_modes(mechanism, parameter_values(mechanism, values))
-        refuse_friction_in_space(where, mechanism)
+        refuse_rows_in_pairs(where, mechanism)
         sliding = sliding_rows_as_forces(where, mechanism)
         described = without_bounds(sliding, one_sided_rows(sliding))
         refuse_bounds(where, described)

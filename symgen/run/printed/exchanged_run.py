@@ -354,7 +354,7 @@ _REACTING = Meanings(
     end_lost_flights=end_lost_flights_by_reactions,
 )
 _PAIRED = Meanings(
-    "FMUs for model exchange with friction of contacts in space",
+    "FMUs for model exchange with slip of contacts in space",
     end_flights=end_flights_in_pairs,
     end_lost_flights=end_lost_flights_in_pairs,
 )

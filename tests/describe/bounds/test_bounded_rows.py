@@ -38,6 +38,7 @@ NAMING = (
         "describe/edits/snippet",
     ),
     *("run/modes/contact", "run/modes/impact_memory.py", "run/modes/pin_impulses.py", "run/modes/refusals.py"),
+    "run/modes/paired_rows.py",
     *("run/effects/pushing.py", "run/directions/push_directions.py", "run/laws/motions.py", "run/modes/probing.py"),
     *("run/single/contact_notes.py", "analyses/efforts/", "analyses/rest/lawful.py"),
 )

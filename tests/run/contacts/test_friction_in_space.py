@@ -353,7 +353,7 @@ def test_what_friction_in_space_has_not_is_said(tmp_path: Path) -> None:
     for wrong, sentence in scenes.values():
         with pytest.raises(InputError, match=sentence):
             loaded(wrong, tmp_path)
-    with pytest.raises(InputError, match="straight code where a file has friction of contacts in space"):
+    with pytest.raises(InputError, match="straight code where a file has slip of contacts in space"):
         model.simulate(shape="looped")
 
 
