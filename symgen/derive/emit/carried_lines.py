@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 from symgen.base.ir.program import CARRYING, ModelLayout
 from symgen.derive.emit.printer import ElementAccess, Printer
 from symgen.derive.lower.carrying import CarriedSums
+
+_NAME = re.compile(r"[A-Za-z_]\w*")
 
 
 @dataclass(frozen=True)
@@ -32,8 +35,7 @@ def carried_lines(
     printed, first, modes = printer.lines(), layout.offset(CARRYING), layout.offset("modes")
     texts = [printer.text[node][0] for node in sums.block.nodes]
     divided, shared = first + sums.count + 1, first + 2 * (sums.count + 1)
-    lines = ["# what rows in force carry", *printed.inputs, *printed.terms]
-    lines += [f"w[{first + 1 + k}] = 0.0" for k in range(sums.count)]
+    lines = [f"w[{first + 1 + k}] = 0.0" for k in range(sums.count)]
     for i, name in enumerate(sums.names):
         held, constant, limit = (f"w[{modes + sums.modes[f'{name}.{x}']}]" for x in ("held", "constant", "limit"))
         lines.append(f"carrier{i} = int(min(max({constant}, 0.0), {float(sums.count)!r})*(1.0 - {held}))")
@@ -44,4 +46,10 @@ def carried_lines(
             total = f"({texts[3 * i + 1]} + w[{first + 1 + place}])"
             lines.append(f"w[{divided + 1 + place}] = ({texts[3 * i + 2]})/{total}")
         lines += [f"w[{shared + 1 + place}] = w[{divided} + carrier{i}]" for i, place in enumerate(sums.places)]
-    return lines, printed.functions
+    read = set(_NAME.findall("\n".join(lines)))
+    for line in reversed([*printed.inputs, *printed.terms]):  # sums that nothing shares read fewer
+        name, _, value = line.partition(" = ")
+        if name in read:
+            lines.insert(0, line)
+            read.update(_NAME.findall(value))
+    return ["# what rows in force carry", *lines], printed.functions
