@@ -7,6 +7,7 @@ from pathlib import Path
 import msgspec
 import numpy as np
 import pytest
+from support.ending import Ending
 
 from symgen.base.vocabulary.expressions import ZERO, Expr, Number, Reading, call
 from symgen.base.vocabulary.measures import GROUND, Angle, Component, Direction, FormulaMeasure
@@ -111,11 +112,9 @@ def test_past_its_end_a_disc_rolls_about_the_corner(integrator: str, tmp_path: P
     def slips(_: float, y: np.ndarray) -> float:
         return mu * (G * math.cos(y[0]) - r * y[1] ** 2) - G * math.sin(y[0]) / 3.0
 
-    # SciPy reads an attribute of the function
-    ends.terminal = slips.terminal = True  # type: ignore[attr-defined]
     tight = {"rtol": 1e-12, "atol": 1e-14, "method": "DOP853"}
-    one = solve_ivp(about(far), (0.0, 2.0), [start, 0.0], events=ends, **tight)
-    two = solve_ivp(about(r), (0.0, 2.0), [half, one.y[1, -1] * far / r], events=slips, **tight)
+    one = solve_ivp(about(far), (0.0, 2.0), [start, 0.0], events=Ending(ends), **tight)
+    two = solve_ivp(about(r), (0.0, 2.0), [half, one.y[1, -1] * far / r], events=Ending(slips), **tight)
     text = dome(f"arc = [0.4, {half}]", start, mu)
     run = loaded(text, tmp_path).simulate(until=0.5, integrator=integrator, rtol=1e-12, verify=False)
     assert run.events[0].name == "dome.slip" and abs(run.events[0].t - one.t[-1] - two.t[-1]) < 1e-9

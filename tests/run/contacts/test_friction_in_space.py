@@ -1,6 +1,8 @@
 """Friction of contacts in space: slip and rolling, starts of slip, impacts, feet, beside closed forms."""
 
 import math
+import subprocess
+import sys
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -9,6 +11,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
+from support.ending import Ending
 
 from symgen import InputError
 from symgen.result.result import Result
@@ -129,19 +132,24 @@ def planar_bowl(angle: float, mu: float, until: float) -> tuple[float, list[floa
     Angle, its rate and the speed r omega; it slips at ``L rate + r omega``.
     """
     length, z, t, times = 0.9, np.array([angle, 0.0, 0.0]), 0.0, list[float]()
-    force = lambda z: G * math.cos(z[0]) + length * z[1] ** 2  # noqa: E731
     way = 0.0 if 2.0 / 7.0 * math.tan(angle) < mu else -1.0
-    while True:
+
+    def force(z: Array) -> float:
+        return float(G * math.cos(z[0]) + length * z[1] ** 2)
+
+    def rates(_: float, z: Array, way: float, begins: float) -> list[float]:
         if way == 0.0:
-            rates = lambda t, z: [z[1], -5.0 / 7.0 * G / length * math.sin(z[0]), 0.0]  # noqa: E731
-            ends = lambda t, z: mu * force(z) - 2.0 / 7.0 * G * abs(math.sin(z[0]))  # noqa: E731
-        else:
-            rates = lambda t, z, s=way: [  # noqa: E731
-                z[1], (-G * math.sin(z[0]) - s * mu * force(z)) / length, -2.5 * s * mu * force(z)
-            ]  # fmt: skip
-            ends = lambda t, z, s=way, a=t: s * (length * z[1] + z[2]) + (1e-12 if t < a + 1e-6 else 0.0)  # noqa: E731
-        ends.terminal, ends.direction = True, -1.0  # type: ignore[attr-defined]
-        run = solve_ivp(rates, (t, until), z, method="DOP853", rtol=1e-13, atol=1e-15, events=ends)
+            return [z[1], -5.0 / 7.0 * G / length * math.sin(z[0]), 0.0]
+        return [z[1], (-G * math.sin(z[0]) - way * mu * force(z)) / length, -2.5 * way * mu * force(z)]
+
+    def ends(t: float, z: Array, way: float, begins: float) -> float:
+        if way == 0.0:
+            return mu * force(z) - 2.0 / 7.0 * G * abs(math.sin(z[0]))
+        return float(way * (length * z[1] + z[2]) + (1e-12 if t < begins + 1e-6 else 0.0))
+
+    while True:
+        given: dict[str, Any] = {"args": (way, t), "events": Ending(ends, -1.0)}
+        run = solve_ivp(rates, (t, until), z, method="DOP853", rtol=1e-13, atol=1e-15, **given)
         t, z = run.t[-1], run.y[:, -1]
         if run.status == 0:
             return float(z[0]), times
@@ -228,8 +236,9 @@ def test_a_table_that_turns_comes_to_rest_foot_by_foot(tmp_path: Path) -> None:
         arm = np.array([[c, -s], [s, c]]) @ at[0]
         return float(np.hypot(z[3] - z[5] * arm[1], z[4] + z[5] * arm[0])) - 1e-6
 
-    stops.terminal = True  # type: ignore[attr-defined]
-    run = solve_ivp(rates, (0.0, 1.0), [0.0, 0.0, 0.0, 0.9, 0.5, 4.0], "DOP853", rtol=1e-12, atol=1e-14, events=stops)
+    run = solve_ivp(
+        rates, (0.0, 1.0), [0.0, 0.0, 0.0, 0.9, 0.5, 4.0], "DOP853", rtol=1e-12, atol=1e-14, events=Ending(stops)
+    )
     assert result.ok and [event.name for event in result.events] == [f"foot{i}.stick" for i in range(3)]
     first, *others = (event.t for event in result.events)
     assert abs(first - run.t[-1]) < 1e-6 and 1e-5 < others[0] - first < 3e-5
@@ -355,6 +364,24 @@ def test_what_friction_in_space_has_not_is_said(tmp_path: Path) -> None:
             loaded(wrong, tmp_path)
     with pytest.raises(InputError, match="straight code where a file has slip of contacts in space"):
         model.simulate(shape="looped")
+
+
+@pytest.mark.slow
+def test_commands_run_and_refuse_it(tmp_path: Path) -> None:
+    """In processes of their own: a run and one with two values, and an analysis that has no such rows."""
+    (tmp_path / "ball.toml").write_text("[parameters]\nmu = 0.21\n" + slider('"mu"'))
+
+    def done(*words: str) -> subprocess.CompletedProcess[str]:
+        command = [sys.executable, "-m", "symgen", *words]
+        return subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
+
+    run = done("run", "ball.toml", "--until", "1.2")
+    time, *_ = rolled(0.21, (2.0, 0.7, 0.0), (5.0, 9.0, 30.0), 1.2)
+    assert run.returncode == 0 and "touch.stick" in run.stdout and f"{time:.3f}"[:-1] in run.stdout
+    rows = done("sweep", "ball.toml", "--vary", "mu=values(0.21, 0.3)", "--until", "1.2", "--output", "rows.csv")
+    assert rows.returncode == 0 and len((tmp_path / "rows.csv").read_text().splitlines()) == 3
+    refused = done("equilibrium", "ball.toml")
+    assert refused.returncode == 2 and "a mechanism without friction of contacts in space" in refused.stderr
 
 
 @pytest.mark.slow

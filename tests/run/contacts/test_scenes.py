@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.ending import Ending
 
 from tests.result.targets.test_c_modes import assert_same_run, program_of
 from tests.run.contacts.scenes import G, body, floor, head, loaded
@@ -75,8 +76,7 @@ def test_a_disc_rolls_off_a_table(integrator: str, tmp_path: Path) -> None:
     def slips(_: float, y: np.ndarray) -> float:
         return mu * (G * math.cos(y[0]) - r * y[1] ** 2) - G * math.sin(y[0]) / 3.0
 
-    slips.terminal = True  # type: ignore[attr-defined]
-    one = solve_ivp(rolls, (0.0, 1.0), [0.0, v / r], events=slips, rtol=1e-12, atol=1e-14, method="DOP853")
+    one = solve_ivp(rolls, (0.0, 1.0), [0.0, v / r], events=Ending(slips), rtol=1e-12, atol=1e-14, method="DOP853")
     slip = 0.2 / v + one.t[-1]
 
     def slides(_: float, y: np.ndarray) -> list[float]:
@@ -86,8 +86,7 @@ def test_a_disc_rolls_off_a_table(integrator: str, tmp_path: Path) -> None:
     def lifts(_: float, y: np.ndarray) -> float:
         return G * math.cos(y[0]) - r * y[1] ** 2
 
-    lifts.terminal = True  # type: ignore[attr-defined]
-    two = solve_ivp(slides, (0.0, 1.0), one.y[:, -1], events=lifts, rtol=1e-12, atol=1e-14, method="DOP853")
+    two = solve_ivp(slides, (0.0, 1.0), one.y[:, -1], events=Ending(lifts), rtol=1e-12, atol=1e-14, method="DOP853")
     times = [slip, slip + two.t[-1]]
     assert [event.name for event in result.events] == ["table.slip", "table.lift"]
     assert np.allclose([event.t for event in result.events], times, rtol=0.0, atol=1e-9)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from support.ending import Ending
 
 import symgen
 from symgen.describe.files.load import parse_toml
@@ -78,9 +79,8 @@ def by_hand(ratio: float) -> tuple[float, float, float]:
     def stop(_: float, y: np.ndarray) -> float:
         return y[0] - 0.5
 
-    stop.terminal = True  # type: ignore[attr-defined]
     exact = {"rtol": 1e-13, "atol": 1e-14, "method": "DOP853"}
-    there = solve_ivp(rates, (0.0, 1.0), [0.0, 0.0, 1.0, 0.0], events=stop, **exact)
+    there = solve_ivp(rates, (0.0, 1.0), [0.0, 0.0, 1.0, 0.0], events=Ending(stop), **exact)
     y, m = there.y[:, -1], mass(there.y[1, -1])
     column = np.linalg.solve(m, [1.0, 0.0])
     impulse = 1.3 * y[2] / column[0]

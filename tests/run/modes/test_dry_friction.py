@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from support.checks import assert_same_motion
+from support.ending import Ending
 
 import symgen
 from symgen.base.errors import InputError
@@ -368,14 +369,20 @@ def rest_by_the_reaction() -> tuple[int, float]:
     def stops(_: float, y: np.ndarray, sign: float) -> float:
         return sign * y[1]
 
-    stops.terminal, stops.direction = True, -1  # type: ignore[attr-defined]
     angle, turns = 1.0, 0
     while True:
         sign = -np.sign(angle)
         if sign * rates(0.0, np.array([angle, 0.0]), sign)[1] <= 0.0:
             return turns, angle
         swing = solve_ivp(
-            rates, (0.0, 9.0), [angle, 0.0], method="DOP853", events=stops, args=(sign,), rtol=1e-12, atol=1e-13
+            rates,
+            (0.0, 9.0),
+            [angle, 0.0],
+            method="DOP853",
+            events=Ending(stops, -1.0),
+            args=(sign,),
+            rtol=1e-12,
+            atol=1e-13,
         )
         angle, turns = swing.y[0, -1], turns + 1
 

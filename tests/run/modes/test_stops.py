@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from support.checks import assert_same_motion
+from support.ending import Ending
 
 import symgen
 from symgen.base.errors import InputError
@@ -212,15 +213,13 @@ def leg_events(until: float) -> list[tuple[float, str]]:
     def gap(_: float, y: np.ndarray) -> float:
         return float(-y[1]) if _ > t + 1e-6 else 1.0
 
-    for function in (force, gap):
-        function.terminal, function.direction = True, -1.0  # type: ignore[attr-defined]  # solve_ivp reads them off the function
     while t < until:
         run = solve_ivp(
             *(locked if closed else free, (t, until), state),
             method="DOP853",
             rtol=1e-13,
             atol=1e-14,
-            events=force if closed else gap,
+            events=Ending(force if closed else gap, -1.0),
         )
         t, state = float(run.t[-1]), run.y[:, -1].copy()
         if run.status != 1:
