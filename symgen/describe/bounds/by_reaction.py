@@ -84,7 +84,10 @@ def reaction_components(row: BoundedRow) -> tuple[Expr, ...]:
     return tuple(
         scalar_product_of(
             forces,
-            [Reading(f"{row.name}.across{k}{axis}", cosine) for axis, cosine in zip("xyz", line, strict=False)],
+            [
+                Reading(f"{row.name}.across{k}{axis}", cosine)
+                for axis, cosine in zip("xyz"[: len(line)], line, strict=True)
+            ],
         )
         for k, line in enumerate(row.across)
     )

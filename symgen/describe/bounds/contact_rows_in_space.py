@@ -10,7 +10,6 @@ rest the velocity ``limit`` as well.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import reduce
 from typing import Any, ClassVar
 
 import msgspec
@@ -218,5 +217,5 @@ class TangentInSpace(Tangent, frozen=True, kw_only=True):
             gap = gaps[row.pressed[0]]
             slip = call("where", call("lt", gap, nearest), _length(row._slip), slip)
             nearest = call("min", gap, nearest)
-        yield Output(f"{self.name}.friction", reduce(lambda a, b: call("add", a, b), sizes), "N")
+        yield Output(f"{self.name}.friction", sum_of_terms(*sizes), "N")
         yield Output(f"{self.name}.slip", slip, "m/s")

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.compile.loopcode.exact import compiled_form
 from symgen.describe.bounds.bounded_modes import HIT
+from symgen.describe.bounds.contact_rows_in_space import WITHOUT
 from symgen.run.directions.moments import Moment
 from symgen.run.directions.reset_directions import ResetDirections
 from symgen.run.effects.applying import EffectWork
@@ -106,7 +107,7 @@ def refuse_law_without_directions(watched: Watched | None) -> None:
     """
     rows = None if watched is None else watched.bounded
     if rows is not None and rows.paired:
-        raise InputError("derivatives", "a mechanism without friction of contacts in space", "one with it")
+        raise InputError("derivatives", WITHOUT, "one with it")
     if rows is not None and rows.one_sided and rows.poisson:
         raise InputError("derivatives", 'restitution_law = "newton"', '"poisson", whose impacts have none')
 

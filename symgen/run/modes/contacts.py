@@ -36,7 +36,7 @@ from symgen.run.modes.choice import find_rest, write_modes
 from symgen.run.modes.choice import measure_margins as measure_margins_of_rows
 from symgen.run.modes.contact_laws import fill_part, find_forces_of_part, is_still, part_used, solve_by_laws
 from symgen.run.modes.contact_parts import PLAIN, choose_part, find_parts, find_redundant, has_loads, keep_touching
-from symgen.run.modes.holding import carry_force, hold_row, hold_rows, keep_force, set_holds, write_signs
+from symgen.run.modes.holding import bound_at_rest, carry_force, hold_row, hold_rows, keep_force, set_holds, write_signs
 from symgen.run.modes.paired_rows import find_direction, first_of, is_first, is_second, length_at, write_pair
 from symgen.run.modes.probing import add_forces, by_reaction, probe_contacts, size_forces_of_parts
 from symgen.run.modes.resting import HALVINGS, SPENT, solve_rest
@@ -61,9 +61,8 @@ def solve_part(c: Choice, count: int, first: int, part: float) -> int:
 @exact()
 def static_bound(c: Choice, i: int) -> float:
     """Return the bound at rest of a row by the forces found."""
-    if c.rows.partner[i] >= 0:
-        return float(c.read.static[i] * abs(c.forces[c.rows.partner[i]]))
-    return float(c.read.static[i] * (c.sizes[i] if by_reaction(c, i) else 1.0))
+    presses = abs(c.forces[c.rows.partner[i]]) if c.rows.partner[i] >= 0 else 1.0
+    return float(bound_at_rest(c, i) * presses)
 
 
 @exact()
@@ -182,7 +181,7 @@ def write_part(c: Choice, count: int) -> None:
     """Write the modes of a part."""
     for a in range(count):
         i = c.box.order[a]
-        c.holds[i] = c.read.static[i] * (c.sizes[i] if by_reaction(c, i) else 1.0)
+        c.holds[i] = bound_at_rest(c, i)
         if c.best[i] == ON and c.part[i] < 0:
             hold_row(c, i)
         elif c.best[i] == ON and c.part[i] < c.rows.count and c.rows.pushes[i] == 0:
@@ -196,11 +195,9 @@ def write_part(c: Choice, count: int) -> None:
             c.signs[i] = 1.0 if c.best[i] == UPPER else (-1.0 if c.best[i] == LOWER else 0.0)
         if PAIRED and is_second(c, i):  # after both have been written
             write_pair(c, i - 1, begins)
-        if (
-            c.best[i] == OFF and c.rows.pushes[i] == 0 and c.rows.partner[i] < 0
-        ):  # its rate only passes zero, as at a dead centre
+        # a rate that only passes zero, as at a dead centre
+        if c.best[i] == OFF and c.rows.pushes[i] == 0 and c.rows.partner[i] < 0:
             c.signs[i] = sign_of_number(c.trial[i])
-        c.after[MODE_NUMBERS * i + SIGN] = 0.0 if c.rows.pushes[i] != 0 else c.signs[i]
 
 
 @exact()

@@ -76,10 +76,16 @@ def take_rows(c: Choice, n: int, which: int, w: Array) -> None:
 
 
 @exact()
+def bound_at_rest(c: Choice, i: int) -> float:
+    """Return the bound at rest of a row as a force, of contacts for each unit of the force that presses."""
+    return float(c.read.static[i] * (c.sizes[i] if by_reaction(c, i) else 1.0))
+
+
+@exact()
 def set_holds(c: Choice) -> None:
     """Set the bounds at rest as forces."""
     for i in range(c.rows.count):
-        c.holds[i] = c.read.static[i] * (c.sizes[i] if by_reaction(c, i) else 1.0)
+        c.holds[i] = bound_at_rest(c, i)
 
 
 @exact()

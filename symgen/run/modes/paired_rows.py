@@ -34,7 +34,7 @@ def is_second(c: Choice, i: int) -> bool:
 @exact()
 def is_first(c: Choice, i: int) -> bool:
     """Return whether a row is the first one of two along its contact."""
-    return bool(i < c.rows.dry and is_second(c, i + 1))
+    return bool(is_second(c, i + 1))
 
 
 @exact()
@@ -89,7 +89,7 @@ def settle_pair(a: int, i: int, still: bool, bound: float, loose: Integers, c: C
 
 @exact()
 def speed_by_friction(c: Choice, i: int) -> float:
-    """Return the speed that friction gives over the mechanism's length: a scale at rest, and whatever the run's end."""
+    """Return the speed that friction gives over the mechanism's length: a scale that a state at rest has too."""
     pulled = length_at(c, c.forces, i) * c.problem.matrix[i * c.rows.count + i] * c.w[abi.LENGTH]
     return float(math.sqrt(pulled) if pulled > 0.0 else row_scale(c, c.w, i, abi.SPEED))
 

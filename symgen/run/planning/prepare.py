@@ -125,7 +125,7 @@ class Prepared:
         return Simulation(self.compiled, self.plan.integrator, self.start, self.spec)
 
     def integrate(self, progress: Callable[[float], None] | None = None, start: Start | None = None) -> Outcome:
-        """Integrate, and return what the loop leaves behind, in the coordinates of the state.
+        """Integrate, and return what the loop leaves, in the coordinates of the state.
 
         Parameters
         ----------

@@ -22,7 +22,7 @@ from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import copied, weigh
 from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
-from symgen.run.layout.records import ModelSystem, Run, Span
+from symgen.run.layout.records import ModelSystem, Run, Sizes, Span
 from symgen.run.layout.redundancy import leave_out_rest
 from symgen.run.layout.scales import error_with_work, weights_of
 from symgen.run.layout.scheme_records import LINEAR, Linear
@@ -36,6 +36,16 @@ from symgen.run.loops.sparse import solve
 _APART = 1e-3
 #: As in the frame: whether steps follow the error estimate.
 ADAPTIVE = False
+
+
+@called
+def add_changes(sizes: Sizes, weight: float, change: Array, state: Array) -> None:
+    """Add a multiple of changes of q, v and the file's own states to a state, in which the work stands between them."""
+    first, tail = sizes.nq + sizes.nv, sizes.unknowns - sizes.states
+    for i in range(first):
+        state[i] += weight * change[i]
+    for i in range(sizes.states):
+        state[first + 1 + i] += weight * change[tail + i]
 
 
 @called
@@ -78,10 +88,7 @@ def attempt(
             for i in range(n):
                 k[i] += a * u[j * n + i]
                 moved[i] += c * v[j * n + i]
-                if i < first:
-                    run.trial[i] += a * v[j * n + i]
-                elif i >= tail:
-                    run.trial[first + 1 + i - tail] += a * v[j * n + i]
+            add_changes(sizes, a, part(v, j * n, n), run.trial)
         system.residual(t + scheme.c[s] * h, run.trial, k, run.p, run.w, right)
         leave_out_rest(sizes, run.w, k, right)
         for i in range(n):
@@ -98,11 +105,7 @@ def attempt(
     run.control[abi.EVALUATIONS] += s_count + 3
     copied(width, run.y, run.trial)
     for s in range(s_count):
-        for i in range(n):
-            if i < first:
-                run.trial[i] += scheme.b[s] * v[s * n + i]
-            elif i >= tail:
-                run.trial[first + 1 + i - tail] += scheme.b[s] * v[s * n + i]
+        add_changes(sizes, scheme.b[s], part(v, s * n, n), run.trial)
     for i in range(first):
         if not math.isfinite(run.trial[i]):
             return DIVERGED
@@ -113,11 +116,7 @@ def attempt(
     for i in range(width):
         off[i] = 0.0
     for s in range(s_count):
-        for i in range(n):
-            if i < first:
-                off[i] += scheme.errors[s] * v[s * n + i]
-            elif i >= tail:
-                off[first + 1 + i - tail] += scheme.errors[s] * v[s * n + i]
+        add_changes(sizes, scheme.errors[s], part(v, s * n, n), off)
     run.control[abi.ORDER] = scheme.order + 1
     share = weights_of(span, run)
     error = math.sqrt(weigh(width, off, share, run.y, run.trial, span.rtol, span.atol) / sizes.controlled)
