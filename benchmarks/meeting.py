@@ -126,6 +126,26 @@ type = "slides-on"
 body = "bead"
 beam = "line"
 """
+_TEETH = """[bodies.wheel]
+mass = 0.5
+inertia = 0.01
+position = [0.1, 0.465]
+angle = "1.5*pi + pi/29 - (0.4 - pi)*17/29"
+[joints.axle]
+type = "revolute"
+between = ["cart", "wheel"]
+at = [[0.0, 0.465], "centre"]
+[outlines.pinion]
+body = "pole"
+at = ["-size", 0.0]
+gear_profile = { module = 0.02, teeth = 17, thinner = 0.05 }
+[outlines.wheel]
+body = "wheel"
+gear_profile = { module = 0.02, teeth = 29, thinner = 0.05 }
+[contacts.mesh]
+between = [{ outline = "pinion" }, { outline = "wheel" }]
+restitution = 0.3
+"""
 _WALL = """[contacts.wall]
 between = [
     { body = "pole", at = "tip" },
@@ -260,6 +280,13 @@ FEATURES: Mapping[str, str] = {
 between = [{ body = "head", sphere = 0.1 }, { plane = "ground", on = [-0.01, 0.0, 0.0], normal = [1.0, 0.0, 0.2] }]
 restitution = 0.3
 """,
+    "contact in space with friction": _HEAD
+    + """[contacts.ball]
+between = [{ body = "head", sphere = 0.1 }, { plane = "ground", on = [-0.01, 0.0, 0.0], normal = [1.0, 0.0, 0.2] }]
+restitution = 0.3
+friction = 0.2
+""",
+    "contact of gears": cart(more=_TEETH),
     "clearance": lowered(0.001, cart(pin=_PLAY)),
     "clearance of a slide": lowered(0.002, cart())
     .replace(_RAIL, f"{_RAIL}\n{_GUIDE}")
@@ -268,6 +295,7 @@ restitution = 0.3
     "joint that catches": cart(more=_LATCH),
     "joint that catches, friction and stop": cart(pin=f"friction = {{ sliding = 0.3 }}\n{_STOP}", more=_LATCH),
     "point that slides on a cable": cart(more=_LINE),
+    "point that slides and rubs": cart(more=f"{_LINE}friction = {{ coefficient = 0.2 }}\n"),
     "rope over a sheave": cart(
         more="[bodies.weight]\nmass = 0.5\ninertia = 0.01\nposition = [0.5, -0.6]\n"
         '[joints.rope]\ntype = "rope"\nbetween = ["pole", "weight"]\nat = ["tip", "centre"]\n'

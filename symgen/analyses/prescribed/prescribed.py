@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.state.algebra import coordinate_differences
+from symgen.analyses.state.sticking import with_turns
 from symgen.base.errors import AssemblyError, InputError, suggest
 from symgen.base.vocabulary.expressions import readings_in
 from symgen.base.vocabulary.measures import GROUND, Integral
-from symgen.describe.bounds.bounded_modes import without_bounds
+from symgen.describe.bounds.bounded_modes import one_sided_rows, without_bounds
 from symgen.describe.formulas.evaluate import parameter_values, scalar_values
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
@@ -102,7 +103,7 @@ def drop_joints(mechanism: Mechanism, names: Sequence[str]) -> Mechanism:
 
 def without_history(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism without what a run alone determines: integrals, events, velocities, rows with bounds."""
-    mechanism = without_bounds(mechanism)
+    mechanism = with_turns(without_bounds(mechanism), one_sided_rows(mechanism))
     outputs = tuple(
         o for o in mechanism.outputs if not any(isinstance(r.source, Integral) for r in readings_in(o.value))
     )

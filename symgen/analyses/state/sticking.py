@@ -123,10 +123,10 @@ def rows_that_stick(
     return tuple(found)
 
 
-def with_slips(mechanism: Mechanism, along: Sequence[BoundedRow]) -> Mechanism:
-    """Return a mechanism that counts the turns of the angles in coordinates along contacts."""
-    slips = [Joint(row.row, "rows", tied_bodies(row.held), (), _angles_of(row)) for row in along if _angles_of(row)]
-    return msgspec.structs.replace(mechanism, joints=(*mechanism.joints, *slips)) if slips else mechanism
+def with_turns(mechanism: Mechanism, rows: Sequence[BoundedRow]) -> Mechanism:
+    """Return a mechanism that counts the turns of the angles in coordinates of rows with bounds, without the rows."""
+    turns = [Joint(row.row, "rows", tied_bodies(row.held), (), _angles_of(row)) for row in rows if _angles_of(row)]
+    return msgspec.structs.replace(mechanism, joints=(*mechanism.joints, *turns)) if turns else mechanism
 
 
 def with_rows_along(mechanism: Mechanism, stuck: Sequence[Stuck]) -> Mechanism:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from symgen.analyses.state.algebra import null_space_split
 from symgen.analyses.state.moving_drivers import note_on_forces_of_time
 from symgen.analyses.state.one_sided import RowModes, mode_in_words, rows_as_joints, rows_in_force_at
-from symgen.analyses.state.sticking import Stuck, rows_that_stick, with_rows_along, with_slips
+from symgen.analyses.state.sticking import Stuck, rows_that_stick, with_rows_along, with_turns
 from symgen.base.errors import InputError, suggest
 from symgen.base.settings import Settings
 from symgen.derive.lower.windings import winding_order
@@ -320,14 +320,14 @@ def make_subject(
     settings = _without_bounded_state(mechanism, settings)
     mechanism, settings = _in_modes_at_start(mechanism, settings)
     along, pushing = [row for row in mechanism.bounded if row.signed], one_sided_rows(mechanism)
-    mechanism = without_bounds(mechanism)
+    mechanism = with_turns(without_bounds(mechanism), pushing)
     placed, inputs = put_inputs_at_start(mechanism, settings), mechanism.inputs
     settings = placed.settings
     if settings.shape == "auto":
         large = mechanism.body_coordinates > LARGE and not straight_alone(mechanism)
         looped = large and settings.coordinates == "absolute"
         settings = replace(settings, shape="looped" if looped else "straight")
-    run = prepare(with_slips(placed.mechanism, along), settings, Purpose.DESCRIBED)
+    run = prepare(with_turns(placed.mechanism, along), settings, Purpose.DESCRIBED)
     if modes is None:
         shut = rows_in_force_at(run.mechanism, run.compiled, run.start, pushing)
     else:

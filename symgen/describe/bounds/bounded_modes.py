@@ -205,5 +205,5 @@ def refuse_bounds(where: str, mechanism: Mechanism) -> None:
         If it has any.
     """
     for family, rows in rows_by_family(mechanism).items():
-        names = ", ".join(row.name for row in rows)
+        names = ", ".join(dict.fromkeys(row.name for row in rows))
         raise InputError(where, f"a mechanism without {family.noun}", family.named.format(names), family.hint)

@@ -73,9 +73,10 @@ def touch_of_gears(
         turn if centre.body != GROUND and scope.turns(centre.body) else ZERO
         for turn, centre in zip(turns, centres, strict=True)
     )
-    ahead = product(one.base, difference(line, one.first))
-    behind = product(other.base, sum_of_terms(line, own, call("neg", its), call("neg", other.first), Number(math.pi)))
-    way = sum_of_terms(ahead, behind, product(Number(0.5), pitch))
+    facing = sum_of_terms(own, call("neg", its), call("neg", other.first), Number(math.pi))
+    # the line stands once: of an angle that stands twice looped code would count turns twice
+    ways = (product(total, line), call("neg", product(one.base, one.first)), product(other.base, facing))
+    way = sum_of_terms(*ways, product(Number(0.5), pitch))
     shifted = Reading(f"{scope.name}.shift", Wrapped(FormulaMeasure(way), pitch))
     apart = Reading(f"{scope.name}.distance", Distance(centres[0], centres[1]))
     root = call("sqrt", difference(product(apart, apart), product(total, total)))

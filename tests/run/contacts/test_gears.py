@@ -157,6 +157,30 @@ def test_a_wheel_strikes_both_sides_of_its_gap_and_three_hundred_derivatives(tmp
 
 
 @pytest.mark.slow
+def test_a_spring_holds_a_wheel_within_its_play_or_at_a_flank(tmp_path: Path) -> None:
+    """At equilibrium the flanks of one side carry what the spring does not, none within the play."""
+    raw = pair()
+    raw["forces"]["load"]["torque"] = f"load - 50*(two.theta - pi - pi/{TEETH[1]})"
+    model, free = loaded(toml(raw), tmp_path), 0.5 * play(raw["parameters"]["apart"]) / BASES[1]
+    for load in np.linspace(-3.0, 3.0, 60):
+        found = model.equilibrium(parameters={"load": float(load)})
+        turn = float(np.clip(load / 50.0, -free, free))
+        assert abs(found.q["two.theta"] - math.pi - math.pi / TEETH[1] - turn) < 1e-9
+        forces = [abs(x) for name, x in found.multipliers.items() if name.startswith("mesh")]
+        assert abs(sum(forces) - abs(load - 50.0 * turn) / BASES[1]) < 1e-6
+
+
+@pytest.mark.slow
+def test_looped_code_turns_gears_as_straight_code_does(tmp_path: Path) -> None:
+    """Of an angle that stood twice in its gaps looped code counted the turns twice, and stopped."""
+    model, parameters = loaded(toml(pair()), tmp_path), {"e": 0.4, "speed": 5.0, "grows": -20.0}
+    settings = {"until": 0.3, "parameters": parameters, **TIGHT}
+    runs = [model.simulate(shape=shape, **settings) for shape in ("straight", "looped")]
+    assert all(run.ok for run in runs) and len(runs[0].events) == len(runs[1].events) > 2
+    np.testing.assert_allclose(runs[0].q.values[-1], runs[1].q.values[-1], rtol=0.0, atol=1e-9)
+
+
+@pytest.mark.slow
 def test_two_free_gears_rattle_with_their_momentum(tmp_path: Path) -> None:
     """Impacts keep the momentum along the line of action and multiply the rate of approach by -e."""
     model = loaded(toml(pair(driven=False)), tmp_path)
