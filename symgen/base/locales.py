@@ -69,7 +69,7 @@ def _signs_of_locale(name: str) -> Signs:
         locale = Locale.parse(name.replace("-", "_"))
     except (UnknownLocaleError, ValueError, TypeError):
         raise InputError("--locale", "a locale, such as de, fr or de_CH", quote(name), _hint_on_locale(name)) from None
-    symbols: Any = locale.number_symbols
+    symbols = locale.number_symbols
     signs = symbols.get("latn", symbols)
     pattern = re.sub(r"y+", "y", str(locale.date_formats["short"].pattern))
     return Signs(name, signs["decimal"], signs["group"], pattern)
@@ -124,6 +124,7 @@ def local_date(day: date) -> str:
     return format_date(day, _chosen[0].day, locale="en")
 
 
+#: Figures are of an optional library, whose types neither have texts for all artists nor let methods be replaced.
 _localised: WeakSet[Any] = WeakSet()
 
 
