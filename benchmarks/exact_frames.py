@@ -10,6 +10,8 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 from scipy import linalg
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 Array = NDArray[np.float64]
 #: Shear stiffness over the axial one: bars of Euler and Bernoulli have a high one.
@@ -71,6 +73,41 @@ def frame_at_rest(
             if np.abs(change).max() < 1e-11 * np.ptp(x):
                 break
     return u.reshape(n, 3)
+
+
+def bent_strut(share: float, aside: float) -> float:
+    """Return the middle of a strut of one metre between pins, an elastica that keeps its length.
+
+    Parameters
+    ----------
+    share : float
+        Thrust over Euler's load; above 1 the rest is that of the three which a straight strut is nearest to.
+    aside : float
+        Force across the middle over the bending stiffness [1/m^2].
+    """
+    thrust = np.pi**2 * share
+
+    def half(start: float) -> tuple[float, float]:
+        """Return the turn and the deflection in the middle, which has no turn, from the turn at a pin."""
+        path = solve_ivp(
+            lambda _, u: [-thrust * u[2] - 0.5 * aside * u[1], np.cos(u[0]), np.sin(u[0])],
+            (0.0, 0.5),
+            [start, 0.0, 0.0],
+            rtol=1e-11,
+            atol=1e-13,
+        )
+        return float(path.y[0, -1]), float(path.y[2, -1])
+
+    starts = np.linspace(-1.5, 1.5, 241)
+    turns = [half(start)[0] for start in starts]
+    rests = [
+        half(brentq(lambda start: half(start)[0], *starts[i : i + 2], xtol=1e-12))[1]
+        for i in range(len(starts) - 1)
+        if turns[i] * turns[i + 1] < 0.0
+    ]
+    k = np.sqrt(thrust)
+    straight = aside * (np.tan(0.5 * k) - 0.5 * k) / (2.0 * k**3)
+    return min(rests, key=lambda rest: abs(rest - straight))
 
 
 def lag_of_blade(length: float, bending: float, line_mass: float, speed: float, count: int = 40) -> float:

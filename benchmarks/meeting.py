@@ -222,6 +222,10 @@ FEATURES: Mapping[str, str] = {
     "bodies, joints, forces": cart(),
     "input": cart(force="-k*cart.x - cart.vx + push", more='[inputs]\npush = { default = 0.1, unit = "N" }'),
     "output, integral": cart(more='[outputs]\nw = { value = "integral(cart.vx**2)" }'),
+    "ray": cart(
+        more='[outputs]\nfree = { ray = { body = "pole", at = "tip", direction = [1.0, 0.2], reach = 9.0, '
+        'shapes = [{ line = "ground", on = [3.0, 0.0], normal = [-1.0, 0.0] }, { body = "cart", disc = 0.1 }] } }'
+    ),
     "state of the file": cart(
         force="-k*cart.x - cart.vx + lag", more='[states.lag]\nstart = 0.3\nrate = "cart.x - lag"'
     ),

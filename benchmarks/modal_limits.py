@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 import symgen
-from benchmarks.exact_frames import frame_at_rest, lag_of_blade
+from benchmarks.exact_frames import bent_strut, frame_at_rest, lag_of_blade
 from benchmarks.finite_elements import Mesh, bar_frame, solid
 from symgen.result.interface_poses import interface_poses
 from symgen.result.points import rotation_matrices
@@ -269,6 +269,12 @@ def _strand(folder: Path, share: float, **keys: Any) -> tuple[float, float, bool
     return _between_pins(folder, -share, **keys)
 
 
+def _buckling(folder: Path, share: float, **keys: Any) -> tuple[float, float, bool]:
+    """Return the middle of the bar between pins under a share of Euler's load, below and above."""
+    own, _, said = _between_pins(folder, share * np.pi**2 / 3.0, **keys)
+    return own, bent_strut(share, 0.05), said
+
+
 def _turning(folder: Path, share: float, clamp: int, **keys: Any) -> tuple[float, float, bool]:
     """Return the first frequency in the plane of the turn, of a bar that a hub turns about one of its nodes."""
     mesh, _, bending = _bar(20)
@@ -348,6 +354,9 @@ MACHINES = {
     "quarter of a circle, pulled": Machine("over k_t L", (0.02, 0.04, 0.06, 0.09, 0.13, 0.17), _FRAME, _arc),
     "arm with a weight, 45 degrees up": Machine("over k_t L", (0.02, 0.04, 0.06, 0.09, 0.13, 0.17), _FRAME, _arm),
     "strut between pins": Machine("over k_t L", (0.01, 0.02, 0.03, 0.05, 0.065, 0.08), _FORM, _between_pins),
+    "strut between pins, to Euler's load and above": Machine(
+        "over Euler's load", (0.005, 0.3, 0.6, 0.9, 0.95, 0.97, 1.02, 1.05, 1.3), "elastica", _buckling
+    ),
     "strand between pins": Machine("over k_t L", (0.01, 0.02, 0.03, 0.05, 0.065, 0.08), _FORM, _strand),
     "blade": Machine("turn over the frequency of the free bar", (0.01, 0.02, 0.03, 0.04, 0.05, 0.06), _FORM, _blade),
     "propeller": Machine(

@@ -31,6 +31,9 @@ Array = NDArray[np.float64]
 
 #: Largest slope of the outline of a body without interfaces [rad].
 MOST_SLOPED = 0.1
+#: Euler's load of a strut between pins over k_t L; the share of the stiffness which that load leaves that turns of ends
+#: may change, by an eighth of their square as in an elastica; and the least that is left.
+EULER, MOST_CHANGED, LEAST_LEFT = np.pi**2 / 3.0, 0.02, 0.01
 #: Largest couple between two interfaces over the root of the angular stiffnesses that it couples.
 MOST_COUPLED = 0.47
 
@@ -121,6 +124,8 @@ def _limits_of_body(mechanism: Mechanism, body: AnyBody, modal: Modal) -> Iterat
 
         yield PartLimit(pushed, say_pushed)
         yield PartLimit(turned, say_turned)
+        if modal.stiffened and limit > 0.0 and not _holds_turn(mechanism, body.name):
+            yield _limit_of_buckling(mechanism, other.name, own, moving)
     yield from _limit_of_slopes(mechanism, body, modal, moving)
     yield from _limits_inside(mechanism, body, modal, most, moving)
     lowest = float(np.sqrt(min(modal.stiffness) / modal.mass))
@@ -134,6 +139,28 @@ def _limits_of_body(mechanism: Mechanism, body: AnyBody, modal: Modal) -> Iterat
         return f"{words}, where {most.spun:g} is the most: {most.advice}"
 
     yield PartLimit(spun, say_spun)
+
+
+def _limit_of_buckling(
+    mechanism: Mechanism, name: str, own: CarriedInterface, moving: Callable[[MotionOfBodies], _Moving]
+) -> PartLimit:
+    """Return the limit of a stiffened strut between pins: how far it turns, the less, the nearer Euler's load is."""
+    euler = EULER * own.load.stiffness * own.load.length
+
+    def bent(parameters: Mapping[str, float], motion: MotionOfBodies) -> Array:
+        gravity = np.array([evaluate_formula(e, parameters, "mechanism.gravity") for e in mechanism.gravity])
+        now, place = moving(motion), np.array(own.place)
+        away = place / max(float(np.linalg.norm(place)), np.finfo(float).tiny)
+        left = np.abs(1.0 + now.forces_on(own, gravity) @ away / euler)
+        turns = np.linalg.norm(now.m @ np.array(own.turn), axis=1)
+        return np.asarray(turns**2 / 8.0 / np.maximum(left, LEAST_LEFT) / MOST_CHANGED)
+
+    def say_bent(factor: float) -> str:
+        words = f"interface {name} turns, and its part is so near to buckling, that the turn changes"
+        words = f"{words} {factor * MOST_CHANGED:.2g} of the stiffness that is left"
+        return f"{words}, where {MOST_CHANGED:g} is the most: {STIFFENED.advice}"
+
+    return PartLimit(bent, say_bent)
 
 
 def _limit_of_slopes(
