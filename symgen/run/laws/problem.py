@@ -26,6 +26,8 @@ PUSH, BALL, SECOND, NOTHING = range(4)
 OFF, ON, UPPER, LOWER = range(4)
 #: Most components of a load; a size that is no divisor of zero.
 COMPONENTS, TINY = 3, 1e-300
+#: Whether bounds may depend on forces.
+LOADS = True
 
 
 class Laws(Record):
@@ -125,6 +127,8 @@ def reaction_of(n: int, i: int, part: int, laws: Laws) -> float:
 @exact()
 def load_of(n: int, i: int, laws: Laws) -> float:
     """Return the load of a row, 0 without one."""
+    if not LOADS:
+        return 0.0
     if laws.presser[i] >= 0:
         return float(larger_number(-laws.forces[laws.presser[i]], 0.0))
     square = 0.0
@@ -137,7 +141,7 @@ def load_of(n: int, i: int, laws: Laws) -> float:
 @exact()
 def load_within(n: int, i: int, chosen: bool, laws: Laws) -> float:
     """Return the load of a row in the equations of Newton's method: in `chosen` states a force of any sign."""
-    if chosen and laws.presser[i] >= 0:
+    if LOADS and chosen and laws.presser[i] >= 0:
         return float(-laws.forces[laws.presser[i]])
     return float(load_of(n, i, laws))
 
@@ -157,6 +161,8 @@ def middle_of(i: int, load: float, laws: Laws) -> float:
 @exact()
 def slope_of_load(n: int, i: int, j: int, load: float, chosen: bool, laws: Laws) -> float:
     """Return the derivative of `load_within` by a force."""
+    if not LOADS:
+        return 0.0
     if laws.presser[i] >= 0:
         return -1.0 if laws.presser[i] == j and (chosen or load > 0.0) else 0.0
     slope = 0.0
