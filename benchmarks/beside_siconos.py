@@ -1,11 +1,12 @@
-"""Stacks of boxes and discs in a bin beside Siconos: errors and processor times of loops at three steps.
+"""Stacks of boxes, discs in a bin and a gripper beside Siconos: errors and processor times of loops at three steps.
 
 python -m benchmarks.beside_siconos [ROWS]
 
 measures symgen and takes Siconos' rows from a file that `benchmarks/peers/siconos_peer.py` has written, stores both in
 ``benchmarks/records/beside_siconos.jsonl`` and writes ``docs/tables/siconos.md``; without ROWS, the page from the
 record. Stacks are over their closed forms: an upper box of 1 kg that 3 N push slides with 3 - mu g, boxes that fall by
-1 mm each lie on each other. Discs are over symgen at 1e-12, 0.2 s after they were dropped.
+1 mm each lie on each other. Discs are over symgen at 1e-12, 0.2 s after they were dropped; the gripper of smooth pins,
+whose finger bounces to rest, over the event-driven simulation of `benchmarks.bounded.rubbing`.
 """
 
 from __future__ import annotations
@@ -22,12 +23,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 import symgen
+from benchmarks.bounded.rubbing.beside import reference as simulated
+from benchmarks.bounded.rubbing.machines import gripper
 
 Array = NDArray[np.float64]
 ROOT = Path(__file__).resolve().parents[1]
 RECORD, PAGE = ROOT / "benchmarks" / "records" / "beside_siconos.jsonl", ROOT / "docs" / "tables" / "siconos.md"
 G, HALF, RADIUS, MU, BIN_MU, PUSH, DROP = 9.81, 0.1, 0.05, 0.2, 0.3, 3.0, 1e-3
 SCENES = {**{f"{scene} {count}": 0.3 for scene in ("pushed", "dropped") for count in (3, 5, 10)}, "discs 8": 0.2}
+SCENES["gripper"] = 0.25
 #: Settings of symgen: at constant steps, and as it comes.
 OWN: dict[str, dict[str, Any]] = {
     **{f"rk4 {step:g}": {"integrator": "rk4", "step": step} for step in (1e-2, 1e-3, 1e-4)},
@@ -37,6 +41,8 @@ OWN: dict[str, dict[str, Any]] = {
 
 def text_of(scene: str) -> str:
     """Return the file of a scene."""
+    if scene == "gripper":
+        return gripper(0.0).text
     kind, count = scene.split()
     text = f'[mechanism]\nname = "{kind}"\ngravity = [0.0, {-G}]\n'
     body = "[bodies.b{}]\nmass = 1.0\ninertia = {}\nposition = [{!r}, {!r}]\n"
@@ -70,13 +76,16 @@ def ends_of(scene: str, **settings: Any) -> tuple[Array, float]:
         run = symgen.load(path).simulate(until=until, times=[0.0, until], verify=False, **settings)
     if not run.ok:
         raise RuntimeError(f"{scene}: {run.reason}")
-    places = [[run[f"b{i}.{name}"][-1] for name in ("x", "y", "theta")] for i in range(int(scene.split()[1]))]
+    bodies = "abcd" if scene == "gripper" else [f"b{i}" for i in range(int(scene.split()[1]))]
+    places = [[run[f"{body}.{name}"][-1] for name in ("x", "y", "theta")] for body in bodies]
     return np.array(places), run.seconds.run
 
 
 @cache
 def reference(scene: str) -> Array:
     """Return places and angles at the end."""
+    if scene == "gripper":
+        return simulated(gripper(0.0))[-1].reshape(-1, 3)
     kind, count = scene.split()
     if kind == "discs":
         return ends_of(scene, integrator="dop853", rtol=1e-12)[0]
@@ -126,9 +135,10 @@ def page(rows: list[dict[str, Any]]) -> str:
         "",
         "Written by `python -m benchmarks.beside_siconos`: the largest error of a place [m] and the processor time of",
         "the loop [s], taken once on a machine shared with other work. Boxes of 0.2 m are pushed or dropped onto each",
-        "other, eight discs fall into a bin. Siconos 4.4 steps by Moreau and Jean's scheme; its settings are the",
-        "tolerance of its solver of contacts and whether a stack begins 1 nm deep, then its step [s]. Where a distance",
-        "begins at 0, up to rounding, Siconos' contact opens for the first steps, and a stack that rests sinks.",
+        "other, eight discs fall into a bin, a gripper of smooth pins closes, and its finger bounces to rest (over an",
+        "event-driven simulation). Siconos 4.4 steps by Moreau and Jean's scheme; its settings are the tolerance of",
+        "its solver of contacts and whether a stack begins 1 nm deep, then its step [s]. Where a distance begins at 0,",
+        "up to rounding, Siconos' contact opens for the first steps, and a stack that rests sinks.",
         "",
         "| tool | setting | " + " | ".join(SCENES) + " |",
         "| --- | --- |" + " --- |" * len(SCENES),

@@ -1,15 +1,21 @@
-"""Siconos: stacks of boxes and discs in a bin, by the time stepping of Moreau and Jean with Newton's impact law.
+"""Siconos: stacks of boxes, discs in a bin and a gripper, by time stepping of Moreau and Jean with Newton's impact law.
 
 Boxes of 1 kg and 0.2 m on a floor have a contact at each lower corner, whose distances are linear, as boxes that stay
-upright have them. Siconos is a package of Debian for the interpreter of the system, so this file imports nothing else:
+upright have them. The gripper is one system of twelve coordinates with joints as equalities; their functions are C, as
+a user writes them for speed (gcc). Siconos is a package of Debian for the interpreter of the system, so this file
+imports nothing else:
 
     OPENBLAS_NUM_THREADS=1 /usr/bin/python3 benchmarks/peers/siconos_peer.py ROWS.jsonl
 """
 
 from __future__ import annotations
 
+import ctypes
 import json
+import os
+import subprocess
 import sys
+import tempfile
 import time
 from typing import Any
 
@@ -86,6 +92,86 @@ def bin_of_discs(count: int, until: float, step: float, setting: str) -> tuple[A
     return [list(map(float, disc.q())) for disc in discs], seconds
 
 
+#: The gripper: masses and inertias of slide, link, jaw and finger, their start, and the pins between them (-1: ground).
+MASSES = np.array([0.3, 0.3, 0.01, 0.1, 0.1, 1e-4, 0.4, 0.4, 2e-3, 0.15, 0.15, 2e-4])
+START = np.array([0.0, 0.0, 0.0, 0.03, 0.04, 0.0, 0.18, 0.09, 0.0, 0.34, 0.1, 0.0])
+PINS = ((0, 1, (0.0, 0.0)), (1, 2, (0.06, 0.08)), (-1, 2, (0.12, 0.06)), (2, 3, (0.3, 0.12)))
+TIP, FLOOR, SPRING, DAMPER, PUSH, GAP, SPRINGS_BACK = (0.36, 0.06), 0.05, 4.0, 0.004, 12.0, 0.03, 0.3
+
+
+def function(name: str, size: int, lines: list[str]) -> str:
+    """Return a C function of Siconos' form that fills an array."""
+    head = f"void {name}(unsigned m, const double *q, unsigned k, double *out, unsigned l, double *z) {{ double c, s; "
+    return head + f"for (int i = 0; i < {size}; i++) out[i] = 0.0; " + " ".join(lines) + " }"
+
+
+def joint_functions() -> str:
+    """Return the C functions of pins and of the finger's tip: what is 0 or a gap, and its Jacobian by columns."""
+    text = ["#include <math.h>"]
+    for n, (one, other, place) in enumerate(PINS):
+        values, slopes = ([f"out[{i}] = {x!r};" for i, x in enumerate(place)] if one < 0 else []), list[str]()
+        for sign, body in ((1, one), (-1, other)):
+            if body >= 0:
+                k, a, b = 3 * body, place[0] - float(START[3 * body]), place[1] - float(START[3 * body + 1])
+                turn = f"c = cos(q[{k + 2}]); s = sin(q[{k + 2}]);"
+                values += [turn, f"out[0] += {sign} * (q[{k}] + c * {a!r} - s * {b!r});"]
+                values += [f"out[1] += {sign} * (q[{k + 1}] + s * {a!r} + c * {b!r});"]
+                slopes += [turn, f"out[{2 * k}] = out[{2 * k + 3}] = {sign};"]
+                slopes += [f"out[{2 * k + 4}] = {sign} * (-s * {a!r} - c * {b!r});"]
+                slopes += [f"out[{2 * k + 5}] = {sign} * (c * {a!r} - s * {b!r});"]
+        text += [function(f"value{n}", 2, values), function(f"slope{n}", 24, slopes)]
+    turn, (a, b) = "c = cos(q[11]); s = sin(q[11]);", (TIP[0] - float(START[9]), TIP[1] - float(START[10]))
+    text.append(function("value_tip", 1, [turn, f"out[0] = q[10] + s * {a!r} + c * {b!r} - {FLOOR!r};"]))
+    text.append(function("slope_tip", 12, [turn, f"out[10] = 1.0; out[11] = c * {a!r} - s * {b!r};"]))
+    return "\n".join(text) + "\n"
+
+
+def gripper(until: float, step: float) -> tuple[Any, float]:
+    """Return places and angles of a gripper whose finger bounces on its workpiece, with smooth pins."""
+    springs = [np.zeros((12, 12)), np.zeros((12, 12))]
+    for matrix, size in zip(springs, (SPRING, DAMPER), strict=True):
+        matrix[8:12:3, 8:12:3] = size * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    force = np.zeros(12)
+    force[1::3], force[0] = -G * MASSES[1::3], PUSH
+    model = sk.NonSmoothDynamicalSystem(0.0, until)
+    whole = sk.LagrangianLinearTIDS(START.copy(), np.zeros(12), np.diag(MASSES), *springs)
+    whole.setFExtPtr(force)
+    model.insertDynamicalSystem(whole)
+    rail, stop = np.zeros((2, 12)), np.zeros((1, 12))
+    rail[0, 1] = rail[1, 2] = 1.0
+    stop[0, 0] = -1.0
+    relations = [(sk.LagrangianLinearTIR(rail, np.zeros(2)), 2), (sk.LagrangianLinearTIR(stop, np.array([GAP])), 0)]
+    names = [(str(n), 2) for n in range(len(PINS))] + [("_tip", 0)]
+    relations += [(sk.LagrangianScleronomousR(f"joints:value{x}", f"joints:slope{x}"), n) for x, n in names]
+    kept = list[Any]()
+    for relation, equalities in relations:
+        law = sk.EqualityConditionNSL(equalities) if equalities else sk.NewtonImpactNSL(SPRINGS_BACK)
+        kept.append(sk.Interaction(law, relation))
+        model.link(kept[-1], whole)
+    scheme = sk.TimeStepping(model, sk.TimeDiscretisation(0.0, step), sk.MoreauJeanOSI(0.5), sk.MLCP())
+    begin = time.process_time()
+    while scheme.hasNextEvent():
+        scheme.computeOneStep()
+        scheme.nextStep()
+    return np.array(whole.q()).reshape(-1, 3).tolist(), time.process_time() - begin
+
+
+def grippers() -> list[dict[str, Any]]:
+    """Return the rows of the gripper; Siconos finds its functions by the name of a library that is loaded."""
+    with tempfile.TemporaryDirectory() as folder:
+        source, library = os.path.join(folder, "joints.c"), os.path.join(folder, "joints.so")
+        with open(source, "w", encoding="utf-8") as file:
+            file.write(joint_functions())
+        shared = ["-O2", "-shared", "-fPIC", "-Wl,-soname,joints.so"]
+        subprocess.run(["gcc", *shared, source, "-o", library, "-lm"], check=True)
+        ctypes.CDLL(library)
+        made = [(step, *gripper(0.25, step)) for step in STEPS]
+    return [
+        {"scene": "gripper", "setting": "as it comes", "step": step, "seconds": seconds, "ends": ends}
+        for step, ends, seconds in made
+    ]
+
+
 def main(path: str) -> None:
     """Write a row for each scene, setting and step: where bodies end, and the processor time."""
     with open(path, "w", encoding="utf-8") as file:
@@ -99,6 +185,8 @@ def main(path: str) -> None:
                     row = {"scene": scene, "setting": setting, "step": step, "seconds": seconds, "ends": ends}
                     file.write(json.dumps(row) + "\n")
                 file.flush()
+        for row in grippers():
+            file.write(json.dumps(row) + "\n")
 
 
 if __name__ == "__main__":

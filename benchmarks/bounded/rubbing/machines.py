@@ -140,17 +140,20 @@ def _row(q: Complex, **parts: Any) -> Complex:
 
 
 def gripper(value: float) -> Case:
-    """Return a slide that closes a jaw by a link; its sprung finger bounces on the workpiece. Four pins rub."""
-    draft = Draft("gripper", value, 0.25)
+    """Return a slide that closes a jaw by a link; its sprung finger bounces on the workpiece.
+
+    Four pins rub, unless the coefficient is 0.
+    """
+    draft, radius = Draft("gripper", value, 0.25), 0.01 if value > 0.0 else 0.0
     slide = draft.body(0.3, 0.01, (0.0, 0.0))
     link = draft.body(0.1, 1e-4, (0.03, 0.04))
     jaw = draft.body(0.4, 2e-3, (0.18, 0.09))
     finger = draft.body(0.15, 2e-4, (0.34, 0.10))
     draft.rail(slide, (1.0, 0.0))
-    draft.pin(slide, link, (0.0, 0.0), 0.01, value)
-    draft.pin(link, jaw, (0.06, 0.08), 0.01, value)
-    draft.pin(GROUND, jaw, (0.12, 0.06), 0.01, value)
-    draft.pin(jaw, finger, (0.3, 0.12), 0.01, value)
+    draft.pin(slide, link, (0.0, 0.0), radius, value)
+    draft.pin(link, jaw, (0.06, 0.08), radius, value)
+    draft.pin(GROUND, jaw, (0.12, 0.06), radius, value)
+    draft.pin(jaw, finger, (0.3, 0.12), radius, value)
     (x, y), k = draft.local(finger, (0.36, 0.06)), 3 * finger
 
     def tip(q: Complex) -> tuple[Any, Complex]:
