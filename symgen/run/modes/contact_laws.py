@@ -151,10 +151,12 @@ def part_used(c: Choice, count: int, a: int) -> float:
 
 
 @exact()
-def was_closed(c: Choice, i: int) -> bool:
-    """Whether a gap was closed before, by its mode or an impact; what touches at the beginning counts as closed."""
-    at = MODE_NUMBERS * i
-    return bool(c.before[at + HELD] != 0.0 or c.before[at + CONSTANT] != 0.0 or c.shut[i] + c.found.begins[0] != 0)
+def stays_open(c: Choice, count: int, i: int) -> bool:
+    """Whether a gap without a force was open before, where a row of its part breaks loose: nothing closes it."""
+    at, breaks = MODE_NUMBERS * i, 0
+    for a in range(count):
+        breaks += c.found.broken[c.order[a]]
+    return bool(breaks > 0 and c.before[at + HELD] == 0.0 and c.before[at + CONSTANT] == 0.0 and c.shut[i] == 0)
 
 
 @exact()
@@ -170,8 +172,8 @@ def settle_at_bounds(c: Choice, count: int) -> None:
             both = still and is_still(c, count, a + 1, NO_ACCELERATION)
             settle_pair(a, i, both, load_bound(count, a, laws), c.loose, c)
             continue
-        if laws.law[a] == PUSH and laws.state[a] == OFF and c.loose[i] == 0 and still and was_closed(c, i):
-            laws.state[a] = ON
+        if laws.law[a] == PUSH and laws.state[a] == OFF and c.loose[i] == 0 and still:
+            laws.state[a] = OFF if stays_open(c, count, i) else ON
         if laws.law[a] == BALL and c.loose[i] == 0 and still and laws.way[a] == 0.0 and laws.state[a] != OFF:
             laws.state[a] = ON
         if laws.law[a] == BALL and laws.state[a] == ON and c.loose[i] != 0:
