@@ -100,7 +100,7 @@ def begin_row(n: int, i: int, laws: Laws) -> None:
     """Make a row one that pushes, without anything that its law depends on."""
     laws.law[i], laws.presser[i], laws.components[i] = PUSH, -1, 0
     laws.way[i] = laws.beta[i] = laws.kappa[i] = laws.middle[i] = 0.0
-    for part in range(COMPONENTS):
+    for part in range(COMPONENTS if LOADS else 0):
         laws.apart[COMPONENTS * i + part] = 0.0
         for j in range(n):
             laws.parts[(COMPONENTS * i + part) * n + j] = 0.0
@@ -175,14 +175,14 @@ def slope_of_load(n: int, i: int, j: int, load: float, chosen: bool, laws: Laws)
 @exact()
 def rows_of(n: int, i: int, laws: Laws) -> int:
     """Return the number of rows of a ball."""
-    return 2 if i + 1 < n and laws.law[i + 1] == SECOND else 1
+    return 2 if LOADS and i + 1 < n and laws.law[i + 1] == SECOND else 1
 
 
 @exact()
 def mobility_of(n: int, i: int, laws: Laws) -> float:
     """Return the own mobility of a law, of the ball of a second row."""
     first = i - 1 if laws.law[i] == SECOND else i
-    if rows_of(n, first, laws) == 2:
+    if LOADS and rows_of(n, first, laws) == 2:
         return float(0.5 * (laws.matrix[first * n + first] + laws.matrix[(first + 1) * n + first + 1]))
     return float(laws.matrix[i * n + i])
 
@@ -196,7 +196,7 @@ def weigh_laws(n: int, laws: Laws) -> float:
         laws.root[i] = math.sqrt(own) if own > 0.0 else 1.0
         most = larger_number(most, abs(laws.offset[i]) / laws.root[i] if own > 0.0 else 0.0)
         if laws.way[i] != 0.0:
-            for part in range(laws.components[i]):
+            for part in range(laws.components[i] if LOADS else 0):
                 square += laws.apart[COMPONENTS * i + part] ** 2
             most = larger_number(most, (laws.beta[i] + laws.kappa[i] * math.sqrt(square)) * laws.root[i])
     return float(most)

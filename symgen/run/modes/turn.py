@@ -54,10 +54,9 @@ from symgen.run.modes.reading import find_fault, find_starting, read_rows
 from symgen.run.modes.row_records import TOUCHING, Choice
 from symgen.run.modes.transition_log import (
     log_changes,
-    log_changes_in_pieces,
     remember_modes,
 )
-from symgen.run.modes.turn_records import CONTACTS, PIECES, SEEKS, OfModes
+from symgen.run.modes.turn_records import CONTACTS, SEEKS, OfModes
 
 #: Most digits to the base of 4 that a number has.
 MOST_DIGITS = 26
@@ -186,9 +185,7 @@ def choose_here(modes: OfModes, state: EventState) -> int:
         return int(refuse_modes(code, modes, state))
     if starts:
         lay_gaps(t, modes, state)
-    elif PIECES:  # a start has modes, and no change of them
-        log_changes_in_pieces(t, c, state.w, modes.transitions)
-    else:
+    else:  # a start has modes, and no change of them
         log_changes(t, c, state.w, modes.transitions)
     return int(abi.DONE)
 

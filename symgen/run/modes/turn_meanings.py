@@ -17,7 +17,7 @@ from symgen.run.modes.choosing import choose_modes
 from symgen.run.modes.contact_impacts import find_struck_contacts, gather_contacts, strike_contacts
 from symgen.run.modes.pin_impulses import BY_REACTIONS
 from symgen.run.modes.strikes import find_struck, strike
-from symgen.run.modes.transition_log import log_changes_of_contacts
+from symgen.run.modes.transition_log import log_changes
 from symgen.run.modes.turn_impacts import put_gaps_to_zero, rest_gaps, strike_gaps, strike_past_corners
 
 WITHOUT_LOADS = Meanings(
@@ -48,8 +48,6 @@ TOUCHED = Meanings(
     find_struck=find_struck_contacts,
     strike=strike_contacts,
     gather=gather_contacts,
-    log_changes=log_changes_of_contacts,
-    log_changes_in_pieces=log_changes_of_contacts,
 )
 #: Contacts or stops beside bounds by reactions: one choice of modes, and one impact, for all.
 REACTING = Meanings(
@@ -70,8 +68,7 @@ PAIRED_ROWS = Meanings(
     find_struck=exact_instance(find_struck_contacts, IN_PAIRS),
     strike=exact_instance(strike_contacts, IN_PAIRS),
     gather=exact_instance(gather_contacts, IN_PAIRS),
-    log_changes=exact_instance(log_changes_of_contacts, IN_PAIRS),
-    log_changes_in_pieces=exact_instance(log_changes_of_contacts, IN_PAIRS),
+    log_changes=exact_instance(log_changes, IN_PAIRS),
 )
 BY_POISSON = Meanings(
     "runs whose restitutions are ratios of impulses",
