@@ -10,7 +10,7 @@ from symgen.compile.store.identity import combined_digest
 from symgen.derive.lower.law import refuse_bounded_rows
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS, Method
-from symgen.describe.bounds.by_reaction import SLIDING, pressed_rows
+from symgen.describe.bounds.by_reaction import SLIDING, bodies_of_pressed_rows, pressed_rows
 from symgen.describe.mechanism import Mechanism
 
 #: Characters of a file stem that say which velocities are free, at most.
@@ -98,7 +98,8 @@ def choice_for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = T
     whole = choice.with_options(solver="augmented") if "solver" in choice.options else choice
     if pressed := pressed_rows(mechanism):
         sliders = {joint.bodies[-1] for joint in mechanism.joints if joint.kind == SLIDING}
-        name = next((body.name for body in mechanism.bodies if body.massless and body.name not in sliders), "")
+        tied = bodies_of_pressed_rows(mechanism) - sliders
+        name = next((body.name for body in mechanism.bodies if body.massless and body.name in tied), "")
         if name:
             expected = (
                 f"a mass and moments of inertia above 0, as {pressed[0].family.one} depends on the reaction of a joint"
