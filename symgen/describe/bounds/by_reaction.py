@@ -19,7 +19,6 @@ from symgen.base.vocabulary.measures import (
     axes,
 )
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.joints.rows import tied_bodies
 from symgen.describe.mechanism import Joint, Mechanism
 from symgen.describe.parts.scope import Scope
 from symgen.describe.table_functions import curve_slope
@@ -113,16 +112,6 @@ def rows_bounded_by_reactions(mechanism: Mechanism) -> tuple[BoundedRow, ...]:
 def pressed_rows(mechanism: Mechanism) -> tuple[BoundedRow, ...]:
     """Return the rows whose bounds depend on forces of other rows: reactions of joints, or forces of gaps."""
     return tuple(row for row in mechanism.bounded if row.pressed)
-
-
-def bodies_of_pressed_rows(mechanism: Mechanism) -> set[str]:
-    """Return the bodies that joints and rows with bounds tie to those whose bounds depend on forces."""
-    ties = [set(joint.bodies) for joint in mechanism.joints] + [set(tied_bodies(x.held)) for x in mechanism.bounded]
-    found, before = {body for row in pressed_rows(mechanism) for body in tied_bodies(row.held)}, 0
-    while len(found) > before:
-        before = len(found)
-        found.update(*(tie for tie in ties if tie & found - {GROUND}))
-    return found
 
 
 def tied_impulses(mechanism: Mechanism) -> str:
