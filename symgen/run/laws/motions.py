@@ -97,9 +97,9 @@ def relax_laws(n: int, times: int, laws: Laws) -> None:
 
 @exact()
 def harden_laws(n: int, laws: Laws) -> None:
-    """Let forces come near those of rows that give way, ever less: such forces are not many, and found for sure.
+    """Let forces come near the forces of rows that give way by a part of their mobility, a part that falls.
 
-    Without loads, that is; where rows depend on each other they share what they do, as they would if they gave way.
+    Such forces are not many. Without loads they are found, and lead to forces of rows that do not give way.
     """
     for i in range(n):
         laws.first[i] = laws.matrix[i * n + i]
