@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from pathlib import Path
 
 import mujoco
 import numpy as np
@@ -48,3 +49,18 @@ def run_of(scene: str, until: float, step: float, time_constant: float, repeats:
         seconds.append(time.process_time() - began)
     mujoco.mj_forward(model, data)
     return min(seconds), float(np.min(data.contact.dist[: data.ncon])), float(np.abs(data.qvel).max())
+
+
+def standing(path: Path, step: float, time_constant: float, until: tuple[float, float]) -> tuple[float, float, float]:
+    """Return the processor time of a second [s], the least distance of a contact, and how far a foot creeps."""
+    model = mujoco.MjModel.from_xml_path(str(path))
+    model.opt.timestep, model.geom_solref[:, 0] = step, time_constant
+    data, early, late = mujoco.MjData(model), *until
+    began = time.process_time()
+    mujoco.mj_step(model, data, round(1.0 / step))
+    seconds = time.process_time() - began
+    mujoco.mj_step(model, data, round((early - 1.0) / step))
+    feet = data.geom_xpos.copy()
+    mujoco.mj_step(model, data, round((late - early) / step))
+    creep = np.linalg.norm((data.geom_xpos - feet)[:, :2], axis=1)
+    return seconds, float(np.min(data.contact.dist[: data.ncon])), float(creep.max())

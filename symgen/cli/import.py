@@ -25,8 +25,11 @@ from symgen.cli._shared_options import examples_in_help, json_option
 )
 @click.option("--floating", is_flag=True, help="Leave the base free where the file does not fix it to the ground.")
 @click.option("--stops", is_flag=True, help="Write limits of joints as stops without restitution.")
+@click.option(
+    "--contacts", type=click.Choice(["ground"]), help="Let spheres, capsules, boxes and wheels touch the ground."
+)
 @json_option
-def command(file: str, output: str | None, floating: bool, stops: bool, as_json: bool) -> int:
+def command(file: str, output: str | None, floating: bool, stops: bool, contacts: str | None, as_json: bool) -> int:
     """Write FILE, a robot in URDF, MJCF or SDF, as a mechanism file. Never overwrites a file.
 
     What the mechanism file leaves out is listed on the screen and in it: as `remarks`, which all results repeat, where
@@ -46,7 +49,7 @@ def command(file: str, output: str | None, floating: bool, stops: bool, as_json:
     if name is None:
         ends = ", ".join(sorted({end for _, kind in FORMATS.items() for end in kind.SUFFIXES}))
         raise InputError("FILE", f"a file of another program ({ends})", quote(file))
-    read = read_robot(path, name, floating=floating, stops=stops)
+    read = read_robot(path, name, floating=floating, stops=stops, contacts=contacts is not None)
     target = Path(f"{read.raw['mechanism']['name']}.toml" if output in (None, "-") else str(output))
     raw, lost = with_mesh_folder(read.raw, read.folder, target.parent)
     if lost:

@@ -72,7 +72,7 @@ def format_of(path: Path) -> str | None:
     return next((name for name in names if FORMATS.get(name).ROOT == root), names[0])
 
 
-def read_robot(path: Path, name: str, *, floating: bool = False, stops: bool = False) -> Import:
+def read_robot(path: Path, name: str, *, floating: bool = False, stops: bool = False, contacts: bool = False) -> Import:
     """Return the description of a file of the format `name`.
 
     Parameters
@@ -85,6 +85,8 @@ def read_robot(path: Path, name: str, *, floating: bool = False, stops: bool = F
         Whether the base moves freely where the file does not say; it is fixed to the ground otherwise.
     stops : bool
         Whether limits of joints become stops without restitution.
+    contacts : bool
+        Whether spheres, capsules, boxes and wheels of collision become contacts with the ground.
 
     Raises
     ------
@@ -94,7 +96,7 @@ def read_robot(path: Path, name: str, *, floating: bool = False, stops: bool = F
     from symgen.describe.formats._raw import describe_robot
 
     robot = FORMATS.get(name).read(path, floating)
-    raw, left_out, folder = describe_robot(robot, f"{path.name} ({name.upper()})", stops)
+    raw, left_out, folder = describe_robot(robot, f"{path.name} ({name.upper()})", stops, contacts)
     if remarks := [f"left out, and the motion may depend on it: {item}" for item in left_out if item.moves]:
         raw["mechanism"]["remarks"] = remarks
     return Import(raw, left_out, name, folder)

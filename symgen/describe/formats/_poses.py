@@ -80,6 +80,14 @@ def axis_rotation(axis: Vector, angle: float) -> Matrix:
     )
 
 
+def rotation_to(direction: Vector) -> Matrix:
+    """Return a rotation whose third axis is a direction."""
+    z = unit_vector(direction)
+    x = perpendicular_direction(z)
+    y = z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]
+    return matrix_transpose((x, y, z))
+
+
 def rotation_from_rpy(angles: Sequence[float]) -> Matrix:
     """Return the rotation by roll, pitch and yaw about the fixed axes x, y, z [rad]."""
     roll, pitch, yaw = angles

@@ -12,6 +12,7 @@ from symgen.base.errors import InputError
 from symgen.base.escapes import printable
 from symgen.base.vocabulary.rotations import scalar_product
 from symgen.describe.formats._drives import ROUNDING, Drives, names_with_count, tidy_numbers
+from symgen.describe.formats._ground_contacts import ground_contacts
 from symgen.describe.formats._names import DescriptionNames
 from symgen.describe.formats._poses import (
     Matrix,
@@ -40,7 +41,9 @@ from symgen.describe.formulas.identifiers import LONGEST
 from symgen.describe.parts.bodies import MOST
 
 
-def describe_robot(robot: Robot, source: str, stops: bool = False) -> tuple[dict[str, Any], tuple[LeftOut, ...], Path]:
+def describe_robot(
+    robot: Robot, source: str, stops: bool = False, contacts: bool = False
+) -> tuple[dict[str, Any], tuple[LeftOut, ...], Path]:
     """Return the tables of a mechanism file, what they leave out, and the folder that meshes are named from.
 
     Links that fixed joints hold together are one body, with points of the names of the others. A link without mass
@@ -54,16 +57,18 @@ def describe_robot(robot: Robot, source: str, stops: bool = False) -> tuple[dict
         The file, for the key ``source``.
     stops : bool
         Whether limits of joints become stops.
+    contacts : bool
+        Whether shapes of collision touch the ground.
     """
-    description = _Description(robot, stops)
+    description = _Description(robot, stops, contacts)
     return *description.all_tables(source), description.folder
 
 
 class _Description:
     """Bodies, joints and forces of a robot."""
 
-    def __init__(self, robot: Robot, stops: bool) -> None:
-        self.robot, self.names, self.stops = robot, DescriptionNames(), stops
+    def __init__(self, robot: Robot, stops: bool, contacts: bool) -> None:
+        self.robot, self.names, self.stops, self.contacts = robot, DescriptionNames(), stops, contacts
         self.left_out = list(robot.left_out)
         self.carriers = self._bodies_of_links()
         self.joints = {c.name: c for c in robot.connections if c.kind not in ("fixed", "floating")}
@@ -239,6 +244,22 @@ class _Description:
             return {"type": "coupling", "terms": straight} | ({"value": polynomial[0]} if polynomial[0] else {})
         return {"type": "coupling", "terms": terms, "of": self.names.name_for("joint", f.of), "polynomial": polynomial}
 
+    # -- contacts ----------------------------------------------------------------------------------------------------
+
+    def _contact_tables(self) -> dict[str, Any]:
+        """Return the contacts with the ground, if they are asked for, and list what is left out of all."""
+        touching = self.robot.touching or f"{sum(1 for link in self.robot.links.values() if link.touching)} links"
+        if not self.contacts:
+            if touching != "0 links":
+                why = "bodies pass through each other; --contacts ground keeps them above the ground"
+                self.left_out.append(LeftOut("contacts", touching, why, True))
+            return {}
+        tables, lost = ground_contacts(self.robot, self.names, self.carriers, self.place_of_body)
+        self.left_out += lost
+        if len({self.carriers[name] for name, link in self.robot.links.items() if link.touching} - {GROUND}) > 1:
+            self.left_out.append(LeftOut("contacts between bodies", touching, "they touch the ground alone", True))
+        return tables
+
     # -- everything --------------------------------------------------------------------------------------------------
 
     def all_tables(self, source: str) -> tuple[dict[str, Any], tuple[LeftOut, ...]]:
@@ -263,6 +284,7 @@ class _Description:
         for f in robot.followers:
             if f.joint in self.joints and (f.of is None or f.of in self.joints):
                 joints[self.names.name_for("follower", f.name)] = self._follower_table(f)
+        touching = self._contact_tables()
         self._note_limits()
         forces, inputs, states = self.drives.force_tables()
         stops = self.drives.stop_tables() if self.stops else {}
@@ -270,8 +292,8 @@ class _Description:
             limited = names_with_count([r.name for r in self.drives.limited])
             why = "their lengths go beyond their ranges; --stops keeps them in"
             self.left_out.append(LeftOut("limits of tendons", limited, why, True))
-        parts = ("inputs", inputs), ("states", states), ("joints", joints), ("forces", forces), ("stops", stops)
-        raw |= {key: x for key, x in parts if x}
+        parts = ("inputs", inputs), ("states", states), ("joints", joints), ("forces", forces)
+        raw |= {key: x for key, x in (*parts, ("stops", stops), ("contacts", touching)) if x}
         return raw, tuple(self.left_out)
 
 

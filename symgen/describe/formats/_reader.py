@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from symgen.base.errors import InputError, quote
-from symgen.describe.formats._poses import Matrix, Pose
-from symgen.describe.formats._robot import LeftOut
+from symgen.describe.formats._poses import Matrix, Pose, matrix_product, rotation_to
+from symgen.describe.formats._robot import LeftOut, TouchingShape
 from symgen.describe.formats._xml import read_decimals, read_tree, read_triple
 from symgen.describe.parts.mesh_files import MeshFiles
 
@@ -45,6 +45,10 @@ class RobotReader(ABC):
     @abstractmethod
     def colour(self, where: str, look: ET.Element) -> str:
         """Return the colour of a look as ``#rrggbb``; empty without one."""
+
+    @abstractmethod
+    def surface(self, where: str, link: ET.Element, collision: ET.Element) -> tuple[float, float]:
+        """Return the coefficients of friction and restitution of a shape of collision."""
 
     # -- links -------------------------------------------------------------------------------------------------------
 
@@ -94,18 +98,30 @@ class RobotReader(ABC):
     def _read_length(self, where: str, part: ET.Element, key: str) -> float:
         return read_decimals(f"{where}, {key}", self.text(part, key) or "0", 1)[0]
 
+    def read_touching(self, where: str, link: ET.Element) -> list[TouchingShape]:
+        """Return the shapes of collision of a link."""
+        shapes = list[TouchingShape]()
+        for collision in link.findall("collision"):
+            part = next((x for x in collision.iterfind("geometry/*") if x.tag != "empty"), None)
+            if part is not None:
+                at, frame = f"{where}, {part.tag}", self.frame(where, collision)
+                friction, restitution = self.surface(f"{where}, collision", link, collision)
+                if part.tag == "plane":
+                    normal = read_triple(at, self.text(part, "normal") or "0 0 1")
+                    frame = Pose(frame.origin, matrix_product(frame.rotation, rotation_to(normal)))
+                shapes.append(TouchingShape(part.tag, frame, self._sizes(at, part), friction, restitution))
+        return shapes
+
+    def _sizes(self, where: str, part: ET.Element) -> tuple[float, ...]:
+        if part.tag == "box":
+            return read_triple(where, self.text(part, "size"))
+        keys = {"sphere": ("radius",), "capsule": ("radius", "length"), "cylinder": ("radius", "length")}
+        return tuple(self._read_length(where, part, key) for key in keys.get(part.tag, ()))
+
     # -- the rest ----------------------------------------------------------------------------------------------------
 
-    def leave_out(self, touching: int, limited: int) -> None:
-        """List contacts, meshes, and limits of effort and speed.
-
-        Parameters
-        ----------
-        touching, limited : int
-            Numbers of links with shapes of contact, and of joints with such limits.
-        """
-        if touching:
-            self.left_out.append(LeftOut("contacts", f"{touching} links", "bodies pass through each other", True))
+    def leave_out(self, limited: int) -> None:
+        """List meshes, and limits of effort and speed of a number of joints."""
         for why, count in self.meshes.reasons_of_lost():
             self.left_out.append(LeftOut("meshes", f"{count} in pictures", why, False))
         if limited:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -52,6 +52,34 @@ class LeftOut:
         return f"{self.what} ({self.where}): {self.why}"
 
 
+@dataclass(frozen=True)
+class TouchingShape:
+    """A shape of collision.
+
+    Attributes
+    ----------
+    sort : str
+        Word of the shape.
+    frame : Pose
+        In the link; lengths are along its third axis, which is the normal of a plane.
+    sizes : tuple of float
+        Radius of a sphere, radius and length of a cylinder or capsule, edges of a box [m].
+    friction, restitution : float
+        Coefficients; of two shapes the smaller friction counts, and the larger restitution. A file that has no
+        friction means 1, as Gazebo and MuJoCo do.
+    """
+
+    sort: str
+    frame: Pose
+    sizes: tuple[float, ...] = ()
+    friction: float = 1.0
+    restitution: float = 0.0
+
+    def moved(self, outer: Pose) -> TouchingShape:
+        """Return the shape in the frame that holds its own."""
+        return replace(self, frame=outer @ self.frame)
+
+
 @dataclass
 class RobotLink:
     """A part of a robot.
@@ -70,6 +98,8 @@ class RobotLink:
         About the centre of mass, along the axes of the link [kg m^2].
     points, shapes
         Named points of the link [m], and looks as a body has them, with a frame, and paths of meshes as files.
+    touching : list of TouchingShape
+        Shapes of collision.
     """
 
     name: str
@@ -79,6 +109,7 @@ class RobotLink:
     inertia: Matrix = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     points: dict[str, Vector] = field(default_factory=dict)
     shapes: list[dict[str, Any]] = field(default_factory=list)
+    touching: list[TouchingShape] = field(default_factory=list)
 
 
 @dataclass
@@ -217,7 +248,10 @@ class RobotRange:
 
 @dataclass
 class Robot:
-    """What a file describes; `folder` is the folder that it is in, `standing` are points of the ground."""
+    """What a file describes; `folder` is the folder that it is in, `standing` and `planes` are of the ground.
+
+    `touching` says how many shapes touch, where that is not how many links have such.
+    """
 
     name: str
     links: dict[str, RobotLink]
@@ -230,6 +264,8 @@ class Robot:
     spans: list[RobotSpan] = field(default_factory=list)
     ranges: list[RobotRange] = field(default_factory=list)
     standing: dict[str, Vector] = field(default_factory=dict)
+    planes: list[TouchingShape] = field(default_factory=list)
+    touching: str = ""
 
 
 #: What drives a joint: its name and unit.

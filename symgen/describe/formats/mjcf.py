@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from symgen.base.errors import InputError, quote
+from symgen.describe.formats._mjcf_contacts import MjcfContacts
 from symgen.describe.formats._mjcf_files import MjcfMeshes, check_files
 from symgen.describe.formats._mjcf_tendons import MjcfTendons
 from symgen.describe.formats._poses import Matrix, Pose, Vector, rotation_from_quaternion
@@ -65,6 +66,7 @@ class _Reader:
         mujoco.mj_kinematics(model, self.data)
         self.left_out, self.meshes = list[LeftOut](), meshes
         self.connections, self.led = list[Connection](), dict[int, Connection]()
+        self.touching = MjcfContacts(mujoco, model, self._is_disabled("CONTACT"))
         self.tendons = MjcfTendons(mujoco, model, self._name_of_object, self._is_disabled)
 
     def _name_of_object(self, sort: str, number: int) -> str:
@@ -94,6 +96,8 @@ class _Reader:
             self.tendons.spans,
             self.tendons.ranges(),
             self._sites_of_body(0),
+            self.touching.planes(),
+            self.touching.count(),
         )
 
     def _is_disabled(self, flag: str) -> bool:
@@ -115,7 +119,7 @@ class _Reader:
             _as_vector(model.body_ipos[i]),
         )
         link.inertia = rotate_inertia(principal, rotation_from_quaternion(model.body_iquat[i].tolist()))
-        link.points = self._sites_of_body(i)
+        link.points, link.touching = self._sites_of_body(i), self.touching.shapes(i)
         link.shapes = [s for k in self._read_looks(i) for s in self._read_geom(k)]
         return link
 
@@ -306,9 +310,6 @@ class _Reader:
 
     def _list_left_out(self) -> None:
         model, option = self.model, self.model.opt
-        touching = sum(1 for k in range(model.ngeom) if model.geom_contype[k] or model.geom_conaffinity[k])
-        if touching > 1 and not self._is_disabled("CONTACT"):
-            self.left_out.append(LeftOut("contacts", f"{touching} geoms", "bodies pass through each other", True))
         self.left_out += self.tendons.left_out
         for what in ("jnt_stiffness", "dof_damping", "tendon_stiffness", "tendon_damping"):
             if any(any(row) for row in getattr(model, f"{what}poly", ())):

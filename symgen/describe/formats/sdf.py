@@ -100,6 +100,11 @@ class _Reader(RobotReader):
                 return read_colour(f"{where}, {key}", " ".join([*text.split()[:3], "1"]))
         return ""
 
+    def surface(self, where: str, link: ET.Element, collision: ET.Element) -> tuple[float, float]:
+        """Return the coefficients of a collision's ``surface``."""
+        ratio = read_inner_number(where, collision, "surface/bounce/restitution_coefficient")
+        return read_inner_number(where, collision, "surface/friction/ode/mu", 1.0), ratio
+
     def robot(self) -> Robot:
         worlds = self.tree.findall("world")
         if len(worlds) > 1:
@@ -193,7 +198,7 @@ class _Reader(RobotReader):
         if solid.mass < 0.0:
             raise InputError(f"{where}, mass", "a mass of 0 or above", repr(solid.mass))
         link.mass, link.centre, link.inertia = solid.mass, solid.centre, solid.inertia
-        link.shapes = self.read_looks(where, element)
+        link.shapes, link.touching = self.read_looks(where, element), self.read_touching(where, element)
         if read_inner_text(element, "gravity") in ("false", "0"):
             self.left_out.append(LeftOut("a link without gravity", name, "gravity acts on all bodies", True))
         return link
@@ -347,14 +352,8 @@ class _Reader(RobotReader):
         return tuple(map(int, parts))
 
     def _list_left_out(self) -> None:
-        self.leave_out(
-            sum(1 for link in self.tree.iter("link") if link.find("collision") is not None),
-            sum(
-                1
-                for limit in self.tree.iter("limit")
-                if read_inner_text(limit, "effort") or read_inner_text(limit, "velocity")
-            ),
-        )
+        limits = self.tree.iter("limit")
+        self.leave_out(sum(1 for x in limits if read_inner_text(x, "effort") or read_inner_text(x, "velocity")))
         for tag, why in _SILENT.items():
             if count := sum(1 for _ in self.tree.iter(tag)):
                 self.left_out.append(LeftOut(f"<{tag}>", f"{count} in the file", why, tag == "plugin"))

@@ -24,7 +24,7 @@ from symgen.describe.formats._robot import (
     set_follower_starts,
 )
 from symgen.describe.formats._sdf_joints import joint_between_links
-from symgen.describe.formats._xml import frame_of_origin, read_colour, read_decimal, read_triple
+from symgen.describe.formats._xml import frame_of_origin, read_colour, read_decimal, read_inner_number, read_triple
 
 _KINDS: dict[str, Kind] = {
     "fixed": "fixed",
@@ -83,6 +83,24 @@ class _Reader(RobotReader):
         own = _colour_text(f"{where}, material", material.find("color"))
         return own or self.colours.get(material.get("name", ""), "")
 
+    def surface(self, where: str, link: ET.Element, collision: ET.Element) -> tuple[float, float]:
+        """Return what Bullet's ``contact`` of the link says, or Gazebo's element on it."""
+        name, restitution = self.name(link), 0.0
+        friction = next(
+            (
+                read_inner_number(where, e, "mu1", 1.0)
+                for e in self.tree.iterfind("gazebo")
+                if e.get("reference") == name and e.find("mu1") is not None
+            ),
+            1.0,
+        )
+        for element in link.iterfind("contact/*"):
+            if element.tag == "lateral_friction":
+                friction = read_decimal(where, element.attrib, "value", 1.0)
+            elif element.tag == "restitution":
+                restitution = read_decimal(where, element.attrib, "value")
+        return friction, restitution
+
     def robot(self) -> Robot:
         links = {}
         for element in self.tree.findall("link"):
@@ -131,7 +149,7 @@ class _Reader(RobotReader):
             if inertia is not None:
                 own = tensor_of_entries(lambda key: read_decimal(f"{where}, inertia", inertia.attrib, key))
                 link.inertia = rotate_inertia(own, frame.rotation)
-        link.shapes = self.read_looks(where, element)
+        link.shapes, link.touching = self.read_looks(where, element), self.read_touching(where, element)
         return link
 
     # -- joints ------------------------------------------------------------------------------------------------------
@@ -264,12 +282,8 @@ class _Reader(RobotReader):
         counts = dict[str, int]()
         for element in self.tree:
             counts[element.tag] = counts.get(element.tag, 0) + 1
-        links = self.tree.findall("link")
         limits = [x for e, _ in joints if (x := e.find("limit")) is not None]
-        self.leave_out(
-            sum(1 for link in links if link.find("collision") is not None),
-            sum(1 for x in limits if x.get("effort") or x.get("velocity")),
-        )
+        self.leave_out(sum(1 for x in limits if x.get("effort") or x.get("velocity")))
         for tag, why in _SILENT.items():
             if counts.pop(tag, 0):
                 self.left_out.append(LeftOut(f"<{tag}>", "the file", why, False))
