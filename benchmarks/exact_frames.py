@@ -101,7 +101,7 @@ def bent_strut(share: float, aside: float) -> float:
     starts = np.linspace(-1.5, 1.5, 241)
     turns = [half(start)[0] for start in starts]
     rests = [
-        half(brentq(lambda start: half(start)[0], *starts[i : i + 2], xtol=1e-12))[1]
+        half(float(brentq(lambda start: half(start)[0], float(starts[i]), float(starts[i + 1]), xtol=1e-12)))[1]
         for i in range(len(starts) - 1)
         if turns[i] * turns[i + 1] < 0.0
     ]

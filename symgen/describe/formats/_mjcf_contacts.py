@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from symgen.describe.formats._poses import Pose, Vector, rotation_from_quaternion
 from symgen.describe.formats._robot import TouchingShape
 
 
+@dataclass(frozen=True)
 class MjcfContacts:
     """Geoms that may touch the ground, with the friction that MuJoCo takes of a geom and the first plane.
 
-    Parameters
+    Attributes
     ----------
     mujoco, model
         The package, and a compiled model.
@@ -20,14 +23,25 @@ class MjcfContacts:
         Whether the file has no contacts.
     """
 
-    def __init__(self, mujoco: Any, model: Any, disabled: bool) -> None:
-        self.model = model
+    mujoco: Any
+    model: Any
+    disabled: bool
+
+    @cached_property
+    def _sorts(self) -> dict[int, str]:
         kinds = ("plane", "sphere", "capsule", "cylinder", "box", "ellipsoid", "mesh", "hfield")
-        self._sorts = {int(getattr(mujoco.mjtGeom, f"mjGEOM_{kind.upper()}")): kind for kind in kinds}
-        geoms = [] if disabled else range(model.ngeom)
-        self._geoms = [k for k in geoms if model.geom_contype[k] or model.geom_conaffinity[k]]
-        ground = [k for k in self._geoms if not model.geom_bodyid[k] and self._sort(k) == "plane"]
-        self._plane = ground[0] if ground else None
+        return {int(getattr(self.mujoco.mjtGeom, f"mjGEOM_{kind.upper()}")): kind for kind in kinds}
+
+    @cached_property
+    def _geoms(self) -> list[int]:
+        model, geoms = self.model, [] if self.disabled else range(self.model.ngeom)
+        return [k for k in geoms if model.geom_contype[k] or model.geom_conaffinity[k]]
+
+    @cached_property
+    def _plane(self) -> int | None:
+        """The first plane of the ground."""
+        ground = (k for k in self._geoms if not self.model.geom_bodyid[k] and self._sort(k) == "plane")
+        return next(ground, None)
 
     def count(self) -> str:
         """Return how many geoms may touch, in words; one alone touches nothing."""
