@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from benchmarks.said_in_files import FILES, SAME
+from benchmarks.said_touching import balls_on_a_table, balls_that_meet, cable_over_circles
 
 Table = dict[str, Any]
 DOWN, DOWN_IN_SPACE = [0.0, -9.81], [0.0, 0.0, -9.81]
@@ -303,6 +304,7 @@ SAID: Mapping[str, Table | str] = {
     ),
     # Exudyn's test models
     "exudyn-tests/ANCFBeamTest": beam(),
+    "exudyn-tests/ANCFcontactCircleTest": cable_over_circles(16, 2.07e5, 80.0, (1.5, 0.2)),
     "exudyn-tests/bricardMechanism": "bricard",
     "exudyn-tests/carRollingDiscTest": wheel(**_GIVES),
     "exudyn-tests/connectorGravityTest": _PLANETS,
@@ -310,6 +312,10 @@ SAID: Mapping[str, Table | str] = {
     "exudyn-tests/coordinateVectorConstraint": plane(
         {"one": point(1.0, 0.0)}, {"rod": {"type": "rows", "rows": [{"position": "sqrt(one.x**2 + one.y**2) - 1"}]}}
     ),
+    "exudyn-tests/createSphereQuadContact": balls_that_meet(cue=False),
+    "exudyn-tests/createSphereTriangleContact": balls_that_meet(cue=False),
+    "exudyn-tests/sphereTriangleTest": balls_on_a_table(),
+    "exudyn-tests/sphereTriangleTest2": balls_that_meet(cue=True),
     "exudyn-tests/fourBarMechanismIftomm": "n-four-bar",
     "exudyn-tests/heavyTop": "heavy-top",
     "exudyn-tests/createRollingDiscTest": wheel(),

@@ -10,6 +10,7 @@ AT_REST = frozenset(
         "exudyn/ANCFtestHalfcircle",
         "exudyn/solverFunctionsTestEigenvalues",
         "exudyn-tests/ANCFBeam3Dtest",
+        "exudyn-tests/ANCFcontactCircleTest",
         "exudyn-tests/LShapeGeomExactBeam2D",
         "exudyn-tests/geometricallyExactBeam2Dtest",
         "exudyn-tests/geometricallyExactBeamTest",

@@ -38,6 +38,8 @@ FEATURES = {
     "holds": "joints that hold for a while",
     "sliding": "points that slide along beams, cables",
     "formulas": "formulas that were found since",
+    "touching": "contact of edges, barrels and cables by formulas",
+    "recipes": "files of other programs by recipes",
 }
 _PAGE = """# Examples of other systems
 
