@@ -161,6 +161,16 @@ class BoundedRow(Protocol):
         ...
 
     @property
+    def second(self) -> bool:
+        """Whether it is the second one of these."""
+        ...
+
+    @property
+    def turns(self) -> bool:
+        """Whether it is a row of a contact against turning, of which impacts have no impulse."""
+        ...
+
+    @property
     def way(self) -> Expr | None:
         """Component of the direction of its motion; None where that is the number ``sign`` of the row."""
         ...

@@ -5,7 +5,7 @@ What comes out holds where the forces along them stay within the cones of their 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -135,14 +135,19 @@ def with_rows_along(mechanism: Mechanism, stuck: Sequence[Stuck]) -> Mechanism:
     for each in stuck:
         held = each.row.held
         row = Holonomic(held.label, FormulaMeasure(each.row.place[1]), Number(each.place), each.row.unit)
-        rows = (*joints[each.row.name].rows, row)
-        joints[each.row.name] = Joint(each.row.name, "rows", tied_bodies(*rows), rows, _angles_of(each.row))
+        name, rows = each.row.owner, (*joints[each.row.owner].rows, row)
+        turned = counted_turns([each.row.measure for each in stuck if each.row.owner == name])
+        joints[name] = Joint(name, "rows", tied_bodies(*rows), rows, _as_coordinates(turned))
     return msgspec.structs.replace(mechanism, joints=tuple(joints.values()))
 
 
 def _angles_of(row: BoundedRow) -> tuple[tuple[str, Measure], ...]:
     """Return the angles of a row whose turns are counted, as coordinates of a joint."""
-    return tuple((f"angle{i}", angle) for i, angle in enumerate(counted_turns([row.measure])))
+    return _as_coordinates(counted_turns([row.measure]))
+
+
+def _as_coordinates(angles: Iterable[Measure]) -> tuple[tuple[str, Measure], ...]:
+    return tuple((f"angle{i}", angle) for i, angle in enumerate(angles))
 
 
 def fault_along(subject: Subject, y: Array, lam: Array) -> Fault | None:

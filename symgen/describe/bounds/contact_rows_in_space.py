@@ -42,7 +42,7 @@ CLEAR = 10.0
 _NONE = Number(1e-300)
 
 
-def _length(parts: Sequence[Expr]) -> Expr:
+def length_of(parts: Sequence[Expr]) -> Expr:
     """Return the length of a vector, of which the derivative is finite at 0."""
     return call("sqrt", sum_of_terms(*(call("mul", x, x) for x in parts), _NONE))
 
@@ -103,6 +103,11 @@ class TangentInSpace(Tangent, frozen=True, kw_only=True):
         return Nonholonomic(f"tangent{self.number}", self.slips[self.number - 1])
 
     @property
+    def second(self) -> bool:
+        """Whether it follows the first one."""
+        return self.number == 2
+
+    @property
     def rows(self) -> tuple[TangentInSpace, ...]:
         """Both rows."""
         return tuple(
@@ -154,13 +159,13 @@ class TangentInSpace(Tangent, frozen=True, kw_only=True):
         side = call("sign", self._along_direction(self._led))
         least = call("mul", side, name_of_number(self.rows[0], "constant"))
         clear = self._with_velocity(self._led, least)
-        return call("mul", side, call("div", clear[self.number - 1], _length(clear)))
+        return call("mul", side, call("div", clear[self.number - 1], length_of(clear)))
 
     @property
     def renewed(self) -> Expr:
         """The number ``sign`` after a step; it stays where slip is slow, and unless the contact slides."""
         least, own = name_of_number(self.rows[0], "constant"), name_of_number(self, "sign")
-        slow = call("lt", _length(self._slip), call("mul", Number(CLEAR), least))
+        slow = call("lt", length_of(self._slip), call("mul", Number(CLEAR), least))
         return call("where", call("mul", self.moves, call("sub", ONE, slow)), self.way, own)
 
     def total_effort(self, beside: Sequence[BoundedRow] = ()) -> Expr:
@@ -171,7 +176,7 @@ class TangentInSpace(Tangent, frozen=True, kw_only=True):
     @property
     def taking(self) -> Expr:
         """The effort that takes energy, a formula of outputs: where slip passes 0 it has no jump."""
-        own = call("div", self._led[self.number - 1], _length(self._led))
+        own = call("div", self._led[self.number - 1], length_of(self._led))
         against = call("mul", call("mul", self.moves, own), call("mul", self.sliding, self.pressing))
         return call("sub", effort_in_force(self), call("add", against, name_of_number(self, "effort")))
 
@@ -189,12 +194,12 @@ class TangentInSpace(Tangent, frozen=True, kw_only=True):
             return ()
         closed, moves = closed_by(f"{self.contact}.normal"), self.moves
         forces = [call("sub", effort_in_force(row), name_of_number(row, "effort")) for row in self.rows]
-        within = call("sub", call("mul", self.static, self.pressing), _length(forces))
+        within = call("sub", call("mul", self.static, self.pressing), length_of(forces))
         within = call("add", within, name_of_number(self, "limit"))
         rests = call("mul", closed, call("sub", ONE, moves))
         resting = call("add", call("mul", rests, within), call("sub", ONE, rests))
         held = call("mul", *(name_of_number(row, "held") for row in self.rows))
-        watched = call("mul", call("mul", call("sub", ONE, held), rests), _length(self._slip))
+        watched = call("mul", call("mul", call("sub", ONE, held), rests), length_of(self._slip))
         still = call("sub", call("sub", ONE, moves), call("mul", call("sub", ONE, held), rests))
         moving = call("sub", call("add", call("mul", moves, self._ahead), still), watched)
         jamming = (Name(f"{row.row}.{JAMMING}") for row in self.rows)
@@ -210,12 +215,12 @@ class TangentInSpace(Tangent, frozen=True, kw_only=True):
         if self.number != 1 or self.part > 1:
             return
         parts = [row for row in beside if isinstance(row, TangentInSpace) and row.name == self.name and row.number == 1]
-        sizes = [_length([row.total_effort() for row in each.rows]) for each in parts]
+        sizes = [length_of([row.total_effort() for row in each.rows]) for each in parts]
         gaps = {row.row: row.place[1] for row in beside if row.one_sided}
-        slip, nearest = _length(self._slip), gaps[self.pressed[0]]
+        slip, nearest = length_of(self._slip), gaps[self.pressed[0]]
         for row in parts[1:]:
             gap = gaps[row.pressed[0]]
-            slip = call("where", call("lt", gap, nearest), _length(row._slip), slip)
+            slip = call("where", call("lt", gap, nearest), length_of(row._slip), slip)
             nearest = call("min", gap, nearest)
         yield Output(f"{self.name}.friction", sum_of_terms(*sizes), "N")
         yield Output(f"{self.name}.slip", slip, "m/s")

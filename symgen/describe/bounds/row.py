@@ -17,6 +17,12 @@ class Bounds(msgspec.Struct, frozen=True):
     signed: ClassVar[bool] = False
     in_contact: ClassVar[bool] = False
     paired: ClassVar[bool] = False
+    turns: ClassVar[bool] = False
+
+    @property
+    def second(self) -> bool:
+        """Whether it is the second one of two rows."""
+        return False
 
     @property
     def reversed(self) -> bool:

@@ -140,6 +140,8 @@ def bounded_names(mechanism: Mechanism) -> BoundedNames:
         ),
         tuple(i for i, row in enumerate(every) if row.in_contact and row.one_sided),
         _partners_of(every),
+        tuple(i for i, row in enumerate(every) if row.second),
+        tuple(i for i, row in enumerate(every) if row.turns),
         mechanism.restitution_law == "poisson",
     )
 

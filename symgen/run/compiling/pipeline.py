@@ -171,6 +171,8 @@ def straight_alone(mechanism: Mechanism) -> str:
         return "sliders on curves beside bounds by reactions"
     if any(row.paired for row in mechanism.bounded):
         return "slip of contacts in space"
+    if any(row.turns for row in mechanism.bounded):
+        return "rolling resistance"
     return "rows that may be off" if mechanism.switchable else ""
 
 

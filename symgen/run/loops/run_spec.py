@@ -104,6 +104,8 @@ class BoundedNames:
         One-sided rows that are gaps of contacts.
     partners : tuple of int
         Of each row the other row of its contact, the gap or what acts along it; -1 for others.
+    seconds, turning : tuple of int
+        Rows that are the second one of two along a contact; rows against turning, without impulses.
     poisson : bool
         Whether restitutions are ratios of impulses.
     """
@@ -117,6 +119,8 @@ class BoundedNames:
     pieces: tuple[int, ...] = ()
     contacts: tuple[int, ...] = ()
     partners: tuple[int, ...] = ()
+    seconds: tuple[int, ...] = ()
+    turning: tuple[int, ...] = ()
     poisson: bool = False
 
     @property
@@ -132,7 +136,7 @@ class BoundedNames:
     @property
     def paired(self) -> bool:
         """Whether slip of contacts has two rows, as in space."""
-        return any(one == other >= 0 for one, other in zip(self.partners, self.partners[1:], strict=False))
+        return bool(self.seconds)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -141,7 +145,7 @@ class BoundedRows(BoundedNames):
 
     Attributes
     ----------
-    names, kinds, nouns, dry, pressed, drivers, pieces, contacts, partners, poisson
+    names, kinds, nouns, dry, pressed, drivers, pieces, contacts, partners, seconds, turning, poisson
         See `BoundedNames`.
     state, accelerations : callable
         ``(t, y, p, w, rate)`` -> coordinates and gaps, their rates, bounds at rest and bounds at the beginning

@@ -82,7 +82,7 @@ def find_struck_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: 
         c.signs[i] = w[c.rows.first + MODE_NUMBERS * i + SIGN] if own else 0.0
     for i in range(c.rows.dry):
         j = c.rows.partner[i]
-        if (j >= 0 and c.taken[j] != 0) or by_reaction(c, i):
+        if (j >= 0 and c.taken[j] != 0 and c.rows.turning[i] == 0) or by_reaction(c, i):
             c.rest[n], c.taken[i] = i, 1
             n += 1
     c.at_rest[0] = n
@@ -140,7 +140,8 @@ def find_impulses(c: Choice, s: Strikes, w: Array) -> int:
                 c.part[c.order[a]] = c.rows.count
     if PAIRED:
         for i in range(c.rows.dry):
-            c.signs[i] = find_direction(c, i) if c.best[i] == UPPER and is_first(c, first_of(c, i)) else 0.0
+            slides = c.best[i] == UPPER and c.rows.turning[i] == 0 and is_first(c, first_of(c, i))
+            c.signs[i] = find_direction(c, i) if slides else 0.0
     return SAME
 
 

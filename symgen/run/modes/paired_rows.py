@@ -28,7 +28,7 @@ PASSED = 1e-6
 @exact()
 def is_second(c: Choice, i: int) -> bool:
     """Return whether a row is the second one along its contact."""
-    return bool(i > 0 and i < c.rows.dry and c.rows.partner[i] >= 0 and c.rows.partner[i - 1] == c.rows.partner[i])
+    return bool(i < c.rows.dry and c.rows.second[i] != 0)
 
 
 @exact()
@@ -89,8 +89,9 @@ def settle_pair(a: int, i: int, still: bool, bound: float, loose: Integers, c: C
 
 @exact()
 def speed_by_friction(c: Choice, i: int) -> float:
-    """Return the speed that friction gives over the mechanism's length: a scale that a state at rest has too."""
-    pulled = length_at(c, c.forces, i) * c.problem.matrix[i * c.rows.count + i] * c.w[abi.LENGTH]
+    """Return the speed that friction gives over the mechanism's length, or a radian: a state at rest has it too."""
+    length = 1.0 if c.rows.angular[i] != 0 else c.w[abi.LENGTH]
+    pulled = length_at(c, c.forces, i) * c.problem.matrix[i * c.rows.count + i] * length
     return float(math.sqrt(pulled) if pulled > 0.0 else row_scale(c, c.w, i, abi.SPEED))
 
 

@@ -58,6 +58,8 @@ class Rows(Record):
         1 where coordinates have bounds at rest with another middle than those in motion.
     partner, gaps : Array of int64, shapes (k,)
         Of each row the other one of its contact, -1 for others; 1 for gaps of contacts.
+    second, turning : Array of int64, shapes (k,)
+        1 for the second one of two rows along a contact; 1 for rows against turning, of which impacts have no impulse.
     """
 
     layout: Layout
@@ -79,6 +81,8 @@ class Rows(Record):
     shifted: int
     partner: Integers
     gaps: Integers
+    second: Integers
+    turning: Integers
 
 
 class Reading(Record):
@@ -304,6 +308,8 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
             shifted=int(len(rows.shifted) > 0),
             partner=np.array(rows.partners, dtype=np.int64) if rows.partners else np.full(k, -1),
             gaps=marks(rows.contacts),
+            second=marks(rows.seconds),
+            turning=marks(rows.turning),
         ),
         read=Reading(
             value=numbers(k),

@@ -47,6 +47,13 @@ SKITTLE = (
     + ball_of(0.2, (0.0, 0.0, 0.3), (2.0, 0.7, 0.0), 1.3, omega=(5.0, 9.0, 30.0))
     + contact('body = "ball", sphere = 0.2', 'plane = "ground"', 0.4, friction=0.21)
 )
+#: A ball that falls on a floor with spin, rolls and comes to rest.
+SPUN = (
+    head()
+    + ball_of(0.2, (0.0, 0.0, 0.25), (0.5, 0.25, 0.0), 1.3, omega=(-1.25, 2.5, 2.0))
+    + contact('body = "ball", sphere = 0.2', 'plane = "ground"', friction=0.3)
+    + "rolling = 0.02\ntorsion = 0.01\n"
+)
 #: A box that falls on a floor that gravity is not across, with a ball on its body that another one falls on.
 DIE = (
     head((1.0, 0.0, -G))

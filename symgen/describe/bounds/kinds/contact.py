@@ -3,16 +3,26 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import msgspec
 
-from symgen.base.vocabulary.expressions import ZERO, Expr, Number, product
-from symgen.base.vocabulary.measures import FormulaMeasure
+from symgen.base.vocabulary.expressions import ZERO, Expr, Number, Reading, product
+from symgen.base.vocabulary.measures import (
+    Angle,
+    FormulaMeasure,
+    FormulaSpeed,
+    Measure,
+    RollingSpeed,
+    Spin,
+    markers_in,
+)
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.contact_parts import part_of_contact
 from symgen.describe.bounds.contact_rows import CONTACTS, TANGENTS, ContactGap, Tangent
 from symgen.describe.bounds.contact_rows_in_space import TangentInSpace
+from symgen.describe.bounds.contact_rows_turning import ROLLING, TORSION, turning_rows
 from symgen.describe.bounds.keys import SectionOfFiles
 from symgen.describe.bounds.kinds.stop import read_restitution
 from symgen.describe.contacts.slopes import slopes_of_places
@@ -23,6 +33,8 @@ from symgen.describe.parts.scope import Scope
 
 #: Largest difference of slopes that are one.
 _SAME = 1e-9
+#: What is expected of shapes that resist turning.
+_ONE_PLACE = "shapes that touch at one place"
 #: What is expected where contacts in space have no friction.
 _WITHOUT_FRICTION = "no such key beside a formula, or a capsule beside a sphere, which have no friction in space"
 
@@ -63,6 +75,10 @@ class ContactSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
         Friction over the force of the contact, or ``{ static = 0.4, sliding = 0.3 }``; none by default.
     restitution : scalar
         Rate of the gap after an impact over that before, from 0 to 1; 0 by default.
+    torsion : scalar
+        In space, radius of a ring that bears [m]: by it friction resists spin about the normal; none by default.
+    rolling : scalar
+        Moment against rolling over the force of the contact [m]; none by default.
     """
 
     between: list[dict[str, Any]] | None = None
@@ -70,6 +86,8 @@ class ContactSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
     slip: StateFunction | None = None
     friction: float | str | dict[str, float | str] | None = None
     restitution: Scalar = 0.0
+    torsion: Scalar | None = None
+    rolling: Scalar | None = None
 
 
 def read_contact(scope: Scope, raw: object) -> tuple[BoundedRow, ...]:
@@ -82,7 +100,50 @@ def read_contact(scope: Scope, raw: object) -> tuple[BoundedRow, ...]:
     """
     section = read_table(ContactSection, raw, scope.where(""))
     touch = read_touch(scope, section)
-    return rows_of_contact(scope, "", scope.name, touch, section.friction, section.restitution)
+    *rows, gap = rows_of_contact(scope, "", scope.name, touch, section.friction, section.restitution)
+    return (*rows, *_rows_against_turning(scope, section, touch, rows), gap)
+
+
+def _rows_against_turning(
+    scope: Scope, section: ContactSection, touch: Touch, rows: list[BoundedRow]
+) -> Iterator[Tangent]:
+    """Yield the rows of torsion and of rolling."""
+    for key, given in ((TORSION, section.torsion), (ROLLING, section.rolling)):
+        if given is None:
+            continue
+        got, slip = value_in_words(given), rows[0] if rows else None
+        if not isinstance(slip, Tangent):
+            raise scope.error(key, "the key friction beside it", got)
+        radius = scope.constant(key, given)
+        if scope.value(radius, key) < 0.0:
+            raise scope.error(key, "a length of at least 0", repr(scope.value(radius, key)))
+        about = _measures_of_turning(scope, key, got, touch)
+        coefficients = (radius, radius)
+        if key == TORSION:
+            coefficients = (product(slip.sliding, radius), product(slip.static, radius))
+        yield from turning_rows(scope.name, key, about, coefficients)
+
+
+def _measures_of_turning(scope: Scope, key: str, got: str, touch: Touch) -> tuple[Measure | FormulaSpeed, ...]:
+    """Return the angle, or the angular velocities, that a key is about.
+
+    Raises
+    ------
+    InputError
+        If shapes have none.
+    """
+    if not scope.spatial:
+        bodies = tuple(dict.fromkeys(marker.body for marker in markers_in(touch.gap)))
+        if key == TORSION or touch.further or len(bodies) != 2:
+            raise scope.error(key, "no such key in the plane" if key == TORSION else _ONE_PLACE, got)
+        return (Angle(*bodies),)
+    slips = [slip for slip in touch.slips if isinstance(slip, RollingSpeed)]
+    if not slips or touch.further:
+        raise scope.error(key, f"{_ONE_PLACE}: a sphere or a rim on a plane", got)
+    ways = [slips[0].normal] if key == TORSION else [slip.along for slip in slips]
+    a, b = slips[0].normal.body, slips[0].centre.body
+    rates = (Reading(f"{scope.name}.{key}{i}.rate", Spin(a, b, way), 1) for i, way in enumerate(ways, 1))
+    return tuple(map(FormulaSpeed, rates))
 
 
 def rows_of_contact(
