@@ -11,7 +11,7 @@ from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
 
-from symgen.base.errors import InputError, suggest
+from symgen.base.errors import InputError, quote, suggest
 
 #: Content of a file, or a function that writes it to an open file.
 Content = bytes | str | Callable[[io.BytesIO], object]
@@ -45,6 +45,42 @@ def check_writable(where: str, path: Path) -> None:
             raise InputError(where, "a file that can be written", f"'{path}'")
     except (OSError, RuntimeError) as error:  # a link that leads to itself
         raise InputError(where, "a file that can be written", f"'{path}' ({system_message(error)})") from None
+
+
+def file_beside(where: str, folder: str, name: str, endings: tuple[str, ...], expected: str) -> str:
+    """Return the path of a file that a table of a mechanism names.
+
+    Parameters
+    ----------
+    where : str
+        File and key, for the message.
+    folder : str
+        Of the mechanism file; where a mechanism has none, any path is taken as it is.
+    name : str
+        As written.
+    endings : tuple of str
+        Its possible endings.
+    expected : str
+        What it is, for the message.
+
+    Raises
+    ------
+    InputError
+        If there is no such file in the folder or below it.
+    """
+    inside = f"{expected}, in the folder of the mechanism file or below it" if folder else expected
+    plain = name.isprintable() and "\\" not in name and Path(name).suffix.lower() in endings
+    outside = Path(name).is_absolute() or ".." in Path(name).parts
+    if not plain or (folder and outside):
+        raise InputError(where, inside, quote(name))
+    try:
+        path = (Path(folder or ".") / name).resolve()
+        if (not folder or path.is_relative_to(Path(folder).resolve())) and path.is_file():
+            return str(path)
+        there = sorted(x.name for x in path.parent.iterdir() if x.suffix in endings) if path.parent.is_dir() else []
+    except (OSError, RuntimeError, ValueError):  # a name too long, or links in a circle
+        there = []
+    raise InputError(where, inside, f"{quote(name)}, which is none", suggest(path.name, there) if there else "")
 
 
 def need_library(where: str, *libraries: str, extra: str = "data") -> None:

@@ -2,5 +2,5 @@
 
 In: tables of two surfaces.
 Out: measures of their gap and of the coordinate along it.
-Imports: msgspec; `parts`, `formulas`.
+Imports: msgspec, ezdxf (where a DXF file is read); `parts`, `formulas`.
 """

@@ -71,6 +71,7 @@ class BodyOutline(msgspec.Struct, frozen=True):
     closed: bool
     pieces: tuple[OutlinePiece, ...]
     gear: Gear | None = None
+    source: str = ""  # words on the drawing of which it is
 
 
 # -- pieces ------------------------------------------------------------------------------------------------------------

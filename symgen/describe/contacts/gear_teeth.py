@@ -12,13 +12,14 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from symgen.base.vocabulary.expressions import Number, product
+from symgen.describe.contacts.arcs_along import pair_of_arcs
 from symgen.describe.contacts.chains import Plane
 from symgen.describe.contacts.gear import Gear
 from symgen.describe.contacts.outline_sections import GearTable
 from symgen.describe.parts.scope import Scope
 
-#: Points of a pair of arcs at which its distance from the involute is measured, and the most pairs that a flank takes.
-_CHECKED, _MOST = 24, 400
+#: The most pairs of arcs that a flank takes.
+_MOST = 400
 #: Halvings that find where the root's arc begins.
 _HALVINGS = 60
 
@@ -96,36 +97,10 @@ class _Flank:
         for count in range(1, _MOST + 1):
             # a pair leaves the involute by its length^3 times the change of curvature, which is that of rolls
             rolls = [first + (self.end - first) * i / count for i in range(count + 1)]
-            pairs = [self._pair(a, b) for a, b in pairwise(rolls)]
+            pairs = [pair_of_arcs(self.at, a, b) for a, b in pairwise(rolls)]
             if max(far for _, far in pairs) <= self.tolerance:
                 return [each for pair, _ in pairs for each in pair]
         raise AssertionError("arcs come near to any involute")
-
-    def _pair(self, begin: float, end: float) -> tuple[list[tuple[complex, float]], float]:
-        """Return the two arcs with the tangents at both ends of a stretch of the flank, and how far they leave it."""
-        (a, ta), (b, tb) = self.at(begin), self.at(end)
-        chord = b - a
-        # equal lengths of the tangents from the ends to the corners: the usual choice of a biarc
-        over = 2.0 * (1.0 - (ta * tb.conjugate()).real)
-        along = (chord * (ta + tb).conjugate()).real
-        length = (math.sqrt(along * along + over * abs(chord) ** 2) - along) / over
-        middle = 0.5 * ((a + length * ta) + (b - length * tb))
-        arcs, far = list[tuple[complex, float]](), 0.0
-        for start, finish, tangent in ((a, middle, ta), (middle, b, None)):
-            way = finish - start
-            quarter = 0.5 * cmath.phase(way / tangent) if tangent is not None else 0.5 * cmath.phase(tb / way)
-            arcs.append((finish, math.tan(quarter)))
-            centre = start + way * (0.5 + 0.5j / math.tan(2.0 * quarter))
-            far = max(far, self._farthest(begin, end, (start, finish), centre))
-        return arcs, far
-
-    def _farthest(self, begin: float, end: float, ends: tuple[complex, complex], centre: complex) -> float:
-        """Return how far points of the flank between the ends of an arc leave its circle."""
-        points = (self.at(begin + (end - begin) * i / _CHECKED)[0] for i in range(1, _CHECKED))
-        start, finish = ends
-        way, radius = finish - start, abs(start - centre)
-        within = (p for p in points if 0.0 < ((p - start) * way.conjugate()).real < abs(way) ** 2)
-        return max((abs(abs(p - centre) - radius) for p in within), default=0.0)
 
     def tooth(self) -> Iterator[tuple[complex, float]]:
         """Yield the points of a tooth counterclockwise and the bulges before them, first the bulge of the root."""

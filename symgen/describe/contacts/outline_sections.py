@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import msgspec
 
-from symgen.describe.parts.fields import BodyName, Flag, OutlinePoints, Pair, Scalar, Vector
+from symgen.describe.parts.fields import BodyName, Flag, OutlinePoints, Pair, Scalar, Text, Vector
 
 
 class PolygonTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -95,8 +95,19 @@ class OutlineSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
         In place of points, a spur gear, ``{ module = M, teeth = N }``.
     box : two scalars
         In place of points, width and height [m].
+    file : str
+        In place of points, a drawing of one chain in any order: a DXF file, or an SVG file with one path, in or below
+        the folder of the mechanism file. An open chain goes the way of its first part.
+    path : str
+        In place of points, path data of SVG. In them and in SVG files y is turned upwards.
+    unit : scalar
+        Length of a unit of the drawing [m]; of a DXF file its own unit by default.
+    tolerance : scalar
+        Largest distance of arcs from other curves [m]; 1e-5 of the drawing's size by default.
+    layer : str
+        Layer of a DXF file on which the outline is; all by default.
     at : vector
-        Centre of a polygon, a box or a gear; the origin by default [m].
+        Centre of a polygon, a box or a gear, origin of a drawing; the origin by default [m].
     angle : scalar
         How far it is turned [rad]; a corner of a polygon is on the first axis otherwise.
     fillet : scalar
@@ -110,6 +121,11 @@ class OutlineSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
     polygon: PolygonTable | None = None
     gear_profile: GearTable | None = None
     box: Pair | None = None
+    file: Text | None = None
+    path: Text | None = None
+    unit: Scalar | None = None
+    tolerance: Scalar | None = None
+    layer: Text | None = None
     at: Vector | None = None
     angle: Scalar | None = None
     fillet: Scalar | None = None

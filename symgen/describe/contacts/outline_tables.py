@@ -20,6 +20,7 @@ from symgen.describe.contacts.chains import (
     signed_area,
     turn_between,
 )
+from symgen.describe.contacts.drawings import drawing_given, read_drawing
 from symgen.describe.contacts.gear_teeth import teeth_of_gear
 from symgen.describe.contacts.outline_sections import OutlineSection, PointTable
 from symgen.describe.parts.fields import read_table, value_in_words
@@ -27,6 +28,8 @@ from symgen.describe.parts.scope import Scope
 
 #: Lengths below this part of the sum of coordinates are none.
 _NONE = 1e-12
+#: Keys that say what an outline is.
+_SHAPES = ("points", "polygon", "box", "gear_profile", "file", "path")
 
 
 def read_outline(scope: Scope, raw: object) -> BodyOutline:
@@ -43,18 +46,20 @@ def read_outline(scope: Scope, raw: object) -> BodyOutline:
     body = scope.body("body", section.body)
     if body in scope.context.bodies and scope.context.bodies[body].is_point:
         raise scope.error("body", "a body with an angle, or the ground", f"the point mass '{body}'")
-    given = [key for key in ("points", "polygon", "box", "gear_profile") if getattr(section, key) is not None]
+    given = [key for key in _SHAPES if getattr(section, key) is not None]
     if len(given) != 1:
-        raise scope.error(
-            "points", "one of points, polygon, box and gear_profile", " and ".join(given) if given else "none of them"
-        )
-    gear = None
-    if section.gear_profile is not None:
-        gear, corners = teeth_of_gear(scope, section.gear_profile)
-        places = _placed(scope, section, [place for place, _ in corners])
-        bulges = (PointTable(to=(0.0, 0.0), bulge=bulge) for _, bulge in corners)
-        points, closed = list[PointTable | Plane](places), True
-        tables = list[PointTable | None](bulges)
+        expected = f"one of {', '.join(_SHAPES[:-1])} and {_SHAPES[-1]}"
+        raise scope.error("points", expected, " and ".join(given) if given else "none of them")
+    gear, source, tables = None, "", list[PointTable | None]()
+    if drawing_given(section, scope) or section.gear_profile is not None:
+        if section.gear_profile is not None:
+            closed = True
+            gear, corners = teeth_of_gear(scope, section.gear_profile)
+        else:
+            drawn, closed, source = read_drawing(scope, section)
+            corners = [((Number(p.real), Number(p.imag)), bulge) for p, bulge in drawn]
+        points = list[PointTable | Plane](_placed(scope, section, [place for place, _ in corners]))
+        tables = [PointTable(to=(0.0, 0.0), bulge=bulge) for _, bulge in corners]
     elif section.points is None:
         points, closed = list(_corners_of_shape(scope, section)), True
     else:
@@ -65,12 +70,13 @@ def read_outline(scope: Scope, raw: object) -> BodyOutline:
     if section.inside and not closed:
         raise scope.error("inside", "the key closed beside it, as a chain with ends has no inside", "an open one")
     reader = _Reader(scope, points, closed, section)
-    if gear is not None:
+    if tables:
         reader.tables = tables
+    if gear is not None:
         at = (ZERO, ZERO) if section.at is None else scope.vector("at", section.at)
         angle = ZERO if section.angle is None else scope.constant("angle", section.angle)
         gear = msgspec.structs.replace(gear, first=angle, centre=(at[0], at[1]))
-    outline = BodyOutline(scope.name, body, closed, tuple(reader.read()), gear)
+    outline = BodyOutline(scope.name, body, closed, tuple(reader.read()), gear, source)
     if gear is None and (crossing := crossing_of(outline, reader.value)) is not None:
         got = "pieces {} and {} that cross".format(*crossing)
         raise scope.error(given[0], "a chain that does not cross itself", got)

@@ -17,8 +17,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from symgen.base.errors import InputError, quote, suggest
-from symgen.base.files import system_message
+from symgen.base.errors import InputError, quote
+from symgen.base.files import file_beside, system_message
 from symgen.describe.modal_body import (
     MOST_MODES,
     HeldStretch,
@@ -114,25 +114,11 @@ def find_modal_file(where: str, folder: str, name: str) -> str:
     InputError
         If there is no such file in the folder or below it.
     """
-    inside = f"the path of a {SUFFIX} file that symgen.reduced has written"
-    if folder:
-        inside += ", in the folder of the mechanism file or below it"
-    plain = name.isprintable() and "\\" not in name and Path(name).suffix == SUFFIX
-    outside = Path(name).is_absolute() or ".." in Path(name).parts
-    if not plain or (folder and outside):
-        raise InputError(where, inside, quote(name))
-    try:
-        path = (Path(folder or ".") / name).resolve()
-        if (not folder or path.is_relative_to(Path(folder).resolve())) and path.is_file():
-            return str(path)
-        there = sorted(x.name for x in path.parent.glob(f"*{SUFFIX}")) if path.parent.is_dir() else []
-    except (OSError, RuntimeError, ValueError):  # a name too long, or links in a circle
-        there = []
-    raise InputError(where, inside, f"{quote(name)}, which is none", suggest(path.name, there) if there else "")
+    return file_beside(where, folder, name, (SUFFIX,), f"the path of a {SUFFIX} file that symgen.reduced has written")
 
 
 def with_whole_paths(raw: Mapping[str, Any], source: str) -> dict[str, Any]:
-    """Return a description with whole paths of its modal files, for reading it again without its folder.
+    """Return a description with whole paths of its modal files and drawings, for reading it again without its folder.
 
     Parameters
     ----------
@@ -141,15 +127,21 @@ def with_whole_paths(raw: Mapping[str, Any], source: str) -> dict[str, Any]:
     source : str
         Its origin; one without a folder leaves names as they are.
     """
-    folder, bodies = getattr(source, "folder", ""), raw.get("bodies", {})
-    if not folder or not isinstance(bodies, Mapping):
+    folder = getattr(source, "folder", "")
+    if not folder:
         return dict(raw)
-    tables = {
-        name: {**table, "file": str(Path(folder) / table["file"])}
-        for name, table in bodies.items()
-        if is_modal(table) and isinstance(table.get("file"), str)
-    }
-    return {**raw, "bodies": {**bodies, **tables}} if tables else dict(raw)
+    whole = dict(raw)
+    for section in ("bodies", "outlines"):
+        tables = raw.get(section, {})
+        named = {
+            name: {**table, "file": str(Path(folder) / table["file"])}
+            for name, table in (tables.items() if isinstance(tables, Mapping) else ())
+            if isinstance(table, Mapping) and isinstance(table.get("file"), str)
+            if section == "outlines" or is_modal(table)
+        }
+        if named:
+            whole[section] = {**tables, **named}
+    return whole
 
 
 def read_modal_file(where: str, path: str) -> ModalFile:

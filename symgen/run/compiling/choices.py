@@ -138,8 +138,8 @@ STRAIGHT_LEAST = 0.3
 EACH = {"planar": ShapeCost(0.011, 0.013, 0.8e-8, 1.8e-8), "spatial": ShapeCost(0.03, 0.036, 2.5e-8, 1.0e-7)}
 #: Seconds to derive and compile the shared looped code from an empty cache: one figure for 1 to 4, whatever is cached.
 LOOPED_LEAST = 2.2
-#: Seconds that contacts add to straight code, times the cube of their number: what one carries of the bounds of the
-#: others is written out for each of them.
+#: Seconds that contacts add to straight code, times the cube of their number: fitted; compilers take longer per line in
+#: the long functions of many contacts.
 STRAIGHT_CONTACTS = 1.1e-3
 #: Seconds of a looped evaluation at any size.
 LOOPED_CALL = 1.0e-7

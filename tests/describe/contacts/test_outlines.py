@@ -120,9 +120,9 @@ def test_concave_corners_cut_a_chain() -> None:
         (
             {"points": [[0, 0], [1, 0]], "closed": True, "box": [1, 1]},
             0.1,
-            "one of points, polygon, box and gear_profile, got points",
+            "one of points, polygon, box, gear_profile, file and path, got points",
         ),
-        ({}, 0.1, "one of points, polygon, box and gear_profile, got none of them"),
+        ({}, 0.1, "one of points, polygon, box, gear_profile, file and path, got none of them"),
         ({"polygon": {"sides": 2, "radius": 1.0}}, 0.1, "a number of at least 3, got 2"),
         ({"box": [0.2, 0.1], "fillet": 0.06}, 0.1, "fillets that leave room for each other"),
         ({"points": [[0, 0], {"to": [1, 0], "radius": 0.4}]}, 0.1, "at least half of the distance"),

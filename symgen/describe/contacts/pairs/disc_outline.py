@@ -113,7 +113,7 @@ def _check_disc(scope: Scope, key: str, outline: BodyOutline, disc: Disc) -> Non
 
 def drawn_outline(outline: BodyOutline, value: Value) -> Outline:
     """Return the line along an outline with the defaults of parameters."""
-    fine = outline.gear is None  # arcs of teeth are short
+    fine = outline.gear is None and not outline.source  # arcs of teeth and of drawn curves are short
     points = [p for stretch in outline.pieces for p in (points_on(stretch, value) if fine else _start(stretch, value))]
     x, y = outline.pieces[-1].end
     points.append((value(x), value(y)))
@@ -131,7 +131,8 @@ def _words_on(outline: BodyOutline, value: Value) -> str:
     length = sum(value(piece.length) for piece in pieces)
     hollow = [i + 1 for i in hollow_corners(outline, value)]
     corners = f"hollow corners before pieces {', '.join(map(str, hollow))}" if hollow else "no hollow corner"
-    return f"outline {outline.name}: {len(pieces)} pieces, {length:.6g} m, {corners}"
+    source = f", {outline.source}" if outline.source else ""
+    return f"outline {outline.name}: {len(pieces)} pieces, {length:.6g} m, {corners}{source}"
 
 
 KIND = Pair(OUTLINE, OutlineTable, read_disc_beside_outline, None)
