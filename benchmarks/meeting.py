@@ -290,6 +290,14 @@ between = [{ body = "head", sphere = 0.1 }, { plane = "ground", on = [-0.01, 0.0
 restitution = 0.3
 friction = 0.2
 """,
+    "contact that resists rolling": thrown(cart(more=f"{_WALL}\nrolling = 0.01\n")),
+    "contact in space that resists rolling and spin": _HEAD
+    + """[contacts.ball]
+between = [{ body = "head", sphere = 0.1 }, { plane = "ground", on = [-0.01, 0.0, 0.0], normal = [1.0, 0.0, 0.2] }]
+friction = 0.2
+rolling = 0.01
+torsion = 0.005
+""",
     "contact of gears": cart(more=_TEETH),
     "clearance": lowered(0.001, cart(pin=_PLAY)),
     "clearance of a slide": lowered(0.002, cart())

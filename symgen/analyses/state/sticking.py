@@ -17,6 +17,7 @@ from symgen.base.vocabulary.expressions import Number
 from symgen.base.vocabulary.measures import FormulaMeasure, Holonomic, Measure
 from symgen.derive.lower.windings import counted_turns
 from symgen.describe.bounded import BoundedRow
+from symgen.describe.bounds.bounded_modes import unit_of_effort
 from symgen.describe.joints.rows import tied_bodies
 from symgen.describe.mechanism import Joint
 from symgen.run.compiling.side import compile_side
@@ -117,7 +118,8 @@ def rows_that_stick(
         coefficient = float(values[len(rows) + i])
         if coefficient > 0.0:
             if moving and abs(rates[i]) > still:
-                got = f"{row.name}, which slides at {rates[i]:.6g} m/s"
+                moves = "turns" if row.unit == "rad" else "slides"
+                got = f"{row.name}, which {moves} at {rates[i]:.6g} {row.unit}/s"
                 raise InputError("analyses at a state", "closed contacts at rest", got, "a run has its motion")
             found.append(Stuck(row, float(values[i]), coefficient))
     return tuple(found)
@@ -167,10 +169,11 @@ def fault_along(subject: Subject, y: Array, lam: Array) -> Fault | None:
     if not over[worst] > 0.0:
         return None
     row = subject.stuck[worst].row
+    verb, unit = "turns" if row.unit == "rad" else "slides", unit_of_effort(row)
     return Fault(
         row.row,
-        f"the closed contact {row.name} slides there: it would take {abs(forces[worst]):.6g} N "
-        f"along it, of at most {bounds[worst]:.6g} N",
+        f"the closed contact {row.name} {verb} there: it would take {abs(forces[worst]):.6g} {unit} "
+        f"along it, of at most {bounds[worst]:.6g} {unit}",
     )
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number
+from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading
 from symgen.base.vocabulary.measures import (
     GROUND,
     Angle,
@@ -125,7 +125,7 @@ class _Writer:
         left = self.vector_formula(measure)
         return RowWords(sentence, f"{left} = {value}" if left else "")
 
-    def noun_of_measure(self, measure: Measure) -> str:
+    def noun_of_measure(self, measure: Measure | FormulaSpeed) -> str:
         """Return what a measure is."""
         match measure:
             case Component(a, b, along):
@@ -149,7 +149,9 @@ class _Writer:
                 return f"the turn of {b} against {a} about {_direction_in_sentence(along)}"
             case RimHeight():
                 return f"the height of the rim of {measure.centre.body} over the plane"
-            case FormulaMeasure():
+            case FormulaSpeed(of=Reading(source=Spin() as turned)):  # of a contact that resists turning
+                return self.noun_of_measure(turned)
+            case FormulaMeasure() | FormulaSpeed():
                 return "a formula of the file"
             case OnChain() | Lap() | PieceNumber():
                 return f"a quantity beside an outline of {measure.chain.origin.body}"
@@ -210,6 +212,8 @@ class _Writer:
                     sentence,
                     f"v({self.name_of_point(at)}) . ({_direction_in_formula(normal)} x {_direction_in_formula(blade)})",
                 )
+            case FormulaSpeed(of=Reading(source=Spin())):
+                return f"{self.noun_of_measure(speed)} does not change", ""
             case FormulaSpeed():
                 return "a formula of the file, linear in velocities, is 0", ""
 

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from symgen import InputError
+from symgen import InputError, SymgenError
+from symgen.result.reading.row_words import row_words
 from tests.run.contacts.scenes import G, body, floor, loaded
 from tests.run.contacts.scenes import head as plane_head
 from tests.run.contacts.scenes_in_space import ball_of, contact, head
@@ -144,3 +145,22 @@ def test_what_turns_not_is_said(tmp_path: Path) -> None:
         loaded(wheel(), tmp_path).simulate(shape="looped")
     with pytest.raises(InputError, match="a mechanism without friction of contacts in space"):
         loaded(ball(keys="rolling = 0.1\n"), tmp_path).equilibrium()
+
+
+def test_rows_against_turning_have_words(tmp_path: Path) -> None:
+    model = loaded(ball((1.0, 0.0, 0.0), keys=f"torsion = {PATCH}\nrolling = {ROLLS}\n"), tmp_path)
+    words = row_words(model.mechanism)
+    about = {"torsion": "e_z", "rolling1": "e_x", "rolling2": "e_y"}
+    for label, axis in about.items():
+        expected = f"while it sticks, the turn of ball against ground about {axis} of ground does not change"
+        assert words[f"touch.{label}"].words == expected
+    planar = row_words(loaded(wheel(), tmp_path).mechanism)
+    assert any("the angle of wheel" in row.words for row in planar.values())
+
+
+@pytest.mark.slow
+def test_a_wheel_that_rolls_away_is_no_equilibrium(tmp_path: Path) -> None:
+    with pytest.raises(SymgenError, match=r"rolling turns there: it would take 0\.50\d+ N m .* most 0\.25\d+ N m"):
+        loaded(wheel(0.2, 0.0), tmp_path).equilibrium()
+    with pytest.raises(InputError, match=r"floor\.rolling, which turns at -5 rad/s"):
+        loaded(wheel(0.0, 1.0), tmp_path).modes(at="start")
