@@ -94,7 +94,7 @@ def write_modes(c: Choice, w: Array) -> int:
 def measure_margins(c: Choice, w: Array, hunt: Array) -> int:
     """Set the sizes that the rounding of margins is relative to; return their number.
 
-    Rows along contacts at rest that others carry are watched: a drive may move them, though the rows in force stay at
+    Friction of contacts at rest that others carry is watched: a drive may move it, though the rows in force stay at
     rest.
     """
     n, at, found = int(hunt[COUNT]), N_HEAD, 0

@@ -4,7 +4,7 @@ A coordinate at rest stays so as long as a force within its bounds keeps it. Sta
 come to rest, those in motion for coordinates that have just broken loose; a coordinate that its static bound does not
 hold breaks loose too, and has its sliding force before others at rest are let go for good. A gap stays closed by a
 force that pushes; ones that strike have impacts first (`symgen.run.modes.strikes`). A contact is a gap N and the
-row T along it, ``|T| <= mu N``: closed, it opens, sticks, or slides one of two ways; in motion the way is known.
+friction T along it, ``|T| <= mu N``: closed, it opens, sticks, or slides one of two ways; in motion the way is known.
 
 Rows that depend on each other are a part (`symgen.run.modes.contact_parts`), whose laws are solved together
 (`symgen.run.modes.contact_laws`). Rows at rest that other ones determine stay off: the rows in force carry their part.
@@ -70,7 +70,7 @@ def static_bound(c: Choice, i: int) -> float:
 
 @exact()
 def part_held(c: Choice, count: int, first: int, i: int) -> float:
-    """Return the part of its bound at rest that a row let go needs if it holds again, inf where it does not hold."""
+    """Return the part of its bound at rest that friction let go needs if it holds again, inf where it does not hold."""
     second = PAIRED and is_first(c, i)
     c.loose[i] = 0
     if second:
@@ -170,7 +170,7 @@ def hold_by_others(c: Choice, count: int) -> float:
 
 @exact()
 def choose_modes_of_part(c: Choice, count: int, first: int) -> int:
-    """Choose the modes of a part: a row that its bound at rest does not hold has that in motion."""
+    """Choose the modes of a part: friction that its bound at rest does not hold has that in motion."""
     again, part = True, hold_by_others(c, count)
     while again:
         code = solve_part(c, count, first, part)

@@ -82,12 +82,6 @@ def is_further_piece(c: Choice, i: int) -> bool:
     return bool(c.rows.pushes[i] == FURTHER_PIECE)
 
 
-@exact()
-def is_joined(c: Choice, i: int) -> bool:
-    """Return whether a row is one with the row before it in the log: pieces of contacts are not."""
-    return bool(is_further_piece(c, i) and c.rows.gaps[i] == 0)
-
-
 @exact(entry=True)
 def is_struck_before(c: Choice, active: Integers, i: int) -> bool:
     """Return whether a piece of the gap of a row that comes before it pushes at an impact."""
@@ -102,7 +96,7 @@ def is_struck_before(c: Choice, active: Integers, i: int) -> bool:
 def log_changes(t: float, c: Choice, w: Array, log: Transitions) -> int:
     """Log the rows that a choice has changed; return the number of transitions.
 
-    Pieces of a stop are one: closed where any of them is. The row along a gap has transitions as long as it is closed.
+    Pieces of one gap are one: closed where any of them is. The row along a gap has transitions as long as it is closed.
     """
     for i in range(c.rows.count):
         sign, past, along = w[c.rows.first + MODE_NUMBERS * i + SIGN], log.signs[i], c.rows.partner[i]
@@ -112,9 +106,9 @@ def log_changes(t: float, c: Choice, w: Array, log: Transitions) -> int:
         if c.rows.pushes[i] == 0 and sign != past and (along < 0 or (log.shut[along] != 0 and is_held(c, w, along))):
             log_transition(t, log, i, SLIP if past == 0.0 else STICK if sign == 0.0 else REVERSE)
         closed, before, j = is_held(c, w, i), log.shut[i] != 0, i + 1
-        while j < c.rows.count and is_joined(c, j):
+        while j < c.rows.count and is_further_piece(c, j):
             closed, before, j = closed or is_held(c, w, j), before or log.shut[j] != 0, j + 1
-        if c.rows.pushes[i] != 0 and not is_joined(c, i) and closed != before:
+        if c.rows.pushes[i] != 0 and not is_further_piece(c, i) and closed != before:
             opens = LIFT if c.rows.gaps[i] != 0 else LEAVE
             log_transition(t, log, i, opens if before else REST)
     return int(log.count[0])

@@ -108,16 +108,3 @@ def test_forces_without_effect_or_bound_are_zero() -> None:
     matrix = np.diag([1.0, 0.0, 2.0])
     here = left(matrix, np.array([0.5, 3.0, 1.0]), np.array([1.0, 1.0, 0.0]))
     np.testing.assert_array_equal(here, [0.0, 3.0, 1.0])
-
-
-def test_rounding_of_mobilities_is_no_contradiction() -> None:
-    """A stop and friction on one coordinate near a dead centre: their mobilities differ by 4e-11."""
-    matrix = np.array([[1.0390314519674118, -1.0390314519271537], [-1.0390314519271537, 1.0390314518868957]])
-    offset, bounds, lower = (
-        np.array([5.540439820828781, -5.540439820828781]),
-        np.array([0.54691, 0.0]),
-        (-0.54691, -np.inf),
-    )
-    forces, accelerations = solved(matrix, offset, bounds, np.array(lower))
-    np.testing.assert_allclose(accelerations, 0.0, rtol=0.0, atol=1e-9)
-    assert forces[0] - forces[1] == pytest.approx(5.3323119, rel=1e-7)
