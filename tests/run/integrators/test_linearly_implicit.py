@@ -5,7 +5,6 @@ import pytest
 from support.emitted import mechanism_of
 
 import symgen
-from benchmarks.page_tables import ROOT
 
 CONSTANT = {"integrator.adaptive": "false"}
 LENGTH, MASS, INERTIA, STIFFNESS = 0.7, 2.0, 0.3, 900.0
@@ -170,54 +169,6 @@ def test_dampers_of_three_hundred_sizes():
     assert max(errors) < 1e-6 and max(steps) < 1500
     jumps = np.abs(np.diff(steps)) / np.maximum(steps[1:], steps[:-1])
     assert np.median(jumps) < 0.05 and steps[-1] < 200, (np.median(jumps), steps[-1])
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("k", "rtol"), [(1e10, 1e-6), (1e12, 1e-6)])
-def test_a_stiff_spring_does_no_work_between_steps(k, rtol):
-    """A point is pulled behind sin(t): its work is that of its motion, whatever a polynomial leaves of the spring."""
-    follower = {
-        "mechanism": {"name": "follower"},
-        "parameters": {"k": k},
-        "bodies": {"p": {"type": "point", "mass": 1.0, "position": [1.0, 0.0], "velocity": ["k/(k - 1)", 0.0]}},
-        "forces": {"spring": {"type": "force", "body": "p", "force": ["-k*(p.x - 1 - sin(t))", 0.0]}},
-    }
-    run = symgen.load(mechanism_of(follower)).simulate(integrator="rodas", rtol=rtol, until=1.0, verify=False)
-    assert run.status == "ok", run.reason
-    np.testing.assert_allclose(run["p.x"], 1.0 + k * np.sin(run.t) / (k - 1.0), rtol=0.0, atol=1e-10)
-    assert abs(run.work[-1] + 0.5 * np.sin(1.0) ** 2) < 0.05 * 0.5  # kinetic energy falls from 1/2 to cos(1)^2 / 2
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("integrator", "error"), [("hht", 2e-4), ("generalized-alpha", 2e-5)])
-def test_a_start_too_fast_for_the_steps_sets_nothing_in_vibration(integrator, error):
-    """The first acceleration is a multiple of the motion's: an extrapolation of it threw the mass by 29 m at 1e8."""
-    model, off = symgen.load(mechanism_of(DAMPED)), []
-    for c in np.geomspace(1.01, 1e8, 300):
-        run = model.simulate(
-            method="generalized-alpha",
-            integrator=integrator,
-            step=1e-2,
-            until=0.5,
-            parameters={"c": c},
-            max_energy_error=1e3,
-        )
-        off.append(max(abs(x - decayed(c, t)) for t, x in zip(run.t, run["p.x"], strict=True)))
-    assert max(off) < 5e-3 and max(off[150:]) < error and max(off[-50:]) < 1.01 * min(off[-50:])
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("step", [1e-3, 5e-3, 1e-2])
-@pytest.mark.parametrize("integrator", ["hht", "generalized-alpha"])
-def test_the_stiff_four_bar_from_rest(integrator, step):
-    """Velocities beside radau5: a start that vibrates has a hundred times their error, and fails by its energy."""
-    model = symgen.load(ROOT / "benchmarks" / "stiff-four-bar.toml")
-    settings = {"until": 0.5, "output_step": 0.01, "verify": False}
-    right = model.simulate(method="direct-correction", integrator="radau5", rtol=1e-9, **settings)
-    run = model.simulate(method="generalized-alpha", integrator=integrator, step=step, **settings)
-    assert run.status == "ok", run.reason
-    for name in ("crank.omega", "left.vx"):
-        np.testing.assert_allclose(run[name], right[name], rtol=0.0, atol=3e-3)
 
 
 def test_the_steps_before_are_no_derivatives():

@@ -43,8 +43,6 @@ from symgen.run.loops.schemes.implicit import is_settled, newton_verdict
 from symgen.run.loops.sparse import multiply_sources, solve, turn_rows
 
 _MOST_ITERATIONS = 20
-#: A change of accelerations in a step, over accelerations and velocities by the step, that no step follows.
-_MOST_CHANGE = 10.0
 #: As in the frame: whether steps follow the error estimate.
 ADAPTIVE = False
 
@@ -64,11 +62,9 @@ def prepare(system: ModelSystem, scheme: Alpha, span: Span, run: Run) -> None:
     """Set ``a0 = v0' + (alpha_m - alpha_f) h v0''``.
 
     With a0 = v0' multipliers would start with an error of order 1. v'' comes from two evaluations; its error enters
-    multiplied by h (alpha_m - alpha_f). Of a motion too fast for the steps v'' is no slope, but a multiple of v0': the
-    start would set it in vibration. There a0 follows what forces have of the time alone.
+    multiplied by h (alpha_m - alpha_f).
     """
     sizes, t, h, probe = system.sizes, run.clock[abi.TIME], span.step, 1e-4 * span.step
-    nq = sizes.nq
     n, count, first = sizes.unknowns, sizes.nv + sizes.states, sizes.nq + sizes.nv
     k, a0, beginning = part(run.memory, 0, n), part(run.memory, n, count), part(run.memory, n + count, sizes.width)
     ahead = part(run.room, 0, sizes.width)
@@ -76,13 +72,6 @@ def prepare(system: ModelSystem, scheme: Alpha, span: Span, run: Run) -> None:
     for i in range(sizes.width):
         run.trial[i] = run.y[i] + probe * beginning[i]
     evaluate(system, run, t + probe, run.trial, ahead)
-    change = smooth = 0.0
-    for i in range(nq, nq + sizes.nv):
-        change = max(change, run.scales[i] * abs(ahead[i] - beginning[i]) * h / probe)
-        smooth = max(smooth, run.scales[i] * (abs(beginning[i]) + abs(run.y[i]) / h))
-    if change > _MOST_CHANGE * smooth:
-        evaluate(system, run, t + probe, run.y, ahead)
-        run.control[abi.EVALUATIONS] += 1
     for i in range(count):
         at = index_in_state(sizes, i)
         a0[i] = beginning[at] + (scheme.alpha_m - scheme.alpha_f) * h * (ahead[at] - beginning[at]) / probe
