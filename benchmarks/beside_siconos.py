@@ -85,7 +85,7 @@ def ends_of(scene: str, **settings: Any) -> tuple[Array, float]:
 def reference(scene: str) -> Array:
     """Return places and angles at the end."""
     if scene == "gripper":
-        return simulated(gripper(0.0))[-1].reshape(-1, 3)
+        return np.asarray(simulated(gripper(0.0))[-1], dtype=float).reshape(-1, 3)
     kind, count = scene.split()
     if kind == "discs":
         return ends_of(scene, integrator="dop853", rtol=1e-12)[0]
