@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import cos, pi, sin, sqrt
 from typing import Any
 
@@ -18,10 +18,14 @@ def _cross(a: Three, b: Three) -> Three:
     return one, two, three
 
 
+def _each(law: Callable[[int], str]) -> Three:
+    """Return what a law makes of each axis."""
+    return law(0), law(1), law(2)
+
+
 def _spin(body: str) -> Three:
     """Return the angular velocity of a body in ground axes."""
-    one, two, three = (f"({' + '.join(f'{body}.w{a}*{body}.e{a}.{c}' for a in 'xyz')})" for c in "xyz")
-    return one, two, three
+    return _each(lambda i: f"({' + '.join(f'{body}.w{a}*{body}.e{a}.' + 'xyz'[i] for a in 'xyz')})")
 
 
 def _contact(
@@ -33,18 +37,19 @@ def _contact(
     from the centre of the second sphere, to the centre of the first.
     """
     far = f"sqrt({' + '.join(f'({a})**2' for a in away)})"
-    n: Three = tuple(f"(({a})/{far})" for a in away)  # type: ignore[assignment]
+    n = _each(lambda i: f"(({away[i]})/{far})")
     other = [f" - {two}.v{c}" if two else "" for c in "xyz"]
     rate = f"({' + '.join(f'({one}.v{c}{other[i]})*{n[i]}' for i, c in enumerate('xyz'))})"
     depth = f"({(2.0 if two else 1.0) * radius!r} - {far})"
     push = f"(max(0, {stiffness!r}*{depth}*(1 - {growth!r}*{rate})) if {depth} > 0 else 0)"
     spin = _spin(one)
     if two:
-        spin = tuple(f"({x} + {y})" for x, y in zip(spin, _spin(two), strict=True))  # type: ignore[assignment]
+        first, second = spin, _spin(two)
+        spin = _each(lambda i: f"({first[i]} + {second[i]})")
     own = _cross(spin, n)
     slip = [f"({one}.v{c}{other[i]} - {radius!r}*{own[i]} - {rate}*{n[i]})" for i, c in enumerate("xyz")]
     speed = f"sqrt({' + '.join(f'{s}**2' for s in slip)} + {SLOW**2!r})"
-    rub: Three = tuple(f"(-{friction!r}*{push}*{s}/{speed})" for s in slip)  # type: ignore[assignment]
+    rub = _each(lambda i: f"(-{friction!r}*{push}*{slip[i]}/{speed})")
     whole = [f"{push}*{n[i]} + {rub[i]}" for i in range(3)]
     found: Table = {f"{name}_push": {"type": "force", "body": one, "force": whole}}
     if two:

@@ -21,10 +21,6 @@ from symgen.describe.mechanism import ModeEvent, Output
 TORSION, ROLLING = "torsion", "rolling"
 
 
-def _gap_of(row: Tangent) -> str:
-    return row.name.rpartition(".")[0]
-
-
 def _events_of(row: Tangent, events: Sequence[ModeEvent]) -> tuple[ModeEvent, ...]:
     """Return events of slip with the words for moments."""
     words = {"friction at its bound": "moment at its bound", "rate of slip 0": "angular velocity 0"}
@@ -37,23 +33,13 @@ def _outputs_of(row: Tangent, moment: Expr, rate: Expr) -> Iterator[Output]:
     yield Output(f"{row.name}.rate", rate, "rad/s")
 
 
-class Turning(Tangent, frozen=True, kw_only=True):
-    """One row against turning at a contact, in the plane, or about its normal; its name ends with the key."""
+class _OfContact:
+    """What rows against turning have alike."""
 
+    __slots__ = ()
     turns: ClassVar[bool] = True
 
-    measure: Any
-    unit: str = "rad"
-
-    @property
-    def contact(self) -> str:
-        """The name of its gap."""
-        return _gap_of(self)
-
-    @property
-    def owner(self) -> str:
-        """The contact."""
-        return self.contact
+    name: str
 
     @property
     def label(self) -> str:
@@ -61,14 +47,31 @@ class Turning(Tangent, frozen=True, kw_only=True):
         return self.name
 
     @property
+    def contact(self) -> str:
+        """The name of its gap."""
+        return self.name.rpartition(".")[0]
+
+    @property
+    def owner(self) -> str:
+        """The contact."""
+        return self.contact
+
+    @property
     def row(self) -> str:
         """Name of the row that is in force at rest."""
-        return self.name
+        return self.label
 
     @property
     def where(self) -> str:
         """Its place in a file."""
         return f"contacts.{self.name}"
+
+
+class Turning(_OfContact, Tangent, frozen=True, kw_only=True):
+    """One row against turning at a contact, in the plane, or about its normal; its name ends with the key."""
+
+    measure: Any
+    unit: str = "rad"
 
     @property
     def held(self) -> Any:
@@ -92,37 +95,15 @@ class Turning(Tangent, frozen=True, kw_only=True):
         return _outputs_of(self, self.total_effort(beside), measure_derivative(self))
 
 
-class RollingInSpace(TangentInSpace, frozen=True, kw_only=True):
+class RollingInSpace(_OfContact, TangentInSpace, frozen=True, kw_only=True):
     """One of the two rows against rolling on a plane in space."""
 
-    turns: ClassVar[bool] = True
-
     unit: str = "rad"
-
-    @property
-    def contact(self) -> str:
-        """The name of its gap."""
-        return _gap_of(self)
-
-    @property
-    def owner(self) -> str:
-        """The contact."""
-        return self.contact
 
     @property
     def label(self) -> str:
         """The name with its number."""
         return f"{self.name}{self.number}"
-
-    @property
-    def row(self) -> str:
-        """Name of the row that is in force at rest."""
-        return self.label
-
-    @property
-    def where(self) -> str:
-        """Its place in a file."""
-        return f"contacts.{self.name}"
 
     @property
     def held(self) -> Any:

@@ -38,29 +38,30 @@ def ground_contacts(
     place_of_body : callable
         Such a link -> the frame of its body in the ground frame.
     """
-    links = {name: link for name, link in robot.links.items() if link.touching}
-    planes = list(robot.planes)
-    for name, link in links.items():
-        if carriers[name] == GROUND:
-            planes += [p.moved(link.place) for p in link.touching if p.sort == "plane"]
-    normal = matrix_transpose(planes[0].frame.rotation)[2] if planes else _upwards(robot.gravity)
+    links = {name: link for name, link in robot.links.items() if carriers[name] != GROUND}
+    fixed = [
+        shape.moved(link.place) for name, link in robot.links.items() if name not in links for shape in link.touching
+    ]
+    floor = next((shape for shape in (*robot.touching_ground, *fixed) if shape.sort == "plane"), None)
+    planes = [] if floor is None else [floor]
+    normal = matrix_transpose(floor.frame.rotation)[2] if floor else _upwards(robot.gravity)
     tables, lowest, lost = dict[str, Any](), math.inf, dict[str, list[str]]()
     for name, link in links.items():
-        if (body := carriers[name]) == GROUND:
-            continue
+        body = carriers[name]
         inner = place_of_body(body).inverse() @ link.place
         for k, shape in enumerate(link.touching, 1):
-            pieces = list(_pieces(shape.moved(inner), _cosine(shape.moved(link.place), normal)))
+            placed = shape.moved(link.place)
+            pieces = list(_pieces(shape.moved(inner), _cosine(placed, normal)))
             if not pieces:
                 lost.setdefault(shape.sort, []).append(name)
             stem = name if k == 1 else f"{name}_{k}"
             for i, piece in enumerate(pieces, 1):
                 table = {"body": names.name_for("link", body)} | piece
                 own = names.name_for("contact", stem if len(pieces) == 1 else f"{stem}_{i}")
-                tables[own] = {"between": [table, None]} | _surfaces(shape, planes[:1])
+                tables[own] = {"between": [table, None]} | _surfaces(shape, planes)
             if pieces:
-                lowest = min(lowest, _lowest(shape.moved(link.place), normal))
-    on = planes[0].frame.origin if planes else scaled_vector(min(0.0, lowest), normal)
+                lowest = min(lowest, _lowest(placed, normal))
+    on = floor.frame.origin if floor else scaled_vector(min(0.0, lowest), normal)
     ground = {"plane": "ground", "on": tidy_numbers(on), "normal": tidy_numbers(normal)}
     for table in tables.values():
         table["between"][1] = ground
@@ -68,6 +69,8 @@ def ground_contacts(
         LeftOut(f"contacts of a {sort}", names_with_count(where), _WHY.get(sort, _OTHERS), True)
         for sort, where in lost.items()
     ]
+    if others := [shape.sort for shape in (*robot.touching_ground, *fixed) if shape is not floor]:
+        left_out.append(LeftOut("shapes of the ground", names_with_count(others), "bodies touch one plane", True))
     return tables, left_out
 
 

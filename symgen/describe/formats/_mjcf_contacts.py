@@ -44,12 +44,13 @@ class MjcfContacts:
         return next(ground, None)
 
     def count(self) -> str:
-        """Return how many geoms may touch, in words; one alone touches nothing."""
-        return f"{len(self._geoms)} geoms" if len(self._geoms) > 1 else "0 links"
+        """Return how many geoms may touch, in words, or nothing: one alone touches nothing."""
+        return f"{len(self._geoms)} geoms" if len(self._geoms) > 1 else ""
 
-    def planes(self) -> list[TouchingShape]:
-        """Return the first plane of the ground, whose friction counts in its pairs."""
-        return [] if self._plane is None else [TouchingShape("plane", self._frame(self._plane), (), math.inf)]
+    def of_ground(self) -> list[TouchingShape]:
+        """Return the shapes of the ground; the friction of its first plane counts in its pairs."""
+        ground = [k for k in self._geoms if not self.model.geom_bodyid[k]]
+        return [TouchingShape(self._sort(k), self._frame(k), self._sizes(k), math.inf) for k in ground]
 
     def shapes(self, body: int) -> list[TouchingShape]:
         """Return the shapes of a body."""

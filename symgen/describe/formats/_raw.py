@@ -248,9 +248,9 @@ class _Description:
 
     def _contact_tables(self) -> dict[str, Any]:
         """Return the contacts with the ground, if they are asked for, and list what is left out of all."""
-        touching = self.robot.touching or f"{sum(1 for link in self.robot.links.values() if link.touching)} links"
+        touching = self.robot.touching
         if not self.contacts:
-            if touching != "0 links":
+            if touching:
                 why = "bodies pass through each other; --contacts ground keeps them above the ground"
                 self.left_out.append(LeftOut("contacts", touching, why, True))
             return {}

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, ClassVar
 
 from symgen.base.errors import InputError, quote
 from symgen.describe.formats._poses import Matrix, Pose, matrix_product, rotation_to
-from symgen.describe.formats._robot import LeftOut, TouchingShape
+from symgen.describe.formats._robot import LeftOut, RobotLink, TouchingShape
 from symgen.describe.formats._xml import read_decimals, read_tree, read_triple
 from symgen.describe.parts.mesh_files import MeshFiles
 
@@ -117,6 +117,11 @@ class RobotReader(ABC):
             return read_triple(where, self.text(part, "size"))
         keys = {"sphere": ("radius",), "capsule": ("radius", "length"), "cylinder": ("radius", "length")}
         return tuple(self._read_length(where, part, key) for key in keys.get(part.tag, ()))
+
+    def count_touching(self, links: Iterable[RobotLink]) -> str:
+        """Return how many links have shapes of collision, in words, or nothing."""
+        count = sum(1 for link in links if link.touching)
+        return f"{count} links" if count else ""
 
     # -- the rest ----------------------------------------------------------------------------------------------------
 

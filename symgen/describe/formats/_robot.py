@@ -248,9 +248,9 @@ class RobotRange:
 
 @dataclass
 class Robot:
-    """What a file describes; `folder` is the folder that it is in, `standing` and `planes` are of the ground.
+    """What a file describes; `folder` is the folder that it is in, `standing` and `touching_ground` are of the ground.
 
-    `touching` says how many shapes touch, where that is not how many links have such.
+    `touching` says what may touch, as in '3 links'; empty if nothing does.
     """
 
     name: str
@@ -264,7 +264,7 @@ class Robot:
     spans: list[RobotSpan] = field(default_factory=list)
     ranges: list[RobotRange] = field(default_factory=list)
     standing: dict[str, Vector] = field(default_factory=dict)
-    planes: list[TouchingShape] = field(default_factory=list)
+    touching_ground: list[TouchingShape] = field(default_factory=list)
     touching: str = ""
 
 

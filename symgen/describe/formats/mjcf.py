@@ -96,7 +96,7 @@ class _Reader:
             self.tendons.spans,
             self.tendons.ranges(),
             self._sites_of_body(0),
-            self.touching.planes(),
+            self.touching.of_ground(),
             self.touching.count(),
         )
 

@@ -144,6 +144,7 @@ class _Reader(RobotReader):
             read_triple(f"{self.source}: gravity", gravity) if gravity else (0.0, 0.0, -9.8),
             self.left_out,
             self.folder,
+            touching=self.count_touching(self.links.values()),
         )
 
     # -- frames ------------------------------------------------------------------------------------------------------

@@ -131,6 +131,7 @@ class _Reader(RobotReader):
             inputs_for_joints(connections, followers),
             left_out=self.left_out,
             folder=self.folder,
+            touching=self.count_touching(links.values()),
         )
 
     # -- links -------------------------------------------------------------------------------------------------------

@@ -12,6 +12,7 @@ from typing import Any, Literal
 import msgspec
 
 from symgen.base.errors import InputError, plural, quote, suggest
+from symgen.base.files import file_beside
 from symgen.base.vocabulary.expressions import (
     ONE,
     ZERO,
@@ -23,7 +24,7 @@ from symgen.base.vocabulary.expressions import (
 )
 from symgen.base.vocabulary.measures import Effort, FormulaMeasure
 from symgen.describe.mechanism import AnyBody, Body, Force, Hold, SpatialBody
-from symgen.describe.modal.modal_file import ModalFile, find_modal_file, read_modal_file
+from symgen.describe.modal.modal_file import SUFFIX, ModalFile, read_modal_file
 from symgen.describe.modal_body import COORDINATE, SPEED, CarriedInterface, Modal
 from symgen.describe.parts.bodies import is_modal, optional_vector, read_orientation
 from symgen.describe.parts.collected import Errors
@@ -132,7 +133,8 @@ class ModalBodies:
         file, where = table.get("file"), scope.where("file")
         if not isinstance(file, str):
             raise InputError(where, "the name of a file that symgen.reduced has written", _found(file))
-        path = find_modal_file(where, getattr(scope.context.source, "folder", ""), file)
+        what = f"the path of a {SUFFIX} file that symgen.reduced has written"
+        path = file_beside(where, getattr(scope.context.source, "folder", ""), file, (SUFFIX,), what)
         content = read_modal_file(where, path)
         if content.dimension != scope.dimension:
             kinds = {2: "planar", 3: "spatial"}

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from symgen.base.errors import InputError, quote
-from symgen.base.files import file_beside, system_message
+from symgen.base.files import system_message
 from symgen.describe.modal_body import (
     MOST_MODES,
     HeldStretch,
@@ -95,26 +95,6 @@ class ModalFile(NamedTuple):
     def dimension(self) -> int:
         """2 in the plane, 3 in space."""
         return len(self.centre)
-
-
-def find_modal_file(where: str, folder: str, name: str) -> str:
-    """Return the path of a file that a table names.
-
-    Parameters
-    ----------
-    where : str
-        File and key, for the message.
-    folder : str
-        Of the mechanism file; where a mechanism has none, any path is taken as it is.
-    name : str
-        As written.
-
-    Raises
-    ------
-    InputError
-        If there is no such file in the folder or below it.
-    """
-    return file_beside(where, folder, name, (SUFFIX,), f"the path of a {SUFFIX} file that symgen.reduced has written")
 
 
 def with_whole_paths(raw: Mapping[str, Any], source: str) -> dict[str, Any]:

@@ -137,6 +137,19 @@ def test_friction_of_a_pair_is_that_of_the_format(tmp_path: Path) -> None:
     assert table["restitution"] == 0.5
 
 
+def test_what_stands_on_the_floor_is_listed(tmp_path: Path) -> None:
+    slab = '<collision name="c"><pose>0 0 -1'
+    step = '<collision name="d"><geometry><box><size>1 1 1</size></box></geometry></collision>'
+    sdf = of_sdf("base", SHAPES["ball"][2], "0 0 0", 0.0, 0.4).replace(slab, step + slab)
+    plane = '<geom type="plane" size="1 1 1" pos="0 0 -1"'
+    mjcf = of_mjcf("base", SHAPES["ball"][3], "0 0 0", 0.0, 0.4).replace(plane, f"{plane}/><geom {SHAPES['brick'][3]}")
+    for text, kind in ((sdf, "sdf"), (mjcf, "xml")):
+        read = imported(tmp_path, text, f"step.{kind}", contacts=True)
+        (listed,) = (x for x in read.left_out if x.what == "shapes of the ground")
+        assert (listed.where, listed.moves) == ("box", True)
+        assert [two["plane"] for _, two in (x["between"] for x in contacts(read).values())] == ["ground"]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["urdf", "sdf", "xml"])
 def test_a_ball_of_a_robot_falls_and_slides_as_its_law_says(kind: str, tmp_path: Path) -> None:

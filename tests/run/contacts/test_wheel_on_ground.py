@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
+from support.ending import Ending
 
 from benchmarks.mechanisms.toml import text as toml
 from tests.run.contacts.scenes import G, loaded
@@ -92,8 +93,7 @@ def smooth(torque: float) -> tuple[Array, list[str]]:
                 log[-1] = "reverse"
             elif t > 0.0:
                 log.append("slip")
-        event = catches if sense else breaks
-        event.terminal, event.direction = True, -1.0  # type: ignore[attr-defined]
+        event = Ending(catches if sense else breaks, -1.0)
         part = solve_ivp(rates, (t, UNTIL), y, "DOP853", events=event, args=(sense,), rtol=1e-11, atol=1e-13)
         assert part.success
         t, y = float(part.t[-1]), part.y[:, -1]
