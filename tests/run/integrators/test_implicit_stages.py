@@ -48,7 +48,7 @@ def test_a_driver_does_the_work_of_the_spring_that_it_pulls(integrator, settings
 
 @pytest.mark.parametrize("k", [1e8, 1e10, 1e12])
 @pytest.mark.parametrize("step", [1e-3, 1e-4, 1e-5])
-@pytest.mark.parametrize("integrator", ["radau5", "sdirk", "trapezoidal"])
+@pytest.mark.parametrize("integrator", ["radau5", "sdirk", "trapezoidal", "rodas"])
 def test_an_iteration_ends_where_only_rounding_of_a_stiff_force_is_left(integrator, k, step):
     options = {} if integrator == "trapezoidal" else CONSTANT
     settings = {"integrator": integrator, "step": step, "until": 100 * step, "options": options}

@@ -171,6 +171,22 @@ def test_dampers_of_three_hundred_sizes():
     assert np.median(jumps) < 0.05 and steps[-1] < 200, (np.median(jumps), steps[-1])
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(("k", "rtol"), [(1e10, 1e-6), (1e12, 1e-6)])
+def test_a_stiff_spring_does_no_work_between_steps(k, rtol):
+    """A point is pulled behind sin(t): its work is that of its motion, whatever a polynomial leaves of the spring."""
+    follower = {
+        "mechanism": {"name": "follower"},
+        "parameters": {"k": k},
+        "bodies": {"p": {"type": "point", "mass": 1.0, "position": [1.0, 0.0], "velocity": ["k/(k - 1)", 0.0]}},
+        "forces": {"spring": {"type": "force", "body": "p", "force": ["-k*(p.x - 1 - sin(t))", 0.0]}},
+    }
+    run = symgen.load(mechanism_of(follower)).simulate(integrator="rodas", rtol=rtol, until=1.0, verify=False)
+    assert run.status == "ok", run.reason
+    np.testing.assert_allclose(run["p.x"], 1.0 + k * np.sin(run.t) / (k - 1.0), rtol=0.0, atol=1e-10)
+    assert abs(run.work[-1] + 0.5 * np.sin(1.0) ** 2) < 0.05 * 0.5  # kinetic energy falls from 1/2 to cos(1)^2 / 2
+
+
 def test_the_steps_before_are_no_derivatives():
     """Directions inside a step are those of tableaus; others are refused with their names."""
     run = symgen.load("four-bar").start(integrator="rodas", step=1e-2, options=CONSTANT)

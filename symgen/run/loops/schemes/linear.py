@@ -9,7 +9,7 @@ solution. With changes U of k and V of y, stage i solves
 (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section VI.4, for y' = k with F as a constraint).
 dF/dt is a difference of second order, forward in time: what happened before a step is no part of it. Multipliers have
 no change of state. The work, which no force reads, and integrals follow by Simpson's rule on both halves of a step, at
-states of Hermite's polynomial.
+states of Hermite's polynomial that one more solution brings to the balance of forces.
 """
 
 from __future__ import annotations
@@ -109,7 +109,7 @@ def attempt(
     for i in range(first):
         if not math.isfinite(run.trial[i]):
             return DIVERGED
-    simpson = follow_integrals(system, run, t, h, part(run.room, at + 5 * n + 2, 4 * width))
+    simpson = follow_integrals(system, scheme, run, t, h, part(run.room, at, 5 * n + 2 + 4 * width))
     if not ADAPTIVE or between:
         return 0.0
     off = part(run.room, at + 5 * n + 2, width)
@@ -124,22 +124,42 @@ def attempt(
 
 
 @called
-def follow_integrals(system: ModelSystem, run: Run, t: float, h: float, room: Array) -> float:
-    """Move the work and other integrals by Simpson's rule on halves of the step; return the error of the work."""
-    sizes, width = system.sizes, system.sizes.width
+def follow_integrals(system: ModelSystem, scheme: Linear, run: Run, t: float, h: float, room: Array) -> float:
+    """Move the work and other integrals by Simpson's rule on halves of the step; return the error of the work.
+
+    Between the ends a polynomial is off by parts of the tolerance, which a stiff force turns into work that nobody
+    does. One solution with the matrix of the step brings its states to the balance of forces.
+    """
+    sizes, width, gamma = system.sizes, system.sizes.width, h * scheme.filtered
     first, n = sizes.nq + sizes.nv, sizes.unknowns
-    inner, rate, end = part(room, 0, width), part(room, width, width), part(run.room, 0, width)
-    total, coarse = part(room, 2 * width, width), part(room, 3 * width, width)
+    right, change, k = part(room, 0, n), part(room, n, n), part(room, 2 * n, n)
+    inner, rate, end = part(room, 5 * n + 2, width), part(room, 5 * n + 2 + width, width), part(run.room, 0, width)
+    total, coarse = part(room, 5 * n + 2 + 2 * width, width), part(room, 5 * n + 2 + 3 * width, width)
+    last = part(room, 3 * n, n)
     evaluate(system, run, t + h, run.trial, end)
-    run.control[abi.EVALUATIONS] += 4
+    run.control[abi.EVALUATIONS] += 7
     for i in range(first, sizes.ny):
         total[i] = coarse[i] = run.memory[n + i - first] + end[i]
+    for c in range(n - first):
+        last[first + c] = run.w[sizes.multipliers + c] if c < sizes.m else 0.0
     for quarter in range(1, 4):
         x = 0.25 * quarter
+        for i in range(n):
+            k[i] = (1.0 - x) * run.memory[i] + x * last[i]
         for i in range(sizes.ny):
             begin = run.memory[i] if i < first else run.memory[n + i - first]
             at_begin, at_end = (1.0 + 2.0 * x) * run.y[i] + x * h * begin, (3.0 - 2.0 * x) * run.trial[i]
             inner[i] = (1.0 - x) ** 2 * at_begin + x**2 * (at_end - (1.0 - x) * h * end[i])
+            slope = 6.0 * x * (1.0 - x) * (run.trial[i] - run.y[i]) / h
+            slope += (1.0 - x) * (1.0 - 3.0 * x) * begin + x * (3.0 * x - 2.0) * end[i]
+            if i < first:
+                k[i] = slope
+            elif first < i <= first + sizes.states:
+                k[n - sizes.states + i - first - 1] = slope
+        system.residual(t + x * h, inner, k, run.p, run.w, right)
+        leave_out_rest(sizes, run.w, k, right)
+        solve(scheme.filter_plan, scheme.filter_numbers, right, change)
+        add_changes(sizes, -gamma, change, inner)
         evaluate(system, run, t + x * h, inner, rate)
         for i in range(first, sizes.ny):
             total[i] += (2.0 if quarter == 2 else 4.0) * rate[i]
