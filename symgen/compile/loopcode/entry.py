@@ -19,8 +19,10 @@ from symgen.compile.native.calls import (
     FUNCTION,
     RESULT,
     SOURCE,
+    Filler,
+    Slots,
+    filler_of,
     slot_types,
-    slot_values,
     trampoline,
 )
 from symgen.compile.native.compiler import is_by_numba
@@ -47,8 +49,8 @@ class ArgumentBlock:
     """
 
     def __init__(self, function: MachineFunction, signature: types.Signature, arguments: tuple[Any, ...]) -> None:
-        self._function, self._arguments, self._kinds = function, list(arguments), signature.arguments
-        self._call, self._places = _trampoline_of(signature)
+        self._function, self._arguments = function, list(arguments)
+        self._call, self._places, self._fillers = _trampoline_of(signature)
         block: Any = np.zeros(self._places[-1], dtype=np.int64)
         self._block, self._address = block, block.ctypes.data
         self._ints: Any = memoryview(block)  # read and written faster than arrays are
@@ -76,8 +78,9 @@ class ArgumentBlock:
 
     def _fill(self, which: int) -> None:
         """Put an argument into its slots."""
-        at = self._places[which]
-        for value in slot_values(self._kinds[which], self._arguments[which]):
+        at, slots = self._places[which], Slots()
+        self._fillers[which](self._arguments[which], slots)
+        for value in slots:
             if isinstance(value, float):
                 self._floats[at] = value
             else:
@@ -163,7 +166,8 @@ def bind_arguments(function: Any, kind: types.FunctionType, *arguments: Any) -> 
 
 
 @functools.cache
-def _trampoline_of(signature: types.Signature) -> tuple[Callable[[int], Any], list[int]]:
-    """Return the trampoline of functions of a signature, and the first slots of their arguments."""
+def _trampoline_of(signature: types.Signature) -> tuple[Callable[[int], Any], list[int], list[Filler]]:
+    """Return the trampoline of functions of a signature, and the first slots and the fillers of their arguments."""
     sizes = (sum(1 for _ in slot_types(kind)) for kind in signature.arguments)
-    return trampoline(signature, object_file), list(itertools.accumulate(sizes, initial=FIRST))
+    places = list(itertools.accumulate(sizes, initial=FIRST))
+    return trampoline(signature, object_file), places, list(map(filler_of, signature.arguments))

@@ -11,7 +11,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import hashlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -28,6 +28,10 @@ _DTYPES = {types.float64: np.dtype(np.float64), types.int64: np.dtype(np.int64),
 _NUMBERS = {dtype: number for number, dtype in _DTYPES.items()}
 _buffer_of = ctypes.c_char.from_buffer
 
+Slots = list[int | float]
+#: Appends the content of the slots of an argument.
+Filler = Callable[[Any, Slots], None]
+
 
 def slot_types(kind: types.Kind) -> Iterator[str]:
     """Yield LLVM's types of the slots of an argument."""
@@ -42,7 +46,7 @@ def slot_types(kind: types.Kind) -> Iterator[str]:
         yield _SLOTS[kind]
 
 
-def slot_values(kind: types.Kind, value: Any) -> list[int | float]:
+def slot_values(kind: types.Kind, value: Any) -> Slots:
     """Return the content of the slots of an argument: integers, addresses among them, and floating-point numbers.
 
     Raises
@@ -50,32 +54,52 @@ def slot_values(kind: types.Kind, value: Any) -> list[int | float]:
     TypeError, ValueError
         If the argument has another type.
     """
-    slots = list[int | float]()
-    _append_slots(kind, value, slots)
+    slots = Slots()
+    filler_of(kind)(value, slots)
     return slots
 
 
-def _append_slots(kind: types.Kind, value: Any, slots: list[int | float]) -> None:
-    """Append the content of the slots of an argument; a run has hundreds, within records of records."""
+def filler_of(kind: types.Kind) -> Filler:
+    """Return a function that appends the content of the slots of an argument of a type to a list.
+
+    A run has hundreds of slots, within records of records: what follows from types is looked at once, not at calls.
+    """
+    if isinstance(kind, types.RecordType):
+        return _filler_of_record(kind)
+    if isinstance(kind, types.ArrayType):
+        dtype, ndim = _DTYPES[kind.dtype], kind.ndim
+
+        def fill_array(value: object, slots: Slots) -> None:
+            if not isinstance(value, np.ndarray):
+                raise TypeError(f"expected an array {kind}, got {type(value).__name__}")
+            if not value.flags.c_contiguous or value.ndim != ndim or value.dtype != dtype:
+                raise TypeError(f"expected an array {kind}, got one of {value.ndim} dimensions of {value.dtype}")
+            slots.append(address_of(value))
+            slots.extend(value.shape)
+
+        return fill_array
+    if isinstance(kind, types.FunctionType):
+        signature = kind.signature
+        return lambda value, slots: slots.append(value.address(signature))
     if kind is types.float64:
-        slots.append(float(value))
-    elif isinstance(kind, types.ArrayType):
-        if not isinstance(value, np.ndarray):
-            raise TypeError(f"expected an array {kind}, got {type(value).__name__}")
-        if not value.flags.c_contiguous or value.ndim != kind.ndim or value.dtype != _DTYPES[kind.dtype]:
-            raise TypeError(f"expected an array {kind}, got one of {value.ndim} dimensions of {value.dtype}")
-        slots.append(address_of(value))
-        slots.extend(value.shape)
-    elif isinstance(kind, types.RecordType):
-        if kind.whole and len(value) == len(kind.parts):  # sizes are tens of integers
-            slots.extend(map(int, value))
-            return
-        for part, item in zip(kind.parts, value, strict=True):
-            _append_slots(part, item, slots)
-    elif isinstance(kind, types.FunctionType):
-        slots.append(value.address(kind.signature))
-    else:
-        slots.append(int(value))
+        return lambda value, slots: slots.append(float(value))
+    return lambda value, slots: slots.append(int(value))
+
+
+def _filler_of_record(kind: types.RecordType) -> Filler:
+    """Return the function that appends the slots of a record."""
+    fillers = tuple(map(filler_of, kind.parts))
+
+    def fill_record(value: Iterable[object], slots: Slots) -> None:
+        for fill, item in zip(fillers, value, strict=True):
+            fill(item, slots)
+
+    def fill_integers(value: Sequence[int], slots: Slots) -> None:  # sizes are tens of integers
+        if len(value) != len(fillers):
+            fill_record(value, slots)
+        slots.extend(map(int, value))
+
+    return fill_integers if kind.whole else fill_record
 
 
 def address_of(array: np.ndarray[Any, Any]) -> int:
@@ -112,12 +136,15 @@ def lockless_caller(address: int, signature: types.Signature) -> Callable[..., A
     expected = signature.arguments
     kinds = [_C[slot] for kind in expected for slot in slot_types(kind)]
     returned = None if signature.result is types.void else _C[_SLOTS[signature.result]]
-    function = ctypes.CFUNCTYPE(returned, *kinds)(address)
+    function, fillers = ctypes.CFUNCTYPE(returned, *kinds)(address), tuple(map(filler_of, expected))
 
     def call_function(*arguments: object) -> Any:
         if len(arguments) != len(expected):
             raise TypeError(f"expected {len(expected)} arguments, got {len(arguments)}")
-        return function(*[x for kind, value in zip(expected, arguments, strict=True) for x in slot_values(kind, value)])
+        slots = Slots()
+        for fill, value in zip(fillers, arguments, strict=True):
+            fill(value, slots)
+        return function(*slots)
 
     return call_function
 
