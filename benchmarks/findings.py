@@ -6,7 +6,8 @@ Each table is the output of a module, whose command the page names before the ta
 measured stay as they are, and with all of them the date does. Run times are measured with ``--times`` only, on a quiet
 machine; else the page keeps its own. Tables of records (`benchmarks.records`) follow from what is stored. Sentences
 that follow from the same numbers are compared with the page, and those that it has otherwise are printed. Run times
-belong to a code (`benchmarks.code_of_times`): without ``--times``, tables whose times are of an older one are refused.
+belong to the code of the loops that ran (`benchmarks.code_of_times`): without ``--times``, tables whose times are of an
+older one are refused.
 """
 
 from __future__ import annotations
@@ -69,7 +70,7 @@ TABLES = measured_tables()
 
 def main(arguments: list[str]) -> int:
     """Measure the tables that are named, or all, and write them into their pages; 1 if a study lacks a sentence."""
-    timed, code = "--times" in arguments, code_of_times()
+    timed = "--times" in arguments
     tables = measured_tables(times=timed)
     with_times = measured_tables(times=True)
     names, lacking = [name for name in arguments if name != "--times"], 0
@@ -78,6 +79,7 @@ def main(arguments: list[str]) -> int:
             continue
         page = ROOT / table.page
         text = page.read_text(encoding="utf-8")
+        code = code_of_times(table) if table.times else ""
         if not timed and any(is_older(t, text, code) for t in with_times if t.command == table.command):
             lacking += 1
             sys.stdout.write(f"{table.command}: {table.page} has times of older code; measure them with --times\n")

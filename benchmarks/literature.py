@@ -279,7 +279,12 @@ def classes(times: bool = False, turns: int = 9) -> PageTable:
 
     rows = tuple(((label, name), partial(list_of, cells, method, options)) for label, name, method, options in CLASSES)
     return PageTable(
-        "literature classes", PAGES + "closed-joints.md", ("class", "method", "time", "error [m, rad]"), rows, (2,)
+        "literature classes",
+        PAGES + "closed-joints.md",
+        ("class", "method", "time", "error [m, rad]"),
+        rows,
+        (2,),
+        integrators=("rk4",),
     )
 
 
@@ -298,7 +303,8 @@ def closing(times: bool = False, turns: int = 9) -> PageTable:
         for method in methods
     )
     headings = ("method", r"\|Phi\| [m]", r"\|D v - nu\| [m/s]", "energy [J]", "time")
-    return PageTable("literature closing", PAGES + "closed-joints.md", headings, rows, (4,))
+    page = PAGES + "closed-joints.md"
+    return PageTable("literature closing", page, headings, rows, (4,), integrators=tuple(CLOSING))
 
 
 def relative_time(model: Model, method: str, options: Options, turns: int, integrator: str = "rk4") -> str:

@@ -50,6 +50,8 @@ class PageTable:
         Columns of run times.
     loose : tuple of int
         Columns of errors that rounding decides.
+    integrators : tuple of str
+        Those whose times these are, and are older once their loops change.
     stored : bool
         Whether cells follow from a record: then they are equal, and nothing is measured.
     claims : callable
@@ -62,6 +64,7 @@ class PageTable:
     rows: tuple[Row, ...]
     times: tuple[int, ...] = ()
     loose: tuple[int, ...] = ()
+    integrators: tuple[str, ...] = ()
     stored: bool = False
     claims: Callable[[], Iterable[str]] = tuple
 

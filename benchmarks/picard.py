@@ -112,7 +112,7 @@ def work_table(times: bool = False) -> PageTable:
     )
     levels = ", ".join(f"{level:.0e}".replace("e-0", "e-") for level in LEVELS)
     headings = ("model", "coordinates", *(f"`{method}` {levels}" for method in METHODS))
-    return PageTable("picard work", "docs/tables/picard.md", headings, rows, (2, 3))
+    return PageTable("picard work", "docs/tables/picard.md", headings, rows, (2, 3), integrators=INTEGRATORS)
 
 
 def work(arguments: list[str]) -> None:
@@ -195,7 +195,7 @@ def hard_table(times: bool = False) -> PageTable:
 
     rows = tuple(((case,), partial(list_of, cells, case)) for case in HARD)
     headings = ("case at rtol 1e-9", "error of `dop853`", "of `picard`", "time of `dop853` over that of `picard`")
-    return PageTable("picard hard", "docs/tables/picard.md", headings, rows, (3,), (1, 2))
+    return PageTable("picard hard", "docs/tables/picard.md", headings, rows, (3,), (1, 2), INTEGRATORS)
 
 
 def hard(arguments: list[str]) -> None:

@@ -88,7 +88,9 @@ def methods(times: bool = False) -> PageTable:
     spatial = [name for name in RATIOS if symgen.load(name).mechanism.space == "spatial"]
     rows = tuple(((f"`{name}`",), partial(list_of, cells, name)) for name in spatial)
     headings = ("mechanism", *(f"`{name}`" for name in METHODS))
-    return PageTable("space methods", "benchmarks/README.md", headings, rows, tuple(range(1, len(headings))))
+    return PageTable(
+        "space methods", "benchmarks/README.md", headings, rows, tuple(range(1, len(headings))), integrators=("rk4",)
+    )
 
 
 # -- Bricard's six-bar beside other tools ------------------------------------------------------------------------------

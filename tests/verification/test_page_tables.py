@@ -6,7 +6,7 @@ import re
 import pytest
 from support.rotation import number_of_turn
 
-from benchmarks.code_of_times import code_of_times, texts
+from benchmarks.code_of_times import code_of_times, loops_of, text_of_loop, texts
 from benchmarks.findings import TABLES, measured_tables
 from benchmarks.page_tables import (
     BAND,
@@ -14,6 +14,7 @@ from benchmarks.page_tables import (
     KEPT,
     ROOT,
     ROUNDING,
+    PageTable,
     agrees,
     cells_of,
     differences,
@@ -27,6 +28,7 @@ from benchmarks.page_tables import (
     written,
 )
 from benchmarks.records import NAMES, Pair, Record, record_of, shortened
+from symgen.run.integrators import INTEGRATORS
 
 #: Tables that are measured, run times among them, and those that follow from records.
 MEASURED = [table for table in measured_tables(times=True) if not table.stored]
@@ -247,20 +249,42 @@ def test_stored_numbers_have_three_digits_and_are_finite():
 @pytest.mark.parametrize("table", TIMED, ids=lambda table: f"{table.page} {table.command}")
 def test_times_of_a_page_are_by_the_present_code_or_called_older(table):
     """A loop that changes changes the digest: its tables are measured again, or say that an older code had them."""
-    assert not is_stale(table, text_of(table), code_of_times())
+    assert not is_stale(table, text_of(table), code_of_times(table))
 
 
 def test_a_change_of_a_loop_or_of_emitted_code_is_another_code(monkeypatch):
-    own = list(texts())
+    own, table = list(texts(())), TIMED[0]
     assert any("def integrate(" in text for text in own) and any("def rhs(" in text for text in own)
     assert not any('"""' in text for text in own)
-    monkeypatch.setattr("benchmarks.code_of_times.texts", lambda: [*own[:-1], own[-1].replace("0.5", "0.25")])
-    changed = code_of_times.__wrapped__()
-    assert changed != code_of_times()
-    table = TIMED[0]
-    page = written(table, text_of(table), printed(table), "2031-01-02", code_of_times())
-    assert not is_stale(table, page, code_of_times()) and not is_older(table, page, code_of_times())
+    code = code_of_times(table)
+    monkeypatch.setattr("benchmarks.code_of_times.texts", lambda _: [*own[:-1], own[-1].replace("0.5", "0.25")])
+    changed = code_of_times(table)
+    assert changed != code
+    page = written(table, text_of(table), printed(table), "2031-01-02", code)
+    assert not is_stale(table, page, code) and not is_older(table, page, code)
     assert is_stale(table, page, changed) and is_older(table, page, changed)
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS.names)
+def test_a_loop_that_changes_makes_times_of_its_integrators_older_and_no_others(integrator, monkeypatch):
+    own = PageTable("own", TIMED[0].page, ("time",), (), times=(0,), integrators=(integrator,))
+    changed, common = set(loops_of(integrator)), {loop for name in ("rk4", "dop853") for loop in loops_of(name)}
+    tables = [own, *TIMED]
+    before = [code_of_times(table) for table in tables]
+    monkeypatch.setattr(
+        "benchmarks.code_of_times.text_of_loop", lambda loop: text_of_loop(loop) + "changed" * (loop in changed)
+    )
+    older = [code_of_times(table) != code for table, code in zip(tables, before, strict=True)]
+    by_loop = [bool(changed & {loop for name in table.integrators for loop in loops_of(name)}) for table in tables]
+    in_yardstick = integrator == "picard" or bool(changed & common)
+    assert older == [in_yardstick or runs for runs in by_loop] and older[0]
+
+
+@pytest.mark.parametrize("table", TIMED, ids=lambda table: f"{table.page} {table.command}")
+def test_a_table_with_times_names_the_integrators_that_it_runs(table):
+    first, end = place(table, text_of(table))
+    shown = set(re.findall(r"`([^`]*)`", "\n".join(text_of(table).splitlines()[first:end])))
+    assert table.integrators and shown & set(INTEGRATORS.names) <= set(table.integrators) <= set(INTEGRATORS.names)
 
 
 def test_times_of_another_code_are_not_kept_for_agreeing():
