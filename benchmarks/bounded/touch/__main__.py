@@ -16,6 +16,7 @@ from benchmarks.bounded.touch.beside import BESIDE
 from benchmarks.bounded.touch.kinds import drawn
 from benchmarks.bounded.touch.modes import Unsolved
 from benchmarks.bounded.touch.motion import Ended
+from benchmarks.bounded.touch.outlines import OUTLINES
 from benchmarks.bounded.touch.runs import RUNS, UNTIL, Reference, compared, reference
 from benchmarks.bounded.touch.scenes import KINDS
 from benchmarks.mechanisms.toml import text
@@ -30,6 +31,7 @@ def main() -> int:
     parser.add_argument("--runs", default=",".join(RUNS))
     parser.add_argument("--until", type=float, default=UNTIL)
     parser.add_argument("--beside", action="store_true", help="kinds in which impacts accumulate beside contacts")
+    parser.add_argument("--outlines", action="store_true", help="kinds of discs and polygons on outlines")
     parser.add_argument("--one", metavar="KIND/SEED", help="a single scene")
     parser.add_argument("--write", metavar="KIND/SEED", help="print the file of a scene")
     options = parser.parse_args()
@@ -38,7 +40,11 @@ def main() -> int:
         print(text(drawn(kind, int(seed)).raw), end="")
         return 0
     seeds = range(options.seed, options.seed + options.count)
-    kinds = options.kinds.split(",") if options.kinds else list(BESIDE if options.beside else KINDS)
+    kinds = (
+        options.kinds.split(",")
+        if options.kinds
+        else list(BESIDE if options.beside else OUTLINES if options.outlines else KINDS)
+    )
     jobs = [(kind, seed) for kind in kinds for seed in seeds]
     if options.one:
         kind, seed = options.one.split("/")

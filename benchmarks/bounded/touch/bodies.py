@@ -5,6 +5,7 @@ Coordinates are x, y and the angle of each body. All rows are analytic, so that 
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -68,8 +69,44 @@ class Surface:
     normal: tuple[float, float] = (0.0, 1.0)
 
 
+class Touching:
+    """A disc beside another surface, with coefficients."""
+
+    disc: Surface
+    other: Surface
+    sliding: float
+    static: float
+    restitution: float
+
+    def look(self, q: Complex) -> tuple[Complex, Complex, Complex]:
+        """Return the gap, the direction that pushes the disc, and the point that touches."""
+        raise NotImplementedError
+
+    def rows(self, q: Complex) -> tuple[Complex, Complex]:
+        """Return the rows of the rates of the gap and along it."""
+        _, normal, point = self.look(q)
+        points = (self.disc.body, point), (self.other.body, point)
+        along = np.array([normal[1], -normal[0]])
+        return row_along(q, normal, points), row_along(q, along, points)
+
+    def follow(self, q: Array, closed: bool) -> None:
+        """Keep what touches as long as the gap is closed, where the surface has several parts."""
+
+    def ends(self, q: Array) -> dict[str, float]:
+        """Return how far the part that touches reaches, both ways."""
+        return {}
+
+    def passes(self, q: Array) -> bool:
+        """Return whether it touches where a part ends, and not by a gap that closes."""
+        return False
+
+    def step(self, way: str) -> bool:
+        """Go on to the next part; return whether there is one."""
+        return False
+
+
 @dataclass(frozen=True)
-class Contact:
+class Contact(Touching):
     """A disc beside another surface.
 
     Attributes
@@ -99,13 +136,6 @@ class Contact:
         normal = sign * apart / far if far != 0.0 else np.array([0.0, 1.0]) + 0.0 * q[:1]  # centres that meet
         gap = sign * far - radius - self.other.radius
         return gap, normal, centre - radius * normal
-
-    def rows(self, q: Complex) -> tuple[Complex, Complex]:
-        """Return the rows of the rates of the gap and along it."""
-        _, normal, point = self.look(q)
-        points = (self.disc.body, point), (self.other.body, point)
-        along = np.array([normal[1], -normal[0]])
-        return row_along(q, normal, points), row_along(q, along, points)
 
 
 @dataclass(frozen=True)
@@ -155,15 +185,16 @@ class Spring:
 class Scene:
     """Bodies, joints, springs and contacts.
 
-    `near`, `slow` and `turns`: gaps that count as zero [m], rates of impacts that do not spring back, and rates of gaps
-    that open after such impacts in turn below which all come to rest [m/s].
+    `longest`, `near`, `slow` and `turns`: longest step [s], gaps that count as zero [m], rates of impacts that do not
+    spring back, and rates of gaps that open after such impacts in turn below which all come to rest [m/s].
     """
 
     masses: Array
     gravity: tuple[float, float]
     joints: list[Pin | Rail] = field(default_factory=list)
     springs: list[Spring] = field(default_factory=list)
-    contacts: list[Contact] = field(default_factory=list)
+    contacts: list[Touching] = field(default_factory=list)
+    longest: float = 4e-3
     near: float = 1e-11
     slow: float = 1e-7
     turns: float = 3e-7
@@ -188,18 +219,19 @@ class Scene:
         parts = [joint.look(q)[0] for joint in self.joints]
         return np.concatenate(parts) if parts else np.zeros(0)
 
-    def touching(self, q: Complex) -> tuple[Complex, Complex]:
-        """Return the rows of all contacts, of their gaps and along them."""
-        rows = [contact.rows(q) for contact in self.contacts]
+    def touching(self, q: Complex, which: Collection[int] | None = None) -> tuple[Complex, Complex]:
+        """Return the rows of all contacts, of their gaps and along them; 0 of others than asked for."""
+        none = 0.0 * q, 0.0 * q
+        rows = [c.rows(q) if which is None or i in which else none for i, c in enumerate(self.contacts)]
         return np.array([row for row, _ in rows]), np.array([row for _, row in rows])
 
     def gaps(self, q: Array) -> Array:
         """Return all gaps."""
         return np.array([float(np.real(contact.look(q)[0])) for contact in self.contacts])
 
-    def all_rows(self, q: Array, v: Array) -> tuple[Array, Array, Array]:
+    def all_rows(self, q: Array, v: Array, which: Collection[int] | None = None) -> tuple[Array, Array, Array]:
         """Return the rows of joints, gaps and slips, what their rates gain without accelerations, and masses."""
-        rows = np.concatenate([self.held(q + _STEP * 1j * v), *self.touching(q + _STEP * 1j * v)])
+        rows = np.concatenate([self.held(q + _STEP * 1j * v), *self.touching(q + _STEP * 1j * v, which)])
         return np.real(rows), np.imag(rows) @ v / _STEP, self.masses
 
     def closed(self, q: Array) -> Array:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,11 +34,11 @@ class Answer:
 
 
 class Problem:
-    """Rows at one state: M x = f + rows' forces, rows x = targets."""
+    """Rows at one state, of all contacts or of some: M x = f + rows' forces, rows x = targets."""
 
-    def __init__(self, scene: Scene, q: Array, v: Array) -> None:
+    def __init__(self, scene: Scene, q: Array, v: Array, which: Collection[int] | None = None) -> None:
         self.scene, self.q, self.v = scene, q, v
-        rows, self.gained, masses = scene.all_rows(q, v)
+        rows, self.gained, masses = scene.all_rows(q, v, which)
         self.joints, n = len(rows) - 2 * len(scene.contacts), len(scene.contacts)
         self.held, self.gap, self.slip = rows[: self.joints], rows[self.joints : -n], rows[-n:]
         self.masses, self.n = masses, n

@@ -27,8 +27,8 @@ from benchmarks.bounded.touch.modes import (
 
 #: Parts of a step that are looked at.
 PARTS = 6
-#: Longest step [s], most events, and energy that an impact may add, over that before.
-LONGEST, MOST, _GAIN = 4e-3, 1000, 1e-9
+#: Most events, and energy that an impact may add, over that before.
+MOST, _GAIN = 1000, 1e-9
 
 
 #: Rates after impacts below which a series is looked for [m/s], and difference of its sums by two impacts and by three.
@@ -37,6 +37,8 @@ _LAST, _SAME = 1e-5, 1e-9
 _DEEP = 1e-7
 #: Rates of gaps behind a series that are rounding [m/s].
 _STILL = 1e-8
+#: Ends of a part of a surface, and those by which one comes to the next part.
+_BACK = {"ahead": "back", "back": "ahead"}
 
 
 class Ended(Exception):
@@ -72,13 +74,14 @@ class Phase:
         Of closed contacts.
     friction : Array
         Coefficients in motion.
-    waking : set of int
-        Contacts that leave without a rate, and -1 - i for those that begin to slide: not looked at until they have.
+    waking : set of (str, int)
+        Margins of contacts that leave without a rate, begin to slide, or have come to a part of a surface: not looked
+        at until they have.
     """
 
     modes: Modes
     friction: Array
-    waking: set[int]
+    waking: set[tuple[str, int]]
 
 
 def run(scene: Scene, q: Array, v: Array, times: list[float], rtol: float = 1e-12) -> Motion:
@@ -90,6 +93,9 @@ def run(scene: Scene, q: Array, v: Array, times: list[float], rtol: float = 1e-1
         If modes are not determined, or the motion is of no use.
     """
     motion, t, loose, past = Motion(), times[0], set[int](), dict[int, list[Impact]]()
+    passed = set[tuple[str, int]]()
+    for contact in scene.contacts:
+        contact.follow(q, closed=False)
     q = scene.closed(np.array(q, float))
     closed, forced = _touching(scene, q), Modes()
     v = _struck(scene, q, np.array(v, float), closed)
@@ -101,11 +107,15 @@ def run(scene: Scene, q: Array, v: Array, times: list[float], rtol: float = 1e-1
         if pulled := _pulled(scene, problem, answer):
             closed = sorted({*closed, *pulled})
             answer = choose(scene, q, v, closed, forced, loose)
+        for i, contact in enumerate(scene.contacts):
+            contact.follow(q, i in answer.modes)
+        problem = Problem(scene, q, v)
         rates, opens = problem.slip @ v, problem.gap @ v
         loose = {i for i, mode in answer.modes.items() if mode != REST}
         left = {i for i in _touching(scene, q) if i not in answer.modes and abs(opens[i]) < STILL}
         friction = np.array([contact.sliding for contact in scene.contacts])
-        phase = Phase(answer.modes, friction, left | {-1 - i for i in loose if abs(rates[i]) <= STILL})
+        waking = {("hit", i) for i in left} | {("stick", i) for i in loose if abs(rates[i]) <= STILL} | passed
+        phase, passed = Phase(answer.modes, friction, waking), set()
         t, q, v, what, i = _until_event(scene, phase, t, q, v, pending, motion, rtol)
         if scene.gaps(q).min() < -_DEEP:
             raise Ended("a gap is penetrated")
@@ -138,6 +148,12 @@ def run(scene: Scene, q: Array, v: Array, times: list[float], rtol: float = 1e-1
                     margin = contact.static * now.normal[j] - abs(now.along[j])
                     if j == i or margin < 1e-9 * (1.0 + now.normal[j]):
                         forced[j] = DOWN if now.along[j] > 0.0 else UP
+        elif what in _BACK:
+            if scene.contacts[i].step(what):
+                passed = {(_BACK[what], i)}
+            else:
+                still = np.abs(Problem(scene, q, v).gap @ v) < STILL
+                closed = [j for j in {*closed, *_touching(scene, q)} if j != i and still[j]]
         elif what == "stick":
             loose = loose - {i}
             row = Problem(scene, q, v)
@@ -210,19 +226,21 @@ def _until_event(
     n, until = len(q), pending[-1]
 
     def answer(y: Array) -> Answer:
-        return accelerations(Problem(scene, y[:n], y[n:]), phase.modes, phase.friction)
+        return accelerations(Problem(scene, y[:n], y[n:], phase.modes), phase.modes, phase.friction)
 
     def rates(_: float, y: Array) -> Array:
         return np.concatenate([y[n:], answer(y).value])
 
     def margins(y: Array) -> dict[tuple[str, int], float]:
         """Return what is above zero as long as the mode holds."""
-        now, found = answer(y), dict[tuple[str, int], float]()
-        problem, gaps = Problem(scene, y[:n], y[n:]), scene.gaps(y[:n])
+        problem, found = Problem(scene, y[:n], y[n:], phase.modes), dict[tuple[str, int], float]()
+        now, gaps = accelerations(problem, phase.modes, phase.friction), scene.gaps(y[:n])
         for i, contact in enumerate(scene.contacts):
             if i not in phase.modes:
-                found["hit", i] = gaps[i]
+                if not contact.passes(y[:n]):
+                    found["hit", i] = gaps[i]
             else:
+                found |= {(way, i): far for way, far in contact.ends(y[:n]).items()}
                 found["lift", i] = now.normal[i]
                 if phase.modes[i] != REST:
                     found["stick", i] = float(phase.modes[i] * problem.slip[i] @ y[n:])
@@ -231,12 +249,14 @@ def _until_event(
         return found
 
     y = np.concatenate([q, v])
-    first = min(LONGEST, _short(scene, phase, y, rates(t, y)))
+    first = min(scene.longest, _short(scene, phase, y, rates(t, y)))
     if until - t <= 0.0:
         _note(motion, pending, t, lambda _: y, n)
         return t, q, v, "end", -1
-    solver = DOP853(rates, t, y, until, rtol=rtol, atol=1e-2 * rtol, max_step=LONGEST, first_step=min(first, until - t))
-    waking = {("hit", i) for i in phase.waking if i >= 0} | {("stick", -1 - i) for i in phase.waking if i < 0}
+    solver = DOP853(
+        rates, t, y, until, rtol=rtol, atol=1e-2 * rtol, max_step=scene.longest, first_step=min(first, until - t)
+    )
+    waking = set(phase.waking)
     before = margins(y)
     while solver.status == "running":
         solver.step()
@@ -246,7 +266,7 @@ def _until_event(
         times = np.linspace(solver.t_old, solver.t, PARTS + 1)
         for low, high in itertools.pairwise(times):
             after = margins(dense(high))
-            waking -= {key for key in waking if key in after and after[key] > (1e-10 if key[0] == "hit" else STILL)}
+            waking -= {key for key in waking if key in after and after[key] > (STILL if key[0] == "stick" else 1e-10)}
             met = [key for key in after if after[key] < 0.0 and key not in waking]
             if met:
                 at, key = min((_root(margins, dense, key, before, low, high), key) for key in met)
@@ -282,7 +302,7 @@ def _root(
     high: float,
 ) -> float:
     """Return the time at which a margin is zero."""
-    if before[key] <= 0.0:
+    if before.get(key, 0.0) <= 0.0:
         return low
     return float(brentq(lambda x: margins(dense(x))[key], low, high, xtol=1e-16, rtol=1e-15))
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.bounded.touch.bodies import GROUND, Array, Contact, Pin, Rail, Scene, Spring, Surface
+from benchmarks.bounded.touch.bodies import GROUND, Array, Contact, Pin, Rail, Scene, Spring, Surface, Touching
 
 Pair = tuple[float, float]
 
@@ -40,6 +40,7 @@ class Draft:
 
     random: np.random.Generator
     gravity: Pair = (0.0, -9.81)
+    longest: float = 4e-3
     names: list[str] = field(default_factory=list)
     masses: list[float] = field(default_factory=list)
     q: list[float] = field(default_factory=list)
@@ -47,7 +48,7 @@ class Draft:
     raw: dict[str, Any] = field(default_factory=lambda: {"bodies": {}, "joints": {}, "forces": {}, "contacts": {}})
     joints: list[Pin | Rail] = field(default_factory=list)
     springs: list[Spring] = field(default_factory=list)
-    contacts: list[Contact] = field(default_factory=list)
+    contacts: list[Touching] = field(default_factory=list)
 
     def one(self, low: float, high: float) -> float:
         """Return a random number, rounded so that files are short."""
@@ -125,7 +126,7 @@ class Draft:
     def drawn(self, name: str) -> Drawn:
         """Return the scene."""
         raw = {"mechanism": {"name": name, "gravity": list(self.gravity)}, **self.raw}
-        scene = Scene(np.array(self.masses), self.gravity, self.joints, self.springs, self.contacts)
+        scene = Scene(np.array(self.masses), self.gravity, self.joints, self.springs, self.contacts, self.longest)
         return Drawn(raw, scene, np.array(self.q), np.array(self.v))
 
 

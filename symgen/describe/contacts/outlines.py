@@ -27,6 +27,8 @@ class Outline(msgspec.Struct, frozen=True):
         Of a capsule the length between the centres of its ends, of a box its edges [m].
     words : str
         What else is known of an outline of a file: name, pieces, length, corners.
+    starts : tuple of int
+        Of an outline of a file, the numbers of the points at which its pieces begin.
     """
 
     points: tuple[Marker, ...]
@@ -35,3 +37,4 @@ class Outline(msgspec.Struct, frozen=True):
     about: Direction | None = None
     edges: tuple[Expr, ...] = ()
     words: str = ""
+    starts: tuple[int, ...] = ()

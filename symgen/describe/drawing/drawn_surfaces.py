@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -10,8 +11,11 @@ import numpy as np
 from symgen.describe.contacts.outlines import Outline
 from symgen.describe.drawing.drawn_in_space import surface_marks
 from symgen.describe.drawing.pen import EARTH, BodyPoint, Pen, PlacedMechanism
-from symgen.describe.drawing.scene import GROUNDED, INK, Array, Item, Line, Look, Mark
+from symgen.describe.drawing.scene import GROUNDED, INK, Array, Item, Line, Look, Mark, Side
 from symgen.describe.mechanism import Mechanism
+
+#: Half the length of a line beside which outlines are, in symbols.
+_LONG = 1e4
 
 
 def contact_items(pen: Pen) -> list[Item]:
@@ -24,8 +28,29 @@ def contact_items(pen: Pen) -> list[Item]:
             if outline not in seen or outline.normal is not None:
                 marks += _marks(pen, outline, others, max(sizes) or 3.0 * pen.unit)
             seen.add(outline)
-        items.append(Item("contact", name, "contact", tuple(marks)))
+        sides = tuple(_sides(pen, outline) for outline in outlines) if any(each.starts for each in outlines) else ()
+        items.append(Item("contact", name, "contact", tuple(marks), sides=sides))
     return items
+
+
+def _sides(pen: Pen, outline: Outline) -> tuple[Side, ...]:
+    """Return the pieces of a surface in the plane."""
+    places = _places(pen, outline)
+    body, points = places[0].body, tuple(place.at for place in places)
+    if outline.normal is not None:
+        at = pen.numbers.in_ground_frame(places[0])
+        along = _LONG * pen.unit * across(pen.numbers.direction(outline.normal))
+        line = pen.line(body, [at - along, at + along], Look())
+        return (Side(body, line.points),)
+    if not outline.starts:
+        return (Side(body, points, pen.numbers.number(outline.radius)),)
+    stretches = pairwise((*outline.starts, len(points) - 1))
+    return tuple(Side(body, points[first : last + 1], whole=False) for first, last in stretches)
+
+
+def across(normal: Array) -> Array:
+    """Return the direction of a line with a normal."""
+    return np.array([normal[1], -normal[0], 0.0])
 
 
 def outlines_of_contacts(mechanism: Mechanism) -> list[tuple[str, tuple[Outline, ...]]]:
@@ -57,7 +82,8 @@ def _marks(pen: Pen, outline: Outline, others: list[BodyPoint], reach: float) ->
         normal = pen.numbers.direction(outline.normal)
         return _line(pen, places[0], normal, others)
     if len(places) > 1:
-        return [Line(body, tuple(place.at for place in places), replace(look, width=2.4))]
+        points = tuple(place.at for place in places)
+        return [Line(body, points, replace(look, width=2.4), in_pieces=bool(outline.starts))]
     radius = pen.numbers.number(outline.radius)
     if radius == 0.0:
         return [pen.dot(places[0], 0.22, replace(look, fill=look.ink))]
@@ -70,7 +96,7 @@ def _marks(pen: Pen, outline: Outline, others: list[BodyPoint], reach: float) ->
 
 def _line(pen: Pen, on: BodyPoint, normal: Array, others: list[BodyPoint]) -> list[Mark]:
     """Return a line as a guide as long as what is over it goes."""
-    along, at = np.array([normal[1], -normal[0], 0.0]), pen.numbers.in_ground_frame(on)
+    along, at = across(normal), pen.numbers.in_ground_frame(on)
     spans = [pen.numbers.ends_of_travel(on, other, along) for other in others]
     reach = min((low for low, _ in spans), default=0.0), max((high for _, high in spans), default=0.0)
     if on.body != GROUNDED:

@@ -61,6 +61,8 @@ class Line:
         Whether the last point is joined to the first, and the area filled.
     guide : bool
         Whether it only shows where something slides: as long as a motion needs, it says nothing of a mechanism's size.
+    in_pieces : bool
+        Whether it is an outline, of which the piece in touch is lit.
     """
 
     body: int
@@ -68,6 +70,7 @@ class Line:
     look: Look
     closed: bool = False
     guide: bool = False
+    in_pieces: bool = False
 
 
 @dataclass(frozen=True)
@@ -138,6 +141,19 @@ Mark = Line | DrawnCircle | Tube | Solid | Stretch
 
 
 @dataclass(frozen=True)
+class Side:
+    """A piece of a surface of a contact: points along it, of a disc its centre and radius.
+
+    `whole` of what is lit as a whole where the contact is closed, otherwise the piece in touch is.
+    """
+
+    body: int
+    points: tuple[Point, ...]
+    radius: float = 0.0
+    whole: bool = True
+
+
+@dataclass(frozen=True)
 class Item:
     """All marks of one body, joint or force.
 
@@ -153,6 +169,8 @@ class Item:
         Of a joint: the points of its bodies that it holds together, if any.
     label : Point, optional
         Place of the name of a body, as a point of the body.
+    sides : tuple of tuples of Side
+        Of a contact with an outline, the pieces of both surfaces.
     """
 
     role: str
@@ -161,6 +179,7 @@ class Item:
     marks: tuple[Mark, ...]
     ends: tuple[tuple[int, Point], ...] = ()
     label: tuple[int, Point] | None = None
+    sides: tuple[tuple[Side, ...], ...] = ()
 
 
 @dataclass(frozen=True)

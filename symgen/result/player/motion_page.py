@@ -21,7 +21,20 @@ from symgen.base.locales import local_signs
 from symgen.compile.native.javascript_code import ADDRESSED, INDEX_TABLES
 from symgen.describe.drawing.mechanism_scene import build_scene
 from symgen.describe.drawing.paper import View
-from symgen.describe.drawing.scene import Array, Bent, DrawnCircle, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
+from symgen.describe.drawing.scene import (
+    Array,
+    Bent,
+    DrawnCircle,
+    Line,
+    Look,
+    Mark,
+    Point,
+    Scene,
+    Side,
+    Solid,
+    Stretch,
+    Tube,
+)
 from symgen.describe.drawing.traced import traced_points
 from symgen.describe.drawing.viewpoint import choose_viewpoint
 from symgen.result.player.live import Live
@@ -42,7 +55,17 @@ MOST_DATA = {False: 100_000, True: 180_000}
 #: Further characters for plots of optional quantities.
 MOST_PLOTS = {False: 400_000, True: 600_000}
 _OWN = (
-    *("palette.js", "draw.js", "plots.js", "motions.js", "pick.js", "shown.js", "time.js", "live_motion.js"),
+    *(
+        "palette.js",
+        "touch.js",
+        "draw.js",
+        "plots.js",
+        "motions.js",
+        "pick.js",
+        "shown.js",
+        "time.js",
+        "live_motion.js",
+    ),
     *("sliders.js", "pull.js", "controls.js", "player.js"),
 )
 #: Parts of the script, in their order.
@@ -246,7 +269,8 @@ def scene_data(scene: Scene, view: View) -> dict[str, Any]:
     def mark_data(m: Mark) -> list[Any]:
         look = looks.setdefault(m.look, len(looks))
         if isinstance(m, Line):
-            return ["L", look, m.body, int(m.closed), number_of_points(m.points), *([1] if m.guide else [])]
+            kind = [int(m.guide), 1] if m.in_pieces else [1] if m.guide else []
+            return ["L", look, m.body, int(m.closed), number_of_points(m.points), *kind]
         if isinstance(m, DrawnCircle):
             return ["D", look, m.body, rounded_point(m.at), float(f"{m.radius:.6g}"), int(m.mass)]
         if isinstance(m, Tube):
@@ -256,6 +280,9 @@ def scene_data(scene: Scene, view: View) -> dict[str, Any]:
         assert isinstance(m, Stretch), "all kinds of marks are known"
         return ["X", look, m.kind, m.body, rounded_point(m.at), m.other, rounded_point(m.to)]
 
+    def side_data(s: Side) -> list[Any]:
+        return [s.body, number_of_points(s.points), float(f"{s.radius:.6g}"), int(s.whole)]
+
     items = [
         {
             "role": item.role,
@@ -264,6 +291,7 @@ def scene_data(scene: Scene, view: View) -> dict[str, Any]:
             "marks": [mark_data(m) for m in item.marks],
             "ends": [[body, rounded_point(at)] for body, at in item.ends],
             **({} if item.label is None else {"label": [item.label[0], rounded_point(item.label[1])]}),
+            **({"sides": [list(map(side_data, side)) for side in item.sides]} if item.sides else {}),
         }
         for item in scene.items
     ]

@@ -25,6 +25,7 @@ from symgen.result.player.motion_page import PAGES
 from symgen.result.reading.contact_facts import contact_facts
 from symgen.result.reading.inspection_text import inspection_as_text
 from symgen.result.reading.jamming import jamming_numbers
+from symgen.result.reading.outline_facts import outline_facts
 from symgen.result.reading.page import EquationPage
 from symgen.result.reading.page_size import MOST_STRAIGHT, check_size
 from symgen.result.reading.quantity_names import input_names
@@ -234,6 +235,7 @@ def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> d
             c.name: {"unit": c.unit, "value": show(c.value), "rate": show(c.rate)} for c in equations.joint_coordinates
         },
         "operations": _operation_facts(equations),
+        "outlines": outline_facts(mechanism, values),
         "left_out": [{"what": o.what, "why": o.why} for o in equations.omissions],
     }
     facts |= _texts_by_terms(mechanism, equations)

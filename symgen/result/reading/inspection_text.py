@@ -7,6 +7,7 @@ from typing import Any
 
 from symgen.base.errors import plural
 from symgen.describe.bounds.keys import inspection_lines
+from symgen.result.reading.outline_facts import outline_lines
 
 #: A wider Jacobian is listed entry by entry only.
 WIDEST = 150
@@ -60,6 +61,9 @@ def inspection_as_text(facts: dict[str, Any]) -> str:
         for r in facts["rows"]:
             vectors = f"; {r['vectors']}" if space and r["vectors"] else ""
             lines.append(f"{r['name']}: {r['words']}{vectors}")
+    if facts["outlines"]:
+        text_section("Outlines")
+        lines += outline_lines(facts["outlines"])
     text_section("Constraints Phi = 0")
     lines += [f"{r['name']} [{r['unit']}]: {r['phi'] or 'none (nonholonomic)'}" for r in facts["rows"]]
     text_section("Jacobian D: D v = nu")

@@ -151,6 +151,8 @@ class _Writer:
                 return f"the height of the rim of {measure.centre.body} over the plane"
             case FormulaSpeed(of=Reading(source=Spin() as turned)):  # of a contact that resists turning
                 return self.noun_of_measure(turned)
+            case FormulaMeasure(of=Reading(source=OnChain(quantity="gap") as beside)):
+                return f"the gap to an outline of {beside.chain.origin.body}"
             case FormulaMeasure() | FormulaSpeed():
                 return "a formula of the file"
             case OnChain() | Lap() | PieceNumber():

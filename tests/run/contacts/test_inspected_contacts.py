@@ -8,7 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.describe.contacts.test_outlines import CAM
 from tests.run.contacts.scenes import body, floor, head, loaded, rods
+from tests.run.contacts.test_outlines import cam_follower, gap_of_cam
 
 #: A plank on two feet beside a disc, on one floor, and another disc above it.
 PLANK = head("plank", 1.5, -9.7) + body("plank", 2.0, 0.05, (0.0, 0.1)) + body("disc", 1.0, 0.005, (1.0, 0.1))
@@ -65,3 +67,28 @@ def test_a_command_says_so(tmp_path: Path) -> None:
     assert "closed at the start, alone" in rim and not rim.endswith("forces not unique")
     assert any(line.startswith("contact top:") and line.endswith("open at the start") for line in lines)
     assert any(line.startswith("friction of contact left:") and "0.5" in line for line in lines)
+
+
+def test_pieces_of_an_outline_have_one_formula(tmp_path: Path) -> None:
+    """With the five numbers of its piece the centre of a roller is as far from a cam as from the hull of two discs."""
+    model = loaded(cam_follower(CAM), tmp_path)
+    inspected = model.inspect()
+    (outline,) = inspected.facts["outlines"]
+    assert outline["row"] == "touch.normal" and outline["body"] == "cam"
+    for turn in np.linspace(0.05, 6.2, 40):
+        for far in (0.04, 0.07):
+            x, y, found = far * math.cos(turn), far * math.sin(turn), list[tuple[float, float]]()
+            for p in outline["pieces"]:
+                c, s, k = math.cos(p["angle"]), math.sin(p["angle"]), p["curvature"]
+                a, b = c * (x - p["x"]) + s * (y - p["y"]), c * (y - p["y"]) - s * (x - p["x"])
+                z = 2.0 * b + k * (a * a + b * b)
+                way = math.atan2(k * a, 1.0 + k * b) / k if k else a
+                found.append((way, z / (1.0 + math.sqrt(1.0 + k * z))))
+            ends = [p["before"] for p in outline["pieces"][1:]]
+            lengths = [end - p["before"] for end, p in zip(ends, outline["pieces"], strict=False)]
+            within = [gap for (way, gap), most in zip(found, [*lengths, lengths[0]], strict=True) if 0.0 <= way <= most]
+            expected = gap_of_cam(np.array([x]), np.array([y]))[0] - 0.008
+            assert min(abs(gap - expected) for gap in within) < 1e-12
+    text = str(inspected)
+    assert "gap = z/(1 + sqrt(1 + k*z)), z = 2*b + k*(a**2 + b**2)" in text
+    assert "touch.normal: while it is closed, the gap to an outline of cam is 0" in text

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import accumulate
 
 import msgspec
 
@@ -114,11 +115,12 @@ def _check_disc(scope: Scope, key: str, outline: BodyOutline, disc: Disc) -> Non
 def drawn_outline(outline: BodyOutline, value: Value) -> Outline:
     """Return the line along an outline with the defaults of parameters."""
     fine = outline.gear is None and not outline.source  # arcs of teeth and of drawn curves are short
-    points = [p for stretch in outline.pieces for p in (points_on(stretch, value) if fine else _start(stretch, value))]
+    parts = [points_on(stretch, value) if fine else _start(stretch, value) for stretch in outline.pieces]
+    points, starts = [p for part in parts for p in part], tuple(accumulate(map(len, parts[:-1]), initial=0))
     x, y = outline.pieces[-1].end
     points.append((value(x), value(y)))
     markers = tuple(Marker(outline.body, (Number(x), Number(y))) for x, y in points)
-    return Outline(markers, words=_words_on(outline, value))
+    return Outline(markers, words=_words_on(outline, value), starts=starts)
 
 
 def _start(stretch: OutlinePiece, value: Value) -> list[tuple[float, float]]:

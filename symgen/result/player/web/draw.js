@@ -294,8 +294,15 @@ function makeScene(canvas, scene, solid = null) {
     let items = roles ? scene.items.filter((item) => roles.includes(item.role)) : scene.items;
     if (spatial) items = items.map((item) => [depth(item), item]).sort((a, b) => a[0] - b[0]).map((pair) => pair[1]);
     for (const item of items) {
-      tint = lit && lit(item) ? palette.push : "";
-      for (const mark of item.marks) draws[mark[0]](mark);
+      const on = lit && lit(item) ? palette.push : "";
+      for (const mark of item.marks) {
+        tint = mark[0] === "L" && mark[6] ? "" : on; // of an outline the piece in touch is lit
+        draws[mark[0]](mark);
+      }
+    }
+    tint = palette.push;
+    for (const item of items) if (item.sides && lit && lit(item)) {
+      for (const { body, points } of touchedPieces(item.sides, out, 0.02 * unit)) polygon(body, points, false, { width: 3.2 });
     }
     tint = "";
     context.globalAlpha = 1;

@@ -3,9 +3,12 @@
 let data = opened(JSON.parse(document.getElementById("data").textContent));
 // Bodies that look alike share their lists of points.
 function opened(data) {
-  for (const item of data.scene.items) for (const mark of item.marks) {
-    if (mark[0] === "L") mark[4] = data.scene.lists[mark[4]];
-    else if (mark[0] === "S") mark[3] = mark[3].map((i) => data.scene.lists[i]);
+  for (const item of data.scene.items) {
+    for (const mark of item.marks) {
+      if (mark[0] === "L") mark[4] = data.scene.lists[mark[4]];
+      else if (mark[0] === "S") mark[3] = mark[3].map((i) => data.scene.lists[i]);
+    }
+    for (const piece of (item.sides || []).flat()) piece[1] = data.scene.lists[piece[1]];
   }
   return data;
 }
