@@ -27,8 +27,6 @@ class Outline(msgspec.Struct, frozen=True):
         Of a capsule the length between the centres of its ends, of a box its edges [m].
     words : str
         What else is known of an outline of a file: name, pieces, length, corners.
-    starts : tuple of int
-        Of an outline of a file, the numbers of the points at which its pieces begin.
     """
 
     points: tuple[Marker, ...]
@@ -37,4 +35,15 @@ class Outline(msgspec.Struct, frozen=True):
     about: Direction | None = None
     edges: tuple[Expr, ...] = ()
     words: str = ""
+
+
+class LineInPieces(Outline, frozen=True):
+    """The line along an outline of a file.
+
+    Parameters
+    ----------
+    starts : tuple of int
+        Numbers of the points at which its pieces begin.
+    """
+
     starts: tuple[int, ...] = ()

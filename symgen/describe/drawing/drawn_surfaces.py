@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from symgen.describe.contacts.outlines import Outline
+from symgen.describe.contacts.outlines import LineInPieces, Outline
 from symgen.describe.drawing.drawn_in_space import surface_marks
 from symgen.describe.drawing.pen import EARTH, BodyPoint, Pen, PlacedMechanism
 from symgen.describe.drawing.scene import GROUNDED, INK, Array, Item, Line, Look, Mark, Side
@@ -28,7 +28,11 @@ def contact_items(pen: Pen) -> list[Item]:
             if outline not in seen or outline.normal is not None:
                 marks += _marks(pen, outline, others, max(sizes) or 3.0 * pen.unit)
             seen.add(outline)
-        sides = tuple(_sides(pen, outline) for outline in outlines) if any(each.starts for each in outlines) else ()
+        sides = (
+            tuple(_sides(pen, outline) for outline in outlines)
+            if any(isinstance(x, LineInPieces) for x in outlines)
+            else ()
+        )
         items.append(Item("contact", name, "contact", tuple(marks), sides=sides))
     return items
 
@@ -42,7 +46,7 @@ def _sides(pen: Pen, outline: Outline) -> tuple[Side, ...]:
         along = _LONG * pen.unit * across(pen.numbers.direction(outline.normal))
         line = pen.line(body, [at - along, at + along], Look())
         return (Side(body, line.points),)
-    if not outline.starts:
+    if not isinstance(outline, LineInPieces):
         return (Side(body, points, pen.numbers.number(outline.radius)),)
     stretches = pairwise((*outline.starts, len(points) - 1))
     return tuple(Side(body, points[first : last + 1], whole=False) for first, last in stretches)
@@ -83,7 +87,7 @@ def _marks(pen: Pen, outline: Outline, others: list[BodyPoint], reach: float) ->
         return _line(pen, places[0], normal, others)
     if len(places) > 1:
         points = tuple(place.at for place in places)
-        return [Line(body, points, replace(look, width=2.4), in_pieces=bool(outline.starts))]
+        return [Line(body, points, replace(look, width=2.4), in_pieces=isinstance(outline, LineInPieces))]
     radius = pen.numbers.number(outline.radius)
     if radius == 0.0:
         return [pen.dot(places[0], 0.22, replace(look, fill=look.ink))]

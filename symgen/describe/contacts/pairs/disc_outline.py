@@ -22,7 +22,7 @@ from symgen.describe.contacts.chains import (
     runs_of,
     stretches_left,
 )
-from symgen.describe.contacts.outlines import Outline
+from symgen.describe.contacts.outlines import LineInPieces, Outline
 from symgen.describe.contacts.surfaces import (
     OUTLINE,
     Disc,
@@ -120,7 +120,7 @@ def drawn_outline(outline: BodyOutline, value: Value) -> Outline:
     x, y = outline.pieces[-1].end
     points.append((value(x), value(y)))
     markers = tuple(Marker(outline.body, (Number(x), Number(y))) for x, y in points)
-    return Outline(markers, words=_words_on(outline, value), starts=starts)
+    return LineInPieces(markers, words=_words_on(outline, value), starts=starts)
 
 
 def _start(stretch: OutlinePiece, value: Value) -> list[tuple[float, float]]:
