@@ -141,7 +141,7 @@ def _right_ones(problem: Problem, closed: list[int], rates: Array, friction: Arr
         except Unsolved:
             continue
         gap, slip = np.split(answer.rates + problem.gained[m:], [n])
-        size = 1.0 + np.abs(gap).max(initial=0.0) + np.abs(slip).max(initial=0.0)
+        size = 1.0 + np.abs(gap[closed]).max(initial=0.0) + np.abs(slip[closed]).max(initial=0.0)
         most = 1.0 + max((abs(f) for f in answer.normal.values()), default=0.0)
         right = all(gap[i] >= -_ROUNDING * size for i in closed if i not in modes)
         right &= all(f >= -_ROUNDING * most for f in answer.normal.values())

@@ -304,7 +304,7 @@ def _root(
     """Return the time at which a margin is zero."""
     if before.get(key, 0.0) <= 0.0:
         return low
-    return float(brentq(lambda x: margins(dense(x))[key], low, high, xtol=1e-16, rtol=1e-15))
+    return float(brentq(lambda x: margins(dense(x)).get(key, 1.0), low, high, xtol=1e-16, rtol=1e-15))
 
 
 def _note(

@@ -21,9 +21,11 @@ TANGENT = 1e-9
 #: Largest turn of a piece [rad]: a marker is between the normals at its ends only if these differ by less than pi.
 _LARGEST_TURN = 0.55 * math.pi
 
-#: Radius that takes the place of 0 of a point at corners and ends, over the size of an outline, and how far a run goes
-#: on beyond a hollow corner for a point, over the length of its last piece.
-_EDGE, _BEYOND = 1e-9, 1e-2
+#: Radius that takes the place of 0 at corners and ends, over the size of an outline: of a point, and of corners of
+#: other outlines. Two corners that pass each other while faces lie on each other would strike at a smaller one.
+EDGE_OF_POINT, EDGE_OF_FEET = 1e-9, 1e-7
+#: How far a run goes on beyond a hollow corner for a point, over the length of its last piece.
+_BEYOND = 1e-2
 #: Parts of a side in which what is beyond a piece is looked for, what counts as on it over the size of all, and the
 #: depth over that size if nothing is beyond.
 _PARTS, _ON, _ANY = 16, 1e-9, 10.0
@@ -237,13 +239,13 @@ def _number(a: Plane, value: Value) -> complex:
     return complex(value(a[0]), value(a[1]))
 
 
-def edged(outline: BodyOutline, value: Value) -> tuple[BodyOutline, Expr]:
+def edged(outline: BodyOutline, value: Value, part: float) -> tuple[BodyOutline, Expr]:
     """Return an outline with the edges that a point meets in place of corners, and the radius of its ends.
 
-    A distance from a corner has no direction at the corner. Fillets of a billionth of the outline's size have one.
+    A distance from a corner has no direction at the corner. Fillets of a small part of the outline's size have one.
     """
     size = max(abs(value(x)) for piece in outline.pieces for x in (*piece.start, *piece.end))
-    radius, pieces, between = Number(_EDGE * size), list(outline.pieces), dict[int, OutlinePiece]()
+    radius, pieces, between = Number(part * size), list(outline.pieces), dict[int, OutlinePiece]()
     for i in range(0 if outline.closed else 1, len(pieces)):
         if turn_between(pieces[i - 1], pieces[i], value) > TANGENT:
             pieces[i - 1], between[i], pieces[i] = filleted(pieces[i - 1], pieces[i], radius, 1.0)

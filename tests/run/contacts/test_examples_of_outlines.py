@@ -1,5 +1,6 @@
-"""Examples of outlines beside formulas: a walking hexagon, a latch, a Geneva wheel of one outline."""
+"""Examples of outlines beside formulas: a walking hexagon, a latch, a ratchet, a Geneva wheel of one outline."""
 
+import math
 from itertools import pairwise
 from pathlib import Path
 
@@ -37,3 +38,15 @@ def test_slots_of_one_outline_move_as_eight_walls() -> None:
     run, walls = load(EXAMPLES / "geneva-outline.toml").simulate(), load("geneva").simulate()
     assert run.status == walls.status == "ok" and len(run.events) == len(walls.events) > 40
     assert abs(run["wheel.theta"][-1] - walls["wheel.theta"][-1]) < 1e-9
+
+
+@pytest.mark.slow
+def test_a_ratchet_comes_to_rest_with_its_pawl_in_a_notch() -> None:
+    """The roller is 4 mm from the radial face and from the chord from a root at 40 mm to the next tip at 50 mm."""
+    run = load(EXAMPLES / "ratchet.toml").simulate()
+    root, tip, roller = 0.04, (0.025, 0.05 * math.sin(math.pi / 3.0)), 0.004
+    long = math.hypot(tip[0] - root, tip[1])
+    along = root + roller * (long - root + tip[0]) / tip[1]
+    assert run.status == "ok" and abs(run["pawl.y"][-1] - math.hypot(along, roller)) < 1e-9
+    expected = 0.5 * math.pi - math.atan2(roller, along) - 4.0 * math.pi / 3.0  # four teeth on
+    assert abs(run["wheel.theta"][-1] - expected) < 1e-9

@@ -10,6 +10,7 @@ import msgspec
 from symgen.base.vocabulary.expressions import ZERO, Expr, Number, Reading, product, sum_of_terms
 from symgen.base.vocabulary.measures import GROUND, Angle, Chain, FormulaMeasure, Lap, Marker, OnChain
 from symgen.describe.contacts.chains import (
+    EDGE_OF_POINT,
     BodyOutline,
     OutlinePiece,
     Value,
@@ -56,11 +57,18 @@ def as_one(touches: Sequence[Touch]) -> Touch:
 
 
 def touches_on_outline(
-    scope: Scope, key: str, outline: BodyOutline, disc: Disc, drawn: tuple[Outline, ...], faces: bool = False
+    scope: Scope,
+    key: str,
+    outline: BodyOutline,
+    disc: Disc,
+    drawn: tuple[Outline, ...],
+    faces: bool = False,
+    edges: float = EDGE_OF_POINT,
 ) -> list[Touch]:
     """Return gap and slip of a disc beside each run of an outline; a point meets edges in place of corners.
 
-    With `faces` the disc leaves what is convex, whose contacts are those of feet of the outline.
+    With `faces` the disc leaves what is convex, whose contacts are those of feet of the outline; `edges` are radii over
+    the outline's size.
     """
 
     def value(e: Expr) -> float:
@@ -69,7 +77,7 @@ def touches_on_outline(
     _check_disc(scope, key, outline, disc)
     edge: Expr = ZERO
     if disc.size == 0.0:
-        outline, edge = edged(outline, value)
+        outline, edge = edged(outline, value, edges)
     runs, solid = runs_of(outline, value), depths_of(outline, value)
     closed = outline.closed and not hollow_corners(outline, value)
     frame = scope.marker(f"{key}.outline", outline.body, (0.0, 0.0))

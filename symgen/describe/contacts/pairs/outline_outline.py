@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import msgspec
 
-from symgen.describe.contacts.chains import BodyOutline
+from symgen.describe.contacts.chains import EDGE_OF_FEET, BodyOutline
 from symgen.describe.contacts.feet import feet_of
 from symgen.describe.contacts.gear_pairs import touch_of_gears
 from symgen.describe.contacts.pairs.disc_outline import as_one, drawn_outline, touches_on_outline
@@ -15,8 +15,8 @@ from symgen.describe.parts.scope import Scope
 def read_two_outlines(scope: Scope, key: str, table: OutlineTable, outline: BodyOutline) -> Touch:
     """Return gap and slip of the feet of either outline beside each run of the other one.
 
-    A face that lies on a face touches it with two corners. Where a corner meets a corner, edges of a billionth of the
-    outlines' size do. An arc that meets an arc or a corner is a foot of the first outline beside the other one, and
+    A face that lies on a face touches it with two corners. Where a corner meets a corner, edges of a ten-millionth of
+    the outlines' size do. An arc that meets an arc or a corner is a foot of the first outline beside the other one, and
     feet of the other one beside faces alone.
     """
     other = outline_named(scope, key, table)
@@ -27,7 +27,7 @@ def read_two_outlines(scope: Scope, key: str, table: OutlineTable, outline: Body
     touches, feet = list[Touch](), [feet_of(scope, key, each) for each in (outline, other)]
     for standing, under, faces in ((feet[0], other, False), (feet[1], outline, True)):
         for foot in standing:
-            touches += touches_on_outline(scope, key, under, foot, drawn, faces)
+            touches += touches_on_outline(scope, key, under, foot, drawn, faces, EDGE_OF_FEET)
     changes = all(any(foot.size > 0.0 for foot in each) for each in feet)
     return msgspec.structs.replace(as_one(touches), changes_rows=changes)
 
