@@ -26,6 +26,7 @@ import numpy as np
 from benchmarks.kept_pictures import slim
 from benchmarks.page_tables import KEPT, ROOT, PageTable, list_of, print_tables
 from benchmarks.records import Line, Pair, Record
+from symgen.base.errors import plural
 from symgen.derive.methods import METHODS
 from symgen.run.planning.automatic import AUTO
 from symgen.study.stress.cell_outcome import GOOD, OUTCOMES, REFUSED, UNJUDGED
@@ -81,7 +82,8 @@ def examine(job: Job, methods: Sequence[str] = ()) -> dict[str, Any]:
         cells.setdefault(f"{row.method} {row.integrator}", Counter())[row.outcome] += 1
     false = Counter(f"{row.method} {row.integrator}" for row in study.false_successes)
     causes = Counter(cause_of_failure(row) for row in study.false_successes if row.method != AUTO)
-    return {"cells": cells, "false": false, "causes": causes}
+    verified = Counter(f"{row.method} {row.integrator}" for row in study.rows if row.verified_falsely)
+    return {"cells": cells, "false": false, "causes": causes, "verified": verified}
 
 
 def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
@@ -171,6 +173,17 @@ def claims() -> Iterator[str]:
     named, false = outcomes(watched, lambda method, _: method != AUTO).total(), false_of(lines, auto=False)
     share = 100.0 * false / max(named, 1)
     yield f"Of {named} cells of named methods {false} ({share:.2g} percent) are false successes."
+    left = dict[str, list[Line]]()
+    for line in lines:
+        if "verified" in line:
+            left.setdefault(line["model"], []).append(line)
+    parts = [
+        f"{sum(sum(line['verified'].values()) for line in own)} of {false_of(own, auto=False)} on `{model}` "
+        f"({plural(len(own), 'family', 'families')})"
+        for model, own in left.items()
+    ]
+    if parts:
+        yield f"With `--verify` are left: {', '.join(parts)}."
 
 
 def causes() -> PageTable:

@@ -12,9 +12,12 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from symgen.base.ir.numerics import WARN
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.part_limits import doubt_on_outputs
+from symgen.result.points import AGREEMENT, Points
 from symgen.result.result import FAILED, INTERRUPTED, OK, UNVERIFIED
 from symgen.run.layout import abi
 
@@ -39,6 +42,8 @@ LASTING_ERROR, OVER_TOLERANCE = 1e-6, 1e4
 #: A run of adaptive steps with at most so many operations is checked by a second one by default; about 0.2 to 1 s of
 #: explicit steps.
 MOST_OPERATIONS = 2_000_000_000
+#: Places of a motion at which its range is looked for; |Phi| over the length up to which no motion is too small for it.
+_PLACES, _OPEN = 16, 1e-12
 #: Operations that an evaluation takes beside its formulas; and those of looped code for each number of its scratch.
 _CALL, _EACH = 100, 6
 #: Why a run whose velocities are scaled to its energy is not ok.
@@ -112,6 +117,8 @@ def _judge_motion(run: Prepared, outcome: Outcome, second: Verification | None =
     unbalanced = verdict if verdict.status == FAILED else judge_balance(verdict, outcome.imbalance, run.compiled.law)
     if unbalanced is not verdict:
         return unbalanced
+    if verdict.status != FAILED and (loose := _doubt_on_violation(run, outcome)) is not None:
+        return replace(verdict, status=UNVERIFIED, reason=loose)
     if second is None or verdict.status == FAILED:
         return verdict
     if second.doubt is not None:
@@ -225,6 +232,20 @@ def _energy_warning(run: Prepared, outcome: Outcome, second: Verification | None
 def _drift_in_words(outcome: Ended, error: float) -> str:
     share = error / outcome.energy_scale
     return f"the energy leaves its balance by {error:.3g} J, {share:.2g} of the energy in motion"
+
+
+def _doubt_on_violation(run: Prepared, outcome: Outcome) -> str | None:
+    """Say where constraints are open by more than a small motion forgives: finer steps leave joints that give."""
+    violation, plan = outcome.position_violation_max, run.plan
+    if not violation > _OPEN * float(outcome.w[abi.LENGTH]) or outcome.code != abi.DONE:
+        return None
+    points = Points.of_mechanism(plan.mechanism, parameter_values(plan.mechanism, plan.parameters))
+    q = outcome.states[:, : outcome.compiled.info.nq]
+    q = q[np.linspace(0, len(q) - 1, min(len(q), _PLACES)).astype(int)]
+    scale = points.scale_of_errors(q)
+    if violation <= AGREEMENT * scale:
+        return None
+    return f"constraints are open by {violation:.2g} m, in a motion of {scale:.2g} m"
 
 
 def _sentence_on_jump(outcome: Ended) -> str:

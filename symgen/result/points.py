@@ -201,6 +201,8 @@ def rotation_matrices(orientation: Array) -> Array:
 #: Two motions agree when no point of a body is farther from its counterpart than this share of the mechanism's size:
 #: of the longest body's own length, or of the extent of the motion where all bodies are point masses.
 AGREEMENT = 1e-4
+#: Motions below this share of the size count as one of it: no run is asked to be exact beyond `AGREEMENT` of that.
+LEAST_MOTION = 1e-6
 
 
 @dataclass(frozen=True)
@@ -215,11 +217,14 @@ class Agreement:
         Up to which they agree [m].
     rounding : float
         Of a point at the mechanism's size [m].
+    small : float
+        Range of a motion that is small against the mechanism and that the limit is a share of [m], else 0.
     """
 
     distances: Array
     limit: float
     rounding: float = 0.0
+    small: float = 0.0
 
     @property
     def apart(self) -> float:
@@ -238,7 +243,7 @@ class Agreement:
         return int(away[0]) if len(away) else None
 
 
-def compare_motions(points: Points, a: Array, b: Array) -> Agreement:
+def compare_motions(points: Points, a: Array, b: Array, by_motion: bool = False) -> Agreement:
     """Compare two motions.
 
     Parameters
@@ -247,10 +252,15 @@ def compare_motions(points: Points, a: Array, b: Array) -> Agreement:
         Points between which distances are measured.
     a, b : Array, shape (k, nq)
         Coordinates at the same times.
+    by_motion : bool
+        Whether they agree to a share of the range of `a` where that is small: a mechanism that stands still would
+        agree with every motion far smaller than itself.
     """
     with np.errstate(all="ignore"):
         size = points.size(a)
-        return Agreement(points.distances_over_time(a, b), AGREEMENT * size, float(np.finfo(np.float64).eps) * size)
+        scale = points.scale_of_errors(a) if by_motion else size
+        limit, rounding = AGREEMENT * max(scale, LEAST_MOTION * size), float(np.finfo(np.float64).eps) * size
+        return Agreement(points.distances_over_time(a, b), limit, rounding, scale if scale < size else 0.0)
 
 
 @dataclass(frozen=True)

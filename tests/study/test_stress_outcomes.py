@@ -144,10 +144,10 @@ def row(method, outcome, error, case="1", **changes):
 
 ROWS = (
     row("lagrange", "ok", 1e-6),
-    row("lagrange", "inaccurate", 2e-3, "2"),
+    row("lagrange", "inaccurate", 2e-3, "2", verified="unverified"),
     row("penalty", "diverged", None, "2", status="failed"),
     row("penalty", "too slow", None, "3", status="not run"),
-    row("penalty", "inaccurate", 0.5, "4", position_violation_max=1e-7),
+    row("penalty", "inaccurate", 0.5, "4", position_violation_max=1e-7, verified="ok"),
     row("auto", "ok", 1e-6, integrator="auto", step=None),
     row("auto", "refused", None, "2", integrator="auto", step=None, status="not run"),
 )
@@ -169,8 +169,8 @@ def test_findings_say_what_the_rows_say():
     )
     assert "auto reports success with an error above 0.001 of the length in no cell of 2." in found
     assert (
-        "Methods chosen by name report success with an error above 0.001 of the length in 2 of 5 cells: 1 because"
-        in found
+        "Methods chosen by name report success with an error above 0.001 of the length in 2 of 5 cells, in 1 of these "
+        "with --verify too: 1 because" in found
     )
     study = replace(STUDY, rows=(*ROWS, row("auto", "inaccurate", 0.02, "3", integrator="auto", step=None)))
     assert "auto reports success with an error above 0.001 of the length in 1 cell of 3." in " ".join(

@@ -59,6 +59,14 @@ def test_sentences_count_what_the_tables_do(four_bar):
     assert list(methods().claims()) == ["Of these 21 cells 3 are false successes: `lagrange` with `rk4` 3."]
 
 
+def test_what_verify_leaves_is_said_where_it_is_known(four_bar, tmp_path):
+    path = tmp_path / "stress_cells.jsonl"
+    lines = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+    known = [line | {"verified": {"penalty rk4": k}} for k, line in enumerate(lines[:3])] + lines[3:]
+    path.write_text("\n".join(map(json.dumps, known)), encoding="utf-8")
+    assert list(models().claims())[2:] == ["With `--verify` are left: 3 of 3 on `four-bar` (3 families)."]
+
+
 def test_the_picture_has_a_column_for_each_model(four_bar, tmp_path):
     stress_cells.picture(tmp_path / "shares.svg")
     assert "<svg" in (tmp_path / "shares.svg").read_text(encoding="utf-8")

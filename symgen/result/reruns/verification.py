@@ -36,7 +36,7 @@ LEAST_PART, FEWEST = 1e-9, 1001
 
 
 def rerun_with_finer_steps(
-    run: Prepared, outcome: Outcome, points: Points, tolerance: float
+    run: Prepared, outcome: Outcome, points: Points, tolerance: float, by_motion: bool = False
 ) -> tuple[Prepared, Outcome, Agreement | None]:
     """Run again from the same start with finer steps, and compare positions at all outputs.
 
@@ -48,6 +48,8 @@ def rerun_with_finer_steps(
         Points between which distances are measured.
     tolerance : float
         Tolerances of an adaptive run are multiplied by it; a constant step is halved.
+    by_motion : bool
+        As for `symgen.result.points.compare_motions`.
 
     Returns
     -------
@@ -71,7 +73,7 @@ def rerun_with_finer_steps(
     if second.code != abi.DONE:
         return finer, second, None
     a, b = _outputs_to_compare(outcome, second)
-    return finer, second, compare_motions(points, run.positions(outcome)[a], run.positions(second)[b])
+    return finer, second, compare_motions(points, run.positions(outcome)[a], run.positions(second)[b], by_motion)
 
 
 def verify_first_part(run: Prepared, outcome: Outcome) -> Verification:
@@ -118,7 +120,8 @@ def _difference_of_runs(name: str, agreed: Agreement, times: NDArray[np.float64]
     """Return by how much two runs differ, and up to when they agree."""
     first = agreed.parts or 0
     upto = f"; they agree up to t = {times[first - 1]:.6g} s" if first > 1 else ""
-    return f"{name} differs by {agreed.apart:.2g} m{upto}"
+    motion = f" in a motion of {agreed.small:.2g} m" if agreed.small else ""
+    return f"{name} differs by {agreed.apart:.2g} m{motion}{upto}"
 
 
 def _lasting_energy_error(first: Outcome, second: Outcome) -> float:
@@ -176,7 +179,7 @@ def verify_run(run: Prepared, outcome: Outcome, free: bool = False) -> tuple[Pre
         if error is not None and run.spec.rtol * share < SMALLEST_RTOL:
             doubt = f"two runs still differ by {error:.2g} m at {_steps_in_words(run)}"
             return run, outcome, Verification(doubt, None, error, total)
-        finer, second, agreed = rerun_with_finer_steps(run, outcome, points, share)
+        finer, second, agreed = rerun_with_finer_steps(run, outcome, points, share, by_motion=not free)
         total += second.evaluations
         name = f"a run with {_steps_in_words(finer)}"
         if second.interrupted:

@@ -19,9 +19,9 @@ from symgen.derive.lower.looped.looped_law import is_loopable
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
 from symgen.result.contract import json_value
-from symgen.result.judge import judge
+from symgen.result.judge import is_long, judge, reason_without_check
 from symgen.result.points import Points
-from symgen.result.reruns.verification import verify_run
+from symgen.result.reruns.verification import verify_first_part, verify_run
 from symgen.result.result import INTERRUPTED
 from symgen.run.compiling.choices import choose_coordinates
 from symgen.run.compiling.method_choice import choice_for_coordinates
@@ -47,6 +47,9 @@ from symgen.study.stress.cell_references import (
 )
 from symgen.study.stress.searches import HALVINGS, QUICK_HALVINGS, largest_steps
 from symgen.study.unlimited_runs import UNWATCHED, WATCHES, without_limits
+
+#: Evaluations of a run that verifies another one, over the budget of that, at most.
+VERIFIED = 20
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]
@@ -113,7 +116,7 @@ def compute_cell(task: CellReference | RunTask) -> Fields:
 def _outcome_not_run(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") -> Fields:
     names = ("error", "relative_error", "position_violation_max", "velocity_violation_max", "energy_drift_max")
     numbers = dict.fromkeys(names)
-    words = {"outcome": outcome, "status": "not run", "reason": reason, "chosen": chosen, "note": ""}
+    words = {"outcome": outcome, "status": "not run", "reason": reason, "chosen": chosen, "note": "", "verified": ""}
     return {**words, **numbers, "evaluations": evaluations}
 
 
@@ -162,7 +165,7 @@ def _run_cell(task: RunTask, searched: bool = False) -> Fields:
         raise KeyboardInterrupt
     if outcome.evaluations > budget or outcome.code == abi.STOPPED:
         return _outcome_not_run(judged.TOO_SLOW, f"more than {budget:.3g} evaluations", budget, chosen)
-    verdict = judge(run, run.of_bodies(outcome), verification)
+    first, verdict, verified = run, judge(run, run.of_bodies(outcome), verification), ""
     assert verdict.reason != INTERRUPTED, "an interrupted run has raised"
     compared, note = _compare_with_reference(level, plan.parameters, run.of_bodies(outcome), motion), ""
     kind = classify_outcome(compared)
@@ -181,6 +184,15 @@ def _run_cell(task: RunTask, searched: bool = False) -> Fields:
         kind = classify_outcome(compared)
         if kind == judged.GOOD:
             kind, note = judged.INACCURATE, f"{note}; off its constraints, not off the motion"
+    if level.watched and method != AUTO and judged.false_success(verdict.status, kind):
+        # as a user has it: by default where a run is verified by default, and where that is asked for
+        again = first.with_spec(max_evaluations=VERIFIED * budget)
+        checked = judge(first, first.of_bodies(outcome), verify_run(again, outcome)[2])
+        verified = checked.status
+        if reason_without_check(first, outcome) is None:
+            verdict = checked
+        elif is_long(first, outcome):
+            verdict = judge(first, first.of_bodies(outcome), verify_first_part(again, outcome))
     largest = largest_error(compared.errors)
     return {
         "outcome": kind,
@@ -194,6 +206,7 @@ def _run_cell(task: RunTask, searched: bool = False) -> Fields:
         "energy_drift_max": outcome.energy_drift_max,
         "chosen": chosen,
         "note": note,
+        "verified": verified,
     }
 
 

@@ -231,7 +231,8 @@ def _finding_on_trust(study: Stress) -> Iterator[str]:
     if not watched:
         return
     causes = "; ".join(f"{count} because {why}" for why, count in Counter(map(cause_of_failure, others)).most_common())
-    cells = f"in {len(others)} of {len(watched)} cells" + (f": {causes}" if others else "")
+    left = f", in {sum(row.verified_falsely for row in others)} of these with --verify too: {causes}"
+    cells = f"in {len(others)} of {len(watched)} cells" + (left if others else "")
     yield f"Methods chosen by name report success with an error above {ACCURATE:g} of the length {cells}."
 
 

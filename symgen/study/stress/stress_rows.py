@@ -58,6 +58,8 @@ class StressRow:
         Choice of ``auto``, and the end of a run that ended early.
     watched : bool
         Whether the run watched itself; its status counts only then.
+    verified : str
+        Status with ``--verify`` of a run that alone is ok and not accurate; empty for others.
     """
 
     model: str
@@ -81,11 +83,17 @@ class StressRow:
     chosen: str
     note: str
     watched: bool
+    verified: str = ""
 
     @property
     def false_success(self) -> bool:
         """Whether the run reports ok although it is not accurate."""
         return self.watched and false_success(self.status, self.outcome)
+
+    @property
+    def verified_falsely(self) -> bool:
+        """Whether it does so with ``--verify`` too."""
+        return self.watched and false_success(self.verified, self.outcome)
 
 
 @dataclass(frozen=True)
