@@ -86,7 +86,7 @@ def prepare_for_directions(mechanism: Mechanism, settings: Settings) -> tuple[Pr
         raise InputError("sensitivities: integrator", f"an explicit scheme ({', '.join(works)})", got, hint)
     run = _add_derivative_code(ready).run()
     watched = run.spec.events
-    refuse_law_without_directions(watched)
+    refuse_law_without_directions(watched, name)
     if any(x.jumps for x in discontinuities_of(run.plan.mechanism)) or (watched and watched.rows is not None):
         expected, got = "a run without jumps of formulas", "formulas that jump where the state passes zero"
         hint = "write kinks by max, min or abs, and jumps as an event, which resets a state of the file"

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -138,8 +139,10 @@ def multipliers_of_bodies(bodies: Subject, y: Array, known: Mapping[str, float])
 
 def _changed(modes: RowModes, row: str, subject: Subject) -> RowModes:
     """Return modes of which one has changed."""
-    if any(each.row.row == row for each in subject.stuck):
-        return RowModes(modes.shut, modes.loose | {row})
+    stuck = [each.row for each in subject.stuck]
+    if row in {each.row for each in stuck}:
+        pairs = ({one.row, other.row} for one, other in pairwise(stuck) if other.second)
+        return RowModes(modes.shut, modes.loose | next((pair for pair in pairs if row in pair), {row}))
     return RowModes(modes.shut ^ {row}, modes.loose)
 
 

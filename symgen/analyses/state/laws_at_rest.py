@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from symgen.compile.loopcode.exact import plain_form
 from symgen.run.laws.motions import find_forces
-from symgen.run.laws.problem import BALL, COMPONENTS, PUSH, begin_row, new_laws
+from symgen.run.laws.problem import BALL, COMPONENTS, PUSH, SECOND, begin_row, new_laws
 from symgen.run.laws.sharing import share_forces
 from symgen.run.laws.verify import size_of_terms
 
@@ -43,6 +43,8 @@ class Holding(msgspec.Struct, frozen=True):
         Cosines of the axes of `pressed` with directions across the joint; none where its forces are the components.
     pushes : bool
         Whether its force only pushes.
+    second : bool
+        Whether it is the second one of two rows along a contact.
     """
 
     row: str
@@ -51,6 +53,7 @@ class Holding(msgspec.Struct, frozen=True):
     pressed: tuple[str, ...] = ()
     across: tuple[tuple[float, ...], ...] = ()
     pushes: bool = False
+    second: bool = False
 
 
 class Begun(msgspec.Struct, frozen=True):
@@ -71,7 +74,10 @@ class Begun(msgspec.Struct, frozen=True):
 def contacts_holding(subject: Subject) -> tuple[Holding, ...]:
     """Return the one-sided rows in force and the rows along them."""
     pushing = (Holding(row.row, pushes=True) for row in subject.shut)
-    along = (Holding(each.row.row, each.coefficient, pressed=each.row.pressed) for each in subject.stuck)
+    along = (
+        Holding(each.row.row, each.coefficient, pressed=each.row.pressed, second=each.row.second)
+        for each in subject.stuck
+    )
     return (*pushing, *along)
 
 
@@ -129,8 +135,10 @@ def forces_at_rest(subject: Subject, y: Array, holding: Sequence[Holding]) -> Be
     laws.matrix[:], laws.offset[:] = (rows @ mobile @ rows.T).ravel(), rows @ free + gained[own]
     for i, each in enumerate(holding):
         plain_form(begin_row)(k, i, laws)
-        laws.law[i] = PUSH if each.pushes else BALL
+        laws.law[i] = PUSH if each.pushes else SECOND if each.second else BALL
         laws.middle[i] = each.middle
+        if each.second:
+            continue
         pressing = [names.index(name) for name in each.pressed]
         if not pressing:
             laws.beta[i] = each.bound

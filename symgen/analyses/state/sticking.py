@@ -17,7 +17,7 @@ from symgen.base.vocabulary.expressions import Number
 from symgen.base.vocabulary.measures import FormulaMeasure, Holonomic, Measure
 from symgen.derive.lower.windings import counted_turns
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.bounds.bounded_modes import unit_of_effort
+from symgen.describe.bounds.bounded_modes import measure_derivative, unit_of_effort
 from symgen.describe.joints.rows import tied_bodies
 from symgen.describe.mechanism import Joint
 from symgen.run.compiling.side import compile_side
@@ -110,19 +110,30 @@ def rows_that_stick(
         return ()
     formulas = [(row.label, row.place[1]) for row in rows]
     formulas += [(f"coefficient of {row.name}", row.numbers[0][1]) for row in rows]
-    side = compile_side(mechanism, compiled, "slips", "Slips, their bounds and rates", formulas, rates=1)
+    formulas += [(f"rate of {row.label}", measure_derivative(row)) for row in rows]
+    side = compile_side(mechanism, compiled, "slips", "Slips, their bounds and rates", formulas)
     w, found = start.w, list[Stuck]()
-    values, rates = side(start.t, start.y, start.p, w.copy(), np.zeros_like(start.y)).reshape(2, -1)
+    values = side(start.t, start.y, start.p, w.copy(), np.zeros_like(start.y))
+    places, coefficients, rates = np.asarray(values).reshape(3, -1)
     still = STILL * max(float(w[abi.SPEED]), LEAST_SPEED * (float(w[abi.LENGTH]) or 1.0))
-    for i, row in enumerate(rows):
-        coefficient = float(values[len(rows) + i])
+    rates = sizes_of_pairs(rates, rows)
+    for row, place, coefficient, rate in zip(rows, places.tolist(), coefficients.tolist(), rates.tolist(), strict=True):
         if coefficient > 0.0:
-            if moving and abs(rates[i]) > still:
+            if moving and abs(rate) > still:
                 moves = "turns" if row.unit == "rad" else "slides"
-                got = f"{row.name}, which {moves} at {rates[i]:.6g} {row.unit}/s"
+                got = f"{row.name}, which {moves} at {rate:.6g} {row.unit}/s"
                 raise InputError("analyses at a state", "closed contacts at rest", got, "a run has its motion")
-            found.append(Stuck(row, float(values[i]), coefficient))
+            found.append(Stuck(row, place, coefficient))
     return tuple(found)
+
+
+def sizes_of_pairs(numbers: Array, rows: Sequence[BoundedRow]) -> Array:
+    """Return numbers of rows, where two rows of a contact follow each other the length of both."""
+    sizes = np.asarray(numbers, dtype=float).copy()
+    for i, row in enumerate(rows):
+        if row.second:
+            sizes[i - 1 : i + 1] = np.hypot(*sizes[i - 1 : i + 1])
+    return sizes
 
 
 def with_turns(mechanism: Mechanism, rows: Sequence[BoundedRow]) -> Mechanism:
@@ -136,7 +147,9 @@ def with_rows_along(mechanism: Mechanism, stuck: Sequence[Stuck]) -> Mechanism:
     joints = {joint.name: joint for joint in mechanism.joints}
     for each in stuck:
         held = each.row.held
-        row = Holonomic(held.label, FormulaMeasure(each.row.place[1]), Number(each.place), each.row.unit)
+        row = held
+        if isinstance(held, Holonomic):
+            row = Holonomic(held.label, FormulaMeasure(each.row.place[1]), Number(each.place), each.row.unit)
         name, rows = each.row.owner, (*joints[each.row.owner].rows, row)
         turned = counted_turns([each.row.measure for each in stuck if each.row.owner == name])
         joints[name] = Joint(name, "rows", tied_bodies(*rows), rows, _as_coordinates(turned))
@@ -164,6 +177,7 @@ def fault_along(subject: Subject, y: Array, lam: Array) -> Fault | None:
     pressed = [max(-float(lam[places[each.row.pressed[0]]]), 0.0) for each in subject.stuck]
     bounds = np.array([each.coefficient * force for each, force in zip(subject.stuck, pressed, strict=True)])
     forces = _shared(np.asarray(lam)[at], bounds, subject.rows(subject.evaluate(y))[at])
+    forces = sizes_of_pairs(forces, [each.row for each in subject.stuck])
     over = np.abs(forces) - bounds * (1.0 + _ROUNDING) - _ROUNDING * np.abs(lam).max()
     worst = int(np.argmax(over))
     if not over[worst] > 0.0:

@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.run.layout.compiled import CompiledModel
 from symgen.analyses.state.yardsticks import Yardsticks
-from symgen.describe.bounds.contact_rows_in_space import refuse_rows_in_pairs
 
 Array = NDArray[np.float64]
 
@@ -316,7 +315,6 @@ def make_subject(
     InputError
         If a setting is wrong, or a name of `by` is no parameter.
     """
-    refuse_rows_in_pairs("analysis", mechanism)
     settings = _without_bounded_state(mechanism, settings)
     mechanism, settings = _in_modes_at_start(mechanism, settings)
     along, pushing = [row for row in mechanism.bounded if row.signed], one_sided_rows(mechanism)

@@ -33,7 +33,7 @@ from symgen.describe.bounds.contact_rows import Tangent
 from symgen.describe.mechanism import Mechanism, ModeEvent, Output
 
 #: What is said where friction in space is not taken.
-WITHOUT, HINT = "a mechanism without friction of contacts in space", "runs and sweeps have it"
+WITHOUT, HINT = "a mechanism without friction of contacts in space", "runs, sweeps, equilibria and modes have it"
 #: The direction of slip is renewed where slip has turned by more than the angle with this cotangent.
 TURNED = 0.3
 #: Slip has a direction above this many times the velocity ``constant``.
@@ -86,6 +86,11 @@ class TangentInSpace(Tangent, frozen=True, kw_only=True):
     def contact(self) -> str:
         """The label of its gap."""
         return f"{self.name}.{self.part}" if self.part else self.name
+
+    @property
+    def owner(self) -> str:
+        """The label of its gap, which has rows along it in analyses."""
+        return self.contact
 
     @property
     def label(self) -> str:

@@ -334,7 +334,7 @@ def _check_names(prepared: Prepared, loop: Simulation) -> None:
         raise InputError(WHERE, expected, f"'{name}'")
     if compiled.shape != "straight":
         raise InputError(WHERE, "code of the shape 'straight'", f"shape '{compiled.shape}'")
-    refuse_law_without_directions(watched)
+    refuse_law_without_directions(watched, "")
     jumps = any(x.jumps for x in discontinuities_of(prepared.mechanism))
     if jumps or (watched is not None and watched.rows is not None):
         hint = "write kinks by max, min or abs, and jumps as an event, which resets a state of the file"

@@ -23,7 +23,7 @@ from symgen.compile.native.read_values import Foreign
 from symgen.compile.native.straightening import has_early_end, straight_correction
 from symgen.compile.store.emitted import AdjointFunction, EmittedFunction
 from symgen.run.directions.directed_model import DirectedModel, Seeds, form_for_derivatives, lanes_for_directions
-from symgen.run.directions.kept_stages import KeptRun, reason_against_adjoint
+from symgen.run.directions.kept_stages import KeptRun, reason_against_adjoint, renewed_modes
 from symgen.run.directions.moments import Moments
 from symgen.run.directions.passages import RunPassage
 from symgen.run.directions.series_directions import ImpactsAhead
@@ -65,11 +65,17 @@ def check_covered(compiled: CompiledModel, integrator: Integrator, spec: RunSpec
         raise reason_against_adjoint("symgen's own compiler, which derives functions", "SYMGEN_COMPILER=numba")
     if not isinstance(law.rhs, EmittedFunction):
         raise reason_against_adjoint("compiled functions", "NUMBA_DISABLE_JIT, where plain Python runs")
-    _check_functions(form_for_derivatives(law, "rhs"), law.accept, compiled.law.method, compiled.info.windings)
+    _check_functions(
+        form_for_derivatives(law, "rhs"),
+        law.accept,
+        compiled.law.method,
+        compiled.info.windings,
+        renewed_modes(spec, compiled),
+    )
 
 
 @functools.lru_cache(maxsize=256)
-def _check_functions(rhs: EmittedFunction, accept: EmittedFunction, law: str, windings: int) -> None:
+def _check_functions(rhs: EmittedFunction, accept: EmittedFunction, law: str, windings: int, renewed: range) -> None:
     """Refuse functions without an adjoint, and those that keep numbers from step to step; compile the adjoints.
 
     Parameters
@@ -80,6 +86,9 @@ def _check_functions(rhs: EmittedFunction, accept: EmittedFunction, law: str, wi
         Its method.
     windings : int
         Number of angles that count turns.
+    renewed : range
+        Places of numbers of modes that are kept: on what they were before, a run depends no more than on the velocity
+        that leads slip out of rest.
     """
     from symgen.run.loops.schemes.adjoint import CORRECTION, RATES
 
@@ -88,6 +97,7 @@ def _check_functions(rhs: EmittedFunction, accept: EmittedFunction, law: str, wi
     _compile(_adjoint_function(rhs, _count_iterations(rhs)), RATES, f"accelerations of {method}")
     angles = {("w", abi.WINDING + i) for i in range(windings)}
     passing = {place for place in own.stored | other.stored if place[0] == "w"} - (angles - own.stored)
+    passing -= {("w", place) for place in renewed}
     read = own.read
     if _has_correction(accept):
         _compile(_adjoint_function(accept, 0), CORRECTION, f"corrections of {method}")
@@ -239,7 +249,7 @@ class WayBack:
 
         run, own = self.run, self._corrections
         back = back_through if own is None else back_through_corrected
-        numbers = run.sizes.width, self._angles
+        numbers = run.sizes.width, self._angles, len(run.renewed), run.renewed.start
         back(self._rates, own or 0, run.scheme, self._table, *numbers, records, *self._now, self._bars, self._room)
 
     def undo_correction(self) -> None:

@@ -65,6 +65,12 @@ def begin_estimates(simulation: Simulation, own: int) -> None:
         memory[OWN], memory[LANES] = own, scheme.lanes
 
 
+def errors_so_far(simulation: Simulation) -> Array:
+    """Return the errors of the directions of a run in its memory; empty for constant steps, which have none."""
+    scheme = simulation.integrator
+    return _memory_of_errors(simulation, scheme.lanes) if isinstance(scheme, Estimating) else np.zeros(0)
+
+
 def _memory_of_errors(simulation: Simulation, lanes: int) -> Array:
     """Return the memory of the errors of a run."""
     from symgen.run.loops.schemes.directed import HEAD, NUMBERS, PARTS

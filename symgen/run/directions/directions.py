@@ -17,7 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.run.directions.directed_model import DirectedModel, Seeds, lanes_for_directions
-from symgen.run.directions.direction_errors import StepErrors, begin_estimates, step_errors, with_error_estimates
+from symgen.run.directions.direction_errors import (
+    StepErrors,
+    begin_estimates,
+    errors_so_far,
+    step_errors,
+    with_error_estimates,
+)
 from symgen.run.directions.moments import Moments
 from symgen.run.directions.passages import PassingSimulation, RunPassage
 from symgen.run.directions.reset_directions import events_at_start
@@ -132,14 +138,32 @@ class DirectedSimulation(PassingSimulation):
         columns = np.hstack([seeds, np.zeros((len(seeds), 1))])
         self.transfer = Transfer(Moments(model.plain, columns), spec)
         self.modes = list[tuple[float, Array]]()
+        self._errors, self._begins = np.zeros(0), False
+
+    @property
+    def plain(self) -> CompiledModel:
+        """The model without directions."""
+        return self.directed.plain
 
     @property
     def place(self) -> slice:
         """Place of the numbers of modes in the scratch array."""
         return self.transfer.moments.place_of_modes()
 
+    def _shorten_step(self) -> None:
+        super()._shorten_step()
+        if self._slips is None or not self.spec.adaptive:
+            return
+        began, self._begins = self._begins, self._slips.begins(self._slips.moments.plain(self._present_moment()))
+        if len(self._errors) and (began or self._begins):
+            errors_so_far(self)[:] = self._errors  # what steps leave across slip decays as soon as it moves
+        elif self.span.largest < self._longest or not len(self._errors):
+            self._errors = errors_so_far(self).copy()
+
     def note_passed(self, passage: RunPassage) -> None:
         """Take the directions through a passage."""
+        if self._slips is not None and len(self._errors) and self._slips.ended(passage.before, passage.after):
+            errors_so_far(self)[:] = self._errors  # what the last step has left across slip goes
         model, state = self.directed, self.state
         y, w = (model.directions_after(x, name) for x, name in ((passage.before.y, "y"), (passage.before.w, "w")))
         place = self.place

@@ -35,6 +35,15 @@ def reason_against_adjoint(expected: str, got: str, hint: str = "") -> Uncovered
     return Uncovered("adjoint", expected, got, hint or "forward directions take it")
 
 
+def renewed_modes(spec: RunSpec, compiled: CompiledModel) -> range:
+    """Return the places of the numbers of modes in the scratch, if steps renew any: directions of slip in space."""
+    rows = None if spec.events is None else spec.events.bounded
+    if rows is None or not rows.paired:
+        return range(0)
+    first, size = compiled.info.sections["modes"]
+    return range(first, first + size)
+
+
 @dataclass(frozen=True)
 class Recorder:
     """An explicit scheme that keeps its stages.
@@ -79,6 +88,8 @@ class KeptRun(PassingSimulation):
     course : list of (Array or Passage)
         Records of `symgen.run.loops.schemes.adjoint`, each part of them after a record of where it begins, and the
         passages between them.
+    renewed : range
+        Places of numbers of modes that are kept with each step.
     corrected : int
         Number of passages before the state at the start was corrected.
     bytes_kept : int
@@ -88,12 +99,18 @@ class KeptRun(PassingSimulation):
     def __init__(
         self, compiled: CompiledModel, integrator: Integrator, start: Start, spec: RunSpec, pages: list[Array]
     ) -> None:
-        from symgen.run.loops.schemes.adjoint import HEAD, TURNING, record_size
+        from symgen.run.loops.schemes.adjoint import HEAD, PLACE, RENEWED, TURNING, record_size
 
         super().__init__(compiled, Recorder(integrator), start, spec)
-        self._head, angles = self.setup.memory - HEAD, compiled.info.windings
-        self.size = record_size(self.sizes.width, int(self.scheme.stages), angles)
-        self.state.memory[self._head + TURNING] = angles
+        self._head, angles, self.renewed = (
+            self.setup.memory - HEAD,
+            compiled.info.windings,
+            renewed_modes(spec, compiled),
+        )
+        count = len(self.renewed)
+        self.size = record_size(self.sizes.width, int(self.scheme.stages), angles + count)
+        self.state.memory[self._head + TURNING], self.state.memory[self._head + RENEWED] = angles, count
+        self.state.memory[self._head + PLACE] = self.renewed.start
         self._capacity = _PIECE // self.size
         self.first, self.corrected, self.bytes_kept = np.zeros(0), 0, 0
         self.course = list[Array | RunPassage]()
@@ -165,8 +182,9 @@ class KeptRun(PassingSimulation):
 
         record, angles = np.zeros(self.size), self.compiled.info.windings
         record[TIME], record[CORRECTIONS] = self.state.clock[abi.TIME], corrections
-        record[state_at(angles) :][: self.sizes.width] = self.state.y
+        record[state_at(angles + len(self.renewed)) :][: self.sizes.width] = self.state.y
         record[ANGLES : ANGLES + angles] = self.state.w[abi.WINDING : abi.WINDING + angles]
+        record[ANGLES + angles :][: len(self.renewed)] = self.state.w[self.renewed.start : self.renewed.stop]
         return record
 
     def _has_changed(self) -> bool:

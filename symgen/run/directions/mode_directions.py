@@ -106,7 +106,10 @@ class ModeDirections:
         rests = (held & ~was) | ((new[:, CONSTANT] != 0.0) & (new[:, SIGN] == 0.0) & (old[:, CONSTANT] == 0.0))
         if passage.effects:  # a rate that an impact leaves at zero is that of a row at rest, which may slide from there
             scale = np.array([1.0 / after.w[abi.LENGTH] if info.rows[i].unit == "rad" else 1.0 for i in info.bounded])
-            rests |= (new[:, SIGN] != 0.0) & (np.abs(values[k : 2 * k]) <= STILL * after.w[abi.SPEED] * scale)
+            speeds = np.abs(values[k : 2 * k])
+            for i in rows.seconds:
+                speeds[i - 1 : i + 1] = np.hypot(*speeds[i - 1 : i + 1])
+            rests |= (new[:, SIGN] != 0.0) & (speeds <= STILL * after.w[abi.SPEED] * scale)
         self._check_rest(passage, rows.names, rests, directions, after, by, free)
         return slopes.reshape(kept.shape)
 

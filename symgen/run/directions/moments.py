@@ -100,15 +100,24 @@ class Moments:
         first, size = self.compiled.info.sections["modes"]
         return slice(first, first + size)
 
+    def plain(self, now: Moment) -> Moment:
+        """Return a state without the directions after its arrays."""
+        sizes = self.model.sizes
+        return Moment(now.t, now.y[: sizes["y"]], now.p[: sizes["p"]], now.w[: sizes["w"]])
+
     def rates(self, now: Moment) -> Array:
         """Return the rates of a state without directions."""
+        return self.rates_and_scratch(now)[0]
+
+    def rates_and_scratch(self, now: Moment) -> tuple[Array, Array]:
+        """Return the rates of a state without directions, and the scratch with what they were computed from."""
         ydot, w = np.zeros(self.model.sizes["y"]), now.w[: self.model.sizes["w"]].copy()
         y, p, iw = now.y[: len(ydot)].copy(), now.p[: self.model.sizes["p"]], self._counters()
         accept, rates, confirm = self._plain
         accept(now.t, y, p, w, iw)
         if rates(now.t, y, p, w, iw, ydot) != 0:
             confirm(now.t, y, p, w, iw, ydot)
-        return ydot
+        return ydot, w
 
     @staticmethod
     def _counters() -> NDArray[np.int64]:

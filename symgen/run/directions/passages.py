@@ -8,18 +8,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.run.directions.moments import Moment
+from symgen.run.directions.moments import Moment, Moments
+from symgen.run.directions.slips_in_space import SlipsInSpace
 from symgen.run.effects.pushing import KeptTies
 from symgen.run.layout import abi
 from symgen.run.single.simulation import Simulation
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.layout.records import Outputs
     from symgen.run.loops.integrator import Integrator
     from symgen.run.loops.run_spec import RunSpec
     from symgen.run.single.events import Happening
@@ -82,6 +85,36 @@ class PassingSimulation(Simulation):
     def __init__(self, compiled: CompiledModel, integrator: Integrator, start: Start, spec: RunSpec) -> None:
         super().__init__(compiled, integrator, start, spec)
         self._p = self.state.p.copy()
+        self._longest = self.span.largest
+
+    @property
+    def plain(self) -> CompiledModel:
+        """The model without directions."""
+        return self.compiled
+
+    @cached_property
+    def _slips(self) -> SlipsInSpace | None:
+        """Contacts whose slip has a direction; None without any."""
+        watched = self.spec.events
+        if watched is None or watched.bounded is None or not watched.bounded.paired:
+            return None
+        return SlipsInSpace(Moments(self.plain, np.zeros((len(self.start.p), 1))), watched)
+
+    def enter(
+        self, outputs: Outputs, until: float | None = None, pause: float = np.inf, most: float | None = None
+    ) -> int:
+        """Continue; where slip has a direction, each step is as short as directions need it before slip ends."""
+        while True:
+            here = self.state.control[abi.STEPS]
+            code = super().enter(outputs, until, pause if self._slips is None else min(pause, here + 1), most)
+            if code != abi.PAUSED or self.state.control[abi.STEPS] >= pause:
+                return code
+
+    def _shorten_step(self) -> None:
+        """Let the next step be as short as directions of slip need it."""
+        if self._slips is not None and self.spec.adaptive:
+            longest = self._slips.longest_step(self._slips.moments.plain(self._present_moment()))
+            self.span = self.span._replace(largest=min(self._longest, longest))
 
     @property
     def has_modes(self) -> bool:
@@ -115,11 +148,13 @@ class PassingSimulation(Simulation):
 
     def _begin_modes(self) -> None:
         if not self.has_modes or self.state.control[abi.BEGUN] == 1:
+            self._shorten_step()
             return
         before = self._present_moment()._replace(p=self._p)
         starts = bool(self.state.control[abi.BEGUN] == 0 and self.state.control[abi.STEPS] == 0)
         super()._begin_modes()
         self._pass_event((), before, self._struck(), starts)
+        self._shorten_step()
 
     def _meet(self, events: Sequence[tuple[int, Happening]]) -> int:
         before, acting = self._present_moment(), self._rows_that_act(events)

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.compile.loopcode.exact import compiled_form
+from symgen.compile.loopcode.loop_instances import exact_instance
 from symgen.describe.bounds.bounded_modes import HIT
-from symgen.describe.bounds.contact_rows_in_space import WITHOUT
 from symgen.run.directions.moments import Moment
 from symgen.run.directions.reset_directions import ResetDirections
 from symgen.run.effects.applying import EffectWork
@@ -30,6 +30,7 @@ from symgen.run.layout.scales import fill_jacobian
 from symgen.run.layout.start_records import Instant
 from symgen.run.loops.run_spec import Watched
 from symgen.run.modes.pin_impulses import push_with_kicks
+from symgen.run.modes.turn_meanings import IN_PAIRS
 
 Array = NDArray[np.float64]
 
@@ -39,8 +40,8 @@ def rows_of_velocities(watched: Watched) -> list[int]:
     rows, owners = watched.bounded, watched.effects.changes.owners
     assert rows is not None, "a run with contacts"
     hits = {hit: i for i, hit in enumerate(watched.events_of_rows(HIT, len(rows.names))) if hit >= 0}
-    repeated = [k > 0 and owners[k - 1] == owners[k] for k in range(len(owners))]
-    return [rows.partners[hits[e]] if again else -1 for e, again in zip(owners.tolist(), repeated, strict=True)]
+    places = [k - owners.tolist().index(e) for k, e in enumerate(owners.tolist())]
+    return [rows.partners[hits[e]] + at - 1 if at else -1 for e, at in zip(owners.tolist(), places, strict=True)]
 
 
 def tied_impact(watched: Watched, kept: KeptTies, now: Moment) -> Ties:
@@ -85,6 +86,7 @@ def push_state(
     changed: tuple[Array, Array],
     work: EffectWork,
     tied: tuple[Ties, list[int]],
+    paired: bool,
 ) -> Impact:
     """Change a state and its scratch by an impact of contacts, and return it; working memory keeps its problem."""
     y, w = changed
@@ -92,22 +94,36 @@ def push_state(
     count, chosen, formulas = len(ties.held), effects.chosen(numbers), effects.model[2]
     compiled_form(formulas)(now.t, y, now.p.copy(), w.copy(), np.zeros(len(y)), work.out)
     ties.values[:] = targets_of(ties, along, work.out[:count], work.out[count : 2 * count])
-    push = push_with_kicks if np.any(ties.kicks != 0.0) else push_contacts
+    push = push_with_kicks if np.any(ties.kicks != 0.0) else push_in_pairs if paired else push_contacts
     compiled_form(push)(effects.model, now.t, Instant(y, now.p.copy(), w), chosen, work, ties)
     return effects.impact(numbers, y[effects.compiled.info.nq : effects.compiled.info.work], work.impulse.impulses, 0.0)
 
 
-def refuse_law_without_directions(watched: Watched | None) -> None:
-    """Refuse derivatives of a run whose impacts, or whose friction, obey a law that has none.
+#: Schemes whose steps are as short as the direction of slip in space needs them.
+IN_SPACE = ("dop853", "dopri5")
+#: The same where slip of contacts has two rows.
+push_in_pairs = exact_instance(push_contacts, IN_PAIRS)
+
+
+def refuse_law_without_directions(watched: Watched | None, scheme: str) -> None:
+    """Refuse derivatives of a run whose impacts obey a law that has none, or whose steps are too long for friction.
+
+    Parameters
+    ----------
+    watched : Watched or None
+        Switching functions of the run.
+    scheme : str
+        Its integrator; empty for steps from Python.
 
     Raises
     ------
     InputError
-        If one-sided rows have Poisson's law, or contacts in space friction.
+        If one-sided rows have Poisson's law, or contacts in space friction and steps cannot be as short as it needs.
     """
     rows = None if watched is None else watched.bounded
-    if rows is not None and rows.paired:
-        raise InputError("derivatives", WITHOUT, "one with it")
+    if rows is not None and rows.paired and scheme not in IN_SPACE:
+        expected, got = f"{' or '.join(IN_SPACE)} beside friction of contacts in space", f"'{scheme}'"
+        raise InputError("derivatives: integrator", expected, got if scheme else "steps from Python")
     if rows is not None and rows.one_sided and rows.poisson:
         raise InputError("derivatives", 'restitution_law = "newton"', '"poisson", whose impacts have none')
 
@@ -139,6 +155,7 @@ class PushDirections(ResetDirections):
         """Return the directions of velocities after an impact, of its energy, and of impulses at events."""
         info, ties, impulse, n = self.info, self.ties, self.work.impulse, self.info.nv
         rates = self._evaluate_reset(self.effects.formulas, len(self.work.out), self.y)[: len(ties.held)]
+        speeds = self._values[: len(ties.held)].copy()
         values = targets_of(ties, rows_of_velocities(self.watched), rates, values)
         values += self.parts * self._values[np.maximum(ties.leads, 0), np.newaxis]
         held = [k for k in struck if ties.held[k] > 0]
@@ -156,8 +173,9 @@ class PushDirections(ResetDirections):
         right = np.concatenate([nu, values[held] - rest[held], np.zeros((len(pins.stick), self.model.lanes))])
         columns, turned = c.copy(), slopes.copy()
         ratios = self._slopes_of_ratios()
-        for k in slides:
-            at = info.m + held.index(k - 1)
+        seconds = [k for k in slides if k - 1 in slides and self.changes.owners[k - 1] == self.changes.owners[k]]
+        gap_of = {k: info.m + held.index(k - (2 if k in seconds else 1)) for k in slides}
+        for k, at in gap_of.items():
             columns[at] += ties.ratio[k] * push[k]
             turned[at] += ties.ratio[k] * own[k] + push[k][:, np.newaxis] * ratios[k]
         pushed = pins.push_along(columns)
@@ -175,11 +193,27 @@ class PushDirections(ResetDirections):
         rows = c * unit
         lengths = np.linalg.norm(rows, axis=1)
         scale = np.divide(1.0, lengths, out=np.zeros(len(c)), where=lengths > 1e-11 * lengths.max())
-        k, scaled = len(c), unit[:, np.newaxis] * mass * unit
-        system = np.zeros((n + k, n + k))
-        system[:n, :n], system[:n, n:] = scaled, -(columns * unit * scale[:, np.newaxis]).T
-        system[n:, :n] = rows * scale[:, np.newaxis]
-        both = np.concatenate([unit[:, np.newaxis] * loads, right * scale[:, np.newaxis]])
+        k, scaled, pairs = len(c), unit[:, np.newaxis] * mass * unit, len(seconds)
+        system = np.zeros((n + k + pairs, n + k + pairs))
+        system[:n, :n], system[:n, n : n + k] = scaled, -(columns * unit * scale[:, np.newaxis]).T
+        system[n : n + k, :n] = rows * scale[:, np.newaxis]
+        both = np.concatenate(
+            [unit[:, np.newaxis] * loads, right * scale[:, np.newaxis], np.zeros((pairs, loads.shape[1]))]
+        )
+        slips = speeds + push @ change
+        for turn, b in enumerate(seconds, n + k):
+            # the direction e of slip after it turns by an angle: its velocity has no part across e
+            (one, other), a = ties.ways[[b - 1, b]], b - 1
+            across, size = one * push[b] - other * push[a], one * slips[a] + other * slips[b]
+            by_across = one * (own[b].T @ after + rest[b]) - other * (own[a].T @ after + rest[a])
+            length = float(np.linalg.norm(across * unit)) or 1.0
+            coefficient = (ties.ratio[a] * one + ties.ratio[b] * other) * impulses[gap_of[b]]
+            system[:n, turn] = -coefficient * across * unit
+            system[turn, :n], system[turn, turn], both[turn] = (
+                across * unit / length,
+                -size / length,
+                -by_across / length,
+            )
         solution = np.linalg.lstsq(system, both, rcond=1e-12)[0]
         velocities = unit[:, np.newaxis] * solution[:n]
         energy = 0.5 * (

@@ -10,6 +10,7 @@ the rates times dt.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,6 +24,7 @@ from symgen.run.directions.moments import Directions, Moment, Moments
 from symgen.run.directions.push_directions import PushDirections, push_state, rows_of_velocities, tied_impact
 from symgen.run.directions.reset_directions import ResetDirections
 from symgen.run.directions.series_directions import ImpactDirections, SeriesDirections
+from symgen.run.directions.slips_in_space import SlipsInSpace
 from symgen.run.loops.table_points import ROUNDING_OF_SWITCH
 
 if TYPE_CHECKING:
@@ -78,6 +80,13 @@ class Transfer:
     def watched(self) -> Watched | None:
         """Switching functions of the run."""
         return self.spec.events
+
+    @cached_property
+    def _slips(self) -> SlipsInSpace | None:
+        """Contacts whose slip has a direction; None without any."""
+        watched = self.watched
+        paired = watched is not None and watched.bounded is not None and watched.bounded.paired
+        return SlipsInSpace(self.moments, watched) if watched is not None and paired else None
 
     @property
     def _modes(self) -> ModeDirections:
@@ -161,10 +170,15 @@ class Transfer:
         before, after = (self._plain(x) for x in (passage.before, passage.after))
         free = Free(self.moments, before, Directions(*(self._with(x) for x in (y, np.zeros(y.shape[1]), modes))))
         later = np.zeros(y.shape[1])
-        if passage.numbers:
+        turned = self._slips is not None and self._slips.going_on(before, after).issuperset(passage.numbers)
+        if passage.numbers and not turned:
             later = self._later(passage, before, y, modes, rate, free)
             y = y + np.outer(rate, later)
-        self._compare(passage, later, free)
+            if self._slips is not None:
+                here = Directions(self._with(y), self._with(later), self._with(modes))
+                y = self._slips.bring_to_rest(before, after, here)[:, :-1]
+        if not (passage.numbers and turned):
+            self._compare(passage, later, free)
         known, here = len(self.doubts), Directions(self._with(y), self._with(later), self._with(modes))
         changed = self._through_effects(passage, here, None)
         found = self._modes.directions_of_modes(passage, before, after, changed, free)
@@ -181,8 +195,7 @@ class Transfer:
 
     def _plain(self, x: Moment) -> Moment:
         """Return a state without the directions after its arrays."""
-        sizes = self.moments.model.sizes
-        return Moment(x.t, x.y[: sizes["y"]], x.p[: sizes["p"]], x.w[: sizes["w"]])
+        return self.moments.plain(x)
 
     @staticmethod
     def _with(columns: Array, last: Array | None = None) -> Array:
@@ -196,10 +209,16 @@ class Transfer:
         """Return the directions of the time of events, shape (k,)."""
         watched, numbers = self.watched, list(passage.numbers)
         assert watched is not None, "the run has events"
+        if self._slips is not None:
+            on = self._slips.going_on(now, self._plain(passage.after))
+            numbers = [number for number in numbers if number not in on]
         count = len(watched.names) + len(watched.switches)
         times = np.append(np.zeros(y.shape[1]), 1.0)
         by = Directions(self._with(y, rate), times, self._with(modes))
         values, slopes = self.moments.observe(watched.function, 3 * count, now, by)
+        if self._slips is not None:
+            for number, (i, way) in self._slips.turned(now.w).items():
+                slopes[number] = self._slips.along(i, way, now, by)
         own, speeds = slopes[numbers, :-1], slopes[numbers, -1]
         rounding = ROUNDING_OF_SWITCH * values[2 * count :][numbers]
         resolved = np.abs(speeds) * _CROSSES * max(1.0, abs(now.t)) + rounding / _GRAZES
@@ -278,7 +297,7 @@ class Transfer:
             ties = tied_impact(watched, kept, now)
             tied = ties, rows_of_velocities(watched)
             parts = np.pad(self._slopes_of_parts(struck, now, by, rests), ((0, 0), (0, lanes)))
-            impact = push_state(effects, numbers, now, (state, scratch), work, tied)
+            impact = push_state(effects, numbers, now, (state, scratch), work, tied, self._slips is not None)
         chosen, columns = effects.chosen(numbers), list[Array]()
         for first, own, p, w in self.moments.chunks_of_states(now, by):
             given = effects, self.moments.model, chosen, now.t, own, p, w, work, impact, self._losses

@@ -27,10 +27,10 @@ from symgen.run.loops.schemes.explicit import prepare as begin_scheme
 from symgen.run.loops.schemes.explicit import renew as set_first_stage
 
 #: Positions in the head of the memory: number of records, rounds of corrections before a step, steps that are kept,
-#: number of angles that count turns; then its length.
-RECORDS, ROUNDS, KEPT_STEPS, TURNING, HEAD = 0, 1, 2, 3, 8
-#: Positions in a record: time [s], step [s], rounds of corrections, angles that count turns; the state begins at a
-#: multiple of so many numbers, the length of vectors.
+#: number of angles that count turns, number and place of the numbers of modes that steps renew; then its length.
+RECORDS, ROUNDS, KEPT_STEPS, TURNING, RENEWED, PLACE, HEAD = 0, 1, 2, 3, 4, 5, 8
+#: Positions in a record: time [s], step [s], rounds of corrections, angles that count turns and after them renewed
+#: numbers of modes; the state begins at a multiple of so many numbers, the length of vectors.
 TIME, STEP, CORRECTIONS, ANGLES, _ALIGNED = 0, 1, 2, 3, 8
 #: Adjoint of ``rhs``: adjoints of y, p, w and ydot follow its arguments.
 Rates = Callable[[float, Array, Array, Array, Integers, Array, Array, Array, Array, Array], int]
@@ -80,26 +80,29 @@ def transpose_tableau(scheme: TableauRecord) -> Transposed:
     return Transposed(np.array(start, dtype=np.int64), np.array(column, dtype=np.int64), np.array(value))
 
 
-def state_at(angles: int) -> int:
-    """Return the place of the state in a record with some angles that count turns."""
-    return _ALIGNED * ((ANGLES + angles + _ALIGNED - 1) // _ALIGNED)
+def state_at(numbers: int) -> int:
+    """Return the place of the state in a record with some numbers of the scratch."""
+    return _ALIGNED * ((ANGLES + numbers + _ALIGNED - 1) // _ALIGNED)
 
 
-def record_size(width: int, stages: int, angles: int) -> int:
-    """Return the length of the record of a step with some angles that count turns."""
-    return state_at(angles) + (1 + stages) * width
+def record_size(width: int, stages: int, numbers: int) -> int:
+    """Return the length of the record of a step with some numbers of the scratch."""
+    return state_at(numbers) + (1 + stages) * width
 
 
 def keep_forward(system: ModelSystem, scheme: TableauRecord, run: Run, t: float, memory: int, stages: Array) -> None:
     """Keep an accepted step."""
     width, count, angles = system.sizes.width, int(run.memory[memory + RECORDS]), int(run.memory[memory + TURNING])
-    head = state_at(angles)
+    renewed, place = int(run.memory[memory + RENEWED]), int(run.memory[memory + PLACE])
+    head = state_at(angles + renewed)
     size = head + (1 + scheme.stages) * width
     record = part(run.memory, memory + HEAD + count * size, size)
     record[TIME], record[STEP] = t, run.clock[abi.STEP]
     record[CORRECTIONS] = run.iw[abi.ITERATIONS] - run.memory[memory + ROUNDS]
     for i in range(angles):
         record[ANGLES + i] = run.w[abi.WINDING + i]
+    for i in range(renewed):
+        record[ANGLES + angles + i] = run.w[place + i]
     copied(width, run.y, part(record, head, width))
     copied(scheme.stages * width, stages, part(record, head + width, scheme.stages * width))
     run.memory[memory + RECORDS] = count + 1.0
@@ -211,6 +214,8 @@ def carry_adjoint_back(
     table: Transposed,
     width: int,
     angles: int,
+    renewed: int,
+    place: int,
     records: Array,
     p: Array,
     w: Array,
@@ -232,6 +237,8 @@ def carry_adjoint_back(
         Its coefficients by columns.
     width, angles : int
         Numbers of elements of a state, and of angles that count turns.
+    renewed, place : int
+        Number and place of numbers of modes that steps renew.
     records : Array
         The start and the steps.
     p, w, iw : Array
@@ -252,7 +259,7 @@ def carry_adjoint_back(
         bare(room),
     )
     stages, start, column, value = scheme.stages, scheme.start, scheme.column, scheme.value
-    head = state_at(angles)
+    head = state_at(angles + renewed)
     size = head + (1 + stages) * width
     y_bar, p_bar = part(bars, 0, width), part(bars, width, p.shape[0])
     w_bar = part(bars, width + p.shape[0], w.shape[0])
@@ -267,6 +274,8 @@ def carry_adjoint_back(
         w[abi.STEP_STATUS] = h
         for i in range(angles):
             w[abi.WINDING + i] = records[(k - 1) * size + ANGLES + i]
+        for i in range(renewed):
+            w[place + i] = records[(k - 1) * size + ANGLES + angles + i]
         follow(width, h, start[stages], start[stages + 1], column, value, ks, before, trial)
         undo(
             corrections,
