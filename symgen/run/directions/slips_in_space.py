@@ -64,7 +64,7 @@ class SlipsInSpace:
         return any(float(np.hypot(*speeds[i : i + 2])) < _LED * numbers[i, LIMIT] for i in led)
 
     def longest_step(self, now: Moment) -> float:
-        """Return the longest step from a state: the rate at which slip turns is that of friction over its velocity."""
+        """Return the longest step from a state, by the rate at which slip turns: friction over the velocity of slip."""
         ways = self.ways(now.w)
         if not ways:
             return math.inf
