@@ -298,6 +298,17 @@ friction = 0.2
 rolling = 0.01
 torsion = 0.005
 """,
+    "contact whose surface moves": thrown(
+        cart(more=_WALL).replace("[-1.0, 0.0] }", '[-1.0, 0.0], surface_speed = "0.2*cos(3*t)" }')
+    ),
+    "contact in space whose surface moves": _HEAD
+    + """[contacts.ball]
+between = [
+    { body = "head", sphere = 0.1 },
+    { plane = "ground", on = [-0.01, 0.0, 0.0], normal = [1.0, 0.0, 0.2], surface_velocity = [0.0, "0.1*k*t", 0.0] },
+]
+friction = 0.2
+""",
     "contact of gears": cart(more=_TEETH),
     "clearance": lowered(0.001, cart(pin=_PLAY)),
     "clearance of a slide": lowered(0.002, cart())

@@ -196,6 +196,11 @@ class BoundedRow(Protocol):
         ...
 
     @property
+    def surface(self) -> Expr:
+        """How fast a surface that is driven moves along it, where its rate is that of slip on the surface [m/s]."""
+        ...
+
+    @property
     def changing(self) -> bool:
         """Whether its bounds depend on more than parameters."""
         ...

@@ -18,6 +18,7 @@ from symgen.analyses.prescribed.prescribed import driver_names
 from symgen.base import arguments
 from symgen.base.digits import clean
 from symgen.base.errors import InputError, plural
+from symgen.describe.bounds.checks import refuse_driven_surfaces
 from symgen.describe.bounds.contact_rows_in_space import refuse_rows_in_pairs
 from symgen.describe.bounds.smooth import sliding_rows_as_forces
 from symgen.describe.formulas.evaluate import parameter_values
@@ -195,6 +196,7 @@ def inverse_dynamics(
     """Return the efforts that a motion needs; see `symgen.api.Model.inverse`, which has these arguments and errors."""
     refuse_holding("inverse dynamics", mechanism)
     refuse_rows_in_pairs("inverse dynamics", mechanism)
+    refuse_driven_surfaces("inverse dynamics", mechanism)
     contacts = Contacts.of_mechanism(mechanism)
     mechanism = sliding_rows_as_forces(WHERE, mechanism, contacts.apart)
     names = arguments.words(WHERE, actuators)

@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.run.layout.compiled import CompiledModel
 from symgen.analyses.state.yardsticks import Yardsticks
+from symgen.describe.bounds.checks import refuse_driven_surfaces
 
 Array = NDArray[np.float64]
 
@@ -315,6 +316,7 @@ def make_subject(
     InputError
         If a setting is wrong, or a name of `by` is no parameter.
     """
+    refuse_driven_surfaces("analysis", mechanism)
     settings = _without_bounded_state(mechanism, settings)
     mechanism, settings = _in_modes_at_start(mechanism, settings)
     along, pushing = [row for row in mechanism.bounded if row.signed], one_sided_rows(mechanism)

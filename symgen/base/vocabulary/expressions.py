@@ -100,6 +100,8 @@ FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
 ON_SHEAVE = re.compile(r"\.(?:on[1-9][0-9]*|passed)$")
 #: Functions with a kink where their argument is 0, or their two arguments are equal.
 BENT = ("abs", "min", "max", "both", "either")
+#: Functions that may jump.
+JUMPING = ("lt", "le", "gt", "ge", "sign")
 
 
 def names_in_expression(expression: Expr) -> Iterator[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from symgen.base.errors import InputError
-from symgen.base.vocabulary.expressions import Number
+from symgen.base.vocabulary.expressions import ZERO, Number
 from symgen.base.vocabulary.measures import Holonomic, Measure, Sum
 from symgen.describe.bounds.bounded_modes import one_sided_rows, two_sided_rows
 from symgen.describe.mechanism import Mechanism
@@ -43,6 +43,19 @@ def check_bounds(mechanism: Mechanism, source: str) -> None:
             other = gaps[row.measure, row.held.value]
             raise InputError(f"{source}: {row.where}", "one contact of two shapes", f"the shapes of '{other}'")
         gaps[row.measure, row.held.value] = row.name
+
+
+def refuse_driven_surfaces(where: str, mechanism: Mechanism) -> None:
+    """Refuse surfaces that are driven, where runs alone have their motion.
+
+    Raises
+    ------
+    InputError
+        With their contacts.
+    """
+    if names := dict.fromkeys(row.name for row in mechanism.bounded if row.surface != ZERO):
+        expected = "a mechanism without surfaces that move by themselves"
+        raise InputError(where, expected, f"surface_speed of {', '.join(names)}", "runs and sweeps have it")
 
 
 def _positive_measure(measure: Measure) -> Measure:

@@ -13,7 +13,14 @@ import msgspec
 
 from symgen.base.ir.program import JAMMING
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, Reading, call, sum_of_terms
-from symgen.base.vocabulary.measures import Carrying, Driven, Effort, Holonomic, Measure
+from symgen.base.vocabulary.measures import (
+    Carrying,
+    Driven,
+    Effort,
+    FormulaSpeed,
+    Holonomic,
+    Nonholonomic,
+)
 from symgen.describe.bounded import BoundedRow, RowFamily
 from symgen.describe.bounds.bounded_modes import (
     HIT,
@@ -60,7 +67,8 @@ def _line_of_friction(facts: Mapping[str, Any]) -> str:
     """Return the line of `symgen inspect` on the friction of a contact."""
     x = facts
     bounds = f"up to {x['static']} times the force of {x['reaction'][0]}; {x['sliding']} in motion"
-    return f"friction of contact {x['name']}: row {x['row']} in force at rest {bounds}"
+    moves = "" if x["surface_speed"] is None else f"; the surface moves at {x['surface_speed']} [m/s]"
+    return f"friction of contact {x['name']}: row {x['row']} in force at rest {bounds}{moves}"
 
 
 CONTACTS = RowFamily(
@@ -98,10 +106,12 @@ class Tangent(Bounds, frozen=True):
     ----------
     name : str
         Of the contact.
-    measure : Measure
-        The slip.
+    measure : Measure or FormulaSpeed
+        The slip; its rate where a surface moves by itself.
     sliding, static : Expr
         Bounds in motion and at rest over the force of the gap.
+    surface : Expr
+        What the rate of slip lacks of that of the bodies: the speed of the surface [m/s].
     table : str
         Its table in a file, where that is not an entry of the section.
     alone : bool
@@ -113,12 +123,13 @@ class Tangent(Bounds, frozen=True):
     in_contact: ClassVar[bool] = True
 
     name: str
-    measure: Measure
+    measure: Any
     sliding: Expr
     static: Expr
     unit: str = "m"
     table: str = ""
     alone: bool = False
+    surface: Expr = ZERO
 
     @property
     def contact(self) -> str:
@@ -137,8 +148,8 @@ class Tangent(Bounds, frozen=True):
 
     @property
     def owner(self) -> str:
-        """The contact."""
-        return self.name
+        """The contact, or its part."""
+        return self.contact
 
     @property
     def along(self) -> str:
@@ -151,8 +162,10 @@ class Tangent(Bounds, frozen=True):
         return f"{self.table or f'contacts.{self.name}'}.friction"
 
     @property
-    def held(self) -> Holonomic:
-        """The row in force."""
+    def held(self) -> Any:
+        """The row in force, of a velocity where a surface moves."""
+        if isinstance(self.measure, FormulaSpeed):
+            return Nonholonomic("tangent", self.measure)
         return Holonomic("tangent", self.measure, unit=self.unit)
 
     @property
@@ -261,7 +274,8 @@ class Tangent(Bounds, frozen=True):
 
     def facts(self) -> dict[str, Any]:
         """Return what `symgen inspect` says of it."""
-        return {"static": to_text(self.static), "sliding": to_text(self.sliding)}
+        speed = None if self.surface == ZERO else to_text(self.surface)
+        return {"static": to_text(self.static), "sliding": to_text(self.sliding), "surface_speed": speed}
 
 
 class ContactGap(EndStop, frozen=True):

@@ -1,22 +1,23 @@
 """Energy lost at rows with bounds, as quantities of outputs: ``NAME.dissipated`` [J].
 
 Each is an integral beside the state, which only runs whose outputs read it have. Impacts add what they take
-(`symgen.run.modes.strikes`); between them that of a one-sided row is 0.
+(`symgen.run.modes.strikes`); between them that of a one-sided row is 0. What drives of surfaces give, but for impacts,
+is ``NAME.driven`` [J].
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 
-from symgen.base.vocabulary.expressions import Expr, Reading, call
+from symgen.base.vocabulary.expressions import ZERO, Expr, Reading, call
 from symgen.base.vocabulary.measures import Integral
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import measure_derivative
 from symgen.describe.formulas.results_read import integrals_of_outputs
 from symgen.describe.mechanism import Mechanism
 
-#: Last word of their names.
-LOSS = "dissipated"
+#: Last words of their names: of what a row takes, and of what a moving surface gives.
+LOSS, GAIN = "dissipated", "driven"
 
 
 def _integral_of_power(row: BoundedRow) -> Integral:
@@ -29,10 +30,15 @@ def energy_taken(row: BoundedRow) -> Reading:
     return Reading(f"{row.name}.{LOSS}", _integral_of_power(row))
 
 
-def losses_by_name(rows: Iterable[BoundedRow]) -> dict[str, Expr]:
-    """Return the losses by their names, of rows with one name their sum."""
+def _energy_given(row: BoundedRow) -> Reading:
+    """Return the energy that the drive of a surface has given along a row."""
+    return Reading(f"{row.name}.{GAIN}", Integral(call("mul", row.taking, row.surface)))
+
+
+def losses_by_name(rows: Sequence[BoundedRow]) -> dict[str, Expr]:
+    """Return the losses by their names, and what drives of surfaces give, of rows with one name their sum."""
     losses = dict[str, Expr]()
-    for reading in map(energy_taken, rows):
+    for reading in (*map(energy_taken, rows), *(_energy_given(row) for row in rows if row.surface != ZERO)):
         own = losses.get(reading.name)
         losses[reading.name] = reading if own is None else call("add", own, reading)
     return losses

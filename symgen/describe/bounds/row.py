@@ -79,6 +79,11 @@ class Bounds(msgspec.Struct, frozen=True):
         return None
 
     @property
+    def surface(self) -> Expr:
+        """How fast a surface moves along it by itself [m/s]."""
+        return ZERO
+
+    @property
     def without_reaction(self) -> Self:
         """The row with that part of its effort alone which depends on no reaction."""
         return self

@@ -66,6 +66,8 @@ class _Ray:
         scope = self.scope
         word = word_of_shape(scope, key, raw, _SHAPES, DiscTable, DISC)
         table = read_table(_SHAPES[word], raw, scope.where(key))
+        if raw.get("surface_speed") is not None:
+            raise scope.error(f"{key}.surface_speed", "no such key of what a ray meets", str(raw["surface_speed"]))
         if isinstance(table, OutlineTable):
             outline = outline_named(scope, key, table)
             yield from (self._piece(key, outline, piece) for piece in outline.pieces)

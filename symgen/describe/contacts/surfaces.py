@@ -9,11 +9,11 @@ import msgspec
 
 from symgen.base.errors import quote, suggest
 from symgen.base.registry import Registry
-from symgen.base.vocabulary.expressions import ZERO, Expr, call
-from symgen.base.vocabulary.measures import GROUND, Angle, Marker, Measure, Speed, Sum
+from symgen.base.vocabulary.expressions import JUMPING, ZERO, Call, Expr, call, sum_of_terms
+from symgen.base.vocabulary.measures import GROUND, Angle, Marker, Measure, Speed, Sum, nested_parts
 from symgen.describe.contacts.chains import BodyOutline
 from symgen.describe.contacts.outlines import Outline
-from symgen.describe.parts.fields import Point, Scalar, read_table, value_in_words
+from symgen.describe.parts.fields import Point, Scalar, TimeFunction, read_table, value_in_words
 from symgen.describe.parts.scope import Scope
 
 #: The words for the shapes of which each pair has one.
@@ -45,9 +45,13 @@ class OutlineTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     ----------
     outline : str
         Its name in the section of outlines.
+    surface_speed : scalar
+        Speed with which its surface moves along it, as a belt does, the free side on the left [m/s]: a number or a
+        formula of t.
     """
 
     outline: str
+    surface_speed: TimeFunction | None = None
 
 
 class Disc(msgspec.Struct, frozen=True):
@@ -89,6 +93,8 @@ class Touch(msgspec.Struct, frozen=True):
         In space, in place of `slip`, the velocity of the second surface along the first one; empty where nothing rubs.
     changes_rows : bool
         Whether a contact passes from one part to another one while it is closed, as arcs of two outlines do.
+    surfaces : tuple of Expr
+        How fast the surfaces move along the slip, or the two slips, by themselves [m/s]; empty where none does.
     """
 
     gap: Measure
@@ -99,6 +105,14 @@ class Touch(msgspec.Struct, frozen=True):
     further: tuple[Touch, ...] = ()
     slips: tuple[Speed, Speed] | tuple[()] = ()
     changes_rows: bool = False
+    surfaces: tuple[Expr, ...] = ()
+
+    def moved(self, *speeds: Expr) -> Touch:
+        """Return the same of surfaces that move by themselves."""
+        if all(speed == ZERO for speed in speeds):
+            return self
+        parts = tuple(part.moved(*speeds) for part in self.further)
+        return msgspec.structs.replace(self, further=parts, surfaces=speeds)
 
 
 class Pair(msgspec.Struct, frozen=True):
@@ -176,7 +190,25 @@ def read_pair(scope: Scope, key: str, raw: object) -> Touch:
     table = read_table(pair.table, tables[1 - first], scope.where(other))
     if pair.body is not None:
         check_bodies(scope, key, scope.body(other, pair.body(table)), shape)
-    return pair.read(scope, other, table, shape)
+    speeds = (
+        speed_of_surface(scope, f"{key}[{i}].surface_speed", tables[i].get("surface_speed")) for i in (first, 1 - first)
+    )
+    return pair.read(scope, other, table, shape).moved(sum_of_terms(*speeds))
+
+
+def speed_of_surface(scope: Scope, key: str, raw: float | str | None) -> Expr:
+    """Return the speed of a surface; 0 for None.
+
+    Raises
+    ------
+    InputError
+        If the formula jumps: at rest on it, bodies would have to.
+    """
+    speed = ZERO if raw is None else scope.of_time(key, raw)
+    if any(isinstance(e, Call) and e.function in JUMPING for e in nested_parts(speed)):
+        expected = "a formula of t without jumps, such as min(t/0.1, 1)"
+        raise scope.error(key, expected, value_in_words(raw))
+    return speed
 
 
 def check_bodies(scope: Scope, key: str, body: str, shape: Disc | BodyOutline) -> None:

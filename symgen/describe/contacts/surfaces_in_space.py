@@ -12,8 +12,8 @@ from symgen.base.registry import Registry
 from symgen.base.vocabulary.expressions import Expr, Number, product, sum_of_terms
 from symgen.base.vocabulary.measures import Direction, Marker
 from symgen.describe.contacts.outlines import Outline
-from symgen.describe.contacts.surfaces import Disc, Touch, two_tables, word_of_shape
-from symgen.describe.parts.fields import Point, Scalar, Vector, read_table
+from symgen.describe.contacts.surfaces import Disc, Touch, speed_of_surface, two_tables, word_of_shape
+from symgen.describe.parts.fields import Point, Scalar, TimeVector, Vector, read_table
 from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.triads import directions_across
 
@@ -50,11 +50,15 @@ class PlaneTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
         A point on it; the origin by default.
     normal : vector
         Its direction towards what it meets; the third axis by default.
+    surface_velocity : vector
+        Velocity with which its surface moves along it, as a belt does, in the frame of its body [m/s]: numbers or
+        formulas of t.
     """
 
     plane: str
     on: Point = (0.0, 0.0, 0.0)
     normal: Vector = (0.0, 0.0, 1.0)
+    surface_velocity: TimeVector | None = None
 
 
 class RimTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -123,6 +127,7 @@ class Plane(msgspec.Struct, frozen=True):
     on: Marker
     normal: Direction
     across: tuple[Direction, Direction]
+    speeds: tuple[Expr, ...] = ()  # of its surface, along these
 
     @property
     def body(self) -> str:
@@ -189,7 +194,13 @@ def _read_sphere(scope: Scope, key: str, table: SphereTable) -> Disc:
 def _read_plane(scope: Scope, key: str, table: PlaneTable) -> Plane:
     body = scope.body(f"{key}.plane", table.plane, turns=True)
     normal = scope.direction(f"{key}.normal", body, table.normal)
-    return Plane(scope.marker(f"{key}.on", body, table.on), normal, directions_across(scope, f"{key}.normal", normal))
+    across = directions_across(scope, f"{key}.normal", normal)
+    plane = Plane(scope.marker(f"{key}.on", body, table.on), normal, across)
+    if table.surface_velocity is None:
+        return plane
+    velocity = [speed_of_surface(scope, f"{key}.surface_velocity", x) for x in table.surface_velocity]
+    speeds = (sum_of_terms(*map(product, each.vector, velocity)) for each in across)
+    return msgspec.structs.replace(plane, speeds=tuple(speeds))
 
 
 def _read_rim(scope: Scope, key: str, table: RimTable) -> Solid:
@@ -255,7 +266,9 @@ def read_pair_in_space(scope: Scope, key: str, raw: object) -> Touch:
     pairs = {pair.words: pair for _, pair in PAIRS_IN_SPACE.items()}
     for first, second in ((0, 1), (1, 0)):
         if (pair := pairs.get((words[first], words[second]))) is not None:
-            return pair.read(scope, key, shapes[first], shapes[second])
+            planes = [shape for shape in shapes if isinstance(shape, Plane)]
+            speeds = next((plane.speeds for plane in planes), ())
+            return pair.read(scope, key, shapes[first], shapes[second]).moved(*speeds)
     known = ", ".join(f"{one} and {other}" for one, other in sorted(pairs))
     raise scope.error(key, f"a pair of shapes that may touch ({known})", f"{words[0]} and {words[1]}")
 

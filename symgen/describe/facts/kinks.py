@@ -11,6 +11,7 @@ import msgspec
 from symgen.base.vocabulary.elementary_functions import ELEMENTARY
 from symgen.base.vocabulary.expressions import (
     BENT,
+    JUMPING,
     ZERO,
     Call,
     Expr,
@@ -32,8 +33,7 @@ from symgen.describe.parts.driven_mechanism import MOST_KNOTS, Jump, compared_wi
 from symgen.describe.remembered import compute_once
 from symgen.describe.table_functions import Table
 
-#: Functions that may jump, and those that compare a value with zero, or two values with each other.
-JUMPING = ("lt", "le", "gt", "ge", "sign")
+#: Functions that compare a value with zero, or two values with each other.
 _COMPARED = (*JUMPING, *BENT)
 #: Inverses of functions, and the function that is 0 where they have kinks or jump.
 _INVERSE = {("acos", "cos"): "sin", ("asin", "sin"): "cos", ("atan", "tan"): "cos"}

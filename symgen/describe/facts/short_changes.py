@@ -12,6 +12,7 @@ import msgspec
 
 from symgen.base.vocabulary.expressions import (
     BENT,
+    JUMPING,
     Call,
     Expr,
     Name,
@@ -21,7 +22,6 @@ from symgen.base.vocabulary.expressions import (
 )
 from symgen.describe.facts.kinks import (
     ENCODED_TIME,
-    JUMPING,
     bound_formulas,
     calls_with_efforts,
     names_of_time,

@@ -20,7 +20,8 @@
 | ``rod.e3.N``, ``.Q``, ``.M`` | force and moment of the section there | outputs, events |
 | ``spring.force``, ``.torque``, ``.Fx`` ..., ``.power`` | what a force exerts | outputs |
 | ``pin.dissipated``, ``pin.lower.dissipated`` | energy that a row with bounds takes | outputs |
-| ``pin.dissipated.rate`` | the power of that | outputs |
+| ``belt.driven`` | energy that the drive of a surface gives, but for impacts | outputs |
+| ``pin.dissipated.rate``, ``belt.driven.rate`` | the power of that | outputs |
 
 Rates of states read what is for outputs but integrals: no force can read a rate, so that no circle closes.
 

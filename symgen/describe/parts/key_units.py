@@ -38,6 +38,10 @@ _FURTHER = {
         **{"poisson": "1", "width": "m", "height": "m", "diameter": "m", "thickness": "m", "load": "N/m"},
     },
     "outputs": {"at": "m", "reach": "m", "disc": "m", "segment": "m", "on": "m"},
+    "contacts": {
+        **{"at": "m", "on": "m", "disc": "m", "sphere": "m", "segment": "m", "capsule": "m", "box": "m"},
+        **{"rolling": "m", "torsion": "m", "surface_speed": "m/s", "surface_velocity": "m/s"},
+    },
     "outlines": {
         **{"to": "m", "radius": "m", "bulge": "1", "fillet": "m", "points": "m", "box": "m", "at": "m", "angle": "rad"},
         "module": "m",

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading
+from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, Reading
 from symgen.base.vocabulary.measures import (
     GROUND,
     Angle,
@@ -153,6 +153,8 @@ class _Writer:
                 return self.noun_of_measure(turned)
             case FormulaMeasure(of=Reading(source=OnChain(quantity="gap") as beside)):
                 return f"the gap to an outline of {beside.chain.origin.body}"
+            case FormulaSpeed(of=Call("sub", (Reading(source=way), _))) if isinstance(way, Measure):  # of a contact
+                return f"{self.noun_of_measure(way)} less the way of the surface"
             case FormulaMeasure() | FormulaSpeed():
                 return "a formula of the file"
             case OnChain() | Lap() | PieceNumber():
@@ -214,6 +216,8 @@ class _Writer:
                     sentence,
                     f"v({self.name_of_point(at)}) . ({_direction_in_formula(normal)} x {_direction_in_formula(blade)})",
                 )
+            case FormulaSpeed(of=Call("sub", (Reading(source=slip), _))) if isinstance(slip, Speed):  # of a contact
+                return f"{self._describe_speed(slip)[0]}, but as the surface moves", ""
             case FormulaSpeed(of=Reading(source=Spin())):
                 return f"{self.noun_of_measure(speed)} does not change", ""
             case FormulaSpeed():

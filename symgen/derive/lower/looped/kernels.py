@@ -271,10 +271,9 @@ class _Kernel:
         """
         e, g = self.e, self.graph
         (row,) = e.rows
-        assert row.held is not None and row.phi is not None, "a row with bounds has a mode and a position"
-        held, phi, nu, gamma, *entries = self.copy_nodes(
-            [row.held, row.phi, row.nu, row.gamma, *(n for _, n in row.entries)]
-        )
+        assert row.held is not None, "a row with bounds has a mode"
+        phi = [] if row.phi is None else self.copy_nodes([row.phi])  # none of a velocity
+        held, nu, gamma, *entries = self.copy_nodes([row.held, row.nu, row.gamma, *(n for _, n in row.entries)])
         slots, first = self.slots_of_rows(), self.row_width
         common: Outputs = [] if nu == g.zero else [(OutputSlot("nu", 0), g.mul(held, nu))]
         common += [(OutputSlot("jacobian", slot), g.mul(held, n)) for slot, n in zip(slots, entries, strict=True)]
@@ -286,9 +285,9 @@ class _Kernel:
         quadratic: Outputs = [] if gamma == g.zero else [(OutputSlot("gamma", 0), g.mul(held, gamma))]
         force = quadratic + self.force()["motion"]
         return {
-            "geometry": [(OutputSlot("residual", 0), phi), *common],
+            "geometry": [*((OutputSlot("residual", 0), n) for n in phi), *common],
             "motion": common + force,
-            "full": [(OutputSlot("phi", 0), phi), *common, *force],
+            "full": [*((OutputSlot("phi", 0), n) for n in phi), *common, *force],
             "wind": self.counted_angles(),
         }
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import msgspec
 
-from symgen.base.vocabulary.expressions import ZERO, Expr, Number, Reading, product
+from symgen.base.vocabulary.expressions import ZERO, Expr, Number, Reading, difference, product
 from symgen.base.vocabulary.measures import (
     Angle,
     FormulaMeasure,
@@ -167,6 +167,8 @@ def _rows_of_touch(
     if touch.changes_rows and restitution != 0.0:
         expected = "no restitution where arcs of two outlines touch"  # some runs had an impact where parts change
         raise scope.error(f"{within}restitution", expected, value_in_words(restitution))
+    if friction is None and touch.surfaces:
+        raise scope.error(f"{within}friction", "friction, by which a surface that moves acts", "no such key")
     tangent = None if friction is None else _read_friction(scope, f"{within}friction", name, touch, friction)
     table = f"joints.{scope.name}.{key}" if key else ""
     if tangent is not None and table:
@@ -193,10 +195,23 @@ def _read_friction(scope: Scope, key: str, name: str, touch: Touch, raw: object)
     if scope.spatial:
         if not touch.slips:
             raise scope.error(key, _WITHOUT_FRICTION, value_in_words(raw))
-        return TangentInSpace(name=name, measure=touch.slips[0], sliding=sliding, static=static, slips=touch.slips)
+        slips, speeds = _over_surfaces(name, touch.slips, touch.surfaces), touch.surfaces
+        row = TangentInSpace(name=name, measure=slips[0], sliding=sliding, static=static, slips=slips, surfaces=speeds)
+        return row.rows[0]
     if touch.slip is None:
         raise scope.error(key, "no friction along teeth, of which several touch", value_in_words(raw))
-    return Tangent(name, touch.slip, sliding, static)
+    (slip,), surface = _over_surfaces(name, (touch.slip,), touch.surfaces), (*touch.surfaces, ZERO)[0]
+    return Tangent(name, slip, sliding, static, surface=surface)
+
+
+def _over_surfaces(name: str, slips: tuple[Any, ...], speeds: tuple[Expr, ...]) -> tuple[Any, ...]:
+    """Return slips as rates over surfaces that move by themselves."""
+    if not speeds:
+        return slips
+    return tuple(
+        FormulaSpeed(difference(Reading(f"{name}.slip{i}.rate", slip, 1), speed))
+        for i, (slip, speed) in enumerate(zip(slips, speeds, strict=True), 1)
+    )
 
 
 def read_touch(scope: Scope, section: ContactSection) -> Touch:

@@ -8,7 +8,7 @@ from symgen.base.vocabulary.expressions import ONE, call
 from symgen.base.vocabulary.measures import Component, Direction, Marker
 from symgen.describe.contacts.outlines import Outline
 from symgen.describe.contacts.surfaces import Disc, Pair, Touch, slip_with_turns
-from symgen.describe.parts.fields import Point, Vector
+from symgen.describe.parts.fields import Point, TimeFunction, Vector
 from symgen.describe.parts.scope import Scope
 
 
@@ -23,11 +23,15 @@ class LineTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
         A point on it; the origin by default.
     normal : vector
         Its direction towards what it meets; the second axis by default.
+    surface_speed : scalar
+        Speed with which its surface moves along it, as a belt does, the free side on the left [m/s]: a number or a
+        formula of t.
     """
 
     line: str
     on: Point = (0.0, 0.0)
     normal: Vector = (0.0, 1.0)
+    surface_speed: TimeFunction | None = None
 
 
 def read_line(scope: Scope, key: str, table: LineTable, disc: Disc) -> Touch:
