@@ -275,6 +275,14 @@ FEATURES: Mapping[str, str] = {
     ),
     "contact": thrown(cart(more=_WALL)),
     "contact, two feet": cart(more=_SLED),
+    "contacts of a set": thrown(
+        cart(
+            more="[contacts.all]\namong = [\n"
+            '    { body = "pole", at = "tip", disc = 0.02 },\n    { body = "cart", at = [0.0, -0.9], disc = 0.05 },\n'
+            '    { line = "ground", on = ["0.14 + 2*size*sin(0.4)", 0.0], normal = [-1.0, 0.0] },\n]\n'
+            "friction = 0.2\nrestitution = 0.3"
+        )
+    ),
     "contact with an outline": thrown(cart(more=_SLOPES)),
     "contact by Poisson's law": thrown(cart(more=_WALL)).replace(
         "[mechanism]", '[mechanism]\nrestitution_law = "poisson"'

@@ -13,6 +13,7 @@ from symgen.base.errors import InputError, fit_lines, plural
 from symgen.base.escapes import printable
 from symgen.cli import BAD_INPUT, OK, write_json
 from symgen.cli._shared_options import examples_in_help, json_option, setting_options
+from symgen.describe.bounds.bounded_modes import one_sided_rows
 from symgen.describe.bounds.by_reaction import pressed_rows
 from symgen.describe.formulas.evaluate import evaluate_formula
 from symgen.describe.modal_body import MANY_MODES
@@ -77,6 +78,8 @@ def command(
         f"{plural(sizes['rows'], 'constraint row')} of rank {facts['rank']}"
     )
     click.echo(f"  {plural(facts['degrees_of_freedom'], 'degree')} of freedom at the start")
+    if facts["contacts"]:
+        click.echo(f"  {plural(len(facts['contacts']), 'contact')}: {', '.join(facts['contacts'])}")
     for body, modes in facts.get("modal_bodies", {}).items():
         click.echo(f"  {body}: {_modes_in_words(modes)}")
     for label, rows in (("redundant at the start", facts["redundant_rows"]), ("repeated", facts["dropped_rows"])):
@@ -153,6 +156,7 @@ def _facts_of_assembly(
         "rank": start.rank,
         "degrees_of_freedom": info.nv - start.rank,
         **({"modal_bodies": _facts_of_modes(mechanism)} if mechanism.has_modal_bodies else {}),
+        "contacts": list(dict.fromkeys(row.name for row in one_sided_rows(mechanism) if row.in_contact)),
         "redundant_rows": list(start.redundant_rows),
         "dropped_rows": list(info.dropped_rows),
         "notes": list(start.notes),

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Sequence
+
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import ZERO, Number
 from symgen.base.vocabulary.measures import Holonomic, Measure, Sum
+from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import one_sided_rows, two_sided_rows
 from symgen.describe.mechanism import Mechanism
 
@@ -43,6 +47,12 @@ def check_bounds(mechanism: Mechanism, source: str) -> None:
             other = gaps[row.measure, row.held.value]
             raise InputError(f"{source}: {row.where}", "one contact of two shapes", f"the shapes of '{other}'")
         gaps[row.measure, row.held.value] = row.name
+
+
+def name_of_two(entries: Sequence[Sequence[BoundedRow]]) -> str:
+    """Return the first name that the rows of two entries of a file have; empty without any."""
+    names = Counter(name for rows in entries for name in {row.name for row in rows})
+    return next((name for name, count in names.items() if count > 1), "")
 
 
 def refuse_driven_surfaces(where: str, mechanism: Mechanism) -> None:

@@ -166,8 +166,8 @@ SHAPES: Mapping[str, tuple[type[msgspec.Struct], Callable[[Scope, str, Any], Dis
 }
 
 
-def read_pair(scope: Scope, key: str, raw: object) -> Touch:
-    """Return gap and slip of two shapes.
+def read_pair(scope: Scope, key: str, raw: object, places: tuple[int, int] = (0, 1)) -> Touch:
+    """Return gap and slip of two shapes, whose places in the list of a key are those in a file.
 
     Raises
     ------
@@ -177,21 +177,23 @@ def read_pair(scope: Scope, key: str, raw: object) -> Touch:
     tables = two_tables(scope, key, raw, "{ body = BODY, disc = RADIUS }")
     pairs = {(pair.beside, pair.word): pair for _, pair in PAIRS.items()}
     words = dict.fromkeys(word for _, word in pairs)
-    kinds = [word_of_shape(scope, f"{key}[{i}]", table, words, DiscTable, DISC) for i, table in enumerate(tables)]
+    keys = [f"{key}[{i}]" for i in places]
+    kinds = [word_of_shape(scope, keys[i], table, words, DiscTable, DISC) for i, table in enumerate(tables)]
     first = next((i for i in (0, 1) if (kinds[i], kinds[1 - i]) in pairs), None)
     if first is None:
         if OUTLINE in kinds:
             other = kinds[1 - kinds.index(OUTLINE)]
             raise scope.error(key, "a disc, a line or an outline beside an outline", f"a {other}")
         raise scope.error(key, "a disc, or a point, beside another shape", f"a {kinds[0]} and a {kinds[1]}")
-    own, other, pair = f"{key}[{first}]", f"{key}[{1 - first}]", pairs[kinds[first], kinds[1 - first]]
+    own, other, pair = keys[first], keys[1 - first], pairs[kinds[first], kinds[1 - first]]
     form, read = SHAPES[pair.beside]
     shape = read(scope, own, read_table(form, tables[first], scope.where(own)))
     table = read_table(pair.table, tables[1 - first], scope.where(other))
     if pair.body is not None:
         check_bodies(scope, key, scope.body(other, pair.body(table)), shape)
     speeds = (
-        speed_of_surface(scope, f"{key}[{i}].surface_speed", tables[i].get("surface_speed")) for i in (first, 1 - first)
+        speed_of_surface(scope, f"{at}.surface_speed", each.get("surface_speed"))
+        for at, each in zip(keys, tables, strict=True)
     )
     return pair.read(scope, other, table, shape).moved(sum_of_terms(*speeds))
 

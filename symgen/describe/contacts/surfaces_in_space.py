@@ -247,8 +247,8 @@ _SHAPES: dict[str, tuple[type[msgspec.Struct], Callable[[Scope, str, Any], Shape
 }
 
 
-def read_pair_in_space(scope: Scope, key: str, raw: object) -> Touch:
-    """Return the gaps of two shapes in space.
+def read_pair_in_space(scope: Scope, key: str, raw: object, places: tuple[int, int] = (0, 1)) -> Touch:
+    """Return the gaps of two shapes in space, whose places in the list of a key are those in a file.
 
     Raises
     ------
@@ -256,11 +256,12 @@ def read_pair_in_space(scope: Scope, key: str, raw: object) -> Touch:
         With the shape that is wrong, or the shapes that are no pair.
     """
     tables = two_tables(scope, key, raw, "{ body = BODY, sphere = RADIUS }")
-    words = [word_of_shape(scope, f"{key}[{i}]", e, _SHAPES, SphereTable, SPHERE) for i, e in enumerate(tables)]
+    keys = [f"{key}[{i}]" for i in places]
+    words = [word_of_shape(scope, at, e, _SHAPES, SphereTable, SPHERE) for at, e in zip(keys, tables, strict=True)]
     shapes = list[Shape]()
-    for i, (word, table) in enumerate(zip(words, tables, strict=True)):
+    for at, word, table in zip(keys, words, tables, strict=True):
         kind, read = _SHAPES[word]
-        shapes.append(read(scope, f"{key}[{i}]", read_table(kind, table, scope.where(f"{key}[{i}]"))))
+        shapes.append(read(scope, at, read_table(kind, table, scope.where(at))))
     if shapes[0].body == shapes[1].body:
         raise scope.error(key, "two different bodies", f"'{shapes[0].body}' twice")
     pairs = {pair.words: pair for _, pair in PAIRS_IN_SPACE.items()}

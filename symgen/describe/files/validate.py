@@ -15,7 +15,7 @@ from symgen.base.units import unit_of
 from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import with_bounded_outputs
-from symgen.describe.bounds.checks import check_bounds
+from symgen.describe.bounds.checks import check_bounds, name_of_two
 from symgen.describe.bounds.keys import SectionOfFiles, sections_of_files
 from symgen.describe.bounds.losses import losses_by_name
 from symgen.describe.bounds.smooth import rows_as_forces
@@ -283,6 +283,9 @@ class _Validator:
     def _bounded_rows_of_section(self, section: str, kind: SectionOfFiles) -> tuple[BoundedRow, ...]:
         """Return the rows with bounds of a section of their own."""
         read = self.read_each_entry(section, lambda name, value: kind.read(self.scope_of_entry(section, name), value))
+        if again := name_of_two(read):
+            got = f"'{again}', which is of a set of contacts too"
+            raise InputError(self.place_in_file(f"{section}.{again}"), "a name used once", got)
         return tuple(row for rows in read for row in rows)
 
     def refuse_shared_names(self) -> None:

@@ -45,9 +45,12 @@ BETWEEN = f"between = [{DISC}, {LINE}]\n"
         ),
         (
             f'{BETWEEN}gap = "disc.y"',
-            "contacts.pair.between: expected shapes, or the key gap in their place, got both",
+            "contacts.pair.between: expected shapes, or the key gap or among in their place, got between and gap",
         ),
-        ("friction = 0.3", "contacts.pair.between: expected shapes, or the key gap in their place, got neither"),
+        (
+            "friction = 0.3",
+            "contacts.pair.between: expected shapes, or the key gap or among in their place, got none of them",
+        ),
         (
             'gap = "disc.y"\nfriction = 0.3',
             "contacts.pair.slip: expected a coordinate along the contact, as it has friction, got no such key",

@@ -15,6 +15,7 @@ from tests.result.targets.test_c_modes import program_of, rows_of
 from tests.result.targets.test_fmu import fmu_of, simulated
 from tests.run.contacts.scenes import DROP, loaded, rocking_block, woodpecker
 from tests.run.contacts.scenes_in_space import DIE, SKITTLE, SPUN
+from tests.run.contacts.test_surface_speed import parcel
 
 #: Steps of a module that Node reads: its last state, and what has happened.
 NODE = """
@@ -37,11 +38,12 @@ PRINTED = {
     "die": (DIE, 0.6, 5e-4, 8, "die.z", 1e-12),
     "ball": (SKITTLE, 1.2, 5e-4, 20, "ball.x", 1e-9),
     "spun": (SPUN, 2.0, 5e-4, 20, "ball.x", 1e-9),
+    "belt": (parcel("V*cos(w*t)", outputs=False).replace("w = 4.0", "w = 9.0"), 1.2, 5e-4, 20, "box.x", 1e-12),
     "sled": (toml(drawn("sled", 29).raw), 0.4, 5e-4, 60, "disc.theta", 2e-11),
 }
 
 
-@pytest.mark.by_turns(7)
+@pytest.mark.by_turns(8)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", PRINTED)
 def test_printed_runs_with_the_same_steps(name: str, tmp_path: Path) -> None:

@@ -25,6 +25,7 @@ from symgen.describe.bounds.contact_rows_in_space import TangentInSpace
 from symgen.describe.bounds.contact_rows_turning import ROLLING, TORSION, turning_rows
 from symgen.describe.bounds.keys import SectionOfFiles
 from symgen.describe.bounds.kinds.stop import read_restitution
+from symgen.describe.contacts.among import pairs_among
 from symgen.describe.contacts.slopes import slopes_of_places
 from symgen.describe.contacts.surfaces import Touch, read_pair
 from symgen.describe.contacts.surfaces_in_space import read_pair_in_space
@@ -59,6 +60,9 @@ class ContactSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
 
     Parameters
     ----------
+    among : list of tables or str
+        In place of two shapes, a set of any number, of which an outline may be named alone: any two of different bodies
+        are a contact ``NAME_ONE_OTHER``, called after their bodies or outlines, numbered where several have one name.
     between : list of two tables
         Shapes, ``{ body = "wheel", at = [0.0, 0.0], disc = 0.3 }`` beside another disc,
         ``{ line = "ground", on = [0.0, 0.0], normal = [0.0, 1.0] }``,
@@ -82,6 +86,7 @@ class ContactSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
     """
 
     between: list[dict[str, Any]] | None = None
+    among: list[dict[str, Any] | str] | None = None
     gap: StateFunction | None = None
     slip: StateFunction | None = None
     friction: float | str | dict[str, float | str] | None = None
@@ -99,7 +104,23 @@ def read_contact(scope: Scope, raw: object) -> tuple[BoundedRow, ...]:
         With the key that is wrong.
     """
     section = read_table(ContactSection, raw, scope.where(""))
-    touch = read_touch(scope, section)
+    given = [key for key in ("between", "gap", "among") if getattr(section, key) is not None]
+    if len(given) != 1:
+        got = " and ".join(given) or "none of them"
+        raise scope.error("between", "shapes, or the key gap or among in their place", got)
+    if section.among is None:
+        return _rows_of_pair(scope, section, read_touch(scope, section))
+    if section.slip is not None:
+        raise scope.error("slip", "no such key beside among, whose shapes have one", value_in_words(section.slip))
+    found, read = list[BoundedRow](), read_pair_in_space if scope.spatial else read_pair
+    for pair in pairs_among(scope, "among", section.among):
+        own = Scope(scope.context, scope.path, pair.name)
+        found += _rows_of_pair(own, section, read(own, "among", list(pair.between), pair.places))
+    return tuple(found)
+
+
+def _rows_of_pair(scope: Scope, section: ContactSection, touch: Touch) -> tuple[BoundedRow, ...]:
+    """Return the rows of a contact of two shapes, or of formulas."""
     *rows, gap = rows_of_contact(scope, "", scope.name, touch, section.friction, section.restitution)
     return (*rows, *_rows_against_turning(scope, section, touch, rows), gap)
 
@@ -216,10 +237,6 @@ def _over_surfaces(name: str, slips: tuple[Any, ...], speeds: tuple[Expr, ...]) 
 
 def read_touch(scope: Scope, section: ContactSection) -> Touch:
     """Return gap and slip of a contact, from shapes or from formulas."""
-    if (section.between is None) == (section.gap is None):
-        raise scope.error(
-            "between", "shapes, or the key gap in their place", "neither" if section.gap is None else "both"
-        )
     if section.between is not None:
         if section.slip is not None:
             raise scope.error("slip", "no such key beside between, whose shapes have one", value_in_words(section.slip))
