@@ -15,6 +15,7 @@ from symgen.analyses.efforts.effort_balance import balance_efforts
 from symgen.analyses.efforts.forces_at_bounds import Contacts
 from symgen.analyses.prescribed.driven_motion import Kinematics, driven_motion
 from symgen.analyses.prescribed.prescribed import driver_names
+from symgen.analyses.state.sticking import with_turns
 from symgen.base import arguments
 from symgen.base.digits import clean
 from symgen.base.errors import InputError, plural
@@ -282,7 +283,7 @@ def _efforts_of_record(
         now = seams[0].values if seams else {}
         settings = replace(settings, parameters={**settings.parameters, **now})
     loose, actuators = with_actuators(placed.mechanism, names)
-    loose = contacts.as_inputs(loose)
+    loose = with_turns(contacts.as_inputs(loose), contacts.along)
     balanced = balance_efforts(loose, actuators, settings, record, weights, contacts)
     motion, info = balanced.motion, balanced.motion.compiled.info
     values = {q.name: float(x) for q, x in zip(info.parameters, motion.p, strict=False)}

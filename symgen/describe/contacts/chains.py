@@ -102,7 +102,7 @@ def arc(start: Plane, end: Plane, sine: Expr, cosine: Expr, side: float) -> Outl
     size = product(Number(2.0), call("div", sine, chord.length))
     turned = product(Number(side), sine)
     angle = product(Number(2.0), call("atan2", sine, cosine))
-    first, last = _turned(chord.first, cosine, turned), _turned(chord.first, cosine, call("neg", turned))
+    first, last = turned_by(chord.first, cosine, turned), turned_by(chord.first, cosine, call("neg", turned))
     return OutlinePiece(start, end, first, last, product(Number(side), size), call("div", angle, size))
 
 
@@ -121,6 +121,11 @@ def filleted(
         msgspec.structs.replace(other, start=end, length=difference(other.length, cut)),
     )
     return shorter[0], between, shorter[1]
+
+
+def angle_between(one: Plane, other: Plane) -> Expr:
+    """Return how far a direction turns to the right to another one, a formula [rad]."""
+    return call("atan2", call("neg", _cross(one, other)), _dot(one, other))
 
 
 def turn_between(one: OutlinePiece, other: OutlinePiece, value: Value) -> float:
@@ -344,7 +349,7 @@ class _Piece(msgspec.Struct, frozen=True):
         sine, cosine = call("sin", turn), call("cos", turn)
         ahead, left = call("div", sine, self.curvature), call("div", call("sub", cosine, ONE), self.curvature)
         point = _plus(_plus(self.start, _scaled(ahead, self.along)), _scaled(left, _left(self.along)))
-        return point, _turned(self.along, cosine, call("neg", sine))
+        return point, turned_by(self.along, cosine, call("neg", sine))
 
 
 def _about(corner: Plane, along: Plane, radius: Expr, angle: Expr) -> _Piece:
@@ -383,7 +388,8 @@ def _left(a: Plane) -> Plane:
     return product(Number(-1.0), a[1]), a[0]
 
 
-def _turned(a: Plane, cosine: Expr, sine: Expr) -> Plane:
+def turned_by(a: Plane, cosine: Expr, sine: Expr) -> Plane:
+    """Return a direction turned to the left by an angle."""
     return _plus(_scaled(cosine, a), _scaled(sine, _left(a)))
 
 

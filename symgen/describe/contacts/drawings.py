@@ -1,4 +1,4 @@
-"""Outlines from drawings: DXF and SVG files, and path data of SVG."""
+"""Outlines from curves: DXF and SVG files, path data of SVG, and radii by their direction."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from symgen.base.files import file_beside, need_library, system_message
 from symgen.describe.contacts.arcs_along import Bulged, NotSmooth, Stretch, arcs_along, bulged
 from symgen.describe.contacts.drawn_curves import BadDrawing, ellipse, read_path
 from symgen.describe.contacts.outline_sections import OutlineSection
+from symgen.describe.contacts.polar_curves import polar_curve
 from symgen.describe.parts.fields import value_in_words
 from symgen.describe.parts.scope import Scope
 
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 _LARGEST, _MOST = 20_000_000, 2000
 #: Metres of the units that DXF files name, by their number in `$INSUNITS`.
 _UNITS = {1: 0.0254, 2: 0.3048, 4: 1e-3, 5: 1e-2, 6: 1.0, 13: 1e-6, 14: 0.1}
+#: Keys that give a curve.
+DRAWN = ("file", "path", "radius")
 #: Over the size of a drawing: the tolerance of arcs by default, and the gap between two ends that are one.
 _TOLERANCE, _JOINED = 1e-5, 1e-6
 #: What is written beside a drawing.
@@ -32,14 +35,14 @@ _BESIDE = frozenset({"TEXT", "MTEXT", "DIMENSION", "POINT", "LEADER", "MULTILEAD
 
 
 def read_drawing(scope: Scope, section: OutlineSection) -> tuple[list[Bulged], bool, str]:
-    """Return the points of a drawn outline with the bulges before them, whether it is closed, and words on it.
+    """Return the points of an outline by curves with the bulges before them, whether it is closed, and words on it.
 
     Raises
     ------
     InputError
         With the key that is wrong.
     """
-    key = "path" if section.file is None else "file"
+    key = next(key for key in DRAWN if getattr(section, key) is not None)
     try:
         stretches, closed, unit, name = _of_section(scope, section)
         if not stretches or len(stretches) > _MOST:
@@ -66,6 +69,8 @@ def _of_section(scope: Scope, section: OutlineSection) -> tuple[list[Stretch], b
     """Return the stretches of a drawing, its y axis upwards, whether they are closed, the unit [m] and the name."""
     unit = None if section.unit is None else scope.value(scope.constant("unit", section.unit, positive=True), "unit")
     name = "path data" if section.file is None else section.file
+    if section.radius is not None:
+        return list(polar_curve(scope, section.radius)), True, 1.0, "radius"
     if section.file is not None and name.lower().endswith(".dxf"):
         stretches, closed, known = _of_dxf(scope, name, section.layer)
         unit = known if unit is None else unit
@@ -248,9 +253,10 @@ def _joined(parts: list[list[Stretch]]) -> tuple[list[Stretch], bool]:
 
 def drawing_given(section: OutlineSection, scope: Scope) -> bool:
     """Return whether an outline is a drawing, and refuse keys that only drawings have."""
-    if section.file is not None or section.path is not None:
-        return True
-    for key in ("unit", "tolerance", "layer"):
+    given = [key for key in DRAWN if getattr(section, key) is not None]
+    wrong = () if {"file", "path"} & {*given} else ("unit", "layer") if given else ("unit", "tolerance", "layer")
+    for key in wrong:
         if getattr(section, key) is not None:
-            raise scope.error(key, "no such key without file or path", value_in_words(getattr(section, key)))
-    return False
+            beside = " or ".join(DRAWN if key == "tolerance" else DRAWN[:2])
+            raise scope.error(key, f"no such key without {beside}", value_in_words(getattr(section, key)))
+    return bool(given)

@@ -15,8 +15,16 @@ from symgen.describe.parts.scope import Scope
 _NEAR = 1e-9
 
 
-def feet_of(scope: Scope, key: str, outline: BodyOutline) -> list[Disc]:
+def circle_leaves(outline: BodyOutline, piece: OutlinePiece, value: Value) -> bool:
+    """Return whether the circle of a convex arc is not within its outline."""
+    centre, far = _number(centre_of(piece), value), 1.0 / value(piece.curvature)
+    return min(_distance(each, centre, value) for each in outline.pieces) < far - _NEAR * (abs(centre) + far)
+
+
+def feet_of(scope: Scope, key: str, outline: BodyOutline, apart: frozenset[int] = frozenset()) -> list[Disc]:
     """Return the convex corners and ends of an outline as points, and its convex arcs as discs.
+
+    Pieces that are `apart`, counted from 0, and corners beside them are left out.
 
     Raises
     ------
@@ -28,20 +36,23 @@ def feet_of(scope: Scope, key: str, outline: BodyOutline) -> list[Disc]:
         return scope.value(e, key)
 
     pieces = outline.pieces
-    places: list[tuple[Plane, Expr]] = [] if outline.closed else [(pieces[0].start, ZERO), (pieces[-1].end, ZERO)]
+    ends = () if outline.closed else ((0, pieces[0].start), (len(pieces) - 1, pieces[-1].end))
+    places: list[tuple[Plane, Expr]] = [(end, ZERO) for i, end in ends if i not in apart]
     places += [
         (piece.start, ZERO)
         for i, piece in enumerate(pieces)
-        if (i or outline.closed) and turn_between(pieces[i - 1], piece, value) > TANGENT
+        if (i or outline.closed)
+        and turn_between(pieces[i - 1], piece, value) > TANGENT
+        and not {i, (i - 1) % len(pieces)} & apart
     ]
     found = list[tuple[complex, float]]()
     for number, piece in enumerate(pieces, 1):
-        if value(piece.curvature) <= 0.0:
+        if value(piece.curvature) <= 0.0 or number - 1 in apart:
             continue
         place, radius = centre_of(piece), call("div", ONE, piece.curvature)
         centre, far = _number(place, value), value(radius)
         near = _NEAR * (abs(centre) + far)
-        if min(_distance(each, centre, value) for each in pieces) < far - near:
+        if circle_leaves(outline, piece, value):
             got = f"piece {number} of '{outline.name}', whose circle of {far:.6g} m leaves it"
             raise scope.error(key, "convex arcs whose circles lie within the outline", got)
         if all(abs(centre - c) + abs(far - r) > near for c, r in found):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import msgspec
 
-from symgen.describe.parts.fields import BodyName, Flag, OutlinePoints, Pair, Scalar, Text, Vector
+from symgen.describe.parts.fields import BodyName, CurveFunction, Flag, OutlinePoints, Pair, Scalar, Text, Vector
 
 
 class PolygonTable(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -100,14 +100,17 @@ class OutlineSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
         the folder of the mechanism file. An open chain goes the way of its first part.
     path : str
         In place of points, path data of SVG. In them and in SVG files y is turned upwards.
+    radius : formula
+        In place of points, the distance of a closed curve from `at` [m] by its direction ``phi`` [rad], from 0 to 2 pi:
+        a formula of it, numbers and smooth tables.
     unit : scalar
         Length of a unit of the drawing [m]; of a DXF file its own unit by default.
     tolerance : scalar
-        Largest distance of arcs from other curves [m]; 1e-5 of the drawing's size by default.
+        Largest distance of arcs from other curves [m]; 1e-5 of the size of all by default.
     layer : str
         Layer of a DXF file on which the outline is; all by default.
     at : vector
-        Centre of a polygon, a box or a gear, origin of a drawing; the origin by default [m].
+        Centre of a polygon, a box, a gear or a radius, origin of a drawing; the origin by default [m].
     angle : scalar
         How far it is turned [rad]; a corner of a polygon is on the first axis otherwise.
     fillet : scalar
@@ -123,6 +126,7 @@ class OutlineSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
     box: Pair | None = None
     file: Text | None = None
     path: Text | None = None
+    radius: CurveFunction | None = None
     unit: Scalar | None = None
     tolerance: Scalar | None = None
     layer: Text | None = None

@@ -20,7 +20,7 @@ from symgen.describe.contacts.chains import (
     signed_area,
     turn_between,
 )
-from symgen.describe.contacts.drawings import drawing_given, read_drawing
+from symgen.describe.contacts.drawings import DRAWN, drawing_given, read_drawing
 from symgen.describe.contacts.gear_teeth import teeth_of_gear
 from symgen.describe.contacts.outline_sections import OutlineSection, PointTable
 from symgen.describe.parts.fields import read_table, value_in_words
@@ -29,7 +29,7 @@ from symgen.describe.parts.scope import Scope
 #: Lengths below this part of the sum of coordinates are none.
 _NONE = 1e-12
 #: Keys that say what an outline is.
-_SHAPES = ("points", "polygon", "box", "gear_profile", "file", "path")
+_SHAPES = ("points", "polygon", "box", "gear_profile", *DRAWN)
 
 
 def read_outline(scope: Scope, raw: object) -> BodyOutline:

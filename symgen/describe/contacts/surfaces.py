@@ -10,7 +10,7 @@ import msgspec
 from symgen.base.errors import quote, suggest
 from symgen.base.registry import Registry
 from symgen.base.vocabulary.expressions import JUMPING, ZERO, Call, Expr, call, sum_of_terms
-from symgen.base.vocabulary.measures import GROUND, Angle, Marker, Measure, Speed, Sum, nested_parts
+from symgen.base.vocabulary.measures import GROUND, Angle, FormulaSpeed, Marker, Measure, Speed, Sum, nested_parts
 from symgen.describe.contacts.chains import BodyOutline
 from symgen.describe.contacts.outlines import Outline
 from symgen.describe.parts.fields import Point, Scalar, TimeFunction, read_table, value_in_words
@@ -81,8 +81,8 @@ class Touch(msgspec.Struct, frozen=True):
         Distance of the shapes less `value`, with a derivative of length 1 over either body's place where they touch.
     value : Expr
         Where the shapes touch.
-    slip : Measure or None
-        Coordinate whose rate is the speed of one surface along the other; None where nothing rubs.
+    slip : Measure, FormulaSpeed or None
+        Coordinate whose rate is the speed of one surface along the other, or that speed; None where nothing rubs.
     distance : Expr or None
         The distance that is reported, where the gap is another function of it.
     outlines : tuple of Outline
@@ -99,7 +99,7 @@ class Touch(msgspec.Struct, frozen=True):
 
     gap: Measure
     value: Expr
-    slip: Measure | None
+    slip: Measure | FormulaSpeed | None
     distance: Expr | None = None
     outlines: tuple[Outline, ...] = ()
     further: tuple[Touch, ...] = ()

@@ -21,6 +21,7 @@ from symgen.describe.parts.meant_words import hint_on_key, hint_on_list
 Text = Annotated[str, Meta(description="a text")]
 Scalar = Annotated[float | str, Meta(description="a number or an expression of parameters")]
 TimeFunction = Annotated[float | str, Meta(description="a number or an expression of t and parameters")]
+CurveFunction = Annotated[float | str, Meta(description="a number or an expression of phi and smooth tables")]
 TimeVector = Annotated[
     tuple[float | str, float | str, float | str],
     Meta(description="three numbers or expressions of t and parameters [x, y, z]"),

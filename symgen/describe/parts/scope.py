@@ -311,6 +311,15 @@ class Scope:
         plain = ChainMap(own, self.context.constants.plain)  # type: ignore[arg-type]  # the second one is only read
         return self._parse_expression(key, value, self.context.constants.with_other_names(what, plain))
 
+    def of_curve(self, key: str, value: float | str, word: str) -> Expr:
+        """Return an expression of a curve's own coordinate and smooth tables, from which its shape is read."""
+        smooth = self.context.times
+        others = smooth.elsewhere | self.context.values.keys() | {"t"}
+        hints = dict.fromkeys(others, "arcs along the curve are chosen as the file is read")
+        what = f"a number or an expression of {word} and smooth tables"
+        names = FormulaNames(what, {word: word}, tables=smooth.tables, elsewhere=frozenset(others), hints=hints)
+        return self._parse_expression(key, value, names)
+
     def symmetric(self, key: str, rows: Sequence[Sequence[float | str]]) -> tuple[tuple[Expr, ...], ...]:
         """Return the rows of a matrix; of two entries that differ by rounding the upper one counts.
 

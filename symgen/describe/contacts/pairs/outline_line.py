@@ -1,9 +1,10 @@
-"""An outline over a line: each of its corners, ends and round parts is a foot, a part of one contact."""
+"""An outline over a line: corners, ends and round parts are feet, and arcs roll on it, as parts of one contact."""
 
 from __future__ import annotations
 
 import msgspec
 
+from symgen.describe.contacts.arcs_on_line import arc_runs, touch_of_run
 from symgen.describe.contacts.chains import BodyOutline
 from symgen.describe.contacts.feet import feet_of
 from symgen.describe.contacts.outlines import Outline
@@ -17,7 +18,10 @@ def read_outline_over_line(scope: Scope, key: str, table: LineTable, outline: Bo
     """Return the heights of the feet of an outline over a line, and the way of each along it."""
     on, normal = line_of_table(scope, key, table)
     drawn = drawn_outline(outline, lambda e: scope.value(e, key)), Outline((on,), normal=normal)
-    touches = (touch_of_line(scope, on, normal, foot) for foot in feet_of(scope, key, outline))
+    runs = arc_runs(outline, lambda e: scope.value(e, key))
+    apart = frozenset(i for run in runs for i in run.pieces)
+    touches = [touch_of_line(scope, on, normal, foot) for foot in feet_of(scope, key, outline, apart)]
+    touches += (touch_of_run(scope, on, normal, outline, run) for run in runs)
     return as_one([msgspec.structs.replace(touch, outlines=drawn) for touch in touches])
 
 
