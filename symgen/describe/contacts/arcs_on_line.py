@@ -32,6 +32,7 @@ from symgen.describe.contacts.chains import (
     Value,
     angle_between,
     centre_of,
+    points_on,
     turn_between,
     turned_by,
 )
@@ -41,6 +42,8 @@ from symgen.describe.parts.scope import Scope
 
 #: Largest turn of an arc [rad].
 _LARGEST_TURN = 0.55 * math.pi
+#: How far a point is beyond both ends of a run at least, over their distance.
+_BEYOND = 1e-9
 
 
 class Rolling(msgspec.Struct, frozen=True):
@@ -84,9 +87,22 @@ def arc_runs(outline: BodyOutline, value: Value) -> list[ArcRun]:
     for run in runs:
         if any(circle_leaves(outline, pieces[i], value) for i in run):
             parts = [each for part in _parts_of(outline, run, whole, value) for each in _split(part, value)]
+            # one formula for where one part ends and the next one begins, as between two nothing touches
+            begins = [parts[-1].last if whole else parts[0].first, *(part.last for part in parts[:-1])]
+            parts = [msgspec.structs.replace(part, first=x) for part, x in zip(parts, begins, strict=True)]
             ends = () if whole else (pieces[run[0]].start, pieces[run[-1]].end)
             found.append(ArcRun(tuple(parts), ends, _middle_of(parts, value), frozenset(run)))
     return found
+
+
+def stands_on_ends(run: ArcRun, outline: BodyOutline, value: Value) -> bool:
+    """Return whether a line may meet both ends of a run at once, as nothing is beyond them."""
+    if not run.ends:
+        return False
+    start, end = (complex(*map(value, point)) for point in run.ends)
+    points = [complex(*point) for piece in outline.pieces for point in points_on(piece, value)]
+    beyond = max(((point - end) / (start - end)).imag for point in points)
+    return beyond <= _BEYOND
 
 
 def _split(part: Rolling, value: Value) -> Iterator[Rolling]:
