@@ -284,14 +284,6 @@ FEATURES: Mapping[str, str] = {
         )
     ),
     "contact with an outline": thrown(cart(more=_SLOPES)),
-    "contact with an outline by its radius": thrown(
-        cart(
-            more='[outlines.cam]\nbody = "ground"\nat = ["0.36 + 2*size*sin(0.4)", "-2*size*cos(0.4)"]\n'
-            'radius = "0.2 + 0.02*cos(2*phi)"\ntolerance = 1e-4\n[contacts.wall]\n'
-            'between = [{ body = "pole", at = "tip", disc = 0.01 }, { outline = "cam" }]\nfriction = 0.2\n'
-            "restitution = 0.3"
-        )
-    ),
     "contact by Poisson's law": thrown(cart(more=_WALL)).replace(
         "[mechanism]", '[mechanism]\nrestitution_law = "poisson"'
     ),
