@@ -120,9 +120,9 @@ def test_concave_corners_cut_a_chain() -> None:
         (
             {"points": [[0, 0], [1, 0]], "closed": True, "box": [1, 1]},
             0.1,
-            "one of points, polygon, box, gear_profile, file and path, got points",
+            "one of points, polygon, box, gear_profile, file, path and radius, got points",
         ),
-        ({}, 0.1, "one of points, polygon, box, gear_profile, file and path, got none of them"),
+        ({}, 0.1, "one of points, polygon, box, gear_profile, file, path and radius, got none of them"),
         ({"polygon": {"sides": 2, "radius": 1.0}}, 0.1, "a number of at least 3, got 2"),
         ({"box": [0.2, 0.1], "fillet": 0.06}, 0.1, "fillets that leave room for each other"),
         ({"points": [[0, 0], {"to": [1, 0], "radius": 0.4}]}, 0.1, "at least half of the distance"),
@@ -148,7 +148,7 @@ def test_what_is_wrong_in_one_sentence(outline: dict[str, Any], radius: float, s
         (
             {"points": [[0, 0], {"to": [1, 0], "bulge": -0.2}], "closed": True},
             {"line": "ground"},
-            "whose circle of 1.3 m",
+            "whose two ends no line meets at once, got those of 'cam'",
         ),
         (
             {"points": [[0, 0], {"to": [1, 0], "bulge": -0.2}], "closed": True},

@@ -237,7 +237,5 @@ def test_a_rocker_rocks_on_its_arc(tmp_path: Path) -> None:
 
 def test_arcs_that_stand_on_both_ends_are_refused(tmp_path: Path) -> None:
     """One part of a contact cannot hold the face of a lens."""
-    with pytest.raises(
-        InputError, match="expected arcs whose circles lie within the outline, or whose"
-    ):
+    with pytest.raises(InputError, match="expected arcs whose circles lie within the outline, or whose"):
         loaded(rocker(ROCKER[:2]), tmp_path)
