@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 import msgspec
 
 from symgen.base.ir.program import JAMMING
-from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, Reading, call, sum_of_terms
+from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Number, Reading, call, sum_of_terms
 from symgen.base.vocabulary.measures import (
     Carrying,
     Driven,
@@ -110,8 +110,6 @@ class Tangent(Bounds, frozen=True):
         The slip; its rate where a surface moves by itself.
     sliding, static : Expr
         Bounds in motion and at rest over the force of the gap.
-    surface : Expr
-        What the rate of slip lacks of that of the bodies: the speed of the surface [m/s].
     table : str
         Its table in a file, where that is not an entry of the section.
     alone : bool
@@ -129,7 +127,6 @@ class Tangent(Bounds, frozen=True):
     unit: str = "m"
     table: str = ""
     alone: bool = False
-    surface: Expr = ZERO
 
     @property
     def contact(self) -> str:
@@ -160,6 +157,12 @@ class Tangent(Bounds, frozen=True):
     def where(self) -> str:
         """Its place in a file."""
         return f"{self.table or f'contacts.{self.name}'}.friction"
+
+    @property
+    def surface(self) -> Expr:
+        """The speed of a surface that moves by itself, which the rate of slip is less [m/s]."""
+        of = self.measure.of if isinstance(self.measure, FormulaSpeed) else ZERO
+        return of.arguments[1] if isinstance(of, Call) and of.function == "sub" else ZERO
 
     @property
     def held(self) -> Any:

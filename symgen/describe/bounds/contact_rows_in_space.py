@@ -16,7 +16,7 @@ import msgspec
 
 from symgen.base.errors import InputError
 from symgen.base.ir.program import JAMMING
-from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, call, sum_of_terms
+from symgen.base.vocabulary.expressions import ONE, Expr, Name, Number, call, sum_of_terms
 from symgen.base.vocabulary.measures import Nonholonomic, Speed
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.bounded_modes import (
@@ -69,8 +69,6 @@ class TangentInSpace(Tangent, frozen=True, kw_only=True):
         Velocity of slip along its direction.
     slips : tuple of two Speed
         Those of both rows.
-    surfaces : tuple of two Expr, or empty
-        Velocities of a driven surface along both; see `surface`.
     number : int
         1 or 2.
     part : int
@@ -81,7 +79,6 @@ class TangentInSpace(Tangent, frozen=True, kw_only=True):
 
     measure: Any
     slips: tuple[Speed, ...]
-    surfaces: tuple[Expr, ...] = ()
     number: int = 1
     part: int = 0
 
@@ -118,10 +115,8 @@ class TangentInSpace(Tangent, frozen=True, kw_only=True):
     @property
     def rows(self) -> tuple[TangentInSpace, ...]:
         """Both rows."""
-        speeds = self.surfaces or (ZERO, ZERO)
         return tuple(
-            msgspec.structs.replace(self, measure=slip, number=number, surface=speed)
-            for number, (slip, speed) in enumerate(zip(self.slips, speeds, strict=True), 1)
+            msgspec.structs.replace(self, measure=slip, number=number) for number, slip in enumerate(self.slips, 1)
         )
 
     @property

@@ -216,13 +216,12 @@ def _read_friction(scope: Scope, key: str, name: str, touch: Touch, raw: object)
     if scope.spatial:
         if not touch.slips:
             raise scope.error(key, _WITHOUT_FRICTION, value_in_words(raw))
-        slips, speeds = _over_surfaces(name, touch.slips, touch.surfaces), touch.surfaces
-        row = TangentInSpace(name=name, measure=slips[0], sliding=sliding, static=static, slips=slips, surfaces=speeds)
-        return row.rows[0]
+        slips = _over_surfaces(name, touch.slips, touch.surfaces)
+        return TangentInSpace(name=name, measure=slips[0], sliding=sliding, static=static, slips=slips)
     if touch.slip is None:
         raise scope.error(key, "no friction along teeth, of which several touch", value_in_words(raw))
-    (slip,), surface = _over_surfaces(name, (touch.slip,), touch.surfaces), (*touch.surfaces, ZERO)[0]
-    return Tangent(name, slip, sliding, static, surface=surface)
+    (slip,) = _over_surfaces(name, (touch.slip,), touch.surfaces)
+    return Tangent(name, slip, sliding, static)
 
 
 def _over_surfaces(name: str, slips: tuple[Any, ...], speeds: tuple[Expr, ...]) -> tuple[Any, ...]:
