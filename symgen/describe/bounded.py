@@ -197,7 +197,7 @@ class BoundedRow(Protocol):
 
     @property
     def surface(self) -> Expr:
-        """How fast a surface that is driven moves along it, where its rate is that of slip on the surface [m/s]."""
+        """How fast a driven surface moves along it, whose rate is the speed of slip on the surface then [m/s]."""
         ...
 
     @property

@@ -78,7 +78,7 @@ class ArcRun(msgspec.Struct, frozen=True):
 
 
 def arc_runs(outline: BodyOutline, value: Value) -> list[ArcRun]:
-    """Return the runs of convex arcs in which the circle of one leaves the outline: those of others are feet."""
+    """Return the runs of convex arcs in which a circle leaves the outline: arcs of other runs are feet."""
     pieces, count = outline.pieces, len(outline.pieces)
     bent = [value(piece.curvature) > 0.0 for piece in pieces]
     whole = outline.closed and all(bent) and all(_turn(outline, i, value) >= -TANGENT for i in range(count))
