@@ -68,6 +68,16 @@ def test_the_largest_step_on_a_spring_is_that_of_the_polynomial():
     study = stress(["four-bar"], ["stiffness"], ["lagrange"], quick=True)
     (limit,) = (x for x in study.limits if x.integrator == "rk4" and x.case == "10000 N/m")
     assert limit.stable_step <= 2.8285 / 16.44 * 1.01
+    # the mass swings between its start and twice its rest: an error of a tenth of its range is a fifth of the amplitude
+    steps, omega = np.linspace(0.05, 0.1, 501), 16.44
+
+    def error(h):
+        z, k = 1j * omega * h, np.arange(1, int(1.0 / h) + 1)
+        factor = 1.0 + z + z**2 / 2.0 + z**3 / 6.0 + z**4 / 24.0
+        return np.abs((factor**k).real - np.cos(omega * h * k)).max()
+
+    predicted = max(h for h in steps if error(h) <= 0.2)
+    assert 0.9 * predicted < limit.stable_step < 1.1 * predicted
 
 
 @pytest.mark.parametrize(("step", "word"), [(None, "none"), (1.0, ">= 1"), (0.25, "0.25")])
