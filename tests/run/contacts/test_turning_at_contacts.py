@@ -143,8 +143,6 @@ def test_what_turns_not_is_said(tmp_path: Path) -> None:
             loaded(text, tmp_path)
     with pytest.raises(InputError, match="straight code where a file has rolling resistance"):
         loaded(wheel(), tmp_path).simulate(shape="looped")
-    with pytest.raises(InputError, match="a mechanism without friction of contacts in space"):
-        loaded(ball(keys="rolling = 0.1\n"), tmp_path).equilibrium()
 
 
 def test_rows_against_turning_have_words(tmp_path: Path) -> None:
