@@ -1,6 +1,6 @@
 """Slip of contacts in space in runs with directions: steps that are short before it ends, and when it ends.
 
-Friction turns with the direction of slip u, ``d(u / |u|) = (1 - e e^T) / |u| du``: the part of du across u decays as a
+Its force turns with the direction of slip u, ``d(u / |u|) = (1 - e e^T) / |u| du``: the part of du across u decays as a
 power of the time that is left, at a rate that grows beyond all bounds. Steps of a run do not see that, as its direction
 stays; directions need steps as short as that time. Where slip ends, its velocity is 0 and has no direction:
 the event is where the component along the last one is 0, and what is left across is taken off by an impulse.
@@ -64,7 +64,7 @@ class SlipsInSpace:
         return any(float(np.hypot(*speeds[i : i + 2])) < _LED * numbers[i, LIMIT] for i in led)
 
     def longest_step(self, now: Moment) -> float:
-        """Return the longest step from a state, by the rate at which slip turns: friction over the velocity of slip."""
+        """Return the longest step from a state, by the rate at which slip turns: its force over its velocity."""
         ways = self.ways(now.w)
         if not ways:
             return math.inf
