@@ -10,6 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from benchmarks.mechanisms.toml import text as toml
+from symgen.run.integrators import INTEGRATORS
 from tests.describe.contacts.test_outlines import CAM, mirrored
 from tests.run.contacts.scenes import G, loaded
 from tests.run.contacts.test_derivatives import slopes_of
@@ -76,6 +77,18 @@ def test_a_follower_keeps_its_distance_from_a_cam(way: str, friction: float | No
             error = gap_of_cam(-y * np.sin(angle), y * np.cos(angle)) - 0.008
             assert run.ok and np.abs(error).max() < 1e-11, (way, speed, run.reason)
             assert [event.name for event in run.events if event.name != "touch.hit"] == []
+
+
+@pytest.mark.by_turns(6)
+@pytest.mark.slow
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("name", [name for name, each in INTEGRATORS.items() if {"ode", "index-1"} & {*each.forms}])
+def test_every_integrator_keeps_a_follower_on_a_cam(name: str, coordinates: str, tmp_path: Path) -> None:
+    model = loaded(cam_follower(CAM), tmp_path)
+    run = model.simulate(until=3.2, output_step=0.02, integrator=name, coordinates=coordinates)
+    angle, y = math.pi / 2.0 + 2.0 * run.t, run["follower.y"]
+    assert run.ok and not run.events
+    assert np.abs(gap_of_cam(-y * np.sin(angle), y * np.cos(angle)) - 0.008).max() < 1e-11
 
 
 def roof(slope: float, segments: bool = False, mu: float = 0.3, v: float = 0.6, fillet: float = 0.0) -> str:

@@ -11,10 +11,12 @@ import pytest
 
 from benchmarks.bounded.touch.kinds import drawn
 from benchmarks.mechanisms.toml import text as toml
+from tests.describe.contacts.test_outlines import CAM
 from tests.result.targets.test_c_modes import program_of, rows_of
 from tests.result.targets.test_fmu import fmu_of, simulated
 from tests.run.contacts.scenes import DROP, loaded, rocking_block, woodpecker
 from tests.run.contacts.scenes_in_space import DIE, SKITTLE, SPUN
+from tests.run.contacts.test_outlines import cam_follower, roof
 from tests.run.contacts.test_surface_speed import parcel
 
 #: Steps of a module that Node reads: its last state, and what has happened.
@@ -39,6 +41,8 @@ PRINTED = {
     "ball": (SKITTLE, 1.2, 5e-4, 20, "ball.x", 1e-9),
     "spun": (SPUN, 2.0, 5e-4, 20, "ball.x", 1e-9),
     "belt": (parcel("V*cos(w*t)", outputs=False).replace("w = 4.0", "w = 9.0"), 1.2, 5e-4, 20, "box.x", 1e-12),
+    "cam": (cam_follower(CAM, 0.1), 1.6, 5e-4, 20, "follower.y", 1e-12),
+    "roof": (roof(0.5), 0.6, 5e-4, 20, "disc.x", 1e-12),
     "sled": (toml(drawn("sled", 29).raw), 0.4, 5e-4, 60, "disc.theta", 2e-11),
 }
 
