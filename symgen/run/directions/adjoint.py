@@ -245,12 +245,12 @@ class WayBack:
             self._through_steps(item)
 
     def _through_steps(self, records: Array) -> None:
-        from symgen.run.loops.schemes.adjoint import back_through, back_through_corrected
+        from symgen.run.loops.schemes.adjoint import RecordSizes, back_through, back_through_corrected
 
         run, own = self.run, self._corrections
         back = back_through if own is None else back_through_corrected
-        numbers = run.sizes.width, self._angles, len(run.renewed), run.renewed.start
-        back(self._rates, own or 0, run.scheme, self._table, *numbers, records, *self._now, self._bars, self._room)
+        sizes = RecordSizes(run.sizes.width, self._angles, len(run.renewed), run.renewed.start)
+        back(self._rates, own or 0, run.scheme, self._table, sizes, records, *self._now, self._bars, self._room)
 
     def undo_correction(self) -> None:
         """Take back the correction of the state at the start."""

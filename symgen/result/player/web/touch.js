@@ -8,7 +8,7 @@ function touchedPieces(sides, out, near) {
     return { body, points, radius, whole, places, gap: Infinity };
   }));
   for (const a of placed[0]) for (const b of placed[1]) {
-    const gap = Math.abs(apart(a.places, b.places) - Math.abs(a.radius + b.radius)); // a hole has a radius below 0
+    const gap = Math.abs(gapOfLines(a.places, b.places) - Math.abs(a.radius + b.radius)); // a hole has a radius below 0
     a.gap = Math.min(a.gap, gap);
     b.gap = Math.min(b.gap, gap);
   }
@@ -17,7 +17,7 @@ function touchedPieces(sides, out, near) {
 }
 
 // The distance of two lines through points that do not cross.
-function apart(a, b) {
+function gapOfLines(a, b) {
   let least = Infinity;
   for (const [some, line] of [[a, b], [b, a]]) for (const p of some) {
     if (line.length === 1) least = Math.min(least, Math.hypot(p[0] - line[0][0], p[1] - line[0][1]));

@@ -48,6 +48,23 @@ class Corrections(Record):
     three: Correction
 
 
+class RecordSizes(Record):
+    """Sizes of the records of steps.
+
+    Attributes
+    ----------
+    width, angles : int
+        Numbers of elements of a state, and of angles that count turns.
+    renewed, place : int
+        Number and place of numbers of modes that steps renew.
+    """
+
+    width: int
+    angles: int
+    renewed: int
+    place: int
+
+
 class Transposed(Record):
     """Coefficients of a scheme by columns, as the adjoint takes them.
 
@@ -212,10 +229,7 @@ def carry_adjoint_back(
     corrections: Corrections,
     scheme: TableauRecord,
     table: Transposed,
-    width: int,
-    angles: int,
-    renewed: int,
-    place: int,
+    sizes: RecordSizes,
     records: Array,
     p: Array,
     w: Array,
@@ -235,10 +249,8 @@ def carry_adjoint_back(
         The scheme.
     table : Transposed
         Its coefficients by columns.
-    width, angles : int
-        Numbers of elements of a state, and of angles that count turns.
-    renewed, place : int
-        Number and place of numbers of modes that steps renew.
+    sizes : RecordSizes
+        Sizes of the records.
     records : Array
         The start and the steps.
     p, w, iw : Array
@@ -259,6 +271,7 @@ def carry_adjoint_back(
         bare(room),
     )
     stages, start, column, value = scheme.stages, scheme.start, scheme.column, scheme.value
+    width, angles, renewed, place = sizes.width, sizes.angles, sizes.renewed, sizes.place
     head = state_at(angles + renewed)
     size = head + (1 + stages) * width
     y_bar, p_bar = part(bars, 0, width), part(bars, width, p.shape[0])
