@@ -85,7 +85,8 @@ def ends_of(scene: str, **settings: Any) -> tuple[Array, float]:
 def reference(scene: str) -> Array:
     """Return places and angles at the end."""
     if scene == "gripper":
-        return np.asarray(simulated(gripper(0.0))[-1], dtype=float).reshape(-1, 3)
+        ends: Array = simulated(gripper(0.0))[-1].reshape(-1, 3)
+        return ends
     kind, count = scene.split()
     if kind == "discs":
         return ends_of(scene, integrator="dop853", rtol=1e-12)[0]

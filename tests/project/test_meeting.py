@@ -51,15 +51,9 @@ def test_the_table_is_what_happens() -> None:
 
 
 def test_two_features_that_nothing_joins_never_disturb_each_other() -> None:
-    """All but massless bodies, with which v' is not eliminated, beside friction by reactions and of contacts."""
     cells = bodies_apart.stored()
     assert list(cells) == [f"{first} + {second}" for first, second in bodies_apart.PAIRS]
-    for pair, said in cells.items():
-        rubbing = pair.startswith(("friction by a", "efficiency", "contact", "clearance"))
-        if rubbing and pair.endswith("massless body"):
-            assert "expected a mass and moments of inertia above 0" in said
-        else:
-            assert said == "+", pair
+    assert set(cells.values()) == {"+"}
 
 
 @pytest.mark.slow

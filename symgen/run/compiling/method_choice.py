@@ -6,11 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from symgen.base.errors import InputError
+from symgen.base.vocabulary.measures import GROUND
 from symgen.compile.store.identity import combined_digest
 from symgen.derive.lower.law import refuse_bounded_rows
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS, Method
 from symgen.describe.bounds.by_reaction import SLIDING, pressed_rows
+from symgen.describe.joints.rows import tied_bodies
 from symgen.describe.mechanism import Mechanism
 
 #: Characters of a file stem that say which velocities are free, at most.
@@ -84,6 +86,16 @@ def choice_for_coordinates(mechanism: Mechanism, choice: MethodChoice) -> Method
     return choice.with_options(weight="identity")
 
 
+def _bodies_of_pressed_rows(mechanism: Mechanism) -> set[str]:
+    """Return the bodies that joints and rows with bounds tie to those whose bounds depend on forces."""
+    ties = [set(joint.bodies) for joint in mechanism.joints] + [set(tied_bodies(x.held)) for x in mechanism.bounded]
+    found, before = {body for row in pressed_rows(mechanism) for body in tied_bodies(row.held)}, 0
+    while len(found) > before:
+        before = len(found)
+        found.update(*(tie for tie in ties if tie & found - {GROUND}))
+    return found
+
+
 def choice_for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = True) -> MethodChoice:
     """Return a choice for massless bodies: v' is not eliminated, where the solver is `free` to be chosen.
 
@@ -98,7 +110,8 @@ def choice_for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = T
     whole = choice.with_options(solver="augmented") if "solver" in choice.options else choice
     if pressed := pressed_rows(mechanism):
         sliders = {joint.bodies[-1] for joint in mechanism.joints if joint.kind == SLIDING}
-        name = next((body.name for body in mechanism.bodies if body.massless and body.name not in sliders), "")
+        tied = _bodies_of_pressed_rows(mechanism) - sliders
+        name = next((body.name for body in mechanism.bodies if body.massless and body.name in tied), "")
         if name:
             expected = (
                 f"a mass and moments of inertia above 0, as {pressed[0].family.one} depends on the reaction of a joint"

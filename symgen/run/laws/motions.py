@@ -12,6 +12,7 @@ from symgen.compile.loopcode.exact import exact
 from symgen.run.laws.newton import follow_laws
 from symgen.run.laws.problem import (
     BALL,
+    LOADS,
     LOWER,
     NOTHING,
     OFF,
@@ -35,9 +36,12 @@ from symgen.run.laws.verify import obeys, size_of_terms
 NO_MOTION, ONE_MOTION, SEVERAL_MOTIONS, NOT_SOUGHT = range(4)
 #: Most combinations that are counted.
 COUNTED = 256
-#: Beginnings: the forces that are there, rest, none, and sweeps of row after row; what holds all, by many sweeps.
+#: Beginnings: the forces that are there, rest, none, and sweeps of row after row; of rows that give way; what holds
+#: all, by many sweeps.
 _GIVEN, _AT_REST, _NONE, _SWEPT = range(4)
-_BEGINNINGS, _SOUGHT, _SWEEPS, _HELD, _RELAXED = 6, 5, 5, 6, 300
+_BEGINNINGS, _SOUGHT, _SWEEPS, _GIVING, _HELD, _RELAXED = 7, 5, 5, 6, 7, 300
+#: Largest part of its mobility by which a row gives way, what a step leaves of it, steps, and sweeps in each.
+_SOFTEST, _HARDER, _SOFTENED, _SETTLING = 10.0, 0.5, 36, 40
 #: Balls of two rows take part in more sweeps than these: what is near without their forces is found before.
 _LONG = 25
 #: Forces above are no beginning; accelerations of two motions differ by more than this part.
@@ -63,7 +67,7 @@ def sweep_laws(n: int, times: int, laws: Laws) -> None:
                     laws.forces[i] = 0.0
                 else:
                     laws.forces[i] = middle + min(max(wants - middle, -bound), bound)
-            elif times > _LONG and laws.law[i] == BALL and laws.way[i] == laws.way[i + 1] == 0.0:
+            elif LOADS and times > _LONG and laws.law[i] == BALL and laws.way[i] == laws.way[i + 1] == 0.0:
                 own = max(mobility_of(n, i, laws), TINY)
                 x = laws.forces[i] + acceleration_of(n, i, laws) / own
                 y = laws.forces[i + 1] + acceleration_of(n, i + 1, laws) / own
@@ -92,6 +96,25 @@ def relax_laws(n: int, times: int, laws: Laws) -> None:
 
 
 @exact()
+def harden_laws(n: int, laws: Laws) -> None:
+    """Let forces come near the forces of rows that give way by a part of their mobility, a part that falls.
+
+    Such forces are not many. Without loads they are found, and lead to forces of rows that do not give way.
+    """
+    for i in range(n):
+        laws.first[i] = laws.matrix[i * n + i]
+    part = _SOFTEST
+    for _ in range(_SOFTENED):
+        for i in range(n):
+            laws.matrix[i * n + i] = laws.first[i] * (1.0 + part)
+        sweep_laws(n, _SETTLING, laws)
+        follow_laws(n, False, laws)
+        part *= _HARDER
+    for i in range(n):
+        laws.matrix[i * n + i] = laws.first[i]
+
+
+@exact()
 def begin(n: int, beginning: int, laws: Laws) -> None:
     """Set the forces, or the states, that Newton's method begins from."""
     for i in range(n):
@@ -102,8 +125,10 @@ def begin(n: int, beginning: int, laws: Laws) -> None:
             laws.state[i] = ON if laws.law[i] == PUSH or laws.way[i] == 0.0 else UPPER
         follow_laws(n, True, laws)
         spread_forces(n, laws)
-    elif beginning == _HELD:
+    elif LOADS and beginning == _HELD:
         relax_laws(n, _RELAXED, laws)
+    elif beginning == _GIVING:
+        harden_laws(n, laws)
     elif beginning >= _SWEPT:
         times = beginning - _SWEPT + 1
         sweep_laws(n, _SWEEPS * times * times, laws)
@@ -228,9 +253,14 @@ def find_forces(n: int, laws: Laws, first: int) -> bool:
         begin(n, beginning, laws)
         if follow_laws(n, False, laws) and obeys(n, laws):
             return True
-    for i in range(n):
-        laws.option[i] = 0
-    return bool(count_combinations(n, laws) <= COUNTED and try_combinations(n, False, laws))
+    if LOADS:
+        for i in range(n):
+            laws.option[i] = 0
+        if count_combinations(n, laws) <= COUNTED and try_combinations(n, False, laws):
+            return True
+    begin(n, _AT_REST, laws)  # near a dead centre mobilities have rounding, and laws contradict each other by it
+    follow_laws(n, False, laws)
+    return bool(obeys(n, laws))
 
 
 @exact()

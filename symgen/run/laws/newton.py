@@ -12,6 +12,7 @@ import math
 from symgen.compile.loopcode.exact import exact
 from symgen.run.laws.problem import (
     BALL,
+    LOADS,
     LOWER,
     NOTHING,
     OFF,
@@ -128,7 +129,7 @@ def miss_laws(n: int, most: float, chosen: bool, sloped: bool, laws: Laws) -> fl
     for i in range(n):
         if laws.law[i] == PUSH or laws.law[i] == NOTHING:
             fill_push(n, i, most, chosen, sloped, laws)
-        elif laws.law[i] == BALL and rows_of(n, i, laws) == 2:
+        elif LOADS and laws.law[i] == BALL and rows_of(n, i, laws) == 2:
             fill_disc(n, i, most, chosen, sloped, laws)
         elif laws.law[i] == BALL:
             fill_ball(n, i, most, chosen, sloped, laws)

@@ -26,6 +26,8 @@ PUSH, BALL, SECOND, NOTHING = range(4)
 OFF, ON, UPPER, LOWER = range(4)
 #: Most components of a load; a size that is no divisor of zero.
 COMPONENTS, TINY = 3, 1e-300
+#: Whether bounds may depend on forces.
+LOADS = True
 
 
 class Laws(Record):
@@ -98,7 +100,7 @@ def begin_row(n: int, i: int, laws: Laws) -> None:
     """Make a row one that pushes, without anything that its law depends on."""
     laws.law[i], laws.presser[i], laws.components[i] = PUSH, -1, 0
     laws.way[i] = laws.beta[i] = laws.kappa[i] = laws.middle[i] = 0.0
-    for part in range(COMPONENTS):
+    for part in range(COMPONENTS if LOADS else 0):
         laws.apart[COMPONENTS * i + part] = 0.0
         for j in range(n):
             laws.parts[(COMPONENTS * i + part) * n + j] = 0.0
@@ -125,6 +127,8 @@ def reaction_of(n: int, i: int, part: int, laws: Laws) -> float:
 @exact()
 def load_of(n: int, i: int, laws: Laws) -> float:
     """Return the load of a row, 0 without one."""
+    if not LOADS:
+        return 0.0
     if laws.presser[i] >= 0:
         return float(larger_number(-laws.forces[laws.presser[i]], 0.0))
     square = 0.0
@@ -137,7 +141,7 @@ def load_of(n: int, i: int, laws: Laws) -> float:
 @exact()
 def load_within(n: int, i: int, chosen: bool, laws: Laws) -> float:
     """Return the load of a row in the equations of Newton's method: in `chosen` states a force of any sign."""
-    if chosen and laws.presser[i] >= 0:
+    if LOADS and chosen and laws.presser[i] >= 0:
         return float(-laws.forces[laws.presser[i]])
     return float(load_of(n, i, laws))
 
@@ -157,6 +161,8 @@ def middle_of(i: int, load: float, laws: Laws) -> float:
 @exact()
 def slope_of_load(n: int, i: int, j: int, load: float, chosen: bool, laws: Laws) -> float:
     """Return the derivative of `load_within` by a force."""
+    if not LOADS:
+        return 0.0
     if laws.presser[i] >= 0:
         return -1.0 if laws.presser[i] == j and (chosen or load > 0.0) else 0.0
     slope = 0.0
@@ -169,14 +175,14 @@ def slope_of_load(n: int, i: int, j: int, load: float, chosen: bool, laws: Laws)
 @exact()
 def rows_of(n: int, i: int, laws: Laws) -> int:
     """Return the number of rows of a ball."""
-    return 2 if i + 1 < n and laws.law[i + 1] == SECOND else 1
+    return 2 if LOADS and i + 1 < n and laws.law[i + 1] == SECOND else 1
 
 
 @exact()
 def mobility_of(n: int, i: int, laws: Laws) -> float:
     """Return the own mobility of a law, of the ball of a second row."""
     first = i - 1 if laws.law[i] == SECOND else i
-    if rows_of(n, first, laws) == 2:
+    if LOADS and rows_of(n, first, laws) == 2:
         return float(0.5 * (laws.matrix[first * n + first] + laws.matrix[(first + 1) * n + first + 1]))
     return float(laws.matrix[i * n + i])
 
@@ -190,7 +196,7 @@ def weigh_laws(n: int, laws: Laws) -> float:
         laws.root[i] = math.sqrt(own) if own > 0.0 else 1.0
         most = larger_number(most, abs(laws.offset[i]) / laws.root[i] if own > 0.0 else 0.0)
         if laws.way[i] != 0.0:
-            for part in range(laws.components[i]):
+            for part in range(laws.components[i] if LOADS else 0):
                 square += laws.apart[COMPONENTS * i + part] ** 2
             most = larger_number(most, (laws.beta[i] + laws.kappa[i] * math.sqrt(square)) * laws.root[i])
     return float(most)

@@ -138,12 +138,6 @@ class BoundedNames:
         """Whether slip of contacts has two rows, as in space."""
         return bool(self.seconds)
 
-    @property
-    def all_loaded(self) -> bool:
-        """Whether bounds of all two-sided rows depend on forces, of reactions or of contacts."""
-        loads = {*self.pressed, *(i for i, partner in enumerate(self.partners) if partner >= 0)}
-        return bool(self.pressed or self.contacts) and loads.issuperset(range(self.dry))
-
 
 @dataclass(frozen=True, kw_only=True)
 class BoundedRows(BoundedNames):
@@ -261,8 +255,6 @@ class Watched:
             "contacts": rows.contacts,
             "reactions": rows.one_problem,
             "poisson": rows.one_problem and rows.poisson,
-            "loaded": rows.all_loaded and not rows.pressed,
-            "loaded by reactions": rows.all_loaded and rows.pressed,
             "paired": rows.paired,
         }
         return (*(kind for kind, those in has.items() if those), *holding)

@@ -37,8 +37,8 @@ OUT_OF_RANGE = 5
 #: Codes where bounds depend on reactions: efforts that bring about all of their reaction; reactions that redundant
 #: rows leave undetermined; bounds and reactions that never agree.
 JAMMED, REDUNDANT, DISAGREED = range(6, 9)
-#: Codes of impacts: one that the joints do not allow, one whose impulses are not found.
-NOT_APPLIED, NO_IMPULSES = 10, 11
+#: Code of an impact that the joints do not allow.
+NOT_APPLIED = 10
 #: What is out of range: a gap, a restitution, a bound in motion that is 0 beside one at rest, other bounds.
 NEGATIVE_GAP, NO_RESTITUTION, NO_BOUND_IN_MOTION, NO_BOUNDS = range(12, 16)
 #: Code of an impact at a gap whose rate joints and drivers determine: nothing can change it.

@@ -1,13 +1,4 @@
-"""The choice of modes at one state, compiled: rows at rest, their forces, and which of them are put into force.
-
-A coordinate at rest stays so as long as a force within its bounds keeps it; all of these forces follow from the box
-problem (`symgen.run.modes.box`) on accelerations, which are linear in them. Static bounds hold for coordinates that
-come to rest, those in motion for coordinates that have just broken loose; a coordinate that its static bound does not
-hold breaks loose too. Rows at rest that other ones determine stay off: the rows in force carry their part.
-
-A one-sided row is in force where its gap is 0 and stays so, by a force that pushes. Gaps that strike have impacts first
-(`symgen.run.modes.strikes`).
-"""
+"""Rows at rest at one state, before modes are chosen (`symgen.run.modes.choosing`), and what follows a choice."""
 
 from __future__ import annotations
 
@@ -16,7 +7,7 @@ import math
 from symgen.base.ir.numerics import SKIP
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
-from symgen.compile.native.annotations import Array, Integers
+from symgen.compile.native.annotations import Array
 from symgen.run.effects.pushing import PAIRED
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import choose_rows, farthest_row, is_off
@@ -38,7 +29,6 @@ from symgen.run.loops.search_records import (
 from symgen.run.modes.bounded_rows import (
     CONSTANT,
     HELD,
-    NOT_FINITE,
     OTHERS,
     SAME,
     SIGN,
@@ -48,10 +38,7 @@ from symgen.run.modes.bounded_rows import (
     row_scale,
     sign_of_number,
 )
-from symgen.run.modes.holding import hold_rows
-from symgen.run.modes.paired_rows import component_at, length_at, share_found
-from symgen.run.modes.probing import add_forces, probe
-from symgen.run.modes.resting import solve_rest
+from symgen.run.modes.paired_rows import component_at, is_first, length_at, share_found
 from symgen.run.modes.row_records import Choice
 
 
@@ -104,30 +91,21 @@ def write_modes(c: Choice, w: Array) -> int:
 
 
 @exact(entry=True)
-def choose_modes(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
-    """Choose the modes of a state whose rows have been read; return `SAME`, `OTHERS`, or why there are none."""
-    n = find_rest(c, w)
-    if n > 0:
-        if probe(t, c, y, p, w, iw, control) != SAME:
-            return NOT_FINITE
-        code = solve_rest(c, n, w)
-        if code != SAME:
-            return int(code)
-    hold_rows(c, w)
-    for i in range(c.rows.count):
-        c.shut[i] = 0
-    add_forces(c)
-    return int(write_modes(c, w))
-
-
-@exact(entry=True)
 def measure_margins(c: Choice, w: Array, hunt: Array) -> int:
-    """Set the sizes that the rounding of margins is relative to; return their number."""
+    """Set the sizes that the rounding of margins is relative to; return their number.
+
+    Rows along contacts at rest that others carry are watched: a drive may move them, though the rows in force stay at
+    rest.
+    """
     n, at, found = int(hunt[COUNT]), N_HEAD, 0
     for k in range(n):
         kind, i = int(hunt[at + MARGIN * n + k]), int(hunt[at + ROW * n + k])
-        size, pace = 1.0, math.inf
+        size, pace, numbers = 1.0, math.inf, c.rows.first + MODE_NUMBERS * i
         rests = is_held(c, w, i)
+        if c.rows.pushes[i] == 0 and c.rows.partner[i] >= 0 and w[numbers + SIGN] == 0.0:
+            rests = rests and w[numbers + HELD] != 0.0
+            if PAIRED and is_first(c, i):  # as long as one of both rows is not in force
+                rests = rests and w[numbers + MODE_NUMBERS + HELD] != 0.0
         if kind == FORCE:
             size = c.problem.scale[i]
         elif kind == GAP:

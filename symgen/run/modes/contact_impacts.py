@@ -47,7 +47,7 @@ from symgen.run.modes.contact_series import (
 )
 from symgen.run.modes.paired_rows import component_at, find_direction, first_of, is_first, length_at
 from symgen.run.modes.pin_impulses import find_shortfall, probe_impact, push
-from symgen.run.modes.probing import by_reaction, forget_kicks, pose_impact, probe_contacts
+from symgen.run.modes.probing import by_reaction, forget_kicks, pose_impact, probe
 from symgen.run.modes.reading import read_rows
 from symgen.run.modes.row_records import Choice
 from symgen.run.modes.strikes import (
@@ -86,7 +86,7 @@ def find_struck_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: 
             c.rest[n], c.taken[i] = i, 1
             n += 1
     c.at_rest[0] = n
-    if probe_contacts(t, c, y, p, w, iw, control) != SAME:
+    if probe(t, c, y, p, w, iw, control) != SAME:
         return NOT_FINITE
     return int(find_immovable(c, w, leave_to_others(c, w)))
 
@@ -137,7 +137,7 @@ def find_impulses(c: Choice, s: Strikes, w: Array) -> int:
             if code != SAME:
                 return int(code)
             for a in range(count):
-                c.part[c.box.order[a]] = c.rows.count
+                c.part[c.order[a]] = c.rows.count
     if PAIRED:
         for i in range(c.rows.dry):
             slides = c.best[i] == UPPER and c.rows.turning[i] == 0 and is_first(c, first_of(c, i))

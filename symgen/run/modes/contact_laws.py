@@ -1,8 +1,8 @@
 """Modes of parts of rows that depend on each other, compiled: Newton's method on all laws.
 
 Rest is tried first, then other beginnings, then combinations where they are few; each motion is verified. Of few rows
-all motions are counted. Where other beginnings of many rows lead to different motions there are several, unless what
-was at rest goes on resting; others than those found are not sought.
+all motions are counted where bounds depend on forces; else there is one. Where other beginnings of many rows lead to
+different motions there are several, unless what was at rest goes on resting; others than those found are not sought.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from symgen.run.laws.motions import NOT_SOUGHT, SEVERAL_MOTIONS, count_motions, 
 from symgen.run.laws.problem import (
     BALL,
     COMPONENTS,
+    LOADS,
     LOWER,
     NOTHING,
     OFF,
@@ -33,11 +34,13 @@ from symgen.run.laws.verify import size_of_terms
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
     CONSTANT,
+    CONTRARY,
     DISAGREED,
     HELD,
     NO_ACCELERATION,
     NO_CONTACT_MODES,
     NO_FACTOR,
+    NO_FORCES,
     NOTHING_FOUND,
     SAME,
     SEVERAL_BY_REACTION,
@@ -58,7 +61,7 @@ def bound_of(c: Choice, i: int, part: float) -> float:
 @exact()
 def fill_part(c: Choice, count: int, part: float) -> None:
     """Write the problem of the rows of a part, in their order in ``order``, with a part of the bounds at rest."""
-    k, order, laws = c.rows.count, c.box.order, c.laws
+    k, order, laws = c.rows.count, c.order, c.laws
     for a in range(count):
         i = order[a]
         begin_row(count, a, laws)
@@ -79,7 +82,7 @@ def fill_part(c: Choice, count: int, part: float) -> None:
                         laws.parts[at * count + b] = c.problem.parts[(2 * i + component) * k + order[b]]
         if PAIRED and is_second(c, i):
             laws.law[a], laws.way[a] = SECOND, c.signs[i]
-        elif c.rows.pushes[i] == 0 and c.rows.partner[i] >= 0:
+        elif LOADS and c.rows.pushes[i] == 0 and c.rows.partner[i] >= 0:
             laws.kappa[a], laws.way[a] = bound_of(c, i, part), c.signs[i]
             laws.beta[a] = bound_of(c, i, part) * c.problem.apart[2 * i] if POISSON else 0.0
             for b in range(count):
@@ -91,7 +94,7 @@ def fill_part(c: Choice, count: int, part: float) -> None:
 def rested(c: Choice, count: int) -> bool:
     """Whether all rows of a part rest in the motion found, and did before."""
     for a in range(count):
-        at = MODE_NUMBERS * c.box.order[a]
+        at = MODE_NUMBERS * c.order[a]
         if c.laws.state[a] != ON or (c.before[at + HELD] == 0.0 and c.before[at + CONSTANT] == 0.0):
             return False
     return True
@@ -103,7 +106,7 @@ def find_carriers_of_part(c: Choice, count: int) -> None:
 
     ``part`` is -1 for rows that are put into force, the number of rows for those that keep their forces.
     """
-    order, laws = c.box.order, c.laws
+    order, laws = c.order, c.laws
     find_dependent(count, laws)
     for b in range(count):
         j, owners, owner = order[b], 0, -1
@@ -122,7 +125,7 @@ def find_forces_of_part(c: Choice, count: int) -> bool:
     """Find forces that obey all laws; gaps that have just opened stay open unless they would close."""
     laws, closes = c.laws, False
     for a in range(count):
-        if c.rows.pushes[c.box.order[a]] != 0 and c.loose[c.box.order[a]] != 0:
+        if c.rows.pushes[c.order[a]] != 0 and c.loose[c.order[a]] != 0:
             laws.law[a] = NOTHING
     found = find_forces(count, laws, 1)
     for a in range(count):
@@ -148,6 +151,15 @@ def part_used(c: Choice, count: int, a: int) -> float:
 
 
 @exact()
+def stays_open(c: Choice, count: int, i: int) -> bool:
+    """Whether a gap without a force was open before, where a row of its part breaks loose: nothing closes it."""
+    at, breaks = MODE_NUMBERS * i, 0
+    for a in range(count):
+        breaks += c.found.broken[c.order[a]]
+    return bool(breaks > 0 and c.before[at + HELD] == 0.0 and c.before[at + CONSTANT] == 0.0 and c.shut[i] == 0)
+
+
+@exact()
 def settle_at_bounds(c: Choice, count: int) -> None:
     """Decide what forces leave open: gaps without a force stay closed, and rows at their bounds move if they are loose.
 
@@ -155,13 +167,13 @@ def settle_at_bounds(c: Choice, count: int) -> None:
     """
     laws = c.laws
     for a in range(count):
-        i, still = c.box.order[a], is_still(c, count, a, NO_ACCELERATION)
+        i, still = c.order[a], is_still(c, count, a, NO_ACCELERATION)
         if PAIRED and is_first(c, i):
             both = still and is_still(c, count, a + 1, NO_ACCELERATION)
             settle_pair(a, i, both, load_bound(count, a, laws), c.loose, c)
             continue
         if laws.law[a] == PUSH and laws.state[a] == OFF and c.loose[i] == 0 and still:
-            laws.state[a] = ON
+            laws.state[a] = OFF if stays_open(c, count, i) else ON
         if laws.law[a] == BALL and c.loose[i] == 0 and still and laws.way[a] == 0.0 and laws.state[a] != OFF:
             laws.state[a] = ON
         if laws.law[a] == BALL and laws.state[a] == ON and c.loose[i] != 0:
@@ -176,7 +188,7 @@ def name_different(c: Choice, count: int) -> None:
     differ = 0
     for a in range(count):
         if c.laws.state[a] != c.laws.other[a]:
-            c.named[differ] = c.box.order[a]
+            c.named[differ] = c.order[a]
             differ += 1
     c.named[differ] = -1
 
@@ -186,7 +198,7 @@ def name_fault(c: Choice, count: int) -> None:
     """Name the contact of a part that comes nearest to jamming, with what is left of its mobility."""
     k, least = c.rows.count, math.inf
     for a in range(count):
-        i = c.box.order[a]
+        i = c.order[a]
         j = c.rows.partner[i]
         if c.rows.pushes[i] != 0:
             if least == math.inf:
@@ -204,37 +216,72 @@ def name_fault(c: Choice, count: int) -> None:
                     c.named[0], c.jam[0], least = i, left, left / c.problem.matrix[i * k + i]
 
 
+@exact()
+def name_gaps(c: Choice, count: int) -> bool:
+    """Name the gaps of a part; return whether there are any."""
+    gaps = 0
+    for a in range(count):
+        if c.rows.pushes[c.order[a]] != 0:
+            c.named[gaps] = c.order[a]
+            gaps += 1
+    c.named[gaps] = -1
+    return gaps > 0
+
+
+@exact()
+def has_contact(c: Choice, count: int) -> bool:
+    """Return whether bounds of a part depend on forces of its gaps."""
+    for a in range(count):
+        if c.rows.partner[c.order[a]] >= 0:
+            return True
+    return False
+
+
+@exact()
+def fault_of_part(c: Choice, count: int) -> int:
+    """Return why no forces are found for a part, and name its rows."""
+    if not LOADS or not (has_reaction(c, count) or has_contact(c, count)):
+        return CONTRARY if name_gaps(c, count) else NO_FORCES
+    name_fault(c, count)
+    if has_reaction(c, count):
+        return DISAGREED
+    if c.jam[0] <= 0.0:
+        return NO_CONTACT_MODES
+    c.jam[0] = float(count)
+    return NOTHING_FOUND
+
+
+@exact()
+def find_several(c: Choice, count: int) -> bool:
+    """Whether a part has several motions; where others are not sought, keep of how many rows."""
+    motions = count_motions(count, c.laws)
+    several = motions == SEVERAL_MOTIONS
+    c.unsought[0] = max(c.unsought[0], count if motions == NOT_SOUGHT else 0)
+    if motions == NOT_SOUGHT and not rested(c, count):
+        several = seek_another(count, c.laws)
+    return bool(several)
+
+
 @exact(entry=True)
 def solve_by_laws(c: Choice, count: int, part: float) -> int:
     """Find the modes of a part with a part of the bounds at rest.
 
-    Returns `SAME`, `NO_CONTACT_MODES`, `NOTHING_FOUND` or `SEVERAL_MODES`.
-
-    Where bounds depend on reactions, `DISAGREED` or `SEVERAL_BY_REACTION` with the rows that differ.
+    Returns `SAME`, or why there are none, see `fault_of_part`, or `SEVERAL_MODES`; where bounds depend on reactions,
+    `SEVERAL_BY_REACTION` with the rows that differ.
     """
-    order, laws, reacts = c.box.order, c.laws, has_reaction(c, count)
+    order, laws, reacts = c.order, c.laws, has_reaction(c, count)
     fill_part(c, count, part)
     if not find_forces_of_part(c, count):
-        name_fault(c, count)
-        if reacts:
-            return DISAGREED
-        if c.jam[0] <= 0.0:
-            return NO_CONTACT_MODES
-        c.jam[0] = float(count)
-        return NOTHING_FOUND
+        return int(fault_of_part(c, count))
     share_forces(count, laws)
     settle_at_bounds(c, count)
-    motions = count_motions(count, laws)
-    several = motions == SEVERAL_MOTIONS
-    c.unsought[0] = max(c.unsought[0], count if motions == NOT_SOUGHT else 0)
-    if motions == NOT_SOUGHT and not rested(c, count):
-        several = seek_another(count, laws)
+    several = LOADS and find_several(c, count)
     for a in range(count):
         i = order[a]
         c.best[i], c.other[i], c.trial[i] = laws.state[a], laws.other[a], laws.left[a]
         c.forces[i] = laws.forces[a] - c.read.middle[i]
         c.sizes[i] = load_of(count, a, laws) if by_reaction(c, i) else 1.0
-    for a in range(count):  # the friction of an open contact is off
+    for a in range(count if LOADS else 0):  # the friction of an open contact is off
         i = order[a]
         if c.rows.pushes[i] == 0 and c.rows.partner[i] >= 0 and c.best[c.rows.partner[i]] == OFF:
             c.best[i] = c.best[i] if POISSON and c.problem.apart[2 * i] > 0.0 else OFF
@@ -244,4 +291,5 @@ def solve_by_laws(c: Choice, count: int, part: float) -> int:
         return SEVERAL_BY_REACTION
     if several:
         name_fault(c, count)
-    return SEVERAL_MODES if several else SAME
+        return SEVERAL_MODES
+    return SAME

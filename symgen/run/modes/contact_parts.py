@@ -1,8 +1,8 @@
 """Mobility among closed contacts and their friction, compiled, and the parts of it that do not depend on each other.
 
 G has the accelerations of rows by the forces of others. Rows at rest that G connects are one part, of which the modes
-are chosen together; a part without contacts is a box problem, see `symgen.run.modes.choice`. Where bounds depend on
-reactions, a probe reads these as well, and rows are one part by their loads too.
+are chosen together. Where bounds depend on reactions, a probe reads these as well, and rows are one part by their loads
+too.
 """
 
 from __future__ import annotations
@@ -11,14 +11,13 @@ import math
 
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array
+from symgen.run.laws.problem import LOADS
 from symgen.run.layout.redundancy import is_off
 from symgen.run.modes.probing import by_reaction
 from symgen.run.modes.row_records import Choice
 
 #: Rows depend on each other above this part of their own mobilities.
 COUPLED = 1e-12
-#: Whether some rows with two bounds depend on no force; parts of these have a problem of their own.
-PLAIN = True
 
 
 @exact()
@@ -46,7 +45,7 @@ def keep_touching(c: Choice, n: int) -> int:
 @exact()
 def is_load(c: Choice, i: int, j: int) -> bool:
     """Return whether the bound of a row depends on the force of another one."""
-    if c.rows.partner[i] == j:
+    if LOADS and c.rows.partner[i] == j:
         return True
     at = 2 * i * c.rows.count + j
     return bool(by_reaction(c, i) and (c.problem.parts[at] != 0.0 or c.problem.parts[at + c.rows.count] != 0.0))
@@ -72,12 +71,12 @@ def find_parts(c: Choice) -> int:
 
 @exact()
 def choose_part(c: Choice, part: int, rows: int) -> int:
-    """Set the rows of a part in the order of ``box``; return their number."""
+    """Set the rows of a part in the order of ``order``; return their number."""
     count = 0
     for r in range(rows):
         i = c.rest[r]
         if c.part[i] == part:
-            c.box.order[count] = i
+            c.order[count] = i
             count += 1
     return int(count)
 
@@ -86,20 +85,18 @@ def choose_part(c: Choice, part: int, rows: int) -> int:
 def has_reaction(c: Choice, count: int) -> bool:
     """Return whether bounds of a part depend on reactions."""
     for a in range(count):
-        if by_reaction(c, c.box.order[a]):
+        if by_reaction(c, c.order[a]):
             return True
     return False
 
 
 @exact()
-def has_loads(c: Choice, count: int) -> bool:
-    """Return whether the laws are for a part: its bounds depend on forces, and any row may rest."""
-    loads, rests = has_reaction(c, count) or not PLAIN, False
+def may_rest(c: Choice, count: int) -> bool:
+    """Return whether any row of a part may rest."""
     for a in range(count):
-        i = c.box.order[a]
-        loads = loads or c.rows.partner[i] >= 0
-        rests = rests or c.rows.pushes[i] != 0 or c.signs[i] == 0.0
-    return bool(loads and rests)
+        if c.rows.pushes[c.order[a]] != 0 or c.signs[c.order[a]] == 0.0:
+            return True
+    return False
 
 
 @exact()

@@ -20,7 +20,7 @@ from symgen.run.layout.scales import larger_number
 from symgen.run.layout.start_records import Instant
 from symgen.run.modes.bounded_rows import SAME, STILL, row_scale, switch_off
 from symgen.run.modes.choice import follow_modes
-from symgen.run.modes.contacts import choose_contacts
+from symgen.run.modes.choosing import choose_modes
 from symgen.run.modes.found_rows import forget_found
 from symgen.run.modes.impact_memory import AT, HEAD, RATE, REMEMBERED
 from symgen.run.modes.pin_impulses import probe_impact, push
@@ -183,7 +183,7 @@ def try_rest(t: float, c: Choice, s: Strikes, now: Instant, iw: Integers) -> boo
     if push(t, c, s, now, True):
         if read_rows(t, c, now.y, now.p, now.w) == SAME:
             find_starting(t, c, now.w)
-            if choose_contacts(t, c, now.y, now.p, now.w, iw, memory.control) <= 1:
+            if choose_modes(t, c, now.y, now.p, now.w, iw, memory.control) <= 1:
                 follow_modes(t, c, now.y, now.p, now.w)
                 accelerate_in_force(t, c, now, iw)
                 for i in range(c.rows.count):

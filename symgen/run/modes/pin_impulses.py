@@ -19,7 +19,7 @@ from symgen.run.effects.pushing import POISSON, REACTIONS, push_contacts
 from symgen.run.laws.newton import follow_laws
 from symgen.run.laws.problem import BALL, COMPONENTS, LOWER, OFF, ON, UPPER, acceleration_of, begin_row, load_of
 from symgen.run.layout.start_records import Instant
-from symgen.run.modes.probing import by_reaction, probe_contacts
+from symgen.run.modes.probing import by_reaction, probe
 from symgen.run.modes.row_records import Choice
 from symgen.run.modes.strikes import Strikes
 
@@ -41,7 +41,7 @@ def list_rows(c: Choice, s: Strikes) -> int:
     Friction by reactions comes last; returns the number of all.
     """
     _, _, _, _, changes = s.effects.model
-    owners, ties, order, laws, n = changes.owners, s.ties, c.box.order, c.laws, 0
+    owners, ties, order, laws, n = changes.owners, s.ties, c.order, c.laws, 0
     for j in range(owners.shape[0]):
         for i in range(c.rows.dry, c.rows.count):
             if owners[j] == s.events[i] and s.active[i] != 0:
@@ -67,7 +67,7 @@ def fill_impact(c: Choice, s: Strikes, n: int, rests: bool) -> None:
     Where a series of impacts comes to rest, gaps have what is left of their impulses less what rest has in their place:
     they pull, and friction by reactions has the other sign.
     """
-    k, order, laws = c.rows.count, c.box.order, c.laws
+    k, order, laws = c.rows.count, c.order, c.laws
     for a in range(n):
         i = order[a]
         begin_row(n, a, laws)
@@ -101,7 +101,7 @@ def solve_motion(c: Choice, s: Strikes, flies: bool) -> int:
     laws, n = c.laws, list_rows(c, s)
     fill_impact(c, s, n, False)
     for a in range(n):
-        i = c.box.order[a]
+        i = c.order[a]
         laws.offset[a], laws.beta[a] = c.problem.offset[i], 0.0
         laws.state[a] = OFF if flies and not by_reaction(c, i) else laws.state[a]
         for part in range(laws.components[a]):
@@ -121,13 +121,13 @@ def find_shortfall(c: Choice, s: Strikes, left: float) -> None:
         s.memory.kicked[i] = c.sizes[i] = 0.0
     n = solve_motion(c, s, True)
     for a in range(n):
-        if by_reaction(c, c.box.order[a]):
-            c.sizes[c.box.order[a]] = load_of(n, a, laws)
+        if by_reaction(c, c.order[a]):
+            c.sizes[c.order[a]] = load_of(n, a, laws)
     n = solve_motion(c, s, False)
     for a in range(n):
-        if by_reaction(c, c.box.order[a]):
-            c.sizes[c.box.order[a]] -= load_of(n, a, laws)
-        elif c.rows.pushes[c.box.order[a]] != 0:
+        if by_reaction(c, c.order[a]):
+            c.sizes[c.order[a]] -= load_of(n, a, laws)
+        elif c.rows.pushes[c.order[a]] != 0:
             gap, gaps, pushed = a, gaps + 1, -laws.forces[a]
     if gaps != 1 or not (pushed > 0.0 and left > 0.0):
         return
@@ -137,7 +137,7 @@ def find_shortfall(c: Choice, s: Strikes, left: float) -> None:
         laws.beta[a], laws.offset[a] = 0.0, -1.0 if a == gap else 0.0
     if follow_laws(n, True, laws) and laws.forces[gap] < 0.0:
         for a in range(n):
-            i = c.box.order[a]
+            i = c.order[a]
             if by_reaction(c, i) and s.memory.pins[i] >= UPPER:
                 lacks = c.sizes[i] - pushed * load_of(n, a, laws) / laws.forces[gap]
                 s.memory.kicked[i] = c.read.sliding[i] * left * lacks
@@ -153,7 +153,7 @@ def find_kicks(c: Choice, s: Strikes, rests: bool, y: Array) -> bool:
     if not follow_laws(n, True, laws):
         return False
     for a in range(n):
-        i, kick = c.box.order[a], 0.0
+        i, kick = c.order[a], 0.0
         if by_reaction(c, i):
             rate, kick = c.read.speed[i] + acceleration_of(n, a, laws), -laws.forces[a]
             s.memory.spent[0] += 0.5 * kick * rate
@@ -192,7 +192,7 @@ def probe_impact(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, 
             c.rest[n] = i
             n += 1
     c.at_rest[0] = n
-    return int(probe_contacts(t, c, y, p, w, iw, s.memory.control))
+    return int(probe(t, c, y, p, w, iw, s.memory.control))
 
 
 def kicks_along_rows(c: Choice, impulses: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -12,6 +12,7 @@ from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.effects.pushing import POISSON, REACTIONS
+from symgen.run.laws.problem import LOADS
 from symgen.run.layout import abi
 from symgen.run.layout.scales import entry_of, larger_number
 from symgen.run.modes.bounded_rows import (
@@ -79,58 +80,6 @@ def measure_accelerations(t: float, c: Choice, p: Array, control: Integers) -> i
     return SAME
 
 
-@exact(entry=True)
-def accelerate(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
-    """Write the accelerations of coordinates with all rows off and efforts of the signs of ``trial`` to ``out``.
-
-    A coordinate whose bounds depend on a reaction, or are 0 for a time, may be ``pushed`` by a force of -1.
-    """
-    copy_state(c, y, w, iw)
-    for i in range(c.rows.count):
-        at = c.rows.first + MODE_NUMBERS * i
-        c.w[at + HELD] = c.w[at + CONSTANT] = c.w[at + LIMIT] = c.w[at + EFFORT] = 0.0
-        c.w[at + SIGN] = c.trial[i]
-    if c.pushed[0] >= 0:
-        c.w[c.rows.first + MODE_NUMBERS * c.pushed[0] + EFFORT] = 1.0
-    return int(measure_accelerations(t, c, p, control))
-
-
-@exact(entry=True)
-def probe(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
-    """Set G among the rows at rest, and the accelerations without their forces."""
-    k, n = c.rows.count, c.at_rest[0]
-    for i in range(k * k):
-        c.problem.matrix[i] = 0.0
-    for i in range(k):
-        c.trial[i] = c.signs[i]
-    if accelerate(t, c, y, p, w, iw, control) != SAME:
-        return NOT_FINITE
-    for i in range(k):
-        c.problem.offset[i] = c.out[i]
-    find_mobility(c)
-    for r in range(n):
-        j = c.rest[r]
-        force, sign = c.read.sliding[j], 1.0
-        if c.rows.pushes[j] != 0 and c.problem.alone[j] > 0.0:  # accelerations as large as those that are there
-            force = larger_number(abs(c.problem.offset[j]), usual_of(c, w, j)) / c.problem.alone[j]
-            sign = -force
-        if force > 0.0 or c.rows.varying[j] != 0:
-            for i in range(k):
-                c.trial[i] = c.signs[i]
-            c.trial[j] = sign
-            if force == 0.0 or c.read.middle[j] != 0.0:  # a bound of 0 holds what it holds at rest as soon as it rises
-                force, c.trial[j], c.pushed[0] = 1.0, 0.0, j
-            code = accelerate(t, c, y, p, w, iw, control)
-            c.pushed[0] = -1
-            if code != SAME:
-                return NOT_FINITE
-            for i in range(k):
-                c.problem.matrix[i * k + j] = (c.problem.offset[i] - c.out[i]) / force
-    symmetrise(c)
-    size_forces(c, n, w)
-    return SAME
-
-
 @exact()
 def size_forces(c: Choice, n: int, w: Array) -> None:
     """Set the forces at rest that make accelerations as large as those without them, and as usual ones."""
@@ -172,7 +121,7 @@ def by_reaction(c: Choice, i: int) -> bool:
 
 
 @exact()
-def accelerate_by(
+def accelerate(
     t: float, c: Choice, j: int, force: float, y: Array, p: Array, w: Array, iw: Integers, control: Integers
 ) -> int:
     """Write the accelerations of coordinates with all rows off, and a force of ``-force`` at row j, if any, to ``out``.
@@ -217,18 +166,18 @@ def store_columns(t: float, c: Choice, p: Array, number: int, force: float) -> N
                 place += 2
 
 
-@exact()
-def probe_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
+@exact(entry=True)
+def probe(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
     """Set G of the rows at rest and of sliding friction by loads, and accelerations without these forces."""
     k, n = c.rows.count, c.at_rest[0]
     for i in range(k * k):
         c.problem.matrix[i] = 0.0
-    if accelerate_by(t, c, k, 0.0, y, p, w, iw, control) != SAME:
+    if accelerate(t, c, k, 0.0, y, p, w, iw, control) != SAME:
         return NOT_FINITE
     store_columns(t, c, p, -1, 1.0)
     find_mobility(c)
     rows = n
-    for i in range(c.rows.dry):
+    for i in range(c.rows.dry if LOADS else 0):
         if (c.rows.partner[i] >= 0 or by_reaction(c, i)) and c.signs[i] != 0.0 and c.taken[i] == 0:
             c.rest[rows] = i
             rows += 1
@@ -243,7 +192,7 @@ def probe_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Intege
         j, force = c.rest[r], 1.0
         if c.problem.alone[j] > 0.0 and most > 0.0:
             force = most / math.sqrt(c.problem.alone[j])
-        if accelerate_by(t, c, j, force, y, p, w, iw, control) != SAME:
+        if accelerate(t, c, j, force, y, p, w, iw, control) != SAME:
             return NOT_FINITE
         store_columns(t, c, p, j, force)
     c.at_rest[0] = rows
@@ -271,7 +220,7 @@ def size_forces_of_parts(c: Choice, rows: int) -> None:
         i = c.rest[r]
         if c.rows.pushes[i] != 0:
             c.problem.scale[i] = c.trial[i]
-        elif c.rows.partner[i] >= 0:  # the rounding of a bound is that of what presses
+        elif LOADS and c.rows.partner[i] >= 0:  # the rounding of a bound is that of what presses
             c.problem.scale[i] += c.read.static[i] * c.trial[c.rows.partner[i]]
 
 

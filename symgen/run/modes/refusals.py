@@ -21,7 +21,6 @@ from symgen.run.modes.bounded_rows import (
     NO_BOUNDS,
     NO_CONTACT_MODES,
     NO_FORCES,
-    NO_IMPULSES,
     NO_NUMBER,
     NO_RESTITUTION,
     NOT_APPLIED,
@@ -94,7 +93,6 @@ SENTENCES = {
         "an impact that can change the rate of the gap",
         "a rate of {first:.6g} at t = {t:.6g} s that joints{drivers} determine",
     ),
-    NO_IMPULSES: Sentence("{gaps}", "impulses that can be found", "none of {names} at t = {t:.6g} s"),
     CONTRARY: Sentence(
         "{gaps}", "a motion in which no gap becomes negative", "none that {names} allow at t = {t:.6g} s"
     ),

@@ -14,7 +14,6 @@ from symgen.run.layout import abi
 from symgen.run.layout.records import Span
 from symgen.run.layout.redundancy import LARGEST, room_of_choice
 from symgen.run.layout.start_records import Layout
-from symgen.run.modes.box import Box, new_box
 from symgen.run.starts.assembler import layout_of_starts
 from symgen.run.starts.starting import observe_nothing
 
@@ -186,14 +185,14 @@ class Choice(Record):
         Bounds at rest as forces.
     unsought : Array of int64, shape (1,)
         Most rows that depend on each other, of which other motions than the one found were not sought in a run.
-    box : Box
-        The box problem of the rows at rest.
     laws : Laws
         The problem of all rows that depend on each other.
-    pushed, at_rest : Array of int64, shapes (1,)
-        Coordinate that a probe pushes, -1 for none; number of rows at rest.
+    order : Array of int64, shape (k,)
+        These rows, in the order of the problem.
+    at_rest : Array of int64, shape (1,)
+        Number of rows at rest.
     rest, loose, taken : Array of int64, shapes (k,)
-        Rows at rest, in their order; 1 for loose rows; 1 for rows put into force.
+        Rows at rest, in their order; 1 for loose rows; 1 for rows at rest.
     passing : Array of int64, shape (k,)
         1 for coordinates whose rate only passes zero, as no force within bounds holds them.
     shut : Array of int64, shape (k,)
@@ -208,8 +207,6 @@ class Choice(Record):
         Signs of rates; the signs that a probe assumes, and other working memory.
     forces : Array, shape (k,)
         Forces at rest.
-    rest_of : Array, shape (k k,)
-        Remainder of G.
     jam : Array, shape (1,)
         Part of a reaction that its own effort brings about.
     sizes, factors : Array, shapes (k,)
@@ -218,9 +215,8 @@ class Choice(Record):
         Arguments of emitted functions.
     room : Array
         Working memory of the choice of independent rows.
-    mode, best, other, part, option : Array of int64, shapes (k,)
-        Working memory: modes of the latest impact, of the motion found and of a second one, parts of G or carriers, and
-        rows that are let go.
+    mode, best, other, part : Array of int64, shapes (k,)
+        Working memory: modes of the latest impact, of the motion found and of a second one, parts of G or carriers.
     flying : Array of int64, shape (k,)
         1 for gaps of contacts between two impacts, however low they fly.
     """
@@ -230,9 +226,8 @@ class Choice(Record):
     found: Found
     problem: Problem
     placing: Placing
-    box: Box
     laws: Laws
-    pushed: Integers
+    order: Integers
     at_rest: Integers
     rest: Integers
     loose: Integers
@@ -246,7 +241,6 @@ class Choice(Record):
     signs: Array
     trial: Array
     forces: Array
-    rest_of: Array
     jam: Array
     sizes: Array
     factors: Array
@@ -260,7 +254,6 @@ class Choice(Record):
     best: Integers
     other: Integers
     part: Integers
-    option: Integers
     flying: Integers
     holds: Array
     unsought: Integers
@@ -352,9 +345,8 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
             space=numbers(m * min(m, n) + m + n if m else 0),
             order=flags(m),
         ),
-        box=new_box(k),
         laws=new_laws(k),
-        pushed=np.full(1, -1),
+        order=flags(),
         at_rest=flags(1),
         rest=flags(),
         loose=flags(),
@@ -368,7 +360,6 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         signs=numbers(k),
         trial=numbers(k),
         forces=numbers(k),
-        rest_of=numbers(k * k),
         jam=numbers(1),
         sizes=numbers(k),
         factors=numbers(k),
@@ -382,7 +373,6 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         best=flags(),
         other=flags(),
         part=flags(),
-        option=flags(),
         flying=flags(),
         holds=numbers(k),
         unsought=flags(1),

@@ -2,8 +2,8 @@
 
 At an impact the rate u of each gap that is 0 satisfies ``u+ >= r(u-)``, where r is the rate that the formula of its
 event asks for, such as ``-e min(u-, 0)`` with a restitution e; its impulse only pushes, and one of both is zero: the
-box problem (`symgen.run.modes.box`) on rates instead of accelerations. A row with two bounds has no impulse. Where
-impacts follow each other ever faster, so that the time until they accumulate counts as zero, the gap is at rest.
+laws (`symgen.run.laws`) on rates instead of accelerations. A row with two bounds has no impulse. Where impacts follow
+each other ever faster, so that the time until they accumulate counts as zero, the gap is at rest.
 """
 
 from __future__ import annotations
@@ -20,13 +20,14 @@ from symgen.run.effects.accumulation import accumulation, add_resets
 from symgen.run.effects.applying import APPLIED, apply_effects
 from symgen.run.effects.pushing import Ties, new_ties
 from symgen.run.effects.resets import KeptEffect, OfEffects, new_kept_effect
+from symgen.run.laws.motions import find_forces
+from symgen.run.laws.problem import begin_row
 from symgen.run.layout import abi
 from symgen.run.layout.scales import larger_number
 from symgen.run.layout.start_records import Instant
 from symgen.run.modes.bounded_rows import (
     CONTRARY,
     IMMOVABLE,
-    NO_IMPULSES,
     NOT_APPLIED,
     NOT_FINITE,
     OTHERS,
@@ -38,15 +39,13 @@ from symgen.run.modes.bounded_rows import (
     row_scale,
     switch_off,
 )
-from symgen.run.modes.box import is_contrary, solve_box
+from symgen.run.modes.contact_laws import name_gaps
 from symgen.run.modes.impact_memory import ImpactMemory, new_impact_memory
 from symgen.run.modes.probing import copy_state, probe, write_rates
 from symgen.run.modes.row_records import Choice
 
 #: Impulses below this part of the largest are rounding.
 _NOTHING = 1e-12
-#: Not a number of rows: no impulses keep all gaps from closing.
-_NONE = -2
 #: Numbers of the series of flights to and fro of a row: their number, the end that followed at the last impact, that of
 #: the last two, the least change of the latter, and the end after it.
 COUNT, LAST, _BETTER, _LEAST, BEST = range(5)
@@ -155,7 +154,7 @@ def is_struck(c: Choice, s: Strikes, w: Array, count: int) -> bool:
     Other parts have no impulses: beside rates along their gaps, rounding of rates of 0 would count as impacts.
     """
     for a in range(count):
-        i = c.box.order[a]
+        i = c.order[a]
         # closed ones too, after a joint has caught
         if c.rows.pushes[i] != 0 and (approaches(c, w, i) or s.memory.kicked[i] != 0.0):
             return True
@@ -206,24 +205,24 @@ def find_struck(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers,
 
 @exact()
 def find_active(c: Choice, s: Strikes) -> int:
-    """Find the rows that push at the impact; return their number, `_NONE` where none serve, -1 where none are found."""
-    k, n, box, most, count = c.rows.count, c.at_rest[0], c.box, 0.0, 0
+    """Find the rows that push at the impact; return their number, -1 where no impulses keep all gaps from closing."""
+    k, n, laws, most, count = c.rows.count, c.at_rest[0], c.laws, 0.0, 0
     for r in range(n):
         i = c.rest[r]
-        box.offset[r] = c.read.speed[i] - s.asked[i]
-        box.bounds[r], box.lower[r] = 0.0, -math.inf
+        c.order[r] = i
+        begin_row(n, r, laws)
+        laws.offset[r] = c.read.speed[i] - s.asked[i]
         for q in range(n):
-            box.matrix[r * n + q] = c.problem.matrix[i * k + c.rest[q]]
-    if solve_box(n, box) != 0:
+            laws.matrix[r * n + q] = c.problem.matrix[i * k + c.rest[q]]
+    if not find_forces(n, laws, 1):
+        name_gaps(c, n)
         return -1
     for r in range(n):
-        if is_contrary(n, r, box):
-            return _NONE
-        most = larger_number(most, abs(box.forces[r]))
+        most = larger_number(most, abs(laws.forces[r]))
     for i in range(k):
         s.active[i] = 0
     for r in range(n):
-        if -box.forces[r] > _NOTHING * most:
+        if -laws.forces[r] > _NOTHING * most:
             s.active[c.rest[r]] = 1
             count += 1
     return count
@@ -322,8 +321,7 @@ def come_to_rest(t: float, c: Choice, s: Strikes, end: float, now: Instant) -> i
 def strike(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -> int:
     """Change the velocities by the impact of `find_struck`; all rows with bounds are off after it.
 
-    Returns `SAME`, `CONTRARY` where no impulses serve, `NO_IMPULSES` where none are found, or
-    `NOT_APPLIED` where joints do not allow the impact.
+    Returns `SAME`, `CONTRARY` where no impulses serve, or `NOT_APPLIED` where joints do not allow the impact.
     """
     now = Instant(y, p, w)
     for r in range(c.at_rest[0]):
@@ -334,7 +332,7 @@ def strike(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -> int
     ask_rates(t, c, s, now)
     count = find_active(c, s)
     if count < 0:
-        return CONTRARY if count == _NONE else NO_IMPULSES
+        return CONTRARY
     choose_events(c, s, False)
     if apply_effects(s.effects.model, t, now, s.chosen, s.effects.work) != APPLIED:
         return NOT_APPLIED

@@ -76,25 +76,16 @@ def remember_modes(c: Choice, w: Array, log: Transitions) -> int:
     return int(c.rows.count)
 
 
-@exact(entry=True)
-def log_changes(t: float, c: Choice, w: Array, log: Transitions) -> int:
-    """Log the rows that a choice has changed; return the number of transitions."""
-    for i in range(c.rows.count):
-        sign, before = w[c.rows.first + MODE_NUMBERS * i + SIGN], log.signs[i]
-        if c.rows.pushes[i] == 0 and sign != before:
-            log_transition(t, log, i, SLIP if before == 0.0 else STICK if sign == 0.0 else REVERSE)
-        if c.rows.pushes[i] != 0 and (1 if is_held(c, w, i) else 0) != log.shut[i]:
-            log_transition(t, log, i, LEAVE if log.shut[i] != 0 else REST)
-    return int(log.count[0])
-
-
-# -- gaps of several pieces --------------------------------------------------------------------------------------------
-
-
 @exact()
 def is_further_piece(c: Choice, i: int) -> bool:
     """Return whether a row is another piece of the gap of the row before it."""
     return bool(c.rows.pushes[i] == FURTHER_PIECE)
+
+
+@exact()
+def is_joined(c: Choice, i: int) -> bool:
+    """Return whether a row is one with the row before it in the log: pieces of contacts are not."""
+    return bool(is_further_piece(c, i) and c.rows.gaps[i] == 0)
 
 
 @exact(entry=True)
@@ -108,36 +99,22 @@ def is_struck_before(c: Choice, active: Integers, i: int) -> bool:
 
 
 @exact(entry=True)
-def log_changes_in_pieces(t: float, c: Choice, w: Array, log: Transitions) -> int:
-    """Do what `log_changes` does, where pieces of one gap are one: closed where any of them is."""
-    i = 0
-    while i < c.rows.count:
-        closed, before, j = is_held(c, w, i), log.shut[i] != 0, i + 1
-        while j < c.rows.count and is_further_piece(c, j):
-            closed, before, j = closed or is_held(c, w, j), before or log.shut[j] != 0, j + 1
-        sign, past = w[c.rows.first + MODE_NUMBERS * i + SIGN], log.signs[i]
-        if c.rows.pushes[i] == 0 and sign != past:
-            log_transition(t, log, i, SLIP if past == 0.0 else STICK if sign == 0.0 else REVERSE)
-        if c.rows.pushes[i] != 0 and closed != before:
-            log_transition(t, log, i, LEAVE if before else REST)
-        i = j
-    return int(log.count[0])
+def log_changes(t: float, c: Choice, w: Array, log: Transitions) -> int:
+    """Log the rows that a choice has changed; return the number of transitions.
 
-
-# -- contacts ----------------------------------------------------------------------------------------------------------
-
-
-@exact(entry=True)
-def log_changes_of_contacts(t: float, c: Choice, w: Array, log: Transitions) -> int:
-    """Do what `log_changes` does, where the row along a gap has transitions as long as the gap is closed."""
+    Pieces of a stop are one: closed where any of them is. The row along a gap has transitions as long as it is closed.
+    """
     for i in range(c.rows.count):
-        sign, before, j = w[c.rows.first + MODE_NUMBERS * i + SIGN], log.signs[i], c.rows.partner[i]
-        if PAIRED and j >= 0 and c.rows.pushes[i] == 0:  # a direction that has been renewed is no transition
-            sign, before = 1.0 if sign != 0.0 and not is_second(c, i) else 0.0, 1.0 if before != 0.0 else 0.0
-            before = 0.0 if is_second(c, i) else before
-        if c.rows.pushes[i] == 0 and sign != before and (j < 0 or (log.shut[j] != 0 and is_held(c, w, j))):
-            log_transition(t, log, i, SLIP if before == 0.0 else STICK if sign == 0.0 else REVERSE)
-        if c.rows.pushes[i] != 0 and (1 if is_held(c, w, i) else 0) != log.shut[i]:
+        sign, past, along = w[c.rows.first + MODE_NUMBERS * i + SIGN], log.signs[i], c.rows.partner[i]
+        if PAIRED and along >= 0 and c.rows.pushes[i] == 0:  # a direction that has been renewed is no transition
+            first = not is_second(c, i)
+            sign, past = 1.0 if sign != 0.0 and first else 0.0, 1.0 if past != 0.0 and first else 0.0
+        if c.rows.pushes[i] == 0 and sign != past and (along < 0 or (log.shut[along] != 0 and is_held(c, w, along))):
+            log_transition(t, log, i, SLIP if past == 0.0 else STICK if sign == 0.0 else REVERSE)
+        closed, before, j = is_held(c, w, i), log.shut[i] != 0, i + 1
+        while j < c.rows.count and is_joined(c, j):
+            closed, before, j = closed or is_held(c, w, j), before or log.shut[j] != 0, j + 1
+        if c.rows.pushes[i] != 0 and not is_joined(c, i) and closed != before:
             opens = LIFT if c.rows.gaps[i] != 0 else LEAVE
-            log_transition(t, log, i, opens if log.shut[i] != 0 else REST)
+            log_transition(t, log, i, opens if before else REST)
     return int(log.count[0])

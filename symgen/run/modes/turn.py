@@ -29,7 +29,6 @@ from symgen.run.modes.bounded_rows import (
     NEGATIVE_GAP,
     NO_BOUNDS,
     NO_CONTACT_MODES,
-    NO_IMPULSES,
     NO_RESTITUTION,
     NOT_APPLIED,
     NOTHING_FOUND,
@@ -41,7 +40,8 @@ from symgen.run.modes.bounded_rows import (
     SIGN,
     switch_off,
 )
-from symgen.run.modes.choice import choose_modes, follow_modes, look_anew, measure_margins
+from symgen.run.modes.choice import follow_modes, look_anew, measure_margins
+from symgen.run.modes.choosing import choose_modes
 from symgen.run.modes.ends import find_undefined
 from symgen.run.modes.found_rows import (
     allow_depth,
@@ -54,10 +54,9 @@ from symgen.run.modes.reading import find_fault, find_starting, read_rows
 from symgen.run.modes.row_records import TOUCHING, Choice
 from symgen.run.modes.transition_log import (
     log_changes,
-    log_changes_in_pieces,
     remember_modes,
 )
-from symgen.run.modes.turn_records import CONTACTS, PIECES, SEEKS, OfModes
+from symgen.run.modes.turn_records import CONTACTS, SEEKS, OfModes
 
 #: Most digits to the base of 4 that a number has.
 MOST_DIGITS = 26
@@ -88,14 +87,6 @@ def modes_in_digits(c: Choice, of: Integers) -> float:
     return total
 
 
-def dry_at_rest(c: Choice) -> int:
-    """Return the number of rows with two bounds among those at rest, of which they come first."""
-    count = 0
-    for r in range(c.at_rest[0]):
-        count += 1 if c.rows.pushes[c.rest[r]] == 0 else 0
-    return count
-
-
 def refuse_fault(code: int, which: float, first: float, second: float, modes: OfModes) -> int:
     """Keep why there are no modes, with rows and numbers of the sentence; return `NO_MODES`."""
     ends = modes.strikes.effects.ends
@@ -112,12 +103,8 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
     which = float(row)
     if code == JAMMED:
         first = c.jam[0]
-    elif code == SEVERAL_BY_REACTION:
+    elif code == SEVERAL_BY_REACTION or code == CONTRARY:
         which = set_of(c.named, c.rows.count + 1)
-    elif code == NO_IMPULSES:
-        which = set_of(c.rest, c.at_rest[0])
-    elif code == CONTRARY:
-        which = set_of(c.rest, c.at_rest[0]) - set_of(c.rest, dry_at_rest(c))
     elif code == NOT_APPLIED:
         which, power = 0.0, 1.0
         for i in range(c.rows.count):
@@ -198,9 +185,7 @@ def choose_here(modes: OfModes, state: EventState) -> int:
         return int(refuse_modes(code, modes, state))
     if starts:
         lay_gaps(t, modes, state)
-    elif PIECES:  # a start has modes, and no change of them
-        log_changes_in_pieces(t, c, state.w, modes.transitions)
-    else:
+    else:  # a start has modes, and no change of them
         log_changes(t, c, state.w, modes.transitions)
     return int(abi.DONE)
 

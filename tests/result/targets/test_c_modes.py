@@ -123,7 +123,7 @@ def test_a_block_on_a_belt_sticks_and_slips(tmp_path):
     program = program_of(model, tmp_path / "c")
     transitions = assert_same_run(model, program, 2.0, 0.002)
     assert [word for _, word in transitions] == ["contact.slip", "contact.stick"] * 2
-    assert len((tmp_path / "c" / "belt_oscillator.c").read_text()) < 192_000
+    assert len((tmp_path / "c" / "belt_oscillator.c").read_text()) < 210_000
 
 
 @pytest.mark.by_turns(2)

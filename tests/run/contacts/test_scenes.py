@@ -144,7 +144,7 @@ def test_uncoupled_discs_are_chosen_apart(tmp_path: Path) -> None:
 COUNTING = """
 import json, sys
 from symgen.run.laws import motions
-from symgen.run.modes import contacts
+from symgen.run.modes import choosing
 import symgen
 
 class Counted:
@@ -157,7 +157,7 @@ class Counted:
 solved = []
 def solves():
     solved[-1] += 1
-contacts.find_parts = Counted(contacts.find_parts, lambda: solved.append(0))
+choosing.find_parts = Counted(choosing.find_parts, lambda: solved.append(0))
 motions.follow_laws = Counted(motions.follow_laws, solves)
 run = symgen.load(sys.argv[1]).simulate(until=0.4, integrator="dop853", verify=False, rtol=1e-3)
 print(json.dumps({"events": len(run.events), "solved": solved}))

@@ -10,7 +10,6 @@ from symgen.compile.loopcode.exact import plain_form
 from symgen.compile.loopcode.loop_instances import exact_instance
 from symgen.run.laws.problem import new_laws
 from symgen.run.modes.bounded_rows import SAME, SEVERAL_BY_REACTION
-from symgen.run.modes.box import new_box
 from symgen.run.modes.contact_laws import solve_by_laws
 from symgen.run.modes.pin_impulses import BY_REACTIONS
 
@@ -24,11 +23,10 @@ def rows_at_rest(problem: Problem) -> SimpleNamespace:
     read = SimpleNamespace(static=numbers(), middle=numbers())
     posed = SimpleNamespace(matrix=problem.matrix.ravel(), offset=problem.offset)
     posed.apart, posed.parts = np.zeros(2 * k), np.zeros(2 * k * k)
-    c = SimpleNamespace(rows=rows, read=read, problem=posed, box=new_box(k), laws=new_laws(k))
+    c = SimpleNamespace(rows=rows, read=read, problem=posed, laws=new_laws(k), order=np.arange(k))
     c.named, c.jam, c.before = np.zeros(k + 1, dtype=int), numbers(), np.zeros(MODE_NUMBERS * k)
     c.loose, c.part, c.best, c.other, c.unsought = flags(), flags(), flags(), flags(), np.zeros(1, dtype=int)
     c.signs, c.forces, c.sizes, c.trial, c.factors = numbers(), numbers(), numbers(), numbers(), numbers()
-    c.box.order[:] = np.arange(k)
     for i, row in enumerate(problem.rows):
         read.static[i] = row.kappa if row.apart.size else row.beta
         rows.pressed[i] = int(row.apart.size > 0)

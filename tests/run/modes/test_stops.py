@@ -319,9 +319,9 @@ def test_friction_holds_at_a_stop_until_its_bound(coordinates: str) -> None:
     outcome = ready(described(SLIDE), 5.0, coordinates=coordinates, max_attempts=1e5).integrate()
     assert outcome.reason == ""
     assert [event.name for event in outcome.happened][-4:] == [
-        *("rail.stick", "rail.upper.rest", "rail.slip", "rail.upper.leave"),
+        *("rail.stick", "rail.upper.rest", "rail.upper.leave", "rail.slip"),
     ]
-    np.testing.assert_allclose([event.t for event in outcome.happened[-2:]], 2.75, rtol=0, atol=1e-12)
+    np.testing.assert_allclose([event.t for event in outcome.happened[-2:]], [2.0, 2.75], rtol=0, atol=1e-12)
     assert outcome.states[-1][0] == pytest.approx(0.5 - 2.25**3 / 3.0, abs=1e-8)
 
 

@@ -1,10 +1,16 @@
-"""The choice of modes at one state of a run with contacts, compiled.
+"""The choice of modes at one state, compiled: rows at rest, their forces, and which of them are put into force.
 
-A contact is a one-sided row N and the friction T along it, ``|T| <= mu N``. Each closed contact opens, sticks, or
-slides one of two ways; in motion the way is known. Rows that depend on each other are a part
-(`symgen.run.modes.contact_parts`), whose laws are solved together (`symgen.run.modes.contact_laws`), with bounds by
-reactions too. Parts without either are left to `symgen.run.modes.resting`. The same laws on rates are those of an
-impact (`symgen.run.modes.contact_impacts`).
+A coordinate at rest stays so as long as a force within its bounds keeps it. Static bounds hold for coordinates that
+come to rest, those in motion for coordinates that have just broken loose; a coordinate that its static bound does not
+hold breaks loose too, and has its sliding force before others at rest are let go for good. A gap stays closed by a
+force that pushes; ones that strike have impacts first (`symgen.run.modes.strikes`). A contact is a gap N and the
+row T along it, ``|T| <= mu N``: closed, it opens, sticks, or slides one of two ways; in motion the way is known.
+
+Rows that depend on each other are a part (`symgen.run.modes.contact_parts`), whose laws are solved together
+(`symgen.run.modes.contact_laws`). Rows at rest that other ones determine stay off: the rows in force carry their part.
+Where more rows rest than the mechanism has freedom, others keep the efforts that they have until one is at its bound;
+as any forces within all bounds hold, efforts are then shared out anew: those whose largest part of a static bound is
+least.
 """
 
 from __future__ import annotations
@@ -15,13 +21,10 @@ from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native.annotations import Array, Integers
 from symgen.run.effects.pushing import PAIRED, REACTIONS
-from symgen.run.laws.problem import LOWER, OFF, ON, UPPER
+from symgen.run.laws.problem import LOADS, LOWER, OFF, ON, UPPER
 from symgen.run.laws.sharing import STILL
-from symgen.run.layout import abi
-from symgen.run.loops.search_records import COUNT, MARGIN, MEASURE, N_HEAD, RATE, ROW
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
-    HELD,
     JAMMED,
     NOT_FINITE,
     OTHERS,
@@ -29,18 +32,18 @@ from symgen.run.modes.bounded_rows import (
     ROUNDED,
     SAME,
     SIGN,
-    row_scale,
     sign_of_number,
 )
 from symgen.run.modes.choice import find_rest, write_modes
-from symgen.run.modes.choice import measure_margins as measure_margins_of_rows
 from symgen.run.modes.contact_laws import fill_part, find_forces_of_part, is_still, part_used, solve_by_laws
-from symgen.run.modes.contact_parts import PLAIN, choose_part, find_parts, find_redundant, has_loads, keep_touching
-from symgen.run.modes.holding import bound_at_rest, carry_force, hold_row, hold_rows, keep_force, set_holds, write_signs
+from symgen.run.modes.contact_parts import choose_part, find_parts, find_redundant, keep_touching, may_rest
+from symgen.run.modes.holding import bound_at_rest, carry_force, hold_row, keep_force, set_holds, write_signs
 from symgen.run.modes.paired_rows import find_direction, first_of, is_first, is_second, length_at, write_pair
-from symgen.run.modes.probing import add_forces, by_reaction, probe_contacts, size_forces_of_parts
-from symgen.run.modes.resting import HALVINGS, SPENT, solve_rest
+from symgen.run.modes.probing import add_forces, by_reaction, probe, size_forces_of_parts
 from symgen.run.modes.row_records import Choice
+
+#: Rows are at their bounds beyond this part; number of halvings in which the least part is found.
+SPENT, HALVINGS = 1.0 - 1e-11, 30
 
 
 @exact()
@@ -54,7 +57,7 @@ def breaks(c: Choice, i: int) -> bool:
 def solve_part(c: Choice, count: int, first: int, part: float) -> int:
     """Find the modes of a part with the bounds of now, or a part of those at rest; return `SAME` or a code."""
     for a in range(count):
-        c.part[c.box.order[a]] = first
+        c.part[c.order[a]] = first
     return int(solve_by_laws(c, count, part))
 
 
@@ -67,14 +70,14 @@ def static_bound(c: Choice, i: int) -> float:
 
 @exact()
 def part_held(c: Choice, count: int, first: int, i: int) -> float:
-    """Return the part of its bound at rest that friction let go needs if it holds again, inf where it does not hold."""
+    """Return the part of its bound at rest that a row let go needs if it holds again, inf where it does not hold."""
     second = PAIRED and is_first(c, i)
     c.loose[i] = 0
     if second:
         c.loose[i + 1] = 0
     holds = solve_part(c, count, first, 1.0) == SAME
     for a in range(count):
-        holds = holds and not breaks(c, c.box.order[a])
+        holds = holds and not breaks(c, c.order[a])
     most = static_bound(c, i)
     needs = (
         (length_at(c, c.forces, i) if PAIRED else abs(c.forces[i])) / most
@@ -89,14 +92,19 @@ def part_held(c: Choice, count: int, first: int, i: int) -> float:
 
 @exact()
 def hold_again(c: Choice, count: int, first: int) -> int:
-    """Do what `symgen.run.modes.resting.hold_again` does, in a part with contacts; ``passing`` is 1 for rows let go."""
+    """Have rows hold again that were let go beside forces of modes which are given up; return `SAME`, or a code.
+
+    A row that reaches its static bound beside the static force of another one has been judged by a force that is not
+    there once the other one slides. Which of several holds follows from the state alone: the one that needs the least
+    part of its bound. ``passing`` is 1 for rows let go.
+    """
     again = False
     while True:
         best, least, released = -1, math.inf, 0
         for a in range(count):
-            released += 0 if PAIRED and is_second(c, c.box.order[a]) else c.passing[c.box.order[a]]
+            released += 0 if PAIRED and is_second(c, c.order[a]) else c.passing[c.order[a]]
         for a in range(count):
-            i = c.box.order[a]
+            i = c.order[a]
             if c.passing[i] != 0 and (again or released > 1) and not (PAIRED and is_second(c, i)):
                 needs = part_held(c, count, first, i)
                 if needs < (1.0 - ROUNDED) * least:
@@ -112,7 +120,7 @@ def hold_again(c: Choice, count: int, first: int) -> int:
 @exact()
 def leaves_its_bound(c: Choice, count: int, a: int) -> bool:
     """Return whether a row with a bound at rest moves by the forces found, or has more than its bound."""
-    i = c.box.order[a]
+    i = c.order[a]
     if c.rows.pushes[i] != 0 or c.rows.partner[i] >= 0 or c.loose[i] != 0 or c.signs[i] != 0.0:
         return False
     if c.laws.state[a] != ON and not is_still(c, count, a, STILL):
@@ -140,7 +148,7 @@ def hold_by_others(c: Choice, count: int) -> float:
     """
     low, high, part, tried = 0.0, SPENT, 1.0, False
     for a in range(count):
-        i = c.box.order[a]
+        i = c.order[a]
         rested = c.rows.pushes[i] == 0 and c.rows.partner[i] < 0 and c.before[MODE_NUMBERS * i + SIGN] == 0.0
         c.passing[i] = 1 if rested and c.loose[i] != 0 else 0
         c.loose[i], tried = 0 if c.passing[i] != 0 else c.loose[i], tried or c.passing[i] != 0
@@ -153,7 +161,7 @@ def hold_by_others(c: Choice, count: int) -> float:
                 low = middle
         part = high
     for a in range(count):
-        i = c.box.order[a]
+        i = c.order[a]
         if tried and part == 1.0 and c.rows.pushes[i] == 0 and c.rows.partner[i] < 0 and c.signs[i] == 0.0:
             c.loose[i] = 1 if c.passing[i] != 0 or part_used(c, count, a) >= AT_BOUND else c.loose[i]
         c.passing[i] = 0
@@ -162,7 +170,7 @@ def hold_by_others(c: Choice, count: int) -> float:
 
 @exact()
 def choose_modes_of_part(c: Choice, count: int, first: int) -> int:
-    """Choose the modes of a part with contacts: friction that its bound at rest does not hold has that in motion."""
+    """Choose the modes of a part: a row that its bound at rest does not hold has that in motion."""
     again, part = True, hold_by_others(c, count)
     while again:
         code = solve_part(c, count, first, part)
@@ -170,7 +178,7 @@ def choose_modes_of_part(c: Choice, count: int, first: int) -> int:
             return int(code)
         again = False
         for a in range(count):
-            i = c.box.order[a]
+            i = c.order[a]
             if breaks(c, i):
                 c.loose[i], c.passing[i], again, part = 1, 1, True, 1.0
     return int(hold_again(c, count, first))
@@ -180,7 +188,7 @@ def choose_modes_of_part(c: Choice, count: int, first: int) -> int:
 def write_part(c: Choice, count: int) -> None:
     """Write the modes of a part."""
     for a in range(count):
-        i = c.box.order[a]
+        i = c.order[a]
         c.holds[i] = bound_at_rest(c, i)
         if c.best[i] == ON and c.part[i] < 0:
             hold_row(c, i)
@@ -202,18 +210,16 @@ def write_part(c: Choice, count: int) -> None:
 
 @exact()
 def choose_parts(c: Choice, rows: int) -> int:
-    """Choose the modes of parts whose bounds depend on forces, and leave others; return `SAME` or a code."""
+    """Choose the modes of all parts; return `SAME` or a code."""
     for first in range(c.rows.count):
         count = choose_part(c, first, rows)
-        if has_loads(c, count):
+        if may_rest(c, count):
             code = choose_modes_of_part(c, count, first)
             if code != SAME:
                 return int(code)
-            for a in range(count):
-                c.taken[c.box.order[a]] = 2
             write_part(c, count)
             for a in range(count):
-                c.part[c.box.order[a]] = c.rows.count
+                c.part[c.order[a]] = c.rows.count
     return SAME
 
 
@@ -232,18 +238,17 @@ def find_jammed(c: Choice) -> bool:
 
 
 @exact(entry=True)
-def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
-    """Choose modes as `symgen.run.modes.choice.choose_modes` does, where there are contacts.
-
-    Returns `SAME`, `OTHERS`, or why there are no modes.
-    """
-    n, code, rows, left, struck = keep_touching(c, find_rest(c, w)), SAME, 0, 0, False
+def choose_modes(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
+    """Choose the modes of a state whose rows have been read; return `SAME`, `OTHERS`, or why there are none."""
+    n, code, struck = find_rest(c, w), SAME, False
+    if LOADS:
+        n = keep_touching(c, n)
     if REACTIONS:
         c.named[0] = find_redundant(c, w)
         if c.named[0] >= 0:
             return REDUNDANT
     if n > 0 or REACTIONS:
-        if probe_contacts(t, c, y, p, w, iw, control) != SAME:
+        if probe(t, c, y, p, w, iw, control) != SAME:
             return NOT_FINITE
         if REACTIONS and find_jammed(c):
             return JAMMED
@@ -252,22 +257,8 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
         code = choose_parts(c, rows)
         if code != SAME:
             return int(code)
-    if PLAIN:
-        for r in range(n):
-            if c.taken[c.rest[r]] != 2:
-                c.rest[left] = c.rest[r]
-                left += 1
-        c.at_rest[0] = left
-        for i in range(c.rows.count):
-            c.taken[i] = 0
-        if left > 0:
-            code = solve_rest(c, left, w)
-            if code != SAME:
-                return int(code)
-        hold_rows(c, w)
-    else:
-        set_holds(c)
-        write_signs(c)
+    set_holds(c)
+    write_signs(c)
     add_forces(c)
     for i in range(c.rows.count):
         struck = struck or c.shut[i] != 0
@@ -275,21 +266,3 @@ def choose_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integ
     code = write_modes(c, w)
     # an impact has taken all rows out of force, and where none comes back there are others all the same
     return int(OTHERS) if struck else int(code)
-
-
-@exact(entry=True)
-def measure_margins_of_contacts(c: Choice, w: Array, hunt: Array) -> int:
-    """Do what `symgen.run.modes.choice.measure_margins` does; friction at rest that others carry is watched as well.
-
-    A drive may move it, though the rows in force stay at rest.
-    """
-    n, at, found = int(hunt[COUNT]), N_HEAD, measure_margins_of_rows(c, w, hunt)
-    for k in range(n):
-        i = int(hunt[at + ROW * n + k])
-        numbers = c.rows.first + MODE_NUMBERS * i
-        still = w[numbers + HELD] == 0.0 and w[numbers + SIGN] == 0.0
-        if PAIRED and is_first(c, i):  # watched as long as one of both rows is not in force
-            still = still or (w[numbers + MODE_NUMBERS + HELD] == 0.0 and w[numbers + SIGN] == 0.0)
-        if hunt[at + MARGIN * n + k] == float(RATE) and c.rows.pushes[i] == 0 and c.rows.partner[i] >= 0 and still:
-            hunt[at + MEASURE * n + k] = row_scale(c, w, i, abi.SPEED)
-    return int(found)
