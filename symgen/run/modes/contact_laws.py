@@ -24,6 +24,7 @@ from symgen.run.laws.problem import (
     PUSH,
     SECOND,
     UPPER,
+    Laws,
     begin_row,
     load_of,
     middle_of,
@@ -31,6 +32,7 @@ from symgen.run.laws.problem import (
 from symgen.run.laws.problem import bound_of as load_bound
 from symgen.run.laws.sharing import find_dependent, share_forces
 from symgen.run.laws.verify import size_of_terms
+from symgen.run.layout.scales import larger_number
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
     CONSTANT,
@@ -65,7 +67,7 @@ def fill_part(c: Choice, count: int, part: float) -> None:
     for a in range(count):
         i = order[a]
         begin_row(count, a, laws)
-        laws.offset[a] = c.problem.offset[i]
+        laws.offset[a], laws.usual[a] = c.problem.offset[i], c.problem.usual[i]
         for b in range(count):
             laws.matrix[a * count + b] = c.problem.matrix[i * k + order[b]]
             # forces count from the middle of motion
@@ -121,18 +123,39 @@ def find_carriers_of_part(c: Choice, count: int) -> None:
 
 
 @exact()
+def stays_open(c: Choice, count: int, i: int) -> bool:
+    """Whether a gap without a force was open before, where a row of its part breaks loose: nothing closes it."""
+    at, breaks = MODE_NUMBERS * i, 0
+    for a in range(count):
+        breaks += c.found.broken[c.order[a]]
+    return bool(breaks > 0 and c.before[at + HELD] == 0.0 and c.before[at + CONSTANT] == 0.0 and c.shut[i] == 0)
+
+
+@exact()
+def let_gaps_close(count: int, laws: Laws) -> None:
+    """Let gaps push that have stayed open while forces were found."""
+    for a in range(count):
+        laws.law[a] = PUSH if laws.law[a] == NOTHING else laws.law[a]
+
+
+@exact()
 def find_forces_of_part(c: Choice, count: int) -> bool:
-    """Find forces that obey all laws; gaps that have just opened stay open unless they would close."""
+    """Find forces that obey all laws; gaps that have just opened, or may go on so, stay open unless they would close.
+
+    What balances leaves rounding alone, which tells nothing of what closes.
+    """
     laws, closes = c.laws, False
     for a in range(count):
-        if c.rows.pushes[c.order[a]] != 0 and c.loose[c.order[a]] != 0:
+        i = c.order[a]
+        if c.rows.pushes[i] != 0 and (c.loose[i] != 0 or stays_open(c, count, i)):
             laws.law[a] = NOTHING
     found = find_forces(count, laws, 1)
     for a in range(count):
         if laws.law[a] == NOTHING:
-            closes = closes or laws.left[a] < -NO_ACCELERATION * size_of_terms(count, a, laws)
-            laws.law[a] = PUSH
+            least = larger_number(size_of_terms(count, a, laws), laws.usual[a])
+            closes = closes or laws.left[a] < -NO_ACCELERATION * least
     if not found or closes:
+        let_gaps_close(count, laws)
         found = find_forces(count, laws, 1)
     return bool(found)
 
@@ -148,15 +171,6 @@ def part_used(c: Choice, count: int, a: int) -> float:
     """Return the part of its bound that the force of a row is; 0 for rows without one."""
     laws, bound = c.laws, load_bound(count, a, c.laws)
     return float(abs(laws.forces[a] - middle_of(a, load_of(count, a, laws), laws)) / bound if bound > 0.0 else 0.0)
-
-
-@exact()
-def stays_open(c: Choice, count: int, i: int) -> bool:
-    """Whether a gap without a force was open before, where a row of its part breaks loose: nothing closes it."""
-    at, breaks = MODE_NUMBERS * i, 0
-    for a in range(count):
-        breaks += c.found.broken[c.order[a]]
-    return bool(breaks > 0 and c.before[at + HELD] == 0.0 and c.before[at + CONSTANT] == 0.0 and c.shut[i] == 0)
 
 
 @exact()
@@ -183,14 +197,21 @@ def settle_at_bounds(c: Choice, count: int) -> None:
 
 
 @exact()
+def add_to_set(c: Choice, i: int) -> None:
+    """Add a row to those that a sentence names, as a sum of powers of 2 in ``jam``."""
+    power = 1.0
+    for _ in range(i):
+        power *= 2.0
+    c.jam[0] += power
+
+
+@exact()
 def name_different(c: Choice, count: int) -> None:
     """Name the rows of a part that differ in two motions."""
-    differ = 0
+    c.jam[0] = 0.0
     for a in range(count):
         if c.laws.state[a] != c.laws.other[a]:
-            c.named[differ] = c.order[a]
-            differ += 1
-    c.named[differ] = -1
+            add_to_set(c, c.order[a])
 
 
 @exact()
@@ -219,13 +240,11 @@ def name_fault(c: Choice, count: int) -> None:
 @exact()
 def name_gaps(c: Choice, count: int) -> bool:
     """Name the gaps of a part; return whether there are any."""
-    gaps = 0
+    c.jam[0] = 0.0
     for a in range(count):
         if c.rows.pushes[c.order[a]] != 0:
-            c.named[gaps] = c.order[a]
-            gaps += 1
-    c.named[gaps] = -1
-    return gaps > 0
+            add_to_set(c, c.order[a])
+    return bool(c.jam[0] > 0.0)
 
 
 @exact()
@@ -274,6 +293,7 @@ def solve_by_laws(c: Choice, count: int, part: float) -> int:
     if not find_forces_of_part(c, count):
         return int(fault_of_part(c, count))
     share_forces(count, laws)
+    let_gaps_close(count, laws)
     settle_at_bounds(c, count)
     several = LOADS and find_several(c, count)
     for a in range(count):

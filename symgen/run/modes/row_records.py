@@ -116,6 +116,8 @@ class Problem(Record):
     offset, alone : Array, shapes (k,)
         Accelerations without forces at rest, at an impact rates without impulses; accelerations by a force if no joints
         held the bodies.
+    usual : Array, shape (k,)
+        Accelerations that are usual there, whose rounding the others have; 0 at an impact.
     scale : Array, shape (k,)
         Sizes of forces that rounding of a force at rest is relative to.
     apart, parts : Array, shapes (2 k,), (2 k, k)
@@ -125,6 +127,7 @@ class Problem(Record):
     matrix: Array
     offset: Array
     alone: Array
+    usual: Array
     scale: Array
     apart: Array
     parts: Array
@@ -197,8 +200,8 @@ class Choice(Record):
         1 for coordinates whose rate only passes zero, as no force within bounds holds them.
     shut : Array of int64, shape (k,)
         1 for closed gaps, whatever is left of them, as rows are off after a reset or an impact.
-    named : Array of int64, shape (k + 1,)
-        Rows whose forces are not determined, then -1; or the first row of another fault.
+    named : Array of int64, shape (1,)
+        The row of a fault.
     step : Array, shape (1,)
         Step that laws assume before the first one [s].
     before, after : Array, shapes (MODE_NUMBERS k,)
@@ -208,7 +211,8 @@ class Choice(Record):
     forces : Array, shape (k,)
         Forces at rest.
     jam : Array, shape (1,)
-        Part of a reaction that its own effort brings about.
+        Part of a reaction that its own effort brings about, or what else a sentence has: of several rows their set, as
+        a sum of powers of 2.
     sizes, factors : Array, shapes (k,)
         Sizes of reactions; what rows in force carry of a unit of force of each row that one of them carries.
     y, w, rate, out, iw : Array, Array of int64
@@ -333,6 +337,7 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
             matrix=numbers(k * k),
             offset=numbers(k),
             alone=numbers(k),
+            usual=numbers(k),
             scale=numbers(k),
             apart=numbers(2 * k),
             parts=numbers(2 * k * k),
@@ -353,7 +358,7 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
         taken=flags(),
         passing=flags(),
         shut=flags(),
-        named=flags(k + 1),
+        named=flags(1),
         step=numbers(1),
         before=numbers(MODE_NUMBERS * k),
         after=numbers(MODE_NUMBERS * k),

@@ -65,19 +65,6 @@ MOST_DIGITS = 26
 # -- why there are no modes --------------------------------------------------------------------------------------------
 
 
-def set_of(numbers: Integers, count: int) -> float:
-    """Return some numbers, up to the first negative one, as a sum of powers of 2."""
-    total = 0.0
-    for j in range(count):
-        if numbers[j] < 0:
-            break
-        power = 1.0
-        for _ in range(numbers[j]):
-            power *= 2.0
-        total += power
-    return total
-
-
 def modes_in_digits(c: Choice, of: Integers) -> float:
     """Return the modes of the rows of contacts as the digits of a number to the base of 4, nan for too many."""
     total, power = 0.0 if c.rows.count <= MOST_DIGITS else math.nan, 1.0
@@ -104,7 +91,7 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
     if code == JAMMED:
         first = c.jam[0]
     elif code == SEVERAL_BY_REACTION or code == CONTRARY:
-        which = set_of(c.named, c.rows.count + 1)
+        which = c.jam[0]
     elif code == NOT_APPLIED:
         which, power = 0.0, 1.0
         for i in range(c.rows.count):
