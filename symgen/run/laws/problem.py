@@ -26,6 +26,8 @@ PUSH, BALL, SECOND, NOTHING = range(4)
 OFF, ON, UPPER, LOWER = range(4)
 #: Most components of a load; a size that is no divisor of zero.
 COMPONENTS, TINY = 3, 1e-300
+#: Accelerations below a tiny part of usual ones are rounding: problems count as large as this part of them at least.
+_USUAL = 1e-2
 
 
 class Laws(Record):
@@ -35,6 +37,8 @@ class Laws(Record):
     ----------
     matrix, offset : Array, shapes (k k,), (k,)
         G and a0.
+    usual : Array, shape (k,)
+        Accelerations whose rounding a0 has, 0 where it is exact: what balances each other leaves nothing else.
     law : Array of int64, shape (k,)
         `PUSH`, `BALL`, `SECOND` or `NOTHING`.
     way : Array, shape (k,)
@@ -61,6 +65,7 @@ class Laws(Record):
 
     matrix: Array
     offset: Array
+    usual: Array
     law: Integers
     way: Array
     beta: Array
@@ -97,7 +102,7 @@ def new_laws(k: int) -> Any:
 def begin_row(n: int, i: int, laws: Laws) -> None:
     """Make a row one that pushes, without anything that its law depends on."""
     laws.law[i], laws.presser[i], laws.components[i] = PUSH, -1, 0
-    laws.way[i] = laws.beta[i] = laws.kappa[i] = laws.middle[i] = 0.0
+    laws.way[i] = laws.beta[i] = laws.kappa[i] = laws.middle[i] = laws.usual[i] = 0.0
     for part in range(COMPONENTS):
         laws.apart[COMPONENTS * i + part] = 0.0
         for j in range(n):
@@ -182,13 +187,19 @@ def mobility_of(n: int, i: int, laws: Laws) -> float:
 
 
 @exact()
+def size_of_offset(i: int, laws: Laws) -> float:
+    """Return the size of the acceleration of a row without forces, of what balances that of what there may be."""
+    return float(larger_number(abs(laws.offset[i]), _USUAL * laws.usual[i]))
+
+
+@exact()
 def weigh_laws(n: int, laws: Laws) -> float:
     """Set the roots of mobilities; return the largest acceleration without forces, or by forces in motion, over its."""
     most = TINY
     for i in range(n):
         own, square = mobility_of(n, i, laws), 0.0
         laws.root[i] = math.sqrt(own) if own > 0.0 else 1.0
-        most = larger_number(most, abs(laws.offset[i]) / laws.root[i] if own > 0.0 else 0.0)
+        most = larger_number(most, size_of_offset(i, laws) / laws.root[i] if own > 0.0 else 0.0)
         if laws.way[i] != 0.0:
             for part in range(laws.components[i]):
                 square += laws.apart[COMPONENTS * i + part] ** 2

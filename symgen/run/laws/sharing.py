@@ -28,10 +28,13 @@ def rests(i: int, laws: Laws) -> bool:
 
 
 @exact()
-def turn_of(i: int, laws: Laws) -> int:
-    """Return when a row is eliminated: 0 where it pushes, 1 where it would, 2 for others."""
+def turn_of(n: int, i: int, laws: Laws) -> int:
+    """Return when a row is eliminated: 0 where it pushes, 1 where it would, 2 for others, 3 where its bound is 0.
+
+    A bound of 0, as of a brake that is not applied, takes no part of what changes: others hold as long as they can.
+    """
     if laws.law[i] == BALL:
-        return 2
+        return 2 if bound_of(n, i, laws) > 0.0 else 3
     return 0 if laws.forces[i] < 0.0 else 1
 
 
@@ -48,12 +51,12 @@ def find_dependent(n: int, laws: Laws) -> int:
         laws.depends[i] = 2 if rests(i, laws) and laws.matrix[i * n + i] > 0.0 else 0
         for j in range(n):
             laws.slopes[i * n + j] = laws.matrix[i * n + j]
-    for turn in range(3):
+    for turn in range(4):
         while True:
             best, most = -1, _DEPENDENT
             for i in range(n):
                 part = laws.slopes[i * n + i] / laws.matrix[i * n + i] if laws.depends[i] == 2 else 0.0
-                if part > most * (1.0 + _DEPENDENT) and turn_of(i, laws) == turn:
+                if part > most * (1.0 + _DEPENDENT) and turn_of(n, i, laws) == turn:
                     best, most = i, part
             if best < 0:
                 break

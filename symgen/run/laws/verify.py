@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from symgen.compile.loopcode.exact import exact
-from symgen.run.laws.problem import BALL, PUSH, Laws, bound_of, load_of, middle_of, rows_of
+from symgen.run.laws.problem import BALL, PUSH, Laws, bound_of, load_of, middle_of, rows_of, size_of_offset
 from symgen.run.layout.scales import larger_number
 
 #: What may be missing, over the sizes that it is a difference of; what rounding leaves, over those of all rows.
@@ -15,7 +15,7 @@ _TOLERANCE, _ROUNDED = 1e-8, 1e-13
 @exact()
 def size_of_terms(n: int, i: int, laws: Laws) -> float:
     """Return the sum of the sizes whose difference is the acceleration of a row."""
-    size = abs(laws.offset[i])
+    size = size_of_offset(i, laws)
     for j in range(n):
         size += abs(laws.matrix[i * n + j] * laws.forces[j])
     return float(size)

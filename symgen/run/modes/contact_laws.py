@@ -23,6 +23,7 @@ from symgen.run.laws.problem import (
     PUSH,
     SECOND,
     UPPER,
+    Laws,
     begin_row,
     load_of,
     middle_of,
@@ -30,6 +31,7 @@ from symgen.run.laws.problem import (
 from symgen.run.laws.problem import bound_of as load_bound
 from symgen.run.laws.sharing import find_dependent, share_forces
 from symgen.run.laws.verify import size_of_terms
+from symgen.run.layout.scales import larger_number
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
     CONSTANT,
@@ -62,7 +64,7 @@ def fill_part(c: Choice, count: int, part: float) -> None:
     for a in range(count):
         i = order[a]
         begin_row(count, a, laws)
-        laws.offset[a] = c.problem.offset[i]
+        laws.offset[a], laws.usual[a] = c.problem.offset[i], c.problem.usual[i]
         for b in range(count):
             laws.matrix[a * count + b] = c.problem.matrix[i * k + order[b]]
             # forces count from the middle of motion
@@ -118,18 +120,39 @@ def find_carriers_of_part(c: Choice, count: int) -> None:
 
 
 @exact()
+def stays_open(c: Choice, count: int, i: int) -> bool:
+    """Whether a gap without a force was open before, where a row of its part breaks loose: nothing closes it."""
+    at, breaks = MODE_NUMBERS * i, 0
+    for a in range(count):
+        breaks += c.found.broken[c.box.order[a]]
+    return bool(breaks > 0 and c.before[at + HELD] == 0.0 and c.before[at + CONSTANT] == 0.0 and c.shut[i] == 0)
+
+
+@exact()
+def let_gaps_close(count: int, laws: Laws) -> None:
+    """Let gaps push that have stayed open while forces were found."""
+    for a in range(count):
+        laws.law[a] = PUSH if laws.law[a] == NOTHING else laws.law[a]
+
+
+@exact()
 def find_forces_of_part(c: Choice, count: int) -> bool:
-    """Find forces that obey all laws; gaps that have just opened stay open unless they would close."""
+    """Find forces that obey all laws; gaps that have just opened, or may go on so, stay open unless they would close.
+
+    What balances leaves rounding alone, which tells nothing of what closes.
+    """
     laws, closes = c.laws, False
     for a in range(count):
-        if c.rows.pushes[c.box.order[a]] != 0 and c.loose[c.box.order[a]] != 0:
+        i = c.box.order[a]
+        if c.rows.pushes[i] != 0 and (c.loose[i] != 0 or stays_open(c, count, i)):
             laws.law[a] = NOTHING
     found = find_forces(count, laws, 1)
     for a in range(count):
         if laws.law[a] == NOTHING:
-            closes = closes or laws.left[a] < -NO_ACCELERATION * size_of_terms(count, a, laws)
-            laws.law[a] = PUSH
+            least = larger_number(size_of_terms(count, a, laws), laws.usual[a])
+            closes = closes or laws.left[a] < -NO_ACCELERATION * least
     if not found or closes:
+        let_gaps_close(count, laws)
         found = find_forces(count, laws, 1)
     return bool(found)
 
@@ -161,7 +184,7 @@ def settle_at_bounds(c: Choice, count: int) -> None:
             settle_pair(a, i, both, load_bound(count, a, laws), c.loose, c)
             continue
         if laws.law[a] == PUSH and laws.state[a] == OFF and c.loose[i] == 0 and still:
-            laws.state[a] = ON
+            laws.state[a] = OFF if stays_open(c, count, i) else ON
         if laws.law[a] == BALL and c.loose[i] == 0 and still and laws.way[a] == 0.0 and laws.state[a] != OFF:
             laws.state[a] = ON
         if laws.law[a] == BALL and laws.state[a] == ON and c.loose[i] != 0:
@@ -223,6 +246,7 @@ def solve_by_laws(c: Choice, count: int, part: float) -> int:
         c.jam[0] = float(count)
         return NOTHING_FOUND
     share_forces(count, laws)
+    let_gaps_close(count, laws)
     settle_at_bounds(c, count)
     motions = count_motions(count, laws)
     several = motions == SEVERAL_MOTIONS

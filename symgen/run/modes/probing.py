@@ -241,7 +241,8 @@ def probe_contacts(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Intege
             )
     for r in range(rows):
         j, force = c.rest[r], 1.0
-        if c.problem.alone[j] > 0.0 and most > 0.0:
+        c.problem.usual[j] = most * math.sqrt(c.problem.alone[j])
+        if c.problem.usual[j] > 0.0:
             force = most / math.sqrt(c.problem.alone[j])
         if accelerate_by(t, c, j, force, y, p, w, iw, control) != SAME:
             return NOT_FINITE
@@ -293,7 +294,7 @@ def pose_impact(c: Choice, asked: Array, kicked: Array) -> None:
     """Write the problem of an impact: rates before it, of gaps less those asked for, in place of accelerations."""
     for r in range(c.at_rest[0]):
         i = c.rest[r]
-        c.problem.offset[i] = c.read.speed[i] - (asked[i] if c.rows.pushes[i] != 0 else 0.0)
+        c.problem.offset[i], c.problem.usual[i] = c.read.speed[i] - (asked[i] if c.rows.pushes[i] != 0 else 0.0), 0.0
         if REACTIONS:  # without impulses joints have none
             c.problem.apart[2 * i] = c.problem.apart[2 * i + 1] = 0.0
         if POISSON:

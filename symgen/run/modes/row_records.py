@@ -117,6 +117,8 @@ class Problem(Record):
     offset, alone : Array, shapes (k,)
         Accelerations without forces at rest, at an impact rates without impulses; accelerations by a force if no joints
         held the bodies.
+    usual : Array, shape (k,)
+        Accelerations that are usual there, whose rounding the others have; 0 at an impact.
     scale : Array, shape (k,)
         Sizes of forces that rounding of a force at rest is relative to.
     apart, parts : Array, shapes (2 k,), (2 k, k)
@@ -126,6 +128,7 @@ class Problem(Record):
     matrix: Array
     offset: Array
     alone: Array
+    usual: Array
     scale: Array
     apart: Array
     parts: Array
@@ -340,6 +343,7 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
             matrix=numbers(k * k),
             offset=numbers(k),
             alone=numbers(k),
+            usual=numbers(k),
             scale=numbers(k),
             apart=numbers(2 * k),
             parts=numbers(2 * k * k),
