@@ -22,7 +22,7 @@ def rows_at_rest(problem: Problem) -> SimpleNamespace:
     k, flags, numbers = len(problem.rows), lambda: np.zeros(k, dtype=int), lambda: np.zeros(k)
     rows = SimpleNamespace(count=k, dry=k, pushes=flags(), pressed=flags(), partner=flags() - 1)
     read = SimpleNamespace(static=numbers(), middle=numbers())
-    posed = SimpleNamespace(matrix=problem.matrix.ravel(), offset=problem.offset)
+    posed = SimpleNamespace(matrix=problem.matrix.ravel(), offset=problem.offset, usual=numbers())
     posed.apart, posed.parts = np.zeros(2 * k), np.zeros(2 * k * k)
     c = SimpleNamespace(rows=rows, read=read, problem=posed, box=new_box(k), laws=new_laws(k))
     c.named, c.jam, c.before = np.zeros(k + 1, dtype=int), numbers(), np.zeros(MODE_NUMBERS * k)
