@@ -17,6 +17,7 @@ from symgen.run.laws.problem import (
     OFF,
     ON,
     PUSH,
+    SECOND,
     TINY,
     UPPER,
     Laws,
@@ -274,8 +275,32 @@ def find_another(n: int, laws: Laws) -> bool:
 
 
 @exact()
+def is_one_in_space(laws: Laws) -> bool:
+    """Whether three rows are one contact in space whose acceleration its friction cannot turn about.
+
+    Friction within a circle of radius kappa N changes by at most ``kappa sqrt(L/l) + |G_NT|/l`` over N, where l and L
+    are the mobilities along it: the acceleration of the gap grows with N if its own mobility is more than that friction
+    takes from it.
+    """
+    gap = 0 if laws.law[0] == PUSH else 2
+    a, b = (1, 2) if gap == 0 else (0, 1)
+    if laws.law[gap] != PUSH or laws.law[b] != SECOND or laws.presser[a] != gap:
+        return False
+    one, both, other = laws.matrix[4 * a], laws.matrix[3 * a + b], laws.matrix[4 * b]
+    half = math.sqrt(0.25 * (one - other) * (one - other) + both * both)
+    least, most = 0.5 * (one + other) - half, 0.5 * (one + other) + half
+    if not least > _ONE * most:
+        return False
+    across = math.sqrt(laws.matrix[3 * gap + a] ** 2 + laws.matrix[3 * gap + b] ** 2)
+    taken = across * (laws.kappa[a] * math.sqrt(most / least) + across / least)
+    return bool(laws.matrix[4 * gap] > (1.0 + _ONE) * taken)
+
+
+@exact()
 def is_one_contact(n: int, laws: Laws) -> bool:
     """Whether the rows are one contact whose acceleration its friction cannot turn about: then its motion is one."""
+    if n == 3:
+        return is_one_in_space(laws)
     if n != 2:
         return False
     gap = 0 if laws.law[0] == PUSH else 1

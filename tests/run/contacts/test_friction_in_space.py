@@ -67,7 +67,7 @@ def test_a_ball_with_spin_slides_and_rolls(way: str, tmp_path: Path) -> None:
     weight = 1.3 * G
     assert abs(result["touch.force"][-1] - weight) < 1e-9 and abs(result["touch.friction"][0] - 0.21 * weight) < 1e-9
     assert result["touch.mode"][0] == 2.0 and result["touch.mode"][-1] == 1.0 and result["touch.slip"][-1] < 1e-9
-    assert "other motions were not sought among 3 rows" in " ".join(result.notes)
+    assert "other motions" not in " ".join(result.notes)
 
 
 @pytest.mark.slow
